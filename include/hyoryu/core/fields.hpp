@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Fields of a particle as tag types, lists of them, and records that hold exactly the listed ones.
+//
+// One bracket everywhere: `particles[velocity]` is a column, `i[velocity]` the value of one
+// particle, `sum[force]` an accumulator. A record knows only the fields it was made for, so a term
+// that touches an undeclared field does not compile.
+#pragma once
+
+#include "hyoryu/core/vec.hpp"
+
+#include <array>
+#include <string_view>
+#include <type_traits>
+
+namespace hyoryu {
+
+/// Name and unit of a field as they stand in output files and plans.
+struct FieldInfo {
+    std::string_view name;
+    std::string_view unit;
+};
+
+template <class F>
+concept Field = requires {
+    typename F::type;
+    { F::info } -> std::convertible_to<FieldInfo>;
+};
+
+// The number of scalars in a field: 1 or 3.
+template <Field F>
+inline constexpr int width = std::is_same_v<typename F::type, Vec3> ? 3 : 1;
+
+// clang-format off
+inline constexpr struct Position        { using type = Vec3; static constexpr FieldInfo info{"Position", "m"}; } position{};
+inline constexpr struct Velocity        { using type = Vec3; static constexpr FieldInfo info{"Velocity", "m/s"}; } velocity{};
+inline constexpr struct Density         { using type = real; static constexpr FieldInfo info{"Density", "kg/m3"}; } density{};
+inline constexpr struct Pressure        { using type = real; static constexpr FieldInfo info{"Pressure", "Pa"}; } pressure{};
+/// Volume that the particle stands for; m2 in two dimensions.
+inline constexpr struct Volume          { using type = real; static constexpr FieldInfo info{"Volume", "m3"}; } volume{};
+/// Rate of density of the last continuity sum.
+inline constexpr struct DensityRate     { using type = real; static constexpr FieldInfo info{"DensityRate", "kg/m3/s"}; } density_rate{};
+/// Part of the density rate that the density-diffusion effect adds.
+inline constexpr struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"DiffusionRate", "kg/m3/s"}; } diffusion_rate{};
+/// Sum of pair forces that depend on positions and densities; N/m in two dimensions.
+inline constexpr struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N"}; } force{};
+/// Sum of pair forces that depend on velocities.
+inline constexpr struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N"}; } viscous_force{};
+/// Kernel sums by which a solid particle takes over the state of the fluid before it.
+inline constexpr struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; } shepard_sum{};
+inline constexpr struct PressureSum     { using type = real; static constexpr FieldInfo info{"PressureSum", "Pa/m3"}; } pressure_sum{};
+// clang-format on
+
+/// A list of fields.
+template <Field... F>
+struct Fields {
+    static constexpr int count = sizeof...(F);
+    static constexpr int scalars = (0 + ... + width<F>);
+};
+
+template <class F, class List>
+inline constexpr bool contains = false;
+template <class F, class... G>
+inline constexpr bool contains<F, Fields<G...>> = (std::is_same_v<F, G> || ...);
+
+namespace detail {
+template <class... Lists>
+struct UnionOf;
+template <class... F>
+struct UnionOf<Fields<F...>> {
+    using type = Fields<F...>;
+};
+template <class... F, class... Rest>
+struct UnionOf<Fields<F...>, Fields<>, Rest...> : UnionOf<Fields<F...>, Rest...> {};
+template <class... F, class G, class... H, class... Rest>
+struct UnionOf<Fields<F...>, Fields<G, H...>, Rest...>
+    : std::conditional_t<contains<G, Fields<F...>>, UnionOf<Fields<F...>, Fields<H...>, Rest...>,
+                         UnionOf<Fields<F..., G>, Fields<H...>, Rest...>> {};
+} // namespace detail
+
+/// All fields of the lists, each once, in the order of first appearance.
+template <class... Lists>
+using Union = typename detail::UnionOf<Fields<>, Lists...>::type;
+
+/// First scalar of field F in a flat row of the list.
+template <class F, class List>
+inline constexpr int offset = 0;
+template <class F, class... G>
+inline constexpr int offset<F, Fields<G...>> = [] {
+    int at = 0;
+    int found = -1;
+    ((found = std::is_same_v<F, G> ? at : found, at += width<G>), ...);
+    return found;
+}();
+
+/// One field of one particle (N = real) or of several side by side (N = Pack).
+template <Field F, class N>
+struct Slot {
+    using type = std::conditional_t<width<F> == 3, Vec<N>, N>;
+    type value{};
+    constexpr type& operator[](F) { return value; }
+    constexpr const type& operator[](F) const { return value; }
+};
+
+/// The listed fields and nothing else.
+template <class List, class N>
+struct Record;
+template <class N>
+struct Record<Fields<>, N> {};
+template <class... F, class N>
+    requires(sizeof...(F) > 0)
+struct Record<Fields<F...>, N> : Slot<F, N>... {
+    using Slot<F, N>::operator[]...;
+};
+
+/// Calls `f(tag)` for each field of the list.
+template <class... F>
+constexpr void for_each(Fields<F...>, auto&& f)
+{
+    (f(F{}), ...);
+}
+
+} // namespace hyoryu

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Rigid bodies and the surfaces they meet, as plain data. All in double, SI.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hyoryu {
+
+// Contact geometry in the body frame, whose origin is the centre of mass.
+// In two dimensions a ball is a disc and a polytope a polygon in the x-z plane (corners at y = 0).
+
+/// A ball; contact is exact.
+struct Ball {
+    double radius = 0; // [m]
+};
+/// A circular cylinder about the body's x axis; contact with planes is exact.
+struct Rod {
+    double radius = 0; // [m]
+    double length = 0; // [m]
+};
+/// A convex polytope: a box, or the hull of a mesh or of a particle aggregate.
+struct Polytope {
+    std::vector<Vec3> corners;           // [m]
+    std::vector<std::vector<int>> faces; // corners of each face, counter-clockwise from outside
+};
+using ContactShape = std::variant<Ball, Rod, Polytope>;
+
+/// The polytope of a box of the given edge lengths; a rectangle in the x-z plane if `dimensions` is 2.
+Polytope box_polytope(const Vec3& size, int dimensions);
+
+/// Mass, and inertia about the centre of mass in body axes.
+struct MassProperties {
+    double mass = 0;                  // [kg]; kg/m in two dimensions
+    Mat3 inertia = Mat3::Identity();  // I_b [kg m2]; kg m in two dimensions
+};
+
+/// The exact mass properties of a shape of uniform density. Two dimensions: per metre of width, and
+/// the inertia about y is that of the cross-section in the x-z plane.
+MassProperties mass_properties(const ContactShape& shape, double density, int dimensions);
+
+/// A rigid body. State: pose (x, q), V and the angular momentum L in world axes, so that torque-free
+/// rotation keeps L exactly.
+struct Body {
+    std::string name;
+    ContactShape shape;
+    MassProperties mass;
+    int material = 0;                   // index into ContactLaws
+    std::array<bool, 6> locks{};        // x y z rx ry rz in world axes; all true: fixed
+    Vec3 position{0, 0, 0};             // x_cg [m]
+    Quat orientation = Quat::Identity(); // q, body to world
+    Vec3 velocity{0, 0, 0};             // V [m/s]
+    Vec3 angular_momentum{0, 0, 0};     // L [kg m2/s]
+};
+
+/// omega = R I_b^-1 R^T L, with locked axes removed [rad/s].
+Vec3 angular_velocity(const Body& body);
+/// L of a body that turns with omega.
+Vec3 angular_momentum(const Body& body, const Vec3& omega);
+/// 1/2 M V^2 + 1/2 omega . L [J]
+double kinetic_energy(const Body& body);
+
+/// Force and torque about the centre of mass, constant over a step.
+struct Wrench {
+    Vec3 force{0, 0, 0};  // [N]
+    Vec3 torque{0, 0, 0}; // [N m]
+};
+
+/// An infinite plane; bodies stay on the side the normal points to.
+struct Plane {
+    Vec3 point{0, 0, 0};  // [m]
+    Vec3 normal{0, 0, 1}; // unit
+};
+/// The inside of a box with optional sides (-x +x -y +y -z +z); a side holds a point only while the
+/// point is within the extent of the side.
+struct Basin {
+    Vec3 min{0, 0, 0};
+    Vec3 max{0, 0, 0};
+    std::array<bool, 6> open{};
+};
+/// A fixed or prescribed convex obstacle.
+struct Obstacle {
+    ContactShape shape;
+    Vec3 position{0, 0, 0};
+    Quat orientation = Quat::Identity();
+};
+
+/// A wall as bodies meet it: a surface, never a row of particles.
+struct Boundary {
+    std::string name;
+    std::variant<Plane, Basin, Obstacle> surface; // where it is at time 0
+    Vec3 velocity{0, 0, 0};                       // constant [m/s]
+    int material = 0;
+};
+
+/// Restitution and friction of every pair of materials.
+struct ContactLaws {
+    struct Law {
+        double restitution = 0.4; // e [1]
+        double friction = 0.3;    // mu [1]
+    };
+    Law otherwise;                                       // of pairs that are not listed
+    std::vector<std::pair<std::array<int, 2>, Law>> pairs; // unordered pairs of material indices
+    const Law& of(int a, int b) const;
+};
+
+} // namespace hyoryu

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// What the user said, as plain data: the case file after reading, checking and filling in defaults.
+// Nothing here runs; `make_plan` turns a Scene into what will run.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hyoryu {
+
+/// Where in the case file something was said, for messages that come after reading.
+struct Place {
+    int line = 0;
+    int column = 0;
+    int length = 1;
+};
+
+// Shapes. A body's shape is given about its centre of mass; a wall's or a fluid block's in space.
+
+struct BoxShape {
+    Vec3 size{0, 0, 0}; // edge lengths [m]; in two dimensions y is ignored
+};
+struct SphereShape {
+    double radius = 0; // [m]; a disc in two dimensions
+};
+struct CylinderShape {
+    double radius = 0; // [m]
+    double length = 0; // [m], along the body's x axis; a rectangle in two dimensions
+};
+/// A closed triangle surface (STL or OBJ), read and checked when the case is read.
+struct MeshShape {
+    std::string file;
+    double scale = 1;
+    std::vector<Vec3> corners;                  // [m], scaled
+    std::vector<std::array<int, 3>> triangles;  // outward orientation
+};
+using Shape = std::variant<BoxShape, SphereShape, CylinderShape, MeshShape>;
+
+struct TimeSettings {
+    double end = 0;             // [s]
+    std::optional<double> step; // fixed time step [s]; none: adaptive
+    double cfl = 0.6;           // scales the adaptive limits
+};
+
+struct DomainSettings {
+    Vec3 min{0, 0, 0}; // [m]
+    Vec3 max{0, 0, 0}; // [m]
+};
+
+enum class ViscosityModel { none, artificial, laminar };
+enum class DiffusionModel { none, fourtakas, molteni };
+
+/// A region that is filled with fluid particles at the start.
+struct FluidBlock {
+    Shape shape;
+    Vec3 centre{0, 0, 0};   // of the shape [m]
+    Quat rotation = Quat::Identity();
+    Vec3 velocity{0, 0, 0}; // [m/s]
+    Place place;
+};
+
+struct FluidSettings {
+    double density = 1000.0;           // rho_0 [kg/m3]
+    std::optional<double> sound_speed; // c_0 [m/s]; none: 10 x the largest expected speed
+    ViscosityModel viscosity = ViscosityModel::artificial;
+    double alpha = 0.02;               // of the artificial viscosity [1]
+    double kinematic_viscosity = 1e-6; // of the laminar viscosity [m2/s]
+    DiffusionModel diffusion = DiffusionModel::fourtakas;
+    double delta = 0.1;                // of the density diffusion [1]
+    double smoothing_ratio = 1.5;      // h / spacing [1]
+    std::vector<FluidBlock> blocks;
+};
+
+/// An infinite plane for bodies, clipped to the domain for the fluid.
+struct PlaneWall {
+    Vec3 point{0, 0, 0};  // [m]
+    Vec3 normal{0, 0, 1}; // unit, into the free space
+};
+/// The inside of a box; the sides named open have no wall.
+struct BasinWall {
+    Vec3 min{0, 0, 0};                                // [m]
+    Vec3 max{0, 0, 0};                                // [m]
+    std::array<bool, 6> open{};                       // -x +x -y +y -z +z
+};
+/// A solid obstacle.
+struct SolidWall {
+    Shape shape;
+    Vec3 centre{0, 0, 0}; // of the shape [m]
+    Quat rotation = Quat::Identity();
+};
+
+struct Wall {
+    std::string name;
+    std::variant<PlaneWall, BasinWall, SolidWall> geometry;
+    std::string material;   // empty: none named
+    Vec3 velocity{0, 0, 0}; // constant [m/s], of [wall.motion]
+    Place place;
+};
+
+struct BodySettings {
+    std::string name;
+    Shape shape;
+    double density = 0;        // [kg/m3]; derived when a mass is given
+    double mass = 0;           // [kg], kg/m in two dimensions; derived when a density is given
+    Vec3 position{0, 0, 0};    // of the centre of mass [m]
+    Quat rotation = Quat::Identity(); // body to world
+    Vec3 velocity{0, 0, 0};           // [m/s]
+    Vec3 angular_velocity{0, 0, 0};   // world axes [rad/s]
+    double spacing = 0;        // of its particles [m]; the scene's unless the user set one
+    std::string material;
+    bool fixed = false;
+    std::array<bool, 6> locks{}; // x y z rx ry rz, in world axes
+    Place place;
+};
+
+struct MaterialPair {
+    std::array<std::string, 2> materials;
+    double restitution = 0; // [1]
+    double friction = 0;    // [1]
+    std::optional<double> stiffness; // [N/m], for the force formulae of reports only
+};
+
+struct ContactSettings {
+    double restitution = 0.4; // of every pair that no entry of `pairs` names [1]
+    double friction = 0.3;    // dynamic Coulomb coefficient [1]
+    std::vector<MaterialPair> pairs;
+};
+
+enum class GaugeType { elevation, pressure, velocity, force, front };
+
+struct Gauge {
+    std::string name;
+    GaugeType type = GaugeType::elevation;
+    Vec3 at{0, 0, 0};  // [m]; elevation uses x, y
+    std::string on;    // force: the name of a wall or body
+    int axis = 0;      // front: 0 x, 1 y, 2 z
+    Place place;
+};
+
+struct OutputSettings {
+    double every = 0;         // s between frames; 0: end / 100
+    double history_every = 0; // s between rows of the histories; 0: every step
+    std::vector<std::string> fields; // of the frames; empty: the default set
+    double checkpoint_every = 600;   // s of wall time
+};
+
+struct Scene {
+    std::filesystem::path file; // as the user named it
+    std::string title;
+    int dimensions = 3;
+    Vec3 gravity{0, 0, -9.81}; // [m/s2]
+    std::uint64_t seed = 1;
+    TimeSettings time;
+    double spacing = 0; // [m], of fluid and walls
+    std::optional<DomainSettings> domain;
+    std::optional<FluidSettings> fluid;
+    std::vector<Wall> walls;
+    std::vector<BodySettings> bodies; // copies written out
+    ContactSettings contact;
+    std::vector<Gauge> gauges;
+    OutputSettings output;
+};
+
+} // namespace hyoryu

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Pictures and an animation of a results folder, off-screen.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+struct RenderSettings {
+    int width = 1280;
+    int height = 720;
+    std::string colour = "Velocity";             // array of the fluid that is shown in colour
+    std::optional<double> azimuth_deg;           // camera: from where; none: chosen from the scene
+    std::optional<double> elevation_deg;
+    std::vector<double> times;                   // of the pictures [s]; empty: every frame
+    int fps = 25;                                // of the animation
+};
+
+/// What was made.
+struct RenderResult {
+    std::vector<std::filesystem::path> pictures;
+    std::optional<std::filesystem::path> animation; // none without ffmpeg or with one frame
+    std::string note;                               // why there is no animation, if there is none
+};
+
+/// Renders the frames of `results` to `results/pictures/`. Throws IoError when there is nothing to
+/// render, when no off-screen context can be had (the message names xvfb-run), or in a build without VTK.
+RenderResult render(const std::filesystem::path& results, const RenderSettings& settings);
+
+} // namespace hyoryu

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <tuple>
+
+namespace hyoryu {
+
+namespace {
+
+std::vector<Diagnostic> sorted(std::vector<Diagnostic> diagnostics)
+{
+    std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+    });
+    return diagnostics;
+}
+
+std::string joined(const std::vector<Diagnostic>& diagnostics)
+{
+    std::string text;
+    for (const Diagnostic& diagnostic : diagnostics) {
+        text += to_string(diagnostic);
+        text += '\n';
+    }
+    if (!text.empty()) {
+        text.pop_back();
+    }
+    return text;
+}
+
+} // namespace
+
+std::string to_string(const Diagnostic& d)
+{
+    std::string text;
+    if (!d.file.empty()) {
+        text += d.file + ":";
+        if (d.line > 0) {
+            text += fmt::format("{}:{}:", d.line, d.column);
+        }
+        text += ' ';
+    }
+    text += d.severity == Diagnostic::Severity::error ? "error: " : "warning: ";
+    if (!d.key.empty()) {
+        text += "`" + d.key + "`: ";
+    }
+    text += d.what;
+    if (!d.source.empty() && d.line > 0) {
+        const auto indent = static_cast<std::size_t>(std::max(d.column - 1, 0));
+        const auto carets = static_cast<std::size_t>(std::max(d.length, 1));
+        text += fmt::format("\n{:>5} | {}\n      | {}{}", d.line, d.source,
+                            std::string(indent, ' '), std::string(carets, '^'));
+    }
+    if (!d.hint.empty()) {
+        text += "\n  hint: " + d.hint;
+    }
+    return text;
+}
+
+CaseError::CaseError(std::vector<Diagnostic> diagnostics)
+    : std::runtime_error(joined(sorted(diagnostics))), diagnostics_(sorted(std::move(diagnostics)))
+{
+}
+
+CaseError::CaseError(std::string what, std::string hint)
+    : CaseError(std::vector<Diagnostic>{
+          Diagnostic{.what = std::move(what), .hint = std::move(hint)}})
+{
+}
+
+NumericalError::NumericalError(const Where& w)
+    : std::runtime_error(fmt::format("step {}, t = {:.6g} s: {}: {}: {}", w.step, w.time, w.who,
+                                     w.field, w.cause)),
+      where(w)
+{
+}
+
+#ifndef NDEBUG
+void fail_expectation(const std::source_location& place)
+{
+    std::fprintf(stderr, "%s:%u: broken expectation in %s\n", place.file_name(), place.line(),
+                 place.function_name());
+    std::abort();
+}
+#endif
+
+} // namespace hyoryu

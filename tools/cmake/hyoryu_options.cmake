@@ -1,0 +1,31 @@
+# Compiler settings of every target: C++20, warnings as errors, and floating point that gives the
+# same bits on every run of one binary.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+add_library(hyoryu_options INTERFACE)
+target_compile_options(hyoryu_options INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -Wpedantic -Werror
+  # Members left out of a designated initialiser take their defaults; that is the point of them.
+  -Wno-missing-field-initializers
+  # Contraction would let the compiler round one formula differently in two places that must agree
+  # (a pair seen from i and from j), so it is off.
+  -ffp-contract=off
+  # sqrt and divisions need neither errno nor traps; without these two the pair loops stay scalar.
+  -fno-math-errno -fno-trapping-math
+  # A pack wider than the registers of the target is split by the compiler; its note on that says
+  # that libraries built with other flags could not exchange packs, which no interface does.
+  -Wno-psabi)
+if(HYORYU_NATIVE)
+  target_compile_options(hyoryu_options INTERFACE -march=native)
+endif()
+if(HYORYU_SANITIZE)
+  target_compile_options(hyoryu_options INTERFACE -fsanitize=${HYORYU_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(hyoryu_options INTERFACE -fsanitize=${HYORYU_SANITIZE})
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
