@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Parallel loops and sums that give the same bits for any number of threads: a loop body writes only
+// its own row, and sums are taken over fixed chunks in a fixed order.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace hyoryu {
+
+/// Threads that parallel loops use from now on; 0 or less: all that the machine offers.
+void set_threads(int threads);
+int thread_count();
+
+/// Calls f(k) for k in [begin, end); equal shares a thread.
+template <class F>
+void parallel_for(Index begin, Index end, const F& f)
+{
+#pragma omp parallel for schedule(static)
+    for (Index k = begin; k < end; ++k) {
+        f(k);
+    }
+}
+
+/// Calls f(k) for k in [begin, end) where the work of neighbouring k is alike but uneven over the
+/// range: small blocks are dealt out in turn.
+template <class F>
+void parallel_for_uneven(Index begin, Index end, const F& f)
+{
+#pragma omp parallel for schedule(dynamic, 1)
+    for (Index k = begin; k < end; ++k) {
+        f(k);
+    }
+}
+
+/// Rows of one chunk of a sum. The chunks, not the threads, decide the order of additions.
+inline constexpr Index chunk_rows = 1024;
+
+/// add(... add(add(zero, f(begin)), f(begin + 1)) ...) by fixed chunks.
+template <class T, class F, class Add>
+T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
+{
+    const Index chunks = (std::max<Index>(end - begin, 0) + chunk_rows - 1) / chunk_rows;
+    std::vector<T> partial(static_cast<std::size_t>(chunks), zero);
+    parallel_for(0, chunks, [&](Index chunk) {
+        T total = zero;
+        const Index first = begin + chunk * chunk_rows;
+        const Index last = std::min(end, first + chunk_rows);
+        for (Index k = first; k < last; ++k) {
+            total = add(total, f(k));
+        }
+        partial[static_cast<std::size_t>(chunk)] = total;
+    });
+    T total = zero;
+    for (const T& part : partial) {
+        total = add(total, part);
+    }
+    return total;
+}
+
+/// Sum of f(k) over the rows; T needs +.
+template <class T, class F>
+T sum(Index begin, Index end, const T& zero, const F& f)
+{
+    return reduce(begin, end, zero, f, [](const T& a, const T& b) { return T(a + b); });
+}
+
+/// Largest f(k), or `lowest` if there are no rows.
+template <class F>
+real largest(Index begin, Index end, real lowest, const F& f)
+{
+    return reduce(begin, end, lowest, f, [](real a, real b) { return a > b ? a : b; });
+}
+
+} // namespace hyoryu

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Wall time by named stage of a step.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyoryu {
+
+/// Seconds by stage, in the order in which the stages were first met.
+class StageTimer {
+public:
+    struct Stage {
+        std::string name;
+        double seconds = 0;
+        long long calls = 0;
+    };
+
+    /// Ends the running stage, if any, and starts this one; an empty name starts none.
+    void begin(std::string_view name);
+    void end() { begin({}); }
+    const std::vector<Stage>& stages() const { return stages_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::vector<Stage> stages_;
+    Stage* running_ = nullptr;
+    Clock::time_point since_;
+};
+
+} // namespace hyoryu

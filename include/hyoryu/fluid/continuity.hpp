@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Conservation of mass.
+#pragma once
+
+#include "hyoryu/core/sweep.hpp"
+
+namespace hyoryu {
+
+/// sum_j V_j (v_i - v_j) . r F(r); times rho_i it is d(rho_i)/dt. Source: Monaghan (2005), eq. 2.18 in
+/// the volume form of Colagrossi & Landrini (2003).
+struct Continuity {
+    static constexpr std::string_view name = "continuity";
+    using Reads = Fields<Velocity, Volume>;
+    using Writes = Fields<DensityRate>;
+
+    template <class N>
+    void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
+    {
+        sum[density_rate] += j[volume] * dot(i[velocity] - j[velocity], ij.r) * ij.f;
+    }
+};
+
+} // namespace hyoryu

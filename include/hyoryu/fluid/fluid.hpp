@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The fluid: its state and the stages of a step.
+#pragma once
+
+#include "hyoryu/core/timer.hpp"
+#include "hyoryu/fluid/effects.hpp"
+#include "hyoryu/fluid/parameters.hpp"
+#include "hyoryu/fluid/time_limit.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+/// Neighbour lists of every pair kind that the scene has, and when they were made.
+struct FluidNeighbours {
+    PairList fluid_fluid;
+    PairList fluid_solid;
+    PairList solid_fluid;
+    PairList body_solid; // particles of different solids, for the pressure in thin films
+    PairList wall_body;
+    CellGrid fluid_grid, wall_grid, body_grid;
+    Rows walls_in_grid;          // the wall rows that `wall_grid` knows; fixed walls are sorted once
+    std::vector<Vec3> built_at; // positions of all rows when the lists were made [m]
+    long long builds = 0;
+};
+
+/// What left the domain and was taken out of the run.
+struct LostParticles {
+    Index count = 0;
+    Vec3 momentum{0, 0, 0}; // [kg m/s]
+    real energy = 0;        // kinetic + potential [J]
+};
+
+struct Fluid {
+    using Stored = Fields<Position, Velocity, Volume, Pressure>;
+
+    FluidParameters parameters;
+    FluidEffects effects;
+    Particles particles;
+    Kernel kernel;
+    FluidNeighbours neighbours;
+    Records<Stored> records; // one cache line a particle: all that the pair sweeps read
+    Vec3 domain_min{-infinity, -infinity, -infinity};
+    Vec3 domain_max{infinity, infinity, infinity};
+    LostParticles lost;
+    bool moving_walls = false;
+    std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
+};
+
+/// Makes the columns that the active effects need, and no others, for so many particles of each kind.
+void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count);
+
+// The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves the
+// pressure loop and the velocity loop (Zhang, Rezavand & Hu 2020, without the dual time step).
+
+/// rho += dt R, x += dt v of the fluid.
+void drift(Fluid& fluid, real dt);
+
+/// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and drops
+/// those outside the domain when it does. Positions must be finite.
+void update_neighbours(Fluid& fluid);
+/// Makes the lists again from the recorded positions, as a restart needs.
+void rebuild_neighbours(Fluid& fluid);
+
+/// p and V of the fluid from rho, then p and V of solid particles from the fluid before them.
+void update_pressure(Fluid& fluid);
+
+/// Force on every fluid, body and wall particle that depends on positions; the density diffusion.
+/// dt: length of the step, for the backstop.
+void update_forces(Fluid& fluid, real dt);
+
+/// v += dt (F + F_visc)/m + dt g of the fluid.
+void kick(Fluid& fluid, real dt);
+
+/// R = rho sum V (v_i - v_j).r F + D and the viscous force, from the new velocities.
+void update_rates(Fluid& fluid);
+
+/// Largest speed [m/s] and acceleration [m/s2] of the fluid; NaN if any value is not finite.
+real top_speed(const Fluid& fluid);
+real top_acceleration(const Fluid& fluid);
+
+/// Limits of the next time step.
+std::vector<TimeLimit> fluid_limits(const Fluid& fluid);
+
+/// alpha h c0 / (2 (d + 2)) + nu [m2/s]; 0 without viscosity.
+real effective_viscosity(const Fluid& fluid);
+
+} // namespace hyoryu

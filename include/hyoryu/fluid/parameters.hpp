@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The numbers of a weakly compressible fluid that do not change during a run.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+namespace hyoryu {
+
+/// Linear equation of state p = c0^2 (rho - rho0). At Mach 0.1 it equals Tait's law to the accuracy of
+/// weak compressibility, and it is invertible, which walls need.
+struct EquationOfState {
+    real rho0 = 1000;  // reference density [kg/m3]
+    real c0 = 1;       // speed of sound [m/s]
+
+    template <class N>
+    N pressure(const N& rho) const // [Pa]
+    {
+        return sq(c0) * (rho - rho0);
+    }
+    template <class N>
+    N density(const N& p) const // [kg/m3]
+    {
+        return rho0 + p * (1 / sq(c0));
+    }
+};
+
+/// A fluid of equal particles; in two dimensions masses and forces are per metre of width.
+struct FluidParameters {
+    int dimensions = 3;
+    EquationOfState eos;
+    real spacing = 0;          // dp [m]
+    real h = 0;                // smoothing length [m]
+    real mass = 0;             // of a particle, rho0 dp^d [kg]
+    Vec3 gravity{0, 0, -9.81}; // g [m/s2]
+    real cfl = 0.6;            // scales the acoustic, force and viscous limits
+    real skin = 0;             // of the neighbour lists [m]
+};
+
+} // namespace hyoryu

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/core/cell_grid.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// More cells than this would cost more than they save; the cells grow instead.
+constexpr real most_cells = 5e7;
+
+struct Bounds {
+    Vec3 min{infinity, infinity, infinity};
+    Vec3 max{-infinity, -infinity, -infinity};
+};
+
+Bounds bounds_of(std::span<const Vec3> points)
+{
+    return reduce(
+        0, static_cast<Index>(points.size()), Bounds{},
+        [&](Index k) {
+            const Vec3& point = points[static_cast<std::size_t>(k)];
+            return Bounds{point, point};
+        },
+        [](const Bounds& a, const Bounds& b) {
+            return Bounds{a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+        });
+}
+
+void lay_out(CellGrid& grid, const Bounds& box, real cell)
+{
+    const Vec3 extent = box.max - box.min;
+    const real volume = (extent.x() / cell + 1) * (extent.y() / cell + 1) * (extent.z() / cell + 1);
+    grid.cell = volume > most_cells ? cell * std::cbrt(volume / most_cells) : cell;
+    grid.origin = box.min;
+    for (int axis = 0; axis < 3; ++axis) {
+        grid.count[static_cast<std::size_t>(axis)] =
+            static_cast<Index>(extent[axis] / grid.cell) + 1;
+    }
+    // Three roundings of half a unit in the last place of the largest coordinate, doubled.
+    grid.slack = static_cast<float>(extent.maxCoeff() * 4e-7);
+}
+
+} // namespace
+
+std::array<Index, 3> CellGrid::cell_of(const Vec3& point) const
+{
+    std::array<Index, 3> at{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        at[k] = static_cast<Index>(std::floor((point[axis] - origin[axis]) / cell));
+    }
+    return at;
+}
+
+void build(CellGrid& grid, std::span<const Vec3> points, Index first, real cell)
+{
+    const auto n = static_cast<Index>(points.size());
+    grid.order.resize(points.size());
+    grid.x.resize(points.size());
+    grid.y.resize(points.size());
+    grid.z.resize(points.size());
+    if (n == 0) {
+        grid.count = {0, 0, 0};
+        grid.start.assign(1, 0);
+        return;
+    }
+    lay_out(grid, bounds_of(points), cell);
+
+    std::vector<std::int32_t> cell_index(points.size());
+    parallel_for(0, n, [&](Index k) {
+        const auto at = grid.cell_of(points[static_cast<std::size_t>(k)]);
+        cell_index[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(
+            at[0] + grid.count[0] * (at[1] + grid.count[1] * at[2]));
+    });
+    grid.start.assign(static_cast<std::size_t>(grid.cells()) + 1, 0);
+    for (const std::int32_t c : cell_index) {
+        ++grid.start[static_cast<std::size_t>(c) + 1];
+    }
+    for (std::size_t c = 1; c < grid.start.size(); ++c) {
+        grid.start[c] += grid.start[c - 1];
+    }
+    std::vector<std::int32_t> next(grid.start.begin(), grid.start.end() - 1);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const std::int32_t slot = next[static_cast<std::size_t>(cell_index[k])]++;
+        grid.order[static_cast<std::size_t>(slot)] = static_cast<std::int32_t>(first + static_cast<Index>(k));
+    }
+    parallel_for(0, n, [&](Index slot) {
+        const auto at = static_cast<std::size_t>(slot);
+        const Vec3 p = points[static_cast<std::size_t>(grid.order[at] - first)] - grid.origin;
+        grid.x[at] = static_cast<float>(p.x());
+        grid.y[at] = static_cast<float>(p.y());
+        grid.z[at] = static_cast<float>(p.z());
+    });
+}
+
+} // namespace hyoryu
