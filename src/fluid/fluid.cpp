@@ -40,10 +40,10 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
 void drift(Fluid& fluid, real dt)
 {
     Particles& particles = fluid.particles;
-    const auto x = particles[position];
-    const auto v = particles[velocity];
-    const auto rho = particles[density];
-    const auto rate = particles[density_rate];
+    const auto x = particles[field::position];
+    const auto v = particles[field::velocity];
+    const auto rho = particles[field::density];
+    const auto rate = particles[field::density_rate];
     const Rows rows = particles.fluid();
     parallel_for(rows.begin, rows.end, [&](Index i) {
         rho[at(i)] += dt * rate[at(i)];
@@ -55,9 +55,9 @@ void update_pressure(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
     const FluidParameters& f = fluid.parameters;
-    const auto rho = particles[density];
-    const auto p = particles[pressure];
-    const auto V = particles[volume];
+    const auto rho = particles[field::density];
+    const auto p = particles[field::pressure];
+    const auto V = particles[field::volume];
     const Rows rows = particles.fluid();
     parallel_for(rows.begin, rows.end, [&](Index i) {
         p[at(i)] = f.eos.pressure(rho[at(i)]);
@@ -72,8 +72,8 @@ void update_pressure(Fluid& fluid)
     clear(particles, solid, WallExtrapolation::Writes{});
     sweep(particles, fluid.neighbours.solid_fluid, fluid.records, fluid.kernel,
           WallExtrapolation{f.eos, f.gravity});
-    const auto shepard = particles[shepard_sum];
-    const auto weighted = particles[pressure_sum];
+    const auto shepard = particles[field::shepard_sum];
+    const auto weighted = particles[field::pressure_sum];
     parallel_for(solid.begin, solid.end, [&](Index i) {
         const real p_w = shepard[at(i)] > 0 ? positive(weighted[at(i)] / shepard[at(i)]) : 0;
         p[at(i)] = p_w;
@@ -108,17 +108,17 @@ void kick(Fluid& fluid, real dt)
 {
     Particles& particles = fluid.particles;
     const FluidParameters& f = fluid.parameters;
-    const auto v = particles[velocity];
-    const auto F = particles[force];
+    const auto v = particles[field::velocity];
+    const auto F = particles[field::force];
     const Rows rows = particles.fluid();
     const real dt_m = dt / f.mass;
     const Vec3 g = dt * f.gravity;
-    if (!particles.has(viscous_force)) {
+    if (!particles.has(field::viscous_force)) {
         parallel_for(rows.begin, rows.end,
                      [&](Index i) { v[at(i)] += dt_m * F[at(i)] + g; });
         return;
     }
-    const auto F_visc = particles[viscous_force];
+    const auto F_visc = particles[field::viscous_force];
     parallel_for(rows.begin, rows.end,
                  [&](Index i) { v[at(i)] += dt_m * (F[at(i)] + F_visc[at(i)]) + g; });
 }
@@ -138,13 +138,13 @@ void update_rates(Fluid& fluid)
         fluid.effects.viscosity);
     sweep(particles, pairs.fluid_solid, fluid.records, fluid.kernel, Continuity{});
 
-    const auto rho = particles[density];
-    const auto rate = particles[density_rate];
-    if (!particles.has(diffusion_rate)) {
+    const auto rho = particles[field::density];
+    const auto rate = particles[field::density_rate];
+    if (!particles.has(field::diffusion_rate)) {
         parallel_for(rows.begin, rows.end, [&](Index i) { rate[at(i)] *= rho[at(i)]; });
         return;
     }
-    const auto diffusion = particles[diffusion_rate];
+    const auto diffusion = particles[field::diffusion_rate];
     parallel_for(rows.begin, rows.end, [&](Index i) {
         rate[at(i)] = rho[at(i)] * rate[at(i)] + diffusion[at(i)];
     });
@@ -164,13 +164,13 @@ real worst(const Particles& particles, const auto& f)
 
 real top_speed(const Fluid& fluid)
 {
-    const auto v = fluid.particles[velocity];
+    const auto v = fluid.particles[field::velocity];
     return std::sqrt(worst(fluid.particles, [&](Index i) { return v[at(i)].squaredNorm(); }));
 }
 
 real top_acceleration(const Fluid& fluid)
 {
-    const auto F = fluid.particles[force];
+    const auto F = fluid.particles[field::force];
     const Vec3 weight = fluid.parameters.mass * fluid.parameters.gravity;
     const real squared =
         worst(fluid.particles, [&](Index i) { return (F[at(i)] + weight).squaredNorm(); });

@@ -15,7 +15,7 @@ auto at(Index row)
 
 real displacement(const Fluid& fluid, Rows rows)
 {
-    const auto x = fluid.particles[position];
+    const auto x = fluid.particles[field::position];
     const auto& x0 = fluid.neighbours.built_at;
     return std::sqrt(largest(rows.begin, rows.end, 0,
                              [&](Index i) { return (x[at(i)] - x0[at(i)]).squaredNorm(); }));
@@ -55,9 +55,9 @@ void sort_and_drop(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
     CellGrid& grid = fluid.neighbours.fluid_grid;
-    build(grid, slice(particles[position], particles.fluid()), 0, cell_size(fluid));
-    const auto x = particles[position];
-    const auto v = particles[velocity];
+    build(grid, slice(particles[field::position], particles.fluid()), 0, cell_size(fluid));
+    const auto x = particles[field::position];
+    const auto v = particles[field::velocity];
     const real m = fluid.parameters.mass;
     std::vector<std::int32_t> kept;
     kept.reserve(grid.order.size());
@@ -115,7 +115,7 @@ void update_neighbours(Fluid& fluid)
         return;
     }
     sort_and_drop(fluid);
-    const auto x = fluid.particles[position];
+    const auto x = fluid.particles[field::position];
     fluid.neighbours.built_at.assign(x.begin(), x.end());
     build_lists(fluid);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fields of a particle as tag types, lists of them, and records that hold exactly the listed ones.
 //
-// One bracket everywhere: `particles[velocity]` is a column, `i[velocity]` the value of one
-// particle, `sum[force]` an accumulator. A record knows only the fields it was made for, so a term
+// One bracket everywhere: `particles[field::velocity]` is a column, `i[field::velocity]` the value of one
+// particle, `sum[field::force]` an accumulator. A record knows only the fields it was made for, so a term
 // that touches an undeclared field does not compile.
 #pragma once
 
@@ -31,23 +31,38 @@ template <Field F>
 inline constexpr int width = std::is_same_v<typename F::type, Vec3> ? 3 : 1;
 
 // clang-format off
-inline constexpr struct Position        { using type = Vec3; static constexpr FieldInfo info{"Position", "m"}; } position{};
-inline constexpr struct Velocity        { using type = Vec3; static constexpr FieldInfo info{"Velocity", "m/s"}; } velocity{};
-inline constexpr struct Density         { using type = real; static constexpr FieldInfo info{"Density", "kg/m3"}; } density{};
-inline constexpr struct Pressure        { using type = real; static constexpr FieldInfo info{"Pressure", "Pa"}; } pressure{};
+struct Position        { using type = Vec3; static constexpr FieldInfo info{"Position", "m"}; };
+struct Velocity        { using type = Vec3; static constexpr FieldInfo info{"Velocity", "m/s"}; };
+struct Density         { using type = real; static constexpr FieldInfo info{"Density", "kg/m3"}; };
+struct Pressure        { using type = real; static constexpr FieldInfo info{"Pressure", "Pa"}; };
 /// Volume that the particle stands for; m2 in two dimensions.
-inline constexpr struct Volume          { using type = real; static constexpr FieldInfo info{"Volume", "m3"}; } volume{};
+struct Volume          { using type = real; static constexpr FieldInfo info{"Volume", "m3"}; };
 /// Rate of density of the last continuity sum.
-inline constexpr struct DensityRate     { using type = real; static constexpr FieldInfo info{"DensityRate", "kg/m3/s"}; } density_rate{};
+struct DensityRate     { using type = real; static constexpr FieldInfo info{"DensityRate", "kg/m3/s"}; };
 /// Part of the density rate that the density-diffusion effect adds.
-inline constexpr struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"DiffusionRate", "kg/m3/s"}; } diffusion_rate{};
+struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"DiffusionRate", "kg/m3/s"}; };
 /// Sum of pair forces that depend on positions and densities; N/m in two dimensions.
-inline constexpr struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N"}; } force{};
+struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N"}; };
 /// Sum of pair forces that depend on velocities.
-inline constexpr struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N"}; } viscous_force{};
+struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N"}; };
 /// Kernel sums by which a solid particle takes over the state of the fluid before it.
-inline constexpr struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; } shepard_sum{};
-inline constexpr struct PressureSum     { using type = real; static constexpr FieldInfo info{"PressureSum", "Pa/m3"}; } pressure_sum{};
+struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
+struct PressureSum     { using type = real; static constexpr FieldInfo info{"PressureSum", "Pa/m3"}; };
+
+/// The values by which columns and records are indexed: `particles[field::velocity]`.
+namespace field {
+inline constexpr Position        position{};
+inline constexpr Velocity        velocity{};
+inline constexpr Density         density{};
+inline constexpr Pressure        pressure{};
+inline constexpr Volume          volume{};
+inline constexpr DensityRate     density_rate{};
+inline constexpr DiffusionRate   diffusion_rate{};
+inline constexpr Force           force{};
+inline constexpr ViscousForce    viscous_force{};
+inline constexpr ShepardSum      shepard_sum{};
+inline constexpr PressureSum     pressure_sum{};
+} // namespace field
 // clang-format on
 
 /// A list of fields.

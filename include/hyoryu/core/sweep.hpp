@@ -176,7 +176,7 @@ void sweep(Particles& particles, const PairList& pairs, const Records<In>& recor
                 Record<Out, Pack> sum;
                 for (std::size_t k = 0; k < neighbours.size(); k += lanes) {
                     const auto b = records.gather(&neighbours[k]);
-                    const Pair<Pack> ij = kernel(a[position] - b[position]);
+                    const Pair<Pack> ij = kernel(a[field::position] - b[field::position]);
                     (terms(ij, a, b, sum), ...);
                 }
                 detail::accumulate<Out>(particles, i, sum);
@@ -197,7 +197,7 @@ void sweep_reference(Particles& particles, const PairList& pairs, const Records<
         Record<Out, real> sum;
         for (const std::int32_t j : pairs[i]) {
             const auto b = records.template same<real>(j);
-            const Pair<real> ij = kernel(a[position] - b[position]);
+            const Pair<real> ij = kernel(a[field::position] - b[field::position]);
             (terms(ij, a, b, sum), ...);
         }
         detail::accumulate<Out>(particles, i, sum);

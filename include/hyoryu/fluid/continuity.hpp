@@ -16,7 +16,7 @@ struct Continuity {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        sum[density_rate] += j[volume] * dot(i[velocity] - j[velocity], ij.r) * ij.f;
+        sum[field::density_rate] += j[field::volume] * dot(i[field::velocity] - j[field::velocity], ij.r) * ij.f;
     }
 };
 

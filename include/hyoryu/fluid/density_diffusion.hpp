@@ -22,8 +22,8 @@ struct DensityDiffusion {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        const N difference = (j[pressure] - i[pressure]) * (1 / sq(eos.c0)) + dot(hydrostatic, ij.r);
-        sum[diffusion_rate] += -strength * j[volume] * difference * ij.f;
+        const N difference = (j[field::pressure] - i[field::pressure]) * (1 / sq(eos.c0)) + dot(hydrostatic, ij.r);
+        sum[field::diffusion_rate] += -strength * j[field::volume] * difference * ij.f;
     }
 };
 

@@ -16,7 +16,7 @@ struct PressureForce {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        sum[force] += -(i[volume] * j[volume]) * (i[pressure] + j[pressure]) * ij.f * ij.r;
+        sum[field::force] += -(i[field::volume] * j[field::volume]) * (i[field::pressure] + j[field::pressure]) * ij.f * ij.r;
     }
 };
 
@@ -31,8 +31,8 @@ struct WallPressureForce {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        const N push = positive(i[pressure]) + positive(j[pressure]);
-        sum[force] += -(i[volume] * j[volume]) * push * ij.f * ij.r;
+        const N push = positive(i[field::pressure]) + positive(j[field::pressure]);
+        sum[field::force] += -(i[field::volume] * j[field::volume]) * push * ij.f * ij.r;
     }
 };
 

@@ -22,9 +22,9 @@ struct Viscosity {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        const N approach = dot(i[velocity] - j[velocity], ij.r);
+        const N approach = dot(i[field::velocity] - j[field::velocity], ij.r);
         const N mu = rho0 * kappa * approach / (ij.distance_squared + 0.01 * sq(h));
-        sum[viscous_force] += (i[volume] * j[volume]) * mu * ij.f * ij.r;
+        sum[field::viscous_force] += (i[field::volume] * j[field::volume]) * mu * ij.f * ij.r;
     }
 };
 

@@ -20,9 +20,9 @@ struct WallExtrapolation {
     template <class N>
     void operator()(const Pair<N>& ij, const auto&, const auto& j, auto& sum) const
     {
-        const N rho = eos.density(j[pressure]);
-        sum[shepard_sum] += ij.w;
-        sum[pressure_sum] += (j[pressure] + rho * dot(gravity, ij.r)) * ij.w;
+        const N rho = eos.density(j[field::pressure]);
+        sum[field::shepard_sum] += ij.w;
+        sum[field::pressure_sum] += (j[field::pressure] + rho * dot(gravity, ij.r)) * ij.w;
     }
 };
 
@@ -46,9 +46,9 @@ struct SolidBackstop {
         // sqrt(w(s)/w(1/2)), w = (1 - s)^4 (4 s + 1), w(1/2) = 3/16; at most 1
         const N chi = sq(gap) * square_root(N((4 * s + 1) * (16.0 / 3.0)));
         const N kappa = 1 - positive(N(1 - chi));
-        const N approach = negative(dot(i[velocity] - j[velocity], ij.r));
+        const N approach = negative(dot(i[field::velocity] - j[field::velocity], ij.r));
         const N tiny = broadcast<N>(1e-12 * sq(spacing)); // coincident centres: no direction, no force
-        sum[force] += -mass_per_step * kappa * approach / (ij.distance_squared + tiny) * ij.r;
+        sum[field::force] += -mass_per_step * kappa * approach / (ij.distance_squared + tiny) * ij.r;
     }
 };
 

@@ -33,6 +33,10 @@ using ContactShape = std::variant<Ball, Rod, Polytope>;
 /// The polytope of a box of the given edge lengths; a rectangle in the x-z plane if `dimensions` is 2.
 Polytope box_polytope(const Vec3& size, int dimensions);
 
+/// The convex hull of the points; nearly coplanar triangles are merged into faces. The points must span a
+/// volume. Source: incremental hull, de Berg et al. (2008), ch. 11.
+Polytope convex_hull(const std::vector<Vec3>& points);
+
 /// Mass, and inertia about the centre of mass in body axes.
 struct MassProperties {
     double mass = 0;                  // [kg]; kg/m in two dimensions

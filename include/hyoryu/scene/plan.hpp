@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// What will run, and why: inferred from the scene before anything is computed, never changed after.
+#pragma once
+
+#include "hyoryu/fluid/fluid.hpp"
+#include "hyoryu/scene/fill.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+struct Plan {
+    /// An effect that runs, or does not, and the reason in the scene.
+    struct Effect {
+        std::string name;
+        std::string why;
+    };
+    /// A column of the particle store.
+    struct FieldUse {
+        std::string name;
+        std::string unit;
+        std::size_t bytes_per_particle = 0;
+    };
+    struct PairKind {
+        std::string name; // "fluid<-fluid": who gathers from whom
+        std::string why;
+    };
+    struct Counts {
+        Index fluid = 0, wall = 0, body = 0; // particles
+        Index bodies = 0, walls = 0;
+        Index particles() const { return fluid + wall + body; }
+    };
+
+    std::vector<Effect> on;
+    std::vector<Effect> off;
+    std::vector<FieldUse> fields;
+    std::vector<PairKind> pair_kinds;
+    Counts counts;
+    std::vector<TimeLimit> limits;  // of the first step
+    double first_step = 0;          // [s]
+    double expected_steps = 0;
+    double expected_speed = 0;      // largest, without bodies [m/s]; 0 without fluid
+    double memory = 0;              // [B]
+    double frame_bytes = 0;         // of all files of one frame, before compression [B]
+    double frames = 0;
+    std::vector<Diagnostic> warnings;
+
+    // What the solver is built from.
+    std::optional<FluidParameters> fluid;
+    FluidEffects effects;
+    bool rigid = false;   // bodies move
+    bool contact = false; // bodies may meet something
+
+    bool runs(std::string_view effect) const;
+};
+
+/// Infers the plan. Throws CaseError for what only the filled scene shows: bodies that overlap each
+/// other or a wall, a fixed time step beyond the stability limit, a fluid without particles.
+Plan make_plan(const Scene& scene, const Filling& filling);
+
+/// Bytes of neighbour lists a particle of full support, measured on the lattice (list, padding, skin).
+double list_bytes(const FluidParameters& fluid);
+
+} // namespace hyoryu

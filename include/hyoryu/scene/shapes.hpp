@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Shapes as sets of points: volume, bounds, signed distance. In two dimensions a shape is its section
+// with the x-z plane, a volume is an area and y is ignored.
+#pragma once
+
+#include "hyoryu/scene/scene.hpp"
+
+namespace hyoryu {
+
+/// Axis-aligned bounds.
+struct Bounds {
+    Vec3 min{infinity, infinity, infinity};
+    Vec3 max{-infinity, -infinity, -infinity};
+    bool empty() const { return !(min.x() <= max.x()); }
+    void add(const Vec3& point)
+    {
+        min = min.cwiseMin(point);
+        max = max.cwiseMax(point);
+    }
+    void add(const Bounds& other)
+    {
+        min = min.cwiseMin(other.min);
+        max = max.cwiseMax(other.max);
+    }
+};
+
+/// A shape placed in space.
+struct Placed {
+    const Shape* shape = nullptr;
+    Vec3 centre{0, 0, 0}; // [m]
+    Quat rotation = Quat::Identity();
+    int dimensions = 3;
+};
+
+/// Volume [m3], or area [m2] in two dimensions.
+double volume(const Shape& shape, int dimensions);
+
+/// Distance to the surface [m], negative inside. Exact outside the edges of a box or cylinder only up
+/// to the usual Euclidean corner distance, which is what the callers need.
+double signed_distance(const Placed& placed, const Vec3& point);
+
+/// Bounds in space.
+Bounds bounds(const Placed& placed);
+
+} // namespace hyoryu

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/scene/fill.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Row numbers are 32-bit in the neighbour lists.
+constexpr double most_particles = 2e9;
+
+Placed placed(const Scene& scene, const FluidBlock& block)
+{
+    return {&block.shape, block.centre, block.rotation, scene.dimensions};
+}
+
+Placed placed(const Scene& scene, const BodySettings& body)
+{
+    return {&body.shape, body.position, body.rotation, scene.dimensions};
+}
+
+// Height along -g, or along z without gravity.
+double height(const Scene& scene, const Vec3& p)
+{
+    const double g = scene.gravity.norm();
+    return g > 0 ? -scene.gravity.dot(p) / g : p.z();
+}
+
+struct BlockPoints {
+    std::vector<Vec3> points;
+    double top = -infinity;    // highest height of the block's surface
+    double bottom = infinity;
+    Bounds box;
+};
+
+// A block on its own lattice, so that its faces are half a spacing from the outermost particles.
+BlockPoints lattice_of(const Scene& scene, const FluidBlock& block)
+{
+    BlockPoints result;
+    const Placed shape = placed(scene, block);
+    result.box = bounds(shape);
+    for (int corner = 0; corner < 8; ++corner) {
+        const Bounds& b = result.box;
+        const double h = height(scene, {(corner & 1) != 0 ? b.max.x() : b.min.x(),
+                                        (corner & 2) != 0 ? b.max.y() : b.min.y(),
+                                        (corner & 4) != 0 ? b.max.z() : b.min.z()});
+        result.top = std::max(result.top, h);
+        result.bottom = std::min(result.bottom, h);
+    }
+    const Aggregate filled = [&] {
+        const Vec3 size = result.box.max - result.box.min;
+        return aggregate(BoxShape{size}, scene.spacing, scene.dimensions);
+    }();
+    const Vec3 centre = (result.box.min + result.box.max) / 2;
+    for (const Vec3& p : filled.points) {
+        if (signed_distance(shape, centre + p) < 0) {
+            result.points.push_back(centre + p);
+        }
+    }
+    return result;
+}
+
+// A block that carries another one on its top has no free surface below it.
+double surface_above(const Scene& scene, const std::vector<BlockPoints>& blocks, std::size_t own,
+                     const Vec3& p)
+{
+    double top = blocks[own].top;
+    for (bool higher = true; higher;) {
+        higher = false;
+        for (const BlockPoints& other : blocks) {
+            const Vec3 lifted = p - scene.gravity.normalized() * (top + scene.spacing / 2 - height(scene, p));
+            const bool above = (lifted.array() >= other.box.min.array() - 1e-9).all() &&
+                               (lifted.array() <= other.box.max.array() + 1e-9).all();
+            if (above && other.top > top) {
+                top = other.top;
+                higher = true;
+            }
+        }
+    }
+    return top;
+}
+
+// Fraction of the lattice cell about p that lies inside the shape, by sub-cells.
+double covered(const Placed& shape, const Vec3& p, double spacing)
+{
+    constexpr int n = 4;
+    const int ny = shape.dimensions == 2 ? 1 : n;
+    int inside = 0;
+    for (int k = 0; k < n; ++k) {
+        for (int j = 0; j < ny; ++j) {
+            for (int i = 0; i < n; ++i) {
+                const Vec3 offset{(i + 0.5) / n - 0.5, ny == 1 ? 0.0 : (j + 0.5) / n - 0.5,
+                                  (k + 0.5) / n - 0.5};
+                inside += signed_distance(shape, p + spacing * offset) < 0 ? 1 : 0;
+            }
+        }
+    }
+    return static_cast<double>(inside) / (n * n * ny);
+}
+
+// Takes out as many particles as the shape displaces, deepest first: an excess of a quarter of a layer
+// would start the water with a jolt.
+void take_out(const Placed& shape, double spacing, Filling& filling)
+{
+    Bounds box = bounds(shape);
+    box.min -= Vec3::Constant(spacing);
+    box.max += Vec3::Constant(spacing);
+    std::vector<std::pair<double, std::size_t>> near;
+    double displaced = 0;
+    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
+        const Vec3& p = filling.fluid[k];
+        if (((p - box.min).array() < 0).any() || ((box.max - p).array() < 0).any()) {
+            continue;
+        }
+        const double distance = signed_distance(shape, p);
+        if (distance < spacing) {
+            displaced += distance < -spacing ? 1.0 : covered(shape, p, spacing);
+            near.emplace_back(distance, k);
+        }
+    }
+    std::sort(near.begin(), near.end());
+    const auto count = std::min(near.size(), static_cast<std::size_t>(std::llround(displaced)));
+    std::vector<bool> gone(filling.fluid.size(), false);
+    for (std::size_t k = 0; k < count; ++k) {
+        gone[near[k].second] = true;
+    }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
+        if (!gone[k]) {
+            filling.fluid[kept] = filling.fluid[k];
+            filling.fluid_velocity[kept] = filling.fluid_velocity[k];
+            filling.fluid_depth[kept] = filling.fluid_depth[k];
+            ++kept;
+        }
+    }
+    filling.fluid.resize(kept);
+    filling.fluid_velocity.resize(kept);
+    filling.fluid_depth.resize(kept);
+}
+
+bool behind_a_wall(const Scene& scene, const Vec3& p)
+{
+    return std::any_of(scene.walls.begin(), scene.walls.end(), [&](const Wall& wall) {
+        return depth_behind(wall, p, scene.dimensions) > 0;
+    });
+}
+
+void fill_fluid(const Scene& scene, Filling& filling)
+{
+    std::vector<BlockPoints> blocks;
+    for (const FluidBlock& block : scene.fluid->blocks) {
+        blocks.push_back(lattice_of(scene, block));
+    }
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const FluidBlock& block = scene.fluid->blocks[b];
+        Index behind = 0;
+        for (const Vec3& p : blocks[b].points) {
+            const bool taken = std::any_of(blocks.begin(), blocks.begin() + static_cast<Index>(b),
+                                           [&](const BlockPoints& earlier) {
+                const auto e = static_cast<std::size_t>(&earlier - blocks.data());
+                return signed_distance(placed(scene, scene.fluid->blocks[e]), p) < 0;
+            });
+            const bool walled = behind_a_wall(scene, p);
+            behind += walled ? 1 : 0;
+            if (taken || walled) {
+                continue;
+            }
+            const double surface = surface_above(scene, blocks, b, p);
+            filling.fluid.push_back(p);
+            filling.fluid_velocity.push_back(block.velocity);
+            filling.fluid_depth.push_back(
+                scene.gravity.norm() > 0 ? surface - height(scene, p) : 0);
+        }
+        if (behind > 0) {
+            Diagnostic note = diagnostic_at(
+                scene, block.place, fmt::format("fluid.block[{}]", b),
+                fmt::format("{} of its {} particles lie behind a wall and are left out", behind,
+                            blocks[b].points.size()));
+            note.severity = Diagnostic::Severity::warning;
+            filling.warnings.push_back(note);
+        }
+    }
+}
+
+// The particles asked for, before any is made.
+double estimate(const Scene& scene)
+{
+    const auto count = [&](double volume_, double spacing) {
+        return volume_ / std::pow(spacing, scene.dimensions);
+    };
+    double total = 0;
+    for (const BodySettings& body : scene.bodies) {
+        total += count(volume(body.shape, scene.dimensions), body.spacing);
+    }
+    if (scene.fluid) {
+        for (const FluidBlock& block : scene.fluid->blocks) {
+            total += count(volume(block.shape, scene.dimensions), scene.spacing);
+        }
+        const Vec3 size = domain_of(scene).max - domain_of(scene).min;
+        const double faces = scene.dimensions == 2 ? size.x() + size.z()
+                                                   : size.x() * size.y() + size.y() * size.z() +
+                                                         size.z() * size.x();
+        total += static_cast<double>(scene.walls.size()) * count(faces * scene.spacing, scene.spacing);
+    }
+    return total;
+}
+
+} // namespace
+
+int wall_layers(double smoothing_ratio)
+{
+    return static_cast<int>(std::ceil(2 * smoothing_ratio - 1e-9));
+}
+
+Bounds domain_of(const Scene& scene)
+{
+    if (scene.domain) {
+        return {scene.domain->min, scene.domain->max};
+    }
+    Bounds box;
+    if (scene.fluid) {
+        for (const FluidBlock& block : scene.fluid->blocks) {
+            box.add(bounds(placed(scene, block)));
+        }
+    }
+    for (const BodySettings& body : scene.bodies) {
+        box.add(bounds(placed(scene, body)));
+    }
+    for (const Wall& wall : scene.walls) {
+        if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
+            box.add(Bounds{basin->min, basin->max});
+        } else if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
+            box.add(bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}));
+        }
+    }
+    if (box.empty()) {
+        box.add(Vec3::Zero());
+    }
+    for (const Wall& wall : scene.walls) {
+        if (const auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
+            // The foot of the scene's middle on the plane: the plane itself has no bounds.
+            const Vec3 middle = (box.min + box.max) / 2;
+            box.add(Vec3(middle - plane->normal.dot(middle - plane->point) * plane->normal));
+        }
+    }
+    const double headroom = (box.max - box.min).maxCoeff() / 2 + scene.spacing;
+    box.max.z() += headroom;
+    if (scene.dimensions == 2) {
+        box.min.y() = 0;
+        box.max.y() = 0;
+    }
+    return box;
+}
+
+Filling fill(const Scene& scene)
+{
+    const double asked = estimate(scene);
+    if (!(asked < most_particles)) {
+        throw CaseError(
+            fmt::format("this scene asks for about {:.2g} particles; at most {:.0g} can be numbered",
+                        asked, most_particles),
+            "increase `particles.spacing`");
+    }
+    Filling filling;
+    filling.domain = domain_of(scene);
+    if (scene.fluid) {
+        fill_walls(scene, filling);
+        fill_fluid(scene, filling);
+    }
+    for (const BodySettings& body : scene.bodies) {
+        filling.bodies.push_back(aggregate(body.shape, body.spacing, scene.dimensions));
+        if (scene.fluid) {
+            take_out(placed(scene, body), scene.spacing, filling);
+        }
+    }
+    return filling;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/scene/plan.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/rigid_scene.hpp"
+#include "plan_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Time step of bodies without a fluid: located impacts make it a matter of taste, not of stability.
+constexpr double bodies_only_step = 1e-3; // [s]
+// Sound speed over the largest expected speed: Mach 0.1 keeps density within 1 %.
+constexpr double sound_over_speed = 10;
+// Skin of the neighbour lists in spacings: at CFL 0.6 the fastest particles cross it in a few steps.
+constexpr double skin_spacings = 0.35;
+
+// Lowest height that anything in the scene has, along -g.
+double lowest(const Scene& scene, const Filling& filling)
+{
+    double low = infinity;
+    const Vec3 up = -scene.gravity.normalized();
+    for (const Vec3& p : filling.fluid) {
+        low = std::min(low, up.dot(p));
+    }
+    for (const Wall& wall : scene.walls) {
+        if (const auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
+            low = std::min(low, plane->normal.dot(up) > 0.5 ? up.dot(plane->point) : infinity);
+        }
+        if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
+            low = std::min({low, up.dot(basin->min), up.dot(basin->max)});
+        }
+    }
+    return low;
+}
+
+// max(2 sqrt(g H), |V|): H from the lowest point to the top of the fluid.
+double expected_speed(const Scene& scene, const Filling& filling)
+{
+    double speed = 0;
+    const double g = scene.gravity.norm();
+    if (g > 0 && !filling.fluid.empty()) {
+        const Vec3 up = -scene.gravity / g;
+        double top = -infinity;
+        for (const Vec3& p : filling.fluid) {
+            top = std::max(top, up.dot(p) + scene.spacing / 2);
+        }
+        speed = 2 * std::sqrt(g * std::max(top - lowest(scene, filling), scene.spacing));
+    }
+    for (const FluidBlock& block : scene.fluid->blocks) {
+        speed = std::max(speed, block.velocity.norm());
+    }
+    for (const BodySettings& body : scene.bodies) {
+        speed = std::max(speed, body.velocity.norm());
+    }
+    for (const Wall& wall : scene.walls) {
+        speed = std::max(speed, wall.velocity.norm());
+    }
+    return speed;
+}
+
+FluidParameters fluid_parameters(const Scene& scene, double speed)
+{
+    const FluidSettings& settings = *scene.fluid;
+    FluidParameters f;
+    f.dimensions = scene.dimensions;
+    f.spacing = scene.spacing;
+    f.h = settings.smoothing_ratio * scene.spacing;
+    f.mass = settings.density * std::pow(scene.spacing, scene.dimensions);
+    f.gravity = scene.gravity;
+    f.cfl = scene.time.cfl;
+    f.skin = skin_spacings * scene.spacing;
+    // A fluid at rest without gravity still needs a pressure: any speed of sound will do.
+    const double floor = scene.spacing; // one spacing a second
+    f.eos = {settings.density,
+             settings.sound_speed.value_or(sound_over_speed * std::max(speed, floor))};
+    return f;
+}
+
+FluidEffects fluid_effects(const Scene& scene, const FluidParameters& f)
+{
+    const FluidSettings& settings = *scene.fluid;
+    FluidEffects effects;
+    if (settings.diffusion != DiffusionModel::none && settings.delta > 0) {
+        const Vec3 hydrostatic = settings.diffusion == DiffusionModel::fourtakas
+                                     ? Vec3(f.eos.rho0 / sq(f.eos.c0) * scene.gravity)
+                                     : Vec3(Vec3::Zero());
+        effects.diffusion = DensityDiffusion{2 * settings.delta * f.h * f.eos.c0, f.eos, hydrostatic};
+    }
+    double kappa = 0;
+    if (settings.viscosity == ViscosityModel::artificial) {
+        kappa = artificial_kappa(settings.alpha, f.h, f.eos.c0);
+    } else if (settings.viscosity == ViscosityModel::laminar) {
+        kappa = laminar_kappa(settings.kinematic_viscosity, scene.dimensions);
+    }
+    if (kappa > 0) {
+        effects.viscosity = Viscosity{f.eos.rho0, kappa, f.h};
+    }
+    return effects;
+}
+
+// Collects effects as on or off with one reason for either.
+class Census {
+public:
+    explicit Census(Plan& plan) : plan_(plan) {}
+    void add(std::string name, const std::optional<std::string>& on, std::string off)
+    {
+        if (on) {
+            plan_.on.push_back({std::move(name), *on});
+        } else {
+            plan_.off.push_back({std::move(name), std::move(off)});
+        }
+    }
+
+private:
+    Plan& plan_;
+};
+
+std::optional<std::string> when(const bool holds, std::string why)
+{
+    return holds ? std::optional(std::move(why)) : std::nullopt;
+}
+
+void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
+{
+    const bool fluid = plan.fluid.has_value();
+    const std::string none = "the scene has no fluid";
+    const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
+    census.add("pressure", when(fluid, "the scene has a fluid"), none);
+    census.add("continuity", when(fluid, "the scene has a fluid"), none);
+    census.add("wall_extrapolation", when(solids, "the fluid meets walls or bodies"),
+               fluid ? "the fluid meets no wall and no body" : none);
+    census.add("solid_backstop", when(solids, "the fluid meets walls or bodies"),
+               fluid ? "the fluid meets no wall and no body" : none);
+    const bool viscous = !std::holds_alternative<Off>(plan.effects.viscosity);
+    const ViscosityModel model = fluid ? scene.fluid->viscosity : ViscosityModel::none;
+    census.add("artificial_viscosity",
+               when(viscous && model == ViscosityModel::artificial,
+                    fluid ? fmt::format("`fluid.viscosity.model` is \"artificial\", alpha = {}", scene.fluid->alpha) : ""),
+               fluid ? "`fluid.viscosity` asks for another model or for none" : none);
+    census.add("laminar_viscosity",
+               when(viscous && model == ViscosityModel::laminar,
+                    fluid ? fmt::format("`fluid.viscosity.model` is \"laminar\", kinematic = {} m2/s",
+                                scene.fluid->kinematic_viscosity) : ""),
+               fluid ? "`fluid.viscosity` asks for another model or for none" : none);
+    census.add("density_diffusion",
+               when(!std::holds_alternative<Off>(plan.effects.diffusion),
+                    "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise"),
+               fluid ? "`fluid.density_diffusion.model` is \"none\"" : none);
+    census.add("shifting", std::nullopt, fluid ? "`fluid.shifting.model` is \"none\"" : none);
+    const bool coupled = fluid && plan.counts.bodies > 0;
+    census.add("body_load", when(coupled, "bodies stand in or may meet the fluid"),
+               fluid ? "the scene has no bodies" : none);
+    census.add("film_pressure", when(coupled, "thin films of fluid between solids carry pressure"),
+               fluid ? "the scene has no bodies" : none);
+}
+
+void list_effects(const Scene& scene, Plan& plan)
+{
+    Census census(plan);
+    const bool gravity = scene.gravity.norm() > 0;
+    census.add("gravity", when(gravity, fmt::format("|g| = {} m/s2", scene.gravity.norm())),
+               "`gravity` is zero");
+    list_fluid_effects(scene, plan, census);
+    census.add("rigid_motion", when(plan.rigid, fmt::format("{} bodies", plan.counts.bodies)),
+               plan.counts.bodies > 0 ? "every body is fixed" : "the scene has no bodies");
+    census.add("contact",
+               when(plan.contact, plan.counts.bodies > 1 ? "bodies may meet each other or a wall"
+                                                         : "the body may meet a wall"),
+               plan.counts.bodies == 0 ? "the scene has no bodies"
+                                       : "one body alone, and no wall that it could meet");
+    const bool moving = std::any_of(scene.walls.begin(), scene.walls.end(),
+                                    [](const Wall& w) { return w.velocity.norm() > 0; });
+    census.add("moving_walls", when(moving, "a wall has `motion`"), "every wall stands still");
+    census.add("gauges", when(!scene.gauges.empty(), fmt::format("{} gauges", scene.gauges.size())),
+               "the scene has no gauges");
+}
+
+void list_pairs(Plan& plan)
+{
+    if (!plan.fluid) {
+        return;
+    }
+    plan.pair_kinds.push_back({"fluid<-fluid", "pressure, continuity, viscosity, diffusion"});
+    if (plan.counts.wall + plan.counts.body > 0) {
+        plan.pair_kinds.push_back({"fluid<-solid", "pressure and continuity at walls and bodies"});
+        plan.pair_kinds.push_back({"solid<-fluid", "pressure at solid particles, loads, wall reaction"});
+    }
+    if (plan.counts.body > 0) {
+        plan.pair_kinds.push_back({"body<-solid", "pressure in thin films between solids"});
+        plan.pair_kinds.push_back({"wall<-body", "reaction to it"});
+    }
+}
+
+void list_fields(Plan& plan)
+{
+    if (!plan.fluid) {
+        return;
+    }
+    // The columns follow from the effects by the same function that makes them; no row is needed.
+    Fluid probe;
+    probe.effects = plan.effects;
+    allocate(probe, 0, std::min<Index>(plan.counts.wall, 1), std::min<Index>(plan.counts.body, 1));
+    for (const ColumnInfo& column : probe.particles.active_columns()) {
+        plan.fields.push_back({std::string(column.field.name), std::string(column.field.unit),
+                               column.bytes_per_particle});
+    }
+}
+
+void estimate_cost(const Scene& scene, Plan& plan)
+{
+    double columns = 0;
+    for (const auto& field : plan.fields) {
+        columns += static_cast<double>(field.bytes_per_particle);
+    }
+    const auto n = static_cast<double>(plan.counts.particles());
+    if (plan.fluid) {
+        // Columns, ids and owners, pair records, positions at the last build, cells, lists of the fluid
+        // rows; the lists of solid rows are short.
+        constexpr double records = 64 + 24 + 16 + 12;
+        plan.memory = n * (columns + records) +
+                      static_cast<double>(plan.counts.fluid) * list_bytes(*plan.fluid);
+    }
+    plan.frames = std::floor(scene.time.end / scene.output.every) + 1;
+    constexpr double frame_row = 12 + 8 + 8 + 1 + 12 + 4 + 4 + 8 + 1 + 4;
+    plan.frame_bytes = frame_row * static_cast<double>(plan.counts.fluid + plan.counts.body);
+    plan.expected_steps = std::ceil(scene.time.end / plan.first_step);
+}
+
+} // namespace
+
+bool Plan::runs(std::string_view effect) const
+{
+    return std::any_of(on.begin(), on.end(), [&](const Effect& e) { return e.name == effect; });
+}
+
+double list_bytes(const FluidParameters& fluid)
+{
+    const double radius = (2 * fluid.h + fluid.skin) / fluid.spacing;
+    const double near = fluid.dimensions == 2 ? 3.1416 * sq(radius) : 4.1888 * radius * sq(radius);
+    return sizeof(std::int32_t) * (near + lanes / 2.0);
+}
+
+Plan make_plan(const Scene& scene, const Filling& filling)
+{
+    Plan plan;
+    plan.warnings = filling.warnings;
+    plan.counts = {static_cast<Index>(filling.fluid.size()), static_cast<Index>(filling.wall.size()), 0,
+                   static_cast<Index>(scene.bodies.size()), static_cast<Index>(scene.walls.size())};
+    plan.rigid = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                             [](const BodySettings& b) { return !b.fixed; });
+    plan.contact = plan.rigid && (scene.bodies.size() > 1 || !scene.walls.empty());
+    if (scene.fluid) {
+        for (const Aggregate& body : filling.bodies) {
+            plan.counts.body += static_cast<Index>(body.points.size());
+        }
+        plan.expected_speed = expected_speed(scene, filling);
+        plan.fluid = fluid_parameters(scene, plan.expected_speed);
+        plan.effects = fluid_effects(scene, *plan.fluid);
+        Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
+        plan.limits = fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));
+        for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+            const BodySettings& body = scene.bodies[b];
+            const double mass = effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
+            plan.limits.push_back(body_limit(*plan.fluid, mass, filling.bodies[b].surface_points));
+        }
+    } else {
+        plan.limits = {{"bodies only", bodies_only_step}};
+    }
+    plan.first_step = scene.time.step.value_or(shortest(plan.limits).dt);
+    list_effects(scene, plan);
+    list_pairs(plan);
+    list_fields(plan);
+    estimate_cost(scene, plan);
+    check_plan(scene, filling, plan);
+    return plan;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "plan_checks.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/rigid_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hyoryu {
+
+namespace {
+
+// Bodies may touch; an overlap deeper than this share of their spacing is a mistake.
+constexpr double allowed_overlap = 0.01;
+// Largest stable CFL of the time scheme, measured on still water.
+constexpr double stable_cfl = 1.2;
+
+std::string body_key(std::size_t b)
+{
+    return fmt::format("body[{}]", b);
+}
+
+void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
+{
+    const Rigid rigid = make_rigid(scene);
+    const auto bodies = static_cast<int>(rigid.bodies.size());
+    const auto walls = static_cast<int>(rigid.boundaries.size());
+    const auto report = [&](int a, const std::string& other, double depth) {
+        const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
+        errors.push_back(diagnostic_at(
+            scene, body.place, body_key(static_cast<std::size_t>(a)),
+            fmt::format("body \"{}\" overlaps {} by {:.3g} m", body.name, other, depth),
+            "move it apart, or make it smaller; touching is allowed"));
+    };
+    for (int a = 0; a < bodies; ++a) {
+        const double allowed = allowed_overlap * scene.bodies[static_cast<std::size_t>(a)].spacing;
+        for (int b = a + 1; b < bodies; ++b) {
+            const double depth = overlap(rigid, a, b, 0);
+            if (depth > allowed) {
+                report(b, fmt::format("body \"{}\"", scene.bodies[static_cast<std::size_t>(a)].name), depth);
+            }
+        }
+        for (int w = 0; w < walls; ++w) {
+            const double depth = overlap(rigid, a, -1 - w, 0);
+            if (depth > allowed) {
+                report(a, fmt::format("wall \"{}\"", scene.walls[static_cast<std::size_t>(w)].name), depth);
+            }
+        }
+    }
+}
+
+void check_step(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& errors)
+{
+    if (!plan.fluid || !scene.time.step) {
+        return;
+    }
+    const double limit = stable_cfl * plan.fluid->h / plan.fluid->eos.c0;
+    if (*scene.time.step > limit) {
+        errors.push_back(diagnostic_at(
+            scene, {}, "time.step",
+            fmt::format("{} s is longer than the stability limit of the fluid, {:.3g} s",
+                        *scene.time.step, limit),
+            "leave `time.step` out for an adaptive step"));
+    }
+}
+
+void warn(const Scene& scene, const Place& place, std::string key, std::string what,
+          std::string hint, Plan& plan)
+{
+    Diagnostic note = diagnostic_at(scene, place, std::move(key), std::move(what), std::move(hint));
+    note.severity = Diagnostic::Severity::warning;
+    plan.warnings.push_back(std::move(note));
+}
+
+double thinnest(const Shape& shape, int dimensions)
+{
+    if (const auto* box = std::get_if<BoxShape>(&shape)) {
+        return dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
+    }
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+        return 2 * sphere->radius;
+    }
+    if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+        return std::min(2 * cylinder->radius, cylinder->length);
+    }
+    const Bounds box = bounds({.shape = &shape, .dimensions = dimensions});
+    return (box.max - box.min).minCoeff();
+}
+
+// Metacentric height of an upright floating box: B^2/(12 d) - (H - d)/2, B the smaller horizontal edge.
+void warn_if_it_tips(const Scene& scene, std::size_t b, Plan& plan)
+{
+    const BodySettings& body = scene.bodies[b];
+    const auto* box = std::get_if<BoxShape>(&body.shape);
+    const double ratio = effective_density(body, scene.dimensions) / scene.fluid->density;
+    const bool upright = (body.rotation * Vec3::UnitZ() - Vec3::UnitZ()).norm() < 1e-9;
+    if (box == nullptr || ratio >= 1 || !upright || body.fixed) {
+        return;
+    }
+    const double breadth = scene.dimensions == 2 ? box->size.x() : std::min(box->size.x(), box->size.y());
+    const double draft = ratio * box->size.z();
+    const double gm = sq(breadth) / (12 * draft) - (box->size.z() - draft) / 2;
+    if (gm < 0) {
+        warn(scene, body.place, body_key(b),
+             fmt::format("body \"{}\" will not float upright: its metacentric height is {:.3g} m",
+                         body.name, gm),
+             "nothing is wrong with that; expect it to tip", plan);
+    }
+}
+
+void warn_about_bodies(const Scene& scene, Plan& plan)
+{
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        const double across = thinnest(body.shape, scene.dimensions);
+        if (across < 3 * scene.spacing * (1 - 1e-9)) {
+            warn(scene, body.place, body_key(b),
+                 fmt::format("body \"{}\" is {:.3g} m thin, less than 3 spacings ({:.3g} m): fluid "
+                             "forces on it are coarse and water may pass through it",
+                             body.name, across, 3 * scene.spacing),
+                 "use a smaller `particles.spacing`", plan);
+        }
+        warn_if_it_tips(scene, b, plan);
+    }
+}
+
+void warn_about_sound(const Scene& scene, Plan& plan)
+{
+    const double mach = plan.expected_speed / plan.fluid->eos.c0;
+    if (mach > 0.1 * (1 + 1e-9)) {
+        warn(scene, {}, "fluid.sound_speed",
+             fmt::format("{:.4g} m/s is only {:.1f} times the largest expected speed ({:.3g} m/s): "
+                         "densities will vary by about {:.1f} %",
+                         plan.fluid->eos.c0, 1 / mach, plan.expected_speed, 100 * sq(mach)),
+             fmt::format("10 times would be {:.3g} m/s", 10 * plan.expected_speed), plan);
+    }
+}
+
+// Fluid columns with nothing solid below them fall out of the scene.
+void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
+{
+    if (scene.gravity.normalized().dot(-Vec3::UnitZ()) < 0.99) {
+        return;
+    }
+    const auto column = [&](const Vec3& p) {
+        return std::pair{std::llround(std::floor(p.x() / scene.spacing)),
+                         std::llround(std::floor(p.y() / scene.spacing))};
+    };
+    std::map<std::pair<long long, long long>, double> floor;
+    for (const Vec3& p : filling.wall) {
+        const auto at = floor.try_emplace(column(p), p.z()).first;
+        at->second = std::min(at->second, p.z());
+    }
+    Index open = 0;
+    for (const Vec3& p : filling.fluid) {
+        const auto below = floor.find(column(p));
+        open += below == floor.end() || below->second > p.z() ? 1 : 0;
+    }
+    if (open > 0) {
+        warn(scene, {}, "wall",
+             fmt::format("{} fluid particles have no wall below them and will fall out of the domain",
+                         open),
+             "add a floor: a wall of shape \"plane\" or \"basin\"", plan);
+    }
+}
+
+} // namespace
+
+void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
+{
+    std::vector<Diagnostic> errors;
+    check_overlaps(scene, errors);
+    check_step(scene, plan, errors);
+    if (scene.fluid && filling.fluid.empty()) {
+        errors.push_back(diagnostic_at(scene, {}, "fluid", "no fluid particle fits into the blocks",
+                                       "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
+    }
+    if (!errors.empty()) {
+        throw CaseError(errors);
+    }
+    warn_about_bodies(scene, plan);
+    if (scene.fluid) {
+        warn_about_sound(scene, plan);
+        warn_about_leaks(scene, filling, plan);
+    }
+}
+
+} // namespace hyoryu
