@@ -34,15 +34,19 @@ Bounds bounds_of(std::span<const Vec3> points)
 void lay_out(CellGrid& grid, const Bounds& box, real cell)
 {
     const Vec3 extent = box.max - box.min;
-    const real volume = (extent.x() / cell + 1) * (extent.y() / cell + 1) * (extent.z() / cell + 1);
-    grid.cell = volume > most_cells ? cell * std::cbrt(volume / most_cells) : cell;
+    // Three roundings of half a unit in the last place of the largest coordinate, doubled. The cells grow
+    // by as much, so that a search of the radius they were made for reaches no further.
+    grid.slack = static_cast<float>(extent.maxCoeff() * 4e-7);
+    grid.cell = cell + grid.slack;
+    const Vec3 wanted = extent / grid.cell + Vec3::Ones();
+    if (wanted.prod() > most_cells) {
+        grid.cell *= std::cbrt(wanted.prod() / most_cells);
+    }
     grid.origin = box.min;
     for (int axis = 0; axis < 3; ++axis) {
         grid.count[static_cast<std::size_t>(axis)] =
             static_cast<Index>(extent[axis] / grid.cell) + 1;
     }
-    // Three roundings of half a unit in the last place of the largest coordinate, doubled.
-    grid.slack = static_cast<float>(extent.maxCoeff() * 4e-7);
 }
 
 } // namespace

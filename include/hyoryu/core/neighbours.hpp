@@ -19,8 +19,8 @@ class PairList {
 public:
     static constexpr Index block_rows = 128;
 
-    /// `x`: positions of all rows. Neighbours of a row are listed grid by grid in the order of the cells,
-    /// without the row itself.
+    /// `x`: positions of all rows. Neighbours of a row are listed grid by grid in the order of the cells;
+    /// a row of the source is its own neighbour, as kernel sums want it and differences do not mind.
     /// Rows of the same owner are left out when `owner` is not empty (a body does not act on itself).
     void build(std::span<const Vec3> x, Rows destination, std::span<const CellGrid* const> sources,
                real radius, std::span<const std::int32_t> owner = {});

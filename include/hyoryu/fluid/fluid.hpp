@@ -53,7 +53,7 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
 // The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves the
 // pressure loop and the velocity loop (Zhang, Rezavand & Hu 2020, without the dual time step).
 
-/// rho += dt R, x += dt v of the fluid.
+/// rho += dt R, x += dt v of the fluid; x += dt v of moving walls.
 void drift(Fluid& fluid, real dt);
 
 /// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and drops

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Fluid and bodies: the pose of a body places its particles, the forces on its particles load the body.
+// The only place that knows both.
+#pragma once
+
+#include "hyoryu/fluid/fluid.hpp"
+#include "hyoryu/rigid/rigid.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+/// The particles of all bodies in body axes, body after body, in the order of their rows.
+struct BodyParticles {
+    std::vector<Vec3> points; // about the centre of mass [m]
+    std::vector<Rows> of;     // of each body, counted from the first body row
+};
+
+/// Position and orientation.
+struct Pose {
+    Vec3 position{0, 0, 0};             // [m]
+    Quat orientation = Quat::Identity();
+};
+
+/// Where each body is after moving freely for `ahead` [s].
+std::vector<Pose> free_flight(const Rigid& rigid, double ahead);
+
+/// Puts the particles of every body where the poses say, with the velocity V + omega x r.
+void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const BodyParticles& bodies,
+                  Fluid& fluid);
+
+/// Force and torque (about the centre of mass of the pose) on each body: sums of the particle forces in
+/// the order of the rows, equal and opposite to what the fluid felt.
+void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const BodyParticles& bodies,
+                   std::vector<Wrench>& loads);
+
+/// Force on the particles of each wall [N].
+std::vector<Vec3> wall_forces(const Fluid& fluid, std::size_t walls);
+
+} // namespace hyoryu

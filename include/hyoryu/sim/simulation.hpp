@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The simulation: owns all that lives, and its step.
+#pragma once
+
+#include "hyoryu/core/timer.hpp"
+#include "hyoryu/coupling/coupling.hpp"
+#include "hyoryu/scene/plan.hpp"
+#include "hyoryu/sim/clock.hpp"
+#include "hyoryu/sim/ledger.hpp"
+
+#include <map>
+#include <optional>
+
+namespace hyoryu {
+
+/// What the fluid did to each body and wall in the last step.
+struct Loads {
+    std::vector<Wrench> bodies;
+    std::vector<Vec3> walls; // [N]
+};
+
+struct Simulation {
+    Scene scene;
+    Plan plan;
+    std::optional<Fluid> fluid;  // none without `[fluid]`: no particles, grids or lists
+    Rigid rigid;
+    BodyParticles body_particles;
+    std::vector<Pose> poses;     // of the bodies when the loads were taken
+    Loads loads;
+    Clock clock;
+    Ledger ledger;
+    std::vector<Contact> contacts; // of the last step
+    StageTimer timer;
+    std::map<std::string, long long, std::less<>> steps_by_limit;
+};
+
+/// The scene at time 0. The particles of `filling` go into the store.
+Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling);
+
+/// Advances by one step, limited as the clock says. Throws NumericalError when the state after it is not
+/// finite or out of bounds.
+void step(Simulation& sim);
+
+/// Shortest limit of the next step.
+TimeLimit time_limit(const Simulation& sim);
+
+} // namespace hyoryu

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/coupling/coupling.hpp"
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+Quat turned(const Quat& q, const Vec3& angle)
+{
+    const double a = angle.norm();
+    return a > 0 ? Quat(Eigen::AngleAxisd(a, angle / a)) * q : q;
+}
+
+} // namespace
+
+std::vector<Pose> free_flight(const Rigid& rigid, double ahead)
+{
+    std::vector<Pose> poses;
+    poses.reserve(rigid.bodies.size());
+    for (const Body& body : rigid.bodies) {
+        poses.push_back({body.position + ahead * body.velocity,
+                         turned(body.orientation, ahead * angular_velocity(body))});
+    }
+    return poses;
+}
+
+void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const BodyParticles& bodies,
+                  Fluid& fluid)
+{
+    const Index first = fluid.particles.body().begin;
+    const auto x = fluid.particles[field::position];
+    const auto v = fluid.particles[field::velocity];
+    for (std::size_t b = 0; b < rigid.bodies.size(); ++b) {
+        const Mat3 R = poses[b].orientation.toRotationMatrix();
+        const Vec3 V = rigid.bodies[b].velocity;
+        const Vec3 omega = angular_velocity(rigid.bodies[b]);
+        parallel_for(bodies.of[b].begin, bodies.of[b].end, [&](Index k) {
+            const Vec3 r = R * bodies.points[at(k)];
+            x[at(first + k)] = poses[b].position + r;
+            v[at(first + k)] = V + omega.cross(r);
+        });
+    }
+}
+
+void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const BodyParticles& bodies,
+                   std::vector<Wrench>& loads)
+{
+    const Index first = fluid.particles.body().begin;
+    const auto x = fluid.particles[field::position];
+    const auto F = fluid.particles[field::force];
+    loads.resize(bodies.of.size());
+    // One body a row of the loop: its sum has one writer and one order.
+    parallel_for(0, static_cast<Index>(bodies.of.size()), [&](Index b) {
+        Wrench load;
+        for (Index k = bodies.of[at(b)].begin; k < bodies.of[at(b)].end; ++k) {
+            const Vec3& f = F[at(first + k)];
+            load.force += f;
+            load.torque += (x[at(first + k)] - poses[at(b)].position).cross(f);
+        }
+        loads[at(b)] = load;
+    });
+}
+
+std::vector<Vec3> wall_forces(const Fluid& fluid, std::size_t walls)
+{
+    std::vector<Vec3> forces(walls, Vec3::Zero());
+    const Rows rows = fluid.particles.wall();
+    const auto F = fluid.particles[field::force];
+    const auto owner = fluid.particles.owner();
+    for (Index k = rows.begin; k < rows.end; ++k) {
+        forces[at(-1 - owner[at(k)])] += F[at(k)];
+    }
+    return forces;
+}
+
+} // namespace hyoryu

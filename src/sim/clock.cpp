@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Rounding of a sum of steps, as a share of the time between outputs.
+constexpr double rounding = 1e-9;
+
+double frame_time(const Clock& clock, const Scene& scene)
+{
+    return static_cast<double>(clock.frame) * scene.output.every;
+}
+
+} // namespace
+
+bool finished(const Clock& clock, const Scene& scene)
+{
+    return clock.time >= scene.time.end * (1 - rounding);
+}
+
+bool frame_due(const Clock& clock, const Scene& scene)
+{
+    return clock.time >= frame_time(clock, scene) - rounding * scene.output.every;
+}
+
+bool history_due(const Clock& clock, const Scene& scene)
+{
+    const double every = scene.output.history_every;
+    return every <= 0 || clock.time >= static_cast<double>(clock.history) * every - rounding * every;
+}
+
+NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limit)
+{
+    if (scene.time.step) {
+        const double end = static_cast<double>(clock.step + 1) * *scene.time.step;
+        const double last = std::min(end, scene.time.end);
+        return {end > scene.time.end * (1 + rounding) ? last - clock.time : *scene.time.step, last,
+                "fixed"};
+    }
+    // A frame that is due now has been or will be written at this time; the next one is the goal.
+    const auto due = frame_due(clock, scene) ? clock.frame + 1 : clock.frame;
+    const double goal = std::min(static_cast<double>(due) * scene.output.every, scene.time.end);
+    const double rest = goal - clock.time;
+    if (limit.dt >= rest) {
+        return {rest, goal, "frame"};
+    }
+    if (limit.dt > rest / 2) {
+        return {rest / 2, clock.time + rest / 2, "frame"};
+    }
+    return {limit.dt, clock.time + limit.dt, std::string(limit.name)};
+}
+
+} // namespace hyoryu

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/ledger.hpp"
+
+#include "hyoryu/sim/simulation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+struct Motion {
+    Vec3 momentum{0, 0, 0};
+    double scale = 0;
+};
+
+bool locked(const Body& body, int axis)
+{
+    return body.locks[static_cast<std::size_t>(axis)];
+}
+
+// Momentum of fluid and bodies.
+Motion motion(const Simulation& sim)
+{
+    Motion all;
+    if (sim.fluid) {
+        const Rows rows = sim.fluid->particles.fluid();
+        const auto v = sim.fluid->particles[field::velocity];
+        all = reduce(
+            rows.begin, rows.end, Motion{},
+            [&](Index i) { return Motion{v[at(i)], v[at(i)].norm()}; },
+            [](const Motion& a, const Motion& b) {
+                return Motion{a.momentum + b.momentum, a.scale + b.scale};
+            });
+        all.momentum *= sim.fluid->parameters.mass;
+        all.scale *= sim.fluid->parameters.mass;
+    }
+    for (const Body& body : sim.rigid.bodies) {
+        all.momentum += body.mass.mass * body.velocity;
+        all.scale += body.mass.mass * body.velocity.norm();
+    }
+    return all;
+}
+
+// Impulse of contacts with walls, and what holds the locked axes of bodies: whatever they would have
+// gained.
+Vec3 outside_impulse(const Simulation& sim, double dt)
+{
+    Vec3 impulse = Vec3::Zero();
+    std::vector<Vec3> received(sim.rigid.bodies.size(), Vec3::Zero());
+    for (const Contact& c : sim.contacts) {
+        const Vec3 P = c.normal_impulse * c.normal + c.tangential_impulse;
+        received[at(c.a)] += P;
+        if (c.b >= 0) {
+            received[at(c.b)] -= P;
+        } else {
+            impulse += P;
+        }
+    }
+    for (std::size_t b = 0; b < sim.rigid.bodies.size(); ++b) {
+        const Body& body = sim.rigid.bodies[b];
+        for (int axis = 0; axis < 3; ++axis) {
+            if (locked(body, axis)) {
+                const double load = sim.loads.bodies.empty() ? 0 : sim.loads.bodies[b].force[axis];
+                impulse[axis] -= received[b][axis] + dt * load;
+            }
+        }
+    }
+    return impulse;
+}
+
+// Free weight [N]: locked axes carry their own.
+Vec3 weight(const Simulation& sim)
+{
+    Vec3 total = Vec3::Zero();
+    if (sim.fluid) {
+        total += static_cast<double>(sim.fluid->particles.fluid().size()) *
+                 sim.fluid->parameters.mass * sim.scene.gravity;
+    }
+    for (const Body& body : sim.rigid.bodies) {
+        for (int axis = 0; axis < 3; ++axis) {
+            total[axis] += locked(body, axis) ? 0 : body.mass.mass * sim.scene.gravity[axis];
+        }
+    }
+    return total;
+}
+
+struct FluidEnergy {
+    double kinetic = 0, potential = 0, internal = 0;
+};
+
+FluidEnergy fluid_energy(const Fluid& fluid)
+{
+    const Rows rows = fluid.particles.fluid();
+    const auto x = fluid.particles[field::position];
+    const auto v = fluid.particles[field::velocity];
+    const auto rho = fluid.particles[field::density];
+    const FluidParameters& f = fluid.parameters;
+    FluidEnergy sum_ = reduce(
+        rows.begin, rows.end, FluidEnergy{},
+        [&](Index i) {
+            const double s = rho[at(i)] / f.eos.rho0;
+            return FluidEnergy{0.5 * v[at(i)].squaredNorm(), -f.gravity.dot(x[at(i)]),
+                               sq(f.eos.c0) * (std::log(s) + 1 / s - 1)};
+        },
+        [](const FluidEnergy& a, const FluidEnergy& b) {
+            return FluidEnergy{a.kinetic + b.kinetic, a.potential + b.potential,
+                               a.internal + b.internal};
+        });
+    return {f.mass * sum_.kinetic, f.mass * sum_.potential, f.mass * sum_.internal};
+}
+
+} // namespace
+
+Totals totals(const Simulation& sim)
+{
+    Totals t;
+    if (sim.fluid) {
+        const FluidEnergy e = fluid_energy(*sim.fluid);
+        t.fluid_kinetic = e.kinetic;
+        t.fluid_potential = e.potential;
+        t.fluid_internal = e.internal;
+    }
+    for (const Body& body : sim.rigid.bodies) {
+        t.body_kinetic += kinetic_energy(body);
+        t.body_potential -= body.mass.mass * sim.scene.gravity.dot(body.position);
+    }
+    const Motion all = motion(sim);
+    t.momentum = all.momentum;
+    t.momentum_scale = all.scale;
+    return t;
+}
+
+OpenBooks open_books(const Simulation& sim)
+{
+    const Motion all = motion(sim);
+    return {all.momentum, sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()), all.scale};
+}
+
+void close_books(Simulation& sim, const OpenBooks& before, double dt)
+{
+    const Motion after = motion(sim);
+    Vec3 walls = outside_impulse(sim, dt);
+    for (const Vec3& force : sim.loads.walls) {
+        walls -= dt * force;
+    }
+    const Vec3 gravity = dt * weight(sim);
+    const Vec3 lost = sim.fluid ? Vec3(sim.fluid->lost.momentum - before.lost) : Vec3(Vec3::Zero());
+    const Vec3 residual = after.momentum - before.momentum + lost - walls - gravity;
+    // Momentum that passes through in one step counts for the scale: a fluid at rest carries its weight.
+    const double scale = std::max({before.scale, after.scale, gravity.norm()});
+    sim.ledger.wall_impulse += walls;
+    sim.ledger.gravity_impulse += gravity;
+    if (scale > 0) {
+        sim.ledger.worst_closure = std::max(sim.ledger.worst_closure, residual.norm() / scale);
+    }
+    for (const Contact& contact : sim.contacts) {
+        sim.ledger.contact_loss += contact.energy_lost;
+    }
+}
+
+} // namespace hyoryu

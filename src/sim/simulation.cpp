@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/simulation.hpp"
+
+#include "hyoryu/scene/rigid_scene.hpp"
+#include "watch.hpp"
+
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+// The compressible hydrostatic density at a depth: rho0 exp(g d / c0^2). Starting from rest pressure
+// instead would ring for seconds.
+double hydrostatic_density(const FluidParameters& f, double depth)
+{
+    return f.eos.rho0 * std::exp(f.gravity.norm() * depth / sq(f.eos.c0));
+}
+
+void fill_fluid_rows(const Filling& filling, Fluid& fluid)
+{
+    Particles& particles = fluid.particles;
+    const auto x = particles[field::position];
+    const auto v = particles[field::velocity];
+    const auto rho = particles[field::density];
+    for (std::size_t i = 0; i < filling.fluid.size(); ++i) {
+        x[i] = filling.fluid[i];
+        v[i] = filling.fluid_velocity[i];
+        rho[i] = hydrostatic_density(fluid.parameters, filling.fluid_depth[i]);
+    }
+}
+
+void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
+{
+    Particles& particles = fluid.particles;
+    const Rows rows = particles.wall();
+    for (Index k = 0; k < rows.size(); ++k) {
+        const std::size_t row = at(rows.begin + k);
+        const std::int32_t wall = filling.wall_owner[at(k)];
+        particles[field::position][row] = filling.wall[at(k)];
+        particles[field::velocity][row] = scene.walls[at(wall)].velocity;
+        particles.owner()[row] = -1 - wall;
+        fluid.moving_walls = fluid.moving_walls || scene.walls[at(wall)].velocity.norm() > 0;
+    }
+}
+
+void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
+{
+    const Index first = fluid.particles.body().begin;
+    for (std::size_t b = 0; b < filling.bodies.size(); ++b) {
+        const Rows rows = sim.body_particles.of[b];
+        for (Index k = rows.begin; k < rows.end; ++k) {
+            fluid.particles.owner()[at(first + k)] = static_cast<std::int32_t>(b);
+        }
+        fluid.body_particle_mass.push_back(fluid.parameters.eos.rho0 *
+                                           filling.bodies[b].particle_volume);
+    }
+}
+
+Fluid make_fluid(const Simulation& sim, const Filling& filling)
+{
+    Fluid fluid;
+    fluid.parameters = *sim.plan.fluid;
+    fluid.effects = sim.plan.effects;
+    fluid.kernel = make_kernel(fluid.parameters.h, fluid.parameters.spacing, fluid.parameters.dimensions);
+    // A particle may graze the edge of the domain; two spacings beyond it is gone for good.
+    const Vec3 margin = Vec3::Constant(2 * fluid.parameters.spacing);
+    fluid.domain_min = filling.domain.min - margin;
+    fluid.domain_max = filling.domain.max + margin;
+    allocate(fluid, static_cast<Index>(filling.fluid.size()), static_cast<Index>(filling.wall.size()),
+             static_cast<Index>(sim.body_particles.points.size()));
+    for (std::size_t k = 0; k < fluid.particles.id().size(); ++k) {
+        fluid.particles.id()[k] = static_cast<std::int64_t>(k);
+    }
+    fill_fluid_rows(filling, fluid);
+    fill_wall_rows(sim.scene, filling, fluid);
+    fill_body_rows(sim, filling, fluid);
+    return fluid;
+}
+
+} // namespace
+
+Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling)
+{
+    Simulation sim{.scene = scene, .plan = plan};
+    sim.rigid = make_rigid(scene);
+    for (const Aggregate& body : filling.bodies) {
+        const auto begin = static_cast<Index>(sim.body_particles.points.size());
+        sim.body_particles.points.insert(sim.body_particles.points.end(), body.points.begin(),
+                                         body.points.end());
+        sim.body_particles.of.push_back({begin, static_cast<Index>(sim.body_particles.points.size())});
+    }
+    sim.loads.bodies.resize(scene.bodies.size());
+    if (plan.fluid) {
+        sim.fluid = make_fluid(sim, filling);
+        sim.poses = free_flight(sim.rigid, 0);
+        place_bodies(sim.rigid, sim.poses, sim.body_particles, *sim.fluid);
+        update_neighbours(*sim.fluid);
+        update_pressure(*sim.fluid);
+    }
+    sim.ledger.start = totals(sim);
+    return sim;
+}
+
+TimeLimit time_limit(const Simulation& sim)
+{
+    std::vector<TimeLimit> limits = sim.plan.limits;
+    if (sim.fluid) {
+        // The limits of light bodies stay; those of the fluid follow its motion.
+        const std::vector<TimeLimit> now = fluid_limits(*sim.fluid);
+        std::copy(now.begin(), now.end(), limits.begin());
+    }
+    return shortest(limits);
+}
+
+void step(Simulation& sim)
+{
+    const NextStep next = next_step(sim.clock, sim.scene, time_limit(sim));
+    const OpenBooks books = open_books(sim);
+    const double dt = next.dt;
+    sim.contacts.clear();
+    if (sim.fluid) {
+        Fluid& fluid = *sim.fluid;
+        sim.timer.begin("drift");
+        drift(fluid, dt / 2);
+        sim.poses = free_flight(sim.rigid, dt / 2);
+        place_bodies(sim.rigid, sim.poses, sim.body_particles, fluid);
+        sim.timer.begin("neighbours");
+        update_neighbours(fluid);
+        sim.timer.begin("pressure");
+        update_pressure(fluid);
+        sim.timer.begin("forces");
+        update_forces(fluid, dt);
+        sim.timer.begin("loads");
+        collect_loads(fluid, sim.poses, sim.body_particles, sim.loads.bodies);
+        sim.loads.walls = wall_forces(fluid, sim.scene.walls.size());
+        sim.timer.begin("kick");
+        kick(fluid, dt);
+    }
+    if (sim.plan.rigid) {
+        sim.timer.begin("bodies");
+        step(sim.rigid, sim.clock.time, dt, sim.loads.bodies, sim.contacts);
+    }
+    if (sim.fluid) {
+        Fluid& fluid = *sim.fluid;
+        sim.timer.begin("rates");
+        place_bodies(sim.rigid, sim.poses, sim.body_particles, fluid);
+        update_rates(fluid);
+        sim.timer.begin("drift");
+        drift(fluid, dt / 2);
+    }
+    sim.timer.begin("books");
+    sim.clock.time = next.end;
+    sim.clock.dt = dt;
+    sim.clock.step += 1;
+    sim.steps_by_limit[next.limit] += 1;
+    close_books(sim, books, dt);
+    watch(sim);
+    sim.timer.end();
+}
+
+} // namespace hyoryu
