@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hyoryu {
@@ -16,27 +17,34 @@ namespace hyoryu {
 enum class Existing { refuse, replace, extend };
 
 /// Makes the folder ready. refuse: throws CaseError if it exists and is not empty; replace: removes
-/// what an earlier run wrote there (and only if the folder is one of ours); extend: keeps everything.
-/// Throws IoError if it cannot be written.
+/// what an earlier run wrote there; extend: keeps everything but abandoned temporary files.
+/// A folder is ours if it holds `frames/` or `plan.json` (a case file alone does not make it ours: it
+/// may be the only copy of what a user typed). `replace` throws CaseError, and removes nothing, if the
+/// folder is not ours or holds anything that no run writes. Throws IoError if it cannot be written.
 void prepare_results(const std::filesystem::path& folder, Existing existing);
 
 /// Writes `text` to `file` so that a reader sees the old or the new text, never a part.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
-/// Writes frames in a thread of its own while the solver goes on; at most two frames wait.
-/// Every frame is a complete VTKHDF 1.0 UnstructuredGrid under `frames/`; the series file
-/// `<name>.hdf.series` and the external links in `results.h5` follow after the rename.
-/// An error in the thread is thrown (IoError) by the next call on the solver's side.
+/// Writes frames in a thread of its own while the solver goes on; at most two frames wait (all clouds
+/// and surfaces of one index are one frame). Every file is a complete VTKHDF 1.0 UnstructuredGrid
+/// under `frames/`; the series file `<name>.hdf.series` follows after the rename.
+/// An error in the thread is thrown (IoError) by the next call, and by every later one, on the
+/// solver's side; nothing is written after it.
 class FrameWriter {
 public:
-    /// `times`: frames that an earlier run left and that the series files go on to name.
+    /// Series files that an earlier run left in the folder are continued.
     explicit FrameWriter(std::filesystem::path folder);
     ~FrameWriter();
+    FrameWriter(const FrameWriter&) = delete;
+    FrameWriter& operator=(const FrameWriter&) = delete;
     void write(Cloud cloud);
     void write(Surface surface);
-    /// A cloud that never changes: `<name>.hdf` in the folder itself.
+    /// A cloud or surface that never changes: `<name>.hdf` in the folder itself.
     void write_static(Cloud cloud);
-    /// Removes from the series every frame later than `time`: a resumed run writes them again.
+    void write_static(Surface surface);
+    /// Removes every frame later than `time` and its place in the series: a resumed run writes them
+    /// again. Waits for frames on their way.
     void forget_after(double time);
     /// Waits until everything is on disk and throws what went wrong.
     void finish();
@@ -49,8 +57,11 @@ private:
 /// A CSV history: a `#` line of units, a header row, then rows with full double precision.
 class History {
 public:
-    /// Opens `folder/<table.name>.csv`; with `extend`, keeps the rows up to and including `time`.
+    /// Opens a new `folder/<table.name>.csv`, replacing what stands there.
     History(const std::filesystem::path& folder, Table table);
+    /// Goes on with the file, keeping the rows whose first cell is at most `keep_until` [s]; a last
+    /// row that was torn by a kill is dropped. Starts a new file if there is none. Throws IoError if
+    /// the file has other columns.
     History(const std::filesystem::path& folder, Table table, double keep_until);
     ~History();
     History(History&&) noexcept;
@@ -67,9 +78,12 @@ private:
 
 /// The shortest text that reads back as the same double.
 std::string cell(double value);
+/// The text itself, quoted where CSV asks for it.
+std::string cell(std::string_view text);
 
-/// Writes `results.h5`: metadata, the case text, the time table of frames, the CSV histories as
-/// tables, and external links `/frames/000000/fluid` to the frame files.
+/// Writes `results.h5` for h5py users: attributes (version, title), `/case`, `/plan` and `/summary`
+/// (texts), `/times` and `/indices` of the frames, `/histories/<name>/<column>` from the CSV files,
+/// and external links `/frames/000000/fluid` to the frame files. It may be called again at any time.
 void write_master(const std::filesystem::path& folder, const std::string& case_text,
                   const std::string& version);
 
@@ -78,8 +92,10 @@ void write_master(const std::filesystem::path& folder, const std::string& case_t
 void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snapshot);
 Snapshot read_checkpoint(const std::filesystem::path& folder);
 
-/// One frame read back (VTKHDF file): for `render`, `info` and tests. Throws IoError.
+/// One frame read back (VTKHDF file): for `render`, `info` and tests. Name and index are those in the
+/// file. Throws IoError.
 Cloud read_frame(const std::filesystem::path& file);
+Surface read_surface(const std::filesystem::path& file);
 
 /// Names and times of the frames of a series file. Throws IoError.
 struct SeriesEntry {

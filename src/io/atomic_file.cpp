@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Atomic replacement of files with POSIX calls, which alone tell why a disk refused.
+#include "atomic_file.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <unistd.h>
+#include <utility>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr mode_t everyone_reads = 0666; // the user's umask takes away what it must
+
+int open_for_writing(const std::filesystem::path& file)
+{
+    return ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, everyone_reads);
+}
+
+/// A rename is on the disk only when its folder is. File systems that cannot do this (network,
+/// FUSE) say so with an error that loses nothing, hence ignored.
+void sync_folder_of(const std::filesystem::path& file)
+{
+    const std::filesystem::path parent = file.parent_path();
+    const int folder = ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_CLOEXEC);
+    if (folder >= 0) {
+        ::fsync(folder);
+        ::close(folder);
+    }
+}
+
+} // namespace
+
+void throw_system_error(std::string_view verb, const std::filesystem::path& file)
+{
+    const int reason = errno;
+    throw IoError(fmt::format("cannot {} `{}`: {}", verb, file.string(), std::strerror(reason)));
+}
+
+void write_all(int descriptor, std::span<const std::byte> bytes, const std::filesystem::path& file)
+{
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written >= 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(written));
+        } else if (errno != EINTR) {
+            throw_system_error("write", file);
+        }
+    }
+}
+
+AtomicFile::AtomicFile(std::filesystem::path file)
+    : file_(std::move(file)), temporary_(file_.string() + std::string(temporary_suffix)),
+      descriptor_(open_for_writing(temporary_))
+{
+    if (descriptor_ < 0) {
+        throw_system_error("create", file_);
+    }
+}
+
+AtomicFile::~AtomicFile()
+{
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+        ::unlink(temporary_.c_str());
+    }
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes)
+{
+    write_all(descriptor_, bytes, file_);
+}
+
+void AtomicFile::write(std::string_view text)
+{
+    write(std::as_bytes(std::span(text)));
+}
+
+void AtomicFile::commit()
+{
+    // Without this a power cut could leave the new name on a file without bytes. EINVAL: not a file
+    // that can be synchronised, for instance a pipe.
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) {
+        throw_system_error("write", file_);
+    }
+    if (::close(std::exchange(descriptor_, -1)) != 0 ||
+        ::rename(temporary_.c_str(), file_.c_str()) != 0) {
+        const int reason = errno;
+        ::unlink(temporary_.c_str());
+        errno = reason;
+        throw_system_error("write", file_);
+    }
+    sync_folder_of(file_);
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text)
+{
+    AtomicFile atomic(file);
+    atomic.write(text);
+    atomic.commit();
+}
+
+} // namespace hyoryu

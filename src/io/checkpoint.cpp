@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// checkpoint.h5: a text header of 512 bytes (format, length, checksum), then an HDF5 file, which HDF5
+// finds behind it by itself. The checksum covers every byte, so HDF5 never sees a damaged file.
+#include "atomic_file.hpp"
+#include "hdf5.hpp"
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "packed_array.hpp"
+
+#include <fmt/format.h>
+#include <libdeflate.h>
+
+#include <fstream>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr int format_version = 1;
+constexpr std::size_t header_size = 512; // the first place after 0 where HDF5 looks for a file
+constexpr std::string_view magic = "hyoryu checkpoint";
+
+std::filesystem::path checkpoint_file(const std::filesystem::path& folder)
+{
+    return folder / "checkpoint.h5";
+}
+
+std::string header(std::uintmax_t bytes, std::uint32_t checksum)
+{
+    std::string text = fmt::format("{}\nformat {}\nbytes {}\ncrc32 {:08x}\n", magic, format_version,
+                                   bytes, checksum);
+    text.resize(header_size, '\0');
+    return text;
+}
+
+/// Names may hold any letter; a link of HDF5 may hold no `/` and must not be `.`.
+std::string link_name(std::string_view name)
+{
+    if (name == ".") {
+        return "%2E";
+    }
+    std::string link;
+    for (const char letter : name) {
+        if (letter == '/' || letter == '%') {
+            link += letter == '/' ? "%2F" : "%25";
+        } else {
+            link += letter;
+        }
+    }
+    return link;
+}
+
+std::string name_of(std::string_view link)
+{
+    std::string name;
+    for (std::size_t i = 0; i < link.size(); ++i) {
+        if (link[i] == '%' && i + 2 < link.size()) {
+            name += static_cast<char>(std::stoi(std::string(link.substr(i + 1, 2)), nullptr, 16));
+            i += 2;
+        } else {
+            name += link[i];
+        }
+    }
+    return name;
+}
+
+/// Texts as bytes: a string type of HDF5 would lose zero bytes at their end.
+void put_snapshot(hid_t file, const Snapshot& snapshot)
+{
+    const hdf5::Handle arrays = hdf5::create_group(file, "arrays");
+    for (const auto& [name, column] : snapshot.arrays) {
+        expects(!name.empty());
+        put_array(arrays, link_name(name), raw(view_of(column)), column.unit);
+        const hdf5::Handle dataset(H5Dopen2(arrays, link_name(name).c_str(), H5P_DEFAULT), H5Dclose,
+                                   "write a checkpoint");
+        hdf5::put_attribute(dataset, "name", column.name);
+        const std::array<std::int64_t, 1> components{column.components};
+        hdf5::put_attribute(dataset, "components", components);
+    }
+    const hdf5::Handle texts = hdf5::create_group(file, "texts");
+    for (const auto& [name, text] : snapshot.texts) {
+        expects(!name.empty());
+        const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+        put_array(texts, link_name(name), raw(view_of(std::span(bytes), 1)), "");
+    }
+}
+
+Snapshot get_snapshot(hid_t file)
+{
+    Snapshot snapshot;
+    const hdf5::Handle arrays = hdf5::open_group(file, "arrays");
+    for (const std::string& link : hdf5::link_names(arrays)) {
+        Column column = get_column(arrays, link);
+        const hdf5::Handle dataset(H5Dopen2(arrays, link.c_str(), H5P_DEFAULT), H5Dclose,
+                                   "read a checkpoint");
+        column.name = hdf5::text_attribute(dataset, "name");
+        column.components = static_cast<int>(hdf5::number_attribute(dataset, "components"));
+        snapshot.arrays[name_of(link)] = std::move(column);
+    }
+    const hdf5::Handle texts = hdf5::open_group(file, "texts");
+    for (const std::string& link : hdf5::link_names(texts)) {
+        const Column column = get_column(texts, link);
+        const auto& bytes = std::get<std::vector<std::uint8_t>>(column.values);
+        snapshot.texts[name_of(link)] = std::string(bytes.begin(), bytes.end());
+    }
+    return snapshot;
+}
+
+/// Reads the whole file once and compares length and checksum with the header.
+void verify(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw_system_error("read", file);
+    }
+    std::string stored(header_size, '\0');
+    stream.read(stored.data(), header_size);
+    if (!stored.starts_with(magic)) {
+        throw IoError(fmt::format("`{}` is no checkpoint", file.string()));
+    }
+    const std::string format = fmt::format("{}\nformat {}\n", magic, format_version);
+    if (!stored.starts_with(format)) {
+        throw IoError(fmt::format("`{}` is a checkpoint of another format than {}, the one that this "
+                                  "version reads",
+                                  file.string(), format_version));
+    }
+    std::uint32_t checksum = 0;
+    std::uintmax_t bytes = 0;
+    std::vector<char> block(std::size_t{1} << 20);
+    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) ||
+           stream.gcount() > 0) {
+        const auto count = static_cast<std::size_t>(stream.gcount());
+        checksum = libdeflate_crc32(checksum, block.data(), count);
+        bytes += count;
+    }
+    if (stored != header(bytes, checksum)) {
+        throw IoError(fmt::format("the checkpoint `{}` is damaged: its checksum or length is wrong",
+                                  file.string()));
+    }
+}
+
+} // namespace
+
+void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snapshot)
+{
+    AtomicFile atomic(checkpoint_file(folder));
+    const hdf5::Session session;
+    hdf5::FileImage image;
+    put_snapshot(image, snapshot);
+    const std::span<const std::byte> bytes = image.bytes();
+    atomic.write(header(bytes.size(), libdeflate_crc32(0, bytes.data(), bytes.size())));
+    atomic.write(bytes);
+    atomic.commit();
+}
+
+Snapshot read_checkpoint(const std::filesystem::path& folder)
+{
+    const std::filesystem::path file = checkpoint_file(folder);
+    verify(file);
+    const hdf5::Session session;
+    return get_snapshot(hdf5::open_file(file));
+}
+
+} // namespace hyoryu

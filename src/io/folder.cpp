@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Makes a results folder ready, and refuses to remove anything that a run did not write.
+#include "atomic_file.hpp"
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <unistd.h>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What runs, `render`, `report` and `convert` write, as patterns of paths relative to the folder.
+constexpr std::array our_files{
+    R"(case\.toml|plan\.json|summary\.json|run\.log|report\.html|results\.h5|checkpoint\.h5|all\.vtkhdf)",
+    R"((bodies|contacts|energy|gauges)\.csv)",
+    R"((fluid|bodies|surfaces|walls|structures)\.(hdf|hdf\.series|pvd))",
+    R"(frames/[a-z]+_[0-9]{6,}\.hdf)",
+    R"((vtp|csv)/[a-z]+_[0-9]{6,}\.(vtp|csv))",
+    R"(pictures/(frame_[0-9]{6,}\.png|animation\.mp4))",
+};
+constexpr std::array our_folders{"frames", "pictures", "vtp", "csv"};
+
+std::string without_temporary_suffix(std::string name)
+{
+    if (name.ends_with(temporary_suffix)) {
+        name.resize(name.size() - temporary_suffix.size());
+    }
+    return name;
+}
+
+bool is_ours(const fs::directory_entry& entry, const fs::path& folder)
+{
+    const std::string name = entry.path().lexically_relative(folder).generic_string();
+    const fs::file_status status = entry.symlink_status();
+    if (fs::is_directory(status)) {
+        return std::find(our_folders.begin(), our_folders.end(), name) != our_folders.end();
+    }
+    const std::string final_name = without_temporary_suffix(name);
+    return fs::is_regular_file(status) &&
+           std::any_of(our_files.begin(), our_files.end(), [&](const char* pattern) {
+               return std::regex_match(final_name, std::regex(pattern));
+           });
+}
+
+/// Everything in the folder: ours by name, or foreign.
+struct Inventory {
+    std::vector<fs::path> ours; // files before the folders that hold them
+    std::vector<std::string> foreign;
+};
+
+Inventory inventory(const fs::path& folder)
+{
+    Inventory result;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (is_ours(entry, folder)) {
+            result.ours.push_back(entry.path());
+        } else {
+            result.foreign.push_back(entry.path().lexically_relative(folder).generic_string());
+        }
+    }
+    std::reverse(result.ours.begin(), result.ours.end());
+    std::sort(result.foreign.begin(), result.foreign.end());
+    return result;
+}
+
+void remove_our_files(const fs::path& folder)
+{
+    if (!fs::is_directory(folder / "frames") && !fs::exists(folder / "plan.json")) {
+        throw CaseError(fmt::format("`{}` is not empty and no results folder: it holds neither "
+                                    "`frames/` nor `plan.json`",
+                                    folder.string()),
+                        "choose another folder with -o");
+    }
+    Inventory found = inventory(folder);
+    if (!found.foreign.empty()) {
+        constexpr std::size_t named_at_most = 5;
+        const std::size_t count = found.foreign.size();
+        found.foreign.resize(std::min(count, named_at_most));
+        throw CaseError(fmt::format("`{}` holds {} that no run wrote, so it is not replaced: {}{}",
+                                    folder.string(), count == 1 ? "a file" : "files",
+                                    fmt::join(found.foreign, ", "),
+                                    count > named_at_most ? ", ..." : ""),
+                        "move them away, or choose another folder with -o");
+    }
+    for (const fs::path& path : found.ours) {
+        fs::remove(path);
+    }
+}
+
+/// What a kill left half-written.
+void remove_temporary_files(const fs::path& folder)
+{
+    for (const fs::path& path : inventory(folder).ours) {
+        if (path.native().ends_with(temporary_suffix)) {
+            fs::remove(path);
+        }
+    }
+}
+
+void clear_as_asked(const fs::path& folder, Existing existing)
+{
+    if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) {
+        return;
+    }
+    if (!fs::is_directory(folder)) {
+        throw CaseError(fmt::format("`{}` is a file, not a folder", folder.string()),
+                        "choose another folder with -o");
+    }
+    switch (existing) {
+    case Existing::refuse:
+        throw CaseError(fmt::format("the results folder `{}` is not empty", folder.string()),
+                        "--force replaces it, --resume goes on with it, -o names another");
+    case Existing::replace:
+        return remove_our_files(folder);
+    case Existing::extend:
+        return remove_temporary_files(folder);
+    }
+}
+
+} // namespace
+
+void prepare_results(const fs::path& folder, Existing existing)
+{
+    try {
+        clear_as_asked(folder, existing);
+        fs::create_directories(folder / "frames");
+    } catch (const fs::filesystem_error& error) {
+        throw IoError(fmt::format("cannot prepare the results folder `{}`: {}", folder.string(),
+                                  error.code().message()));
+    }
+    for (const fs::path& place : {folder, folder / "frames"}) {
+        if (::access(place.c_str(), W_OK) != 0) {
+            throw_system_error("write to", place);
+        }
+    }
+}
+
+} // namespace hyoryu

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// The writer thread: takes frames from a short queue, writes them, then names them in their series.
+#include "atomic_file.hpp"
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "series.hpp"
+#include "vtkhdf.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <variant>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::size_t frames_that_wait = 2;
+
+enum class Place { series, alone };
+
+struct Job {
+    std::variant<Cloud, Surface> content;
+    Place place = Place::series;
+
+    const std::string& name() const
+    {
+        return std::visit([](const auto& frame) -> const std::string& { return frame.name; }, content);
+    }
+    double time() const
+    {
+        return std::visit([](const auto& frame) { return frame.time; }, content);
+    }
+    std::int64_t index() const
+    {
+        return std::visit([](const auto& frame) { return frame.index; }, content);
+    }
+};
+
+using Series = std::map<std::string, std::vector<SeriesEntry>>;
+
+Series series_in(const std::filesystem::path& folder)
+{
+    Series series;
+    for (const std::string& name : series_names(folder)) {
+        series[name] = read_series(series_file(folder, name));
+    }
+    return series;
+}
+
+/// Puts the entry at its place in time; an older entry of the same file gives way.
+void insert(std::vector<SeriesEntry>& entries, const SeriesEntry& entry)
+{
+    std::erase_if(entries, [&](const SeriesEntry& old) { return old.file == entry.file; });
+    const auto later = [](const SeriesEntry& a, const SeriesEntry& b) { return a.time < b.time; };
+    entries.insert(std::upper_bound(entries.begin(), entries.end(), entry, later), entry);
+}
+
+} // namespace
+
+struct FrameWriter::State {
+    std::filesystem::path folder;
+    Series series; // of the thread; of the solver's side only while the queue is idle
+
+    std::mutex mutex; // guards what follows
+    std::condition_variable changed;
+    std::deque<Job> queue;
+    bool working = false;
+    bool closing = false;
+    std::exception_ptr error;
+
+    std::thread thread;
+
+    explicit State(std::filesystem::path where) : folder(std::move(where)), series(series_in(folder)) {}
+
+    void run();
+    void write(const Job& job);
+    void put(Job job);
+    void wait_until_idle(std::unique_lock<std::mutex>& lock);
+    std::size_t waiting_frames() const;
+};
+
+/// Frames in the queue: clouds and surfaces of one index follow each other and count once.
+std::size_t FrameWriter::State::waiting_frames() const
+{
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+        count += (k == 0 || queue[k].index() != queue[k - 1].index()) ? 1 : 0;
+    }
+    return count;
+}
+
+void FrameWriter::State::put(Job job)
+{
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] {
+        const bool same_frame = !queue.empty() && queue.back().index() == job.index();
+        return error || same_frame || waiting_frames() < frames_that_wait;
+    });
+    if (error) {
+        std::rethrow_exception(error);
+    }
+    queue.push_back(std::move(job));
+    changed.notify_all();
+}
+
+void FrameWriter::State::wait_until_idle(std::unique_lock<std::mutex>& lock)
+{
+    changed.wait(lock, [&] { return error || (queue.empty() && !working); });
+}
+
+/// The border of the thread: no exception may leave it, so the first one waits for the solver's side.
+void FrameWriter::State::run()
+{
+    std::unique_lock lock(mutex);
+    while (true) {
+        changed.wait(lock, [&] { return closing || !queue.empty(); });
+        if (queue.empty() || error) {
+            return;
+        }
+        const Job job = std::move(queue.front());
+        queue.pop_front();
+        working = true;
+        changed.notify_all();
+        lock.unlock();
+        std::exception_ptr failure;
+        try {
+            write(job);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        lock.lock();
+        working = false;
+        error = failure;
+        changed.notify_all();
+        if (error) {
+            return;
+        }
+    }
+}
+
+void FrameWriter::State::write(const Job& job)
+{
+    const std::filesystem::path file =
+        job.place == Place::alone
+            ? std::filesystem::path(job.name() + ".hdf")
+            : std::filesystem::path("frames") / fmt::format("{}_{:06}.hdf", job.name(), job.index());
+    std::visit([&](const auto& frame) { write_vtkhdf(folder / file, frame); }, job.content);
+    if (job.place == Place::series) {
+        std::vector<SeriesEntry>& entries = series[job.name()];
+        insert(entries, {file, job.time()});
+        write_series(series_file(folder, job.name()), entries);
+    }
+}
+
+FrameWriter::FrameWriter(std::filesystem::path folder)
+    : state_(std::make_unique<State>(std::move(folder)))
+{
+    std::error_code reason;
+    std::filesystem::create_directories(state_->folder / "frames", reason);
+    if (reason) {
+        throw IoError(fmt::format("cannot create `{}`: {}", (state_->folder / "frames").string(),
+                                  reason.message()));
+    }
+    state_->thread = std::thread(&State::run, state_.get());
+}
+
+FrameWriter::~FrameWriter()
+{
+    {
+        const std::scoped_lock lock(state_->mutex);
+        state_->closing = true;
+    }
+    state_->changed.notify_all();
+    state_->thread.join();
+}
+
+void FrameWriter::write(Cloud cloud)
+{
+    state_->put({std::move(cloud), Place::series});
+}
+
+void FrameWriter::write(Surface surface)
+{
+    state_->put({std::move(surface), Place::series});
+}
+
+void FrameWriter::write_static(Cloud cloud)
+{
+    state_->put({std::move(cloud), Place::alone});
+}
+
+void FrameWriter::write_static(Surface surface)
+{
+    state_->put({std::move(surface), Place::alone});
+}
+
+void FrameWriter::forget_after(double time)
+{
+    finish();
+    for (auto& [name, entries] : state_->series) {
+        std::vector<std::filesystem::path> forgotten;
+        for (const SeriesEntry& entry : entries) {
+            if (entry.time > time) {
+                forgotten.push_back(entry.file);
+            }
+        }
+        std::erase_if(entries, [&](const SeriesEntry& entry) { return entry.time > time; });
+        // The series first: it must never name a file that is gone.
+        write_series(series_file(state_->folder, name), entries);
+        for (const std::filesystem::path& file : forgotten) {
+            std::error_code gone_already;
+            std::filesystem::remove(state_->folder / file, gone_already);
+        }
+    }
+}
+
+void FrameWriter::finish()
+{
+    std::unique_lock lock(state_->mutex);
+    state_->wait_until_idle(lock);
+    if (state_->error) {
+        std::rethrow_exception(state_->error);
+    }
+}
+
+} // namespace hyoryu

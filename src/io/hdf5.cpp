@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// HDF5 handles, the lock of the process, files in memory, attributes and texts.
+#include "hdf5.hpp"
+
+#include "hyoryu/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace hyoryu::hdf5 {
+
+namespace {
+
+/// HDF5 is one library for the process, so its lock cannot belong to any object of ours.
+std::mutex& process_lock()
+{
+    static std::mutex mutex;
+    return mutex;
+}
+
+/// The innermost entry of the error stack says what really happened.
+herr_t keep_first(unsigned position, const H5E_error2_t* entry, void* text)
+{
+    if (position == 0 && entry->desc != nullptr) {
+        *static_cast<std::string*>(text) = entry->desc;
+    }
+    return 0;
+}
+
+std::string last_error()
+{
+    std::string text;
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &text);
+    return text.empty() ? "HDF5 gives no reason" : text;
+}
+
+Handle in_memory_access()
+{
+    Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepare an HDF5 file");
+    constexpr std::size_t growth = std::size_t{8} << 20; // few reallocations, little waste
+    check(H5Pset_fapl_core(access, growth, false), "prepare an HDF5 file");
+    // The oldest file format that can hold the content is the one that most programs read.
+    check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST),
+          "prepare an HDF5 file");
+    return access;
+}
+
+Handle string_type(std::size_t length)
+{
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a string type");
+    check(H5Tset_size(type, length), "size a string type");
+    if (length == H5T_VARIABLE) {
+        check(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
+    }
+    return type;
+}
+
+Handle scalar_space()
+{
+    return {H5Screate(H5S_SCALAR), H5Sclose, "make a scalar"};
+}
+
+herr_t keep_name(hid_t, const char* name, const H5L_info_t*, void* names)
+{
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+}
+
+Handle open_attribute(hid_t object, const std::string& name)
+{
+    return {H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose,
+            fmt::format("read the attribute `{}`", name)};
+}
+
+} // namespace
+
+Session::Session() : lock_(process_lock())
+{
+    H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Session::~Session()
+{
+    H5Eset_auto2(H5E_DEFAULT, printer_, printer_data_);
+}
+
+Handle::Handle(hid_t id, Close close, std::string_view action) : id_(id), close_(close)
+{
+    if (id < 0) {
+        throw IoError(fmt::format("cannot {}: {}", action, last_error()));
+    }
+}
+
+Handle::~Handle()
+{
+    if (id_ >= 0) {
+        close_(id_);
+    }
+}
+
+Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+
+void check(herr_t status, std::string_view action)
+{
+    if (status < 0) {
+        throw IoError(fmt::format("cannot {}: {}", action, last_error()));
+    }
+}
+
+FileImage::FileImage()
+    : access_(in_memory_access()), file_(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access_),
+                                         H5Fclose, "build an HDF5 file in memory")
+{
+}
+
+std::span<const std::byte> FileImage::bytes()
+{
+    check(H5Fflush(file_, H5F_SCOPE_LOCAL), "build an HDF5 file in memory");
+    const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+    check(size < 0 ? -1 : 0, "size an HDF5 file in memory");
+    // The driver's own buffer: a copy would double the memory that a checkpoint needs.
+    void* buffer = nullptr;
+    check(H5Fget_vfd_handle(file_, access_, &buffer), "reach an HDF5 file in memory");
+    return {*static_cast<const std::byte* const*>(buffer), static_cast<std::size_t>(size)};
+}
+
+Handle open_file(const std::filesystem::path& file)
+{
+    return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+            fmt::format("read `{}`", file.string())};
+}
+
+Handle open_group(hid_t parent, const std::string& name)
+{
+    return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose,
+            fmt::format("open the group `{}`", name)};
+}
+
+Handle create_group(hid_t parent, const std::string& name)
+{
+    return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+            fmt::format("create the group `{}`", name)};
+}
+
+bool has_link(hid_t parent, const std::string& name)
+{
+    return H5Lexists(parent, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> link_names(hid_t group)
+{
+    std::vector<std::string> names;
+    check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, keep_name, &names),
+          "list a group");
+    return names;
+}
+
+void put_attribute(hid_t object, const std::string& name, const std::string& text)
+{
+    const std::string action = fmt::format("write the attribute `{}`", name);
+    const Handle type = string_type(H5T_VARIABLE);
+    const Handle space = scalar_space();
+    const Handle attribute(
+        H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
+    const char* const letters = text.c_str();
+    check(H5Awrite(attribute, type, &letters), action);
+}
+
+void put_fixed_attribute(hid_t object, const std::string& name, const std::string& text)
+{
+    const std::string action = fmt::format("write the attribute `{}`", name);
+    const Handle type = string_type(text.size());
+    const Handle space = scalar_space();
+    const Handle attribute(
+        H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
+    check(H5Awrite(attribute, type, text.c_str()), action);
+}
+
+void put_attribute(hid_t object, const std::string& name, double value)
+{
+    const std::string action = fmt::format("write the attribute `{}`", name);
+    const Handle space = scalar_space();
+    const Handle attribute(
+        H5Acreate2(object, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose, action);
+    check(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), action);
+}
+
+void put_attribute(hid_t object, const std::string& name, std::span<const std::int64_t> values)
+{
+    const std::string action = fmt::format("write the attribute `{}`", name);
+    const hsize_t size = values.size();
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, action);
+    const Handle attribute(
+        H5Acreate2(object, name.c_str(), H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose, action);
+    check(H5Awrite(attribute, H5T_NATIVE_INT64, values.data()), action);
+}
+
+std::string text_attribute(hid_t object, const std::string& name)
+{
+    const Handle attribute = open_attribute(object, name);
+    const Handle stored(H5Aget_type(attribute), H5Tclose, "read an attribute");
+    if (H5Tis_variable_str(stored) <= 0) {
+        throw IoError(
+            fmt::format("cannot read the attribute `{}`: no text of variable length", name));
+    }
+    char* letters = nullptr;
+    check(H5Aread(attribute, stored, &letters), "read an attribute");
+    const std::string text = letters == nullptr ? "" : letters;
+    H5free_memory(letters);
+    return text;
+}
+
+double number_attribute(hid_t object, const std::string& name)
+{
+    const Handle attribute = open_attribute(object, name);
+    double value = 0;
+    check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read an attribute");
+    return value;
+}
+
+void put_text(hid_t parent, const std::string& name, const std::string& text)
+{
+    const std::string action = fmt::format("write the text `{}`", name);
+    const Handle type = string_type(H5T_VARIABLE);
+    const Handle space = scalar_space();
+    const Handle dataset(
+        H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose, action);
+    const char* const letters = text.c_str();
+    check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &letters), action);
+}
+
+} // namespace hyoryu::hdf5

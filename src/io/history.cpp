@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Histories: CSV files that grow by whole rows and can be taken up again after a kill.
+#include "atomic_file.hpp"
+#include "csv.hpp"
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <span>
+#include <unistd.h>
+#include <utility>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::size_t buffer_limit = std::size_t{1} << 16; // bytes handed over at once
+
+std::filesystem::path history_file(const std::filesystem::path& folder, const Table& table)
+{
+    return folder / (table.name + ".csv");
+}
+
+bool is_kept(std::string_view line, std::size_t cells, double keep_until)
+{
+    const std::vector<std::string> row = csv_cells(line);
+    const std::optional<double> first = csv_number(row.front());
+    return row.size() == cells && first && *first <= keep_until;
+}
+
+/// The header and the rows of the file that stay.
+std::string kept_text(const std::filesystem::path& file, const Table& table, double keep_until)
+{
+    std::string kept = csv_header(table);
+    if (!std::filesystem::exists(file)) {
+        return kept;
+    }
+    const std::string text = file_text(file);
+    if (!text.starts_with(kept) && !kept.starts_with(text)) { // the latter: torn within the header
+        throw IoError(fmt::format("cannot go on with `{}`: it has other columns than this run writes",
+                                  file.string()));
+    }
+    const std::size_t header = std::min(kept.size(), text.size());
+    for (const std::string_view line : whole_lines(std::string_view(text).substr(header))) {
+        if (is_kept(line, table.heads.size(), keep_until)) {
+            kept.append(line);
+            kept += '\n';
+        }
+    }
+    return kept;
+}
+
+} // namespace
+
+struct History::State {
+    std::filesystem::path file;
+    std::size_t cells = 0;
+    std::string buffer;
+    int descriptor = -1;
+
+    State(const std::filesystem::path& folder, const Table& table, const std::string& begin)
+        : file(history_file(folder, table)), cells(table.heads.size())
+    {
+        write_text(file, begin);
+        descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+        if (descriptor < 0) {
+            throw_system_error("append to", file);
+        }
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() { ::close(descriptor); }
+
+    /// Emptied first: after an error the rows are lost, not written twice.
+    void flush()
+    {
+        const std::string rows = std::exchange(buffer, {});
+        write_all(descriptor, std::as_bytes(std::span(rows)), file);
+    }
+};
+
+History::History(const std::filesystem::path& folder, Table table)
+    : state_(std::make_unique<State>(folder, table, csv_header(table)))
+{
+}
+
+History::History(const std::filesystem::path& folder, Table table, double keep_until)
+    : state_(std::make_unique<State>(
+          folder, table, kept_text(history_file(folder, table), table, keep_until)))
+{
+}
+
+/// A destructor cannot tell of a full disk: whoever cares calls flush() before.
+History::~History()
+{
+    if (state_) {
+        try {
+            state_->flush();
+        } catch (const IoError&) {
+            return;
+        }
+    }
+}
+
+History::History(History&&) noexcept = default;
+History& History::operator=(History&&) noexcept = default;
+
+void History::append(std::span<const std::string> cells)
+{
+    expects(cells.size() == state_->cells);
+    state_->buffer += csv_line(cells);
+    if (state_->buffer.size() > buffer_limit) {
+        state_->flush();
+    }
+}
+
+void History::flush()
+{
+    state_->flush();
+}
+
+} // namespace hyoryu

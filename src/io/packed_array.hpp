@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Arrays on their way into and out of HDF5: shuffled and deflated outside of the HDF5 lock, with a
+// faster compressor than HDF5's own, to bytes that every HDF5 reads.
+#pragma once
+
+#include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/core/types.hpp"
+
+#include <cstddef>
+#include <hdf5.h>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+using Bytes = std::vector<std::byte>;
+using Values = decltype(Column::values);
+
+enum class ElementType { float32, float64, int32, int64, uint8 };
+
+/// Rows of numbers that live elsewhere.
+struct ArrayView {
+    ElementType type = ElementType::float32;
+    std::vector<hsize_t> dims; // rows, or rows and components
+    std::span<const std::byte> bytes;
+};
+
+ArrayView view_of(const Column& column);
+/// A plain array as rows of `components`; one component makes it one-dimensional.
+template <class T>
+ArrayView view_of(std::span<const T> values, int components);
+
+/// An array ready to be stored: either one raw block or compressed chunks of `rows_per_chunk` rows.
+struct PackedArray {
+    ArrayView view;
+    hsize_t rows_per_chunk = 0; // 0: contiguous and as it is
+    std::vector<Bytes> chunks;
+};
+
+/// Compresses what is large enough to gain by it. Needs no HDF5 lock.
+PackedArray packed(const ArrayView& view);
+/// Never compressed.
+PackedArray raw(const ArrayView& view);
+
+/// Stores the array as the dataset `name`; a `unit` becomes an attribute. Both need a Session.
+void put_array(hid_t parent, const std::string& name, const PackedArray& array,
+               const std::string& unit);
+/// Reads the dataset `name` of any of the element types, as it is stored. Throws IoError.
+Column get_column(hid_t parent, const std::string& name);
+
+} // namespace hyoryu

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// VTKHDF 1.0 files: points, cells, point data, the time as field data, and our units beside them.
+#include "vtkhdf.hpp"
+
+#include "atomic_file.hpp"
+#include "hdf5.hpp"
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "packed_array.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <numeric>
+#include <span>
+
+namespace hyoryu {
+
+namespace {
+
+// Cell types of VTK.
+constexpr std::uint8_t vertex_cell = 1;
+constexpr std::uint8_t triangle_cell = 5;
+
+/// Which points make which cell, as VTK stores it.
+struct Cells {
+    std::vector<std::int64_t> connectivity; // points of all cells, cell after cell
+    std::vector<std::int64_t> offsets;      // where each cell begins in it, and the end
+    std::vector<std::uint8_t> types;
+};
+
+/// `cells` cells of `corners` points each whose connectivity is given.
+Cells cells_of(std::vector<std::int64_t> connectivity, std::int64_t corners, std::uint8_t type)
+{
+    Cells cells{std::move(connectivity), {}, {}};
+    const std::size_t count = cells.connectivity.size() / static_cast<std::size_t>(corners);
+    cells.offsets.resize(count + 1);
+    for (std::size_t i = 0; i <= count; ++i) {
+        cells.offsets[i] = static_cast<std::int64_t>(i) * corners;
+    }
+    cells.types.assign(count, type);
+    return cells;
+}
+
+Cells cells_of(const Cloud& cloud)
+{
+    std::vector<std::int64_t> connectivity(cloud.points.size() / 3);
+    std::iota(connectivity.begin(), connectivity.end(), 0);
+    return cells_of(std::move(connectivity), 1, vertex_cell);
+}
+
+Cells cells_of(const Surface& surface)
+{
+    return cells_of({surface.triangles.begin(), surface.triangles.end()}, 3, triangle_cell);
+}
+
+/// The arrays of one frame, compressed: what can be done without HDF5.
+struct Parts {
+    PackedArray points;
+    PackedArray connectivity;
+    PackedArray offsets;
+    PackedArray types;
+    std::vector<PackedArray> columns;
+};
+
+template <class T>
+PackedArray packed_list(const std::vector<T>& values, int components = 1)
+{
+    return packed(view_of(std::span<const T>(values), components));
+}
+
+template <class Frame>
+Parts parts_of(const Frame& frame, const Cells& cells)
+{
+    Parts parts{packed_list(frame.points, 3), packed_list(cells.connectivity),
+                packed_list(cells.offsets), packed_list(cells.types), {}};
+    for (const Column& column : frame.columns) {
+        parts.columns.push_back(packed(view_of(column)));
+        expects(parts.columns.back().view.dims[0] == parts.points.view.dims[0]);
+    }
+    return parts;
+}
+
+void put_count(hid_t group, const std::string& name, std::size_t count)
+{
+    const std::vector<std::int64_t> one_part{static_cast<std::int64_t>(count)};
+    put_array(group, name, raw(view_of(std::span(one_part), 1)), "");
+}
+
+void put_grid(hid_t file, const Cells& cells, const Parts& parts)
+{
+    const hdf5::Handle root = hdf5::create_group(file, "VTKHDF");
+    hdf5::put_attribute(root, "Version", std::array<std::int64_t, 2>{1, 0});
+    hdf5::put_fixed_attribute(root, "Type", "UnstructuredGrid");
+    put_count(root, "NumberOfPoints", parts.points.view.dims[0]);
+    put_count(root, "NumberOfCells", cells.types.size());
+    put_count(root, "NumberOfConnectivityIds", cells.connectivity.size());
+    put_array(root, "Points", parts.points, "m");
+    put_array(root, "Connectivity", parts.connectivity, "");
+    put_array(root, "Offsets", parts.offsets, "");
+    put_array(root, "Types", parts.types, "");
+}
+
+/// Point data, the time that VTK shows, and what VTKHDF has no place for.
+template <class Frame>
+void put_data(hid_t file, const Frame& frame, const Parts& parts)
+{
+    const hdf5::Handle root = hdf5::open_group(file, "VTKHDF");
+    const hdf5::Handle point_data = hdf5::create_group(root, "PointData");
+    for (std::size_t k = 0; k < frame.columns.size(); ++k) {
+        put_array(point_data, frame.columns[k].name, parts.columns[k], frame.columns[k].unit);
+    }
+    const hdf5::Handle field_data = hdf5::create_group(root, "FieldData");
+    const std::vector<double> time{frame.time};
+    put_array(field_data, "TimeValue", raw(view_of(std::span(time), 1)), "s");
+    const hdf5::Handle meta = hdf5::create_group(file, "meta");
+    hdf5::put_attribute(meta, "program", std::string("hyoryu"));
+    hdf5::put_attribute(meta, "name", frame.name);
+    hdf5::put_attribute(meta, "time", frame.time);
+    hdf5::put_attribute(meta, "index", std::array<std::int64_t, 1>{frame.index});
+}
+
+template <class Frame>
+void write_frame(const std::filesystem::path& file, const Frame& frame)
+{
+    expects(frame.points.size() % 3 == 0);
+    AtomicFile atomic(file); // first: a folder that cannot be written is known before the work
+    const Cells cells = cells_of(frame);
+    const Parts parts = parts_of(frame, cells);
+    const hdf5::Session session;
+    hdf5::FileImage image;
+    put_grid(image, cells, parts);
+    put_data(image, frame, parts);
+    atomic.write(image.bytes());
+    atomic.commit();
+}
+
+std::vector<float> points_of(hid_t root)
+{
+    Column column = get_column(root, "Points");
+    auto* points = std::get_if<std::vector<float>>(&column.values);
+    if (points == nullptr || column.components != 3) {
+        throw IoError("its points are not rows of three single-precision numbers");
+    }
+    return std::move(*points);
+}
+
+template <class Frame>
+void get_data(hid_t file, hid_t root, Frame& frame)
+{
+    frame.points = points_of(root);
+    const hdf5::Handle point_data = hdf5::open_group(root, "PointData");
+    for (const std::string& name : hdf5::link_names(point_data)) {
+        frame.columns.push_back(get_column(point_data, name));
+    }
+    const hdf5::Handle meta = hdf5::open_group(file, "meta");
+    frame.name = hdf5::text_attribute(meta, "name");
+    frame.time = hdf5::number_attribute(meta, "time");
+    frame.index = static_cast<std::int64_t>(hdf5::number_attribute(meta, "index"));
+}
+
+std::vector<std::int32_t> triangles_of(hid_t root)
+{
+    const Column types = get_column(root, "Types");
+    for (const std::uint8_t type : std::get<std::vector<std::uint8_t>>(types.values)) {
+        if (type != triangle_cell) {
+            throw IoError("it holds cells that are no triangles");
+        }
+    }
+    const Column connectivity = get_column(root, "Connectivity");
+    const auto& corners = std::get<std::vector<std::int64_t>>(connectivity.values);
+    std::vector<std::int32_t> triangles(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        triangles[i] = static_cast<std::int32_t>(corners[i]);
+    }
+    return triangles;
+}
+
+/// Runs `read(file, root group)`; whatever goes wrong is told with the name of the file.
+template <class Read>
+void read_vtkhdf(const std::filesystem::path& file, Read read)
+{
+    const hdf5::Session session;
+    const hdf5::Handle open = hdf5::open_file(file);
+    try {
+        const hdf5::Handle root = hdf5::open_group(open, "VTKHDF");
+        read(open, root);
+    } catch (const std::exception& error) {
+        throw IoError(fmt::format("`{}` is no frame of ours or damaged: {}", file.string(),
+                                  error.what()));
+    }
+}
+
+} // namespace
+
+void write_vtkhdf(const std::filesystem::path& file, const Cloud& cloud)
+{
+    write_frame(file, cloud);
+}
+
+void write_vtkhdf(const std::filesystem::path& file, const Surface& surface)
+{
+    write_frame(file, surface);
+}
+
+Cloud read_frame(const std::filesystem::path& file)
+{
+    Cloud cloud;
+    read_vtkhdf(file, [&](hid_t open, hid_t root) { get_data(open, root, cloud); });
+    return cloud;
+}
+
+Surface read_surface(const std::filesystem::path& file)
+{
+    Surface surface;
+    read_vtkhdf(file, [&](hid_t open, hid_t root) {
+        get_data(open, root, surface);
+        surface.triangles = triangles_of(root);
+    });
+    return surface;
+}
+
+} // namespace hyoryu

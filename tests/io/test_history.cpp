@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Histories: exact numbers, units, and going on after a kill that tore the last row.
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "results_fixture.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace hyoryu {
+namespace {
+
+using testing::put_text_into;
+using testing::text_of;
+
+class Histories : public testing::ResultsTest {
+protected:
+    const Table table{"bodies", {{"time", "s"}, {"body", ""}, {"x", "m"}}};
+};
+
+TEST(Cell, ReadsBackAsTheSameDouble)
+{
+    for (const double value : {0.0, -0.0, 0.1, 1.0 / 3.0, 5e-324, 1e300, -123456.789}) {
+        const double back = std::strtod(cell(value).c_str(), nullptr);
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(back), std::bit_cast<std::uint64_t>(value));
+    }
+    EXPECT_EQ(cell(0.1), "0.1");
+    EXPECT_EQ(cell(std::numeric_limits<double>::quiet_NaN()), "nan");
+    EXPECT_EQ(cell("timber.1"), "timber.1");
+    EXPECT_EQ(cell("a,\"b\""), "\"a,\"\"b\"\"\"");
+}
+
+TEST_F(Histories, HaveUnitsHeaderAndRows)
+{
+    {
+        History history(folder, table);
+        history.append(std::array{cell(0.0), cell("timber"), cell(1.5)});
+        history.append(std::array{cell(0.1), cell("house, old"), cell(-2.0)});
+    }
+    EXPECT_EQ(text_of(folder / "bodies.csv"),
+              "# s,-,m\ntime,body,x\n0,timber,1.5\n0.1,\"house, old\",-2\n");
+}
+
+TEST_F(Histories, AreOnDiskAfterFlush)
+{
+    History history(folder, table);
+    history.append(std::array{cell(0.0), cell("timber"), cell(1.5)});
+    history.flush();
+    EXPECT_TRUE(text_of(folder / "bodies.csv").ends_with("0,timber,1.5\n"));
+}
+
+TEST_F(Histories, GoOnBehindTheRowsThatAreKept)
+{
+    const std::string header = "# s,-,m\ntime,body,x\n";
+    put_text_into(folder / "bodies.csv",
+                  header + "0,a,1\n9e-1,a,2\n1,a,3\n1,\"b, c\",4\n1.0000001,a,5\n1.2,a,6\n0.5,a");
+    {
+        History history(folder, table, 1.0);
+        history.append(std::array{cell(1.1), cell("a"), cell(7.0)});
+    }
+    EXPECT_EQ(text_of(folder / "bodies.csv"),
+              header + "0,a,1\n9e-1,a,2\n1,a,3\n1,\"b, c\",4\n1.1,a,7\n");
+}
+
+TEST_F(Histories, StartAnewWithoutAFileOrWithATornHeader)
+{
+    const std::string header = "# s,-,m\ntime,body,x\n";
+    {
+        const History history(folder, table, 1.0);
+    }
+    EXPECT_EQ(text_of(folder / "bodies.csv"), header);
+    put_text_into(folder / "bodies.csv", "# s,-,m\ntime,bo");
+    {
+        const History history(folder, table, 1.0);
+    }
+    EXPECT_EQ(text_of(folder / "bodies.csv"), header);
+}
+
+TEST_F(Histories, OfOtherColumnsAreNotContinued)
+{
+    put_text_into(folder / "bodies.csv", "# s\ntime\n0\n");
+    EXPECT_THROW(History(folder, table, 1.0), IoError);
+    EXPECT_EQ(text_of(folder / "bodies.csv"), "# s\ntime\n0\n");
+}
+
+TEST_F(Histories, OfAMissingFolderAreErrors)
+{
+    EXPECT_THROW(History(folder / "none", table), IoError);
+}
+
+} // namespace
+} // namespace hyoryu
