@@ -105,6 +105,9 @@ void build_lists(Fluid& fluid)
         n.wall_body.build(x, particles.wall(), body_grid, r);
     }
     n.builds += 1;
+    // Pressure and velocity loops of the fluid; extrapolation and loads of the solids; films.
+    n.visits = 2 * (n.fluid_fluid.entries() + n.fluid_solid.entries() + n.solid_fluid.entries()) +
+               n.body_solid.entries() + n.wall_body.entries();
 }
 
 } // namespace

@@ -151,6 +151,7 @@ void step(Simulation& sim)
         sim.timer.begin("rates");
         place_bodies(sim.rigid, sim.poses, sim.body_particles, fluid);
         update_rates(fluid);
+        sim.pair_visits += static_cast<double>(fluid.neighbours.visits);
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
     }

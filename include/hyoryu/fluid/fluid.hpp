@@ -22,6 +22,7 @@ struct FluidNeighbours {
     Rows walls_in_grid;          // the wall rows that `wall_grid` knows; fixed walls are sorted once
     std::vector<Vec3> built_at; // positions of all rows when the lists were made [m]
     long long builds = 0;
+    Index visits = 0;            // list entries that the sweeps of one step go over
 };
 
 /// What left the domain and was taken out of the run.

@@ -32,6 +32,7 @@ struct Simulation {
     std::vector<Contact> contacts; // of the last step
     StageTimer timer;
     std::map<std::string, long long, std::less<>> steps_by_limit;
+    double pair_visits = 0;        // list entries gone over so far
 };
 
 /// The scene at time 0. The particles of `filling` go into the store.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// State to neutral arrays and back: all that a restart with the same bits needs.
+#pragma once
+
+#include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/sim/simulation.hpp"
+
+namespace hyoryu {
+
+/// The whole mutable state between two steps.
+Snapshot save(const Simulation& sim);
+
+/// Puts the state into a simulation that was made from the same case. Throws IoError if the snapshot does
+/// not fit it.
+void restore(Simulation& sim, const Snapshot& snapshot);
+
+} // namespace hyoryu

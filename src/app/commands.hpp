@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The commands, one function each; all return an exit code and throw the errors of core/error.hpp.
+#pragma once
+
+#include "hyoryu/view/render.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+struct RunOptions {
+    std::filesystem::path case_file;
+    std::filesystem::path folder; // empty: case stem + "-results" in the current folder
+    std::vector<std::string> overrides;
+    int threads = 0;              // 0: all
+    std::optional<double> until;  // [s]
+    bool resume = false;
+    bool force = false;
+    bool quiet = false;
+};
+int run_case(const RunOptions& options);
+
+struct CheckOptions {
+    std::filesystem::path case_file;
+    std::vector<std::string> overrides;
+    bool json = false;
+};
+int check_case(const CheckOptions& options);
+
+struct DescribeOptions {
+    std::string key;
+    bool json_schema = false;
+};
+int describe_keys(const DescribeOptions& options);
+
+struct InfoOptions {
+    std::filesystem::path folder;
+};
+int show_info(const InfoOptions& options);
+
+struct RenderOptions {
+    std::filesystem::path folder;
+    RenderSettings settings;
+};
+int render_results(const RenderOptions& options);
+
+/// Version, commit and build options.
+std::string version_text();
+
+} // namespace hyoryu

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "options.hpp"
+
+#include "commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace hyoryu {
+
+namespace {
+
+void add_run(CLI::App& app, RunOptions& options)
+{
+    auto* run = app.add_subcommand("run", "run a case");
+    run->add_option("CASE", options.case_file, "case file (TOML)")->required();
+    run->add_option("-o,--output", options.folder,
+                    "results folder (default: the case's name + -results, here)");
+    run->add_option("--set", options.overrides, "change a key of the case: key.path=VALUE; repeatable")
+        ->allow_extra_args(false);
+    run->add_option("--threads", options.threads, "threads to use (default: all)")
+        ->check(CLI::Range(1, 4096));
+    run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint");
+    run->add_flag("--resume", options.resume, "go on from the checkpoint in the results folder");
+    run->add_flag("--force", options.force, "replace an existing results folder");
+    run->add_flag("--quiet", options.quiet, "no progress");
+}
+
+void add_check(CLI::App& app, CheckOptions& options)
+{
+    auto* check = app.add_subcommand("check", "find every mistake of a case and show its plan");
+    check->add_option("CASE", options.case_file, "case file (TOML)")->required();
+    check->add_option("--set", options.overrides, "change a key of the case: key.path=VALUE; repeatable")
+        ->allow_extra_args(false);
+    check->add_flag("--json", options.json, "print the plan as JSON");
+}
+
+void add_describe(CLI::App& app, DescribeOptions& options)
+{
+    auto* describe_ = app.add_subcommand("describe", "explain the keys of the case file");
+    describe_->add_option("KEY", options.key, "one key or table (default: all)");
+    describe_->add_flag("--json-schema", options.json_schema, "print a JSON Schema for editors");
+}
+
+void add_render(CLI::App& app, RenderOptions& options)
+{
+    auto* render_ = app.add_subcommand("render", "pictures and an animation of a run, off-screen");
+    render_->add_option("RESULTS", options.folder, "results folder")->required();
+    render_->add_option("--times", options.settings.times, "only the frames nearest to these times [s]")
+        ->delimiter(',');
+    render_->add_option("--width", options.settings.width, "pixels")->check(CLI::Range(64, 7680));
+    render_->add_option("--height", options.settings.height, "pixels")->check(CLI::Range(64, 4320));
+    render_->add_option("--azimuth", options.settings.azimuth_deg, "camera direction [deg]");
+    render_->add_option("--elevation", options.settings.elevation_deg, "camera height [deg]");
+    render_->add_option("--fps", options.settings.fps, "frames a second of the animation")
+        ->check(CLI::Range(1, 120));
+}
+
+} // namespace
+
+int run_command_line(int argc, const char* const* argv)
+{
+    CLI::App app("Hyoryu: floods that carry debris. A particle fluid coupled both ways to rigid "
+                 "bodies that meet walls and each other through impulses.",
+                 "hyoryu");
+    app.set_version_flag("--version", version_text());
+    app.require_subcommand(1);
+    RunOptions run;
+    CheckOptions check;
+    DescribeOptions describe_;
+    InfoOptions info;
+    RenderOptions render_;
+    add_run(app, run);
+    add_check(app, check);
+    add_describe(app, describe_);
+    add_render(app, render_);
+    app.add_subcommand("info", "what a results folder holds")
+        ->add_option("RESULTS", info.folder, "results folder")
+        ->required();
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // Help and version are no mistakes; everything else is the user's input.
+        return app.exit(error) == 0 ? exit_code::done : exit_code::input;
+    }
+    if (app.got_subcommand("run")) {
+        return run_case(run);
+    }
+    if (app.got_subcommand("check")) {
+        return check_case(check);
+    }
+    if (app.got_subcommand("describe")) {
+        return describe_keys(describe_);
+    }
+    if (app.got_subcommand("info")) {
+        return show_info(info);
+    }
+    return render_results(render_);
+}
+
+} // namespace hyoryu

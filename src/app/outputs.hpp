@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What a run writes while it goes: histories, frames and the checkpoint.
+#pragma once
+
+#include "hyoryu/io/results.hpp"
+#include "hyoryu/sim/simulation.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace hyoryu {
+
+class Outputs {
+public:
+    /// Opens everything; a resumed run keeps what is not later than the present time of `sim`.
+    Outputs(std::filesystem::path folder, const Simulation& sim, const Bounds& domain);
+    Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot& resumed);
+
+    /// After every step and once before the first: what is due is written.
+    void update(Simulation& sim);
+    /// The state for a restart: of the simulation and of the sums below.
+    Snapshot snapshot(const Simulation& sim) const;
+    void write_checkpoint(const Snapshot& snapshot);
+    /// Resting contacts of the interval that ends now are written, and everything reaches the disk.
+    void finish(const Simulation& sim);
+
+private:
+    // Sum of the resting contacts of one pair over the present output interval.
+    struct Resting {
+        double time = 0;
+        Contact sum;
+        double weight = 0;
+    };
+    using PairKey = std::pair<int, int>;
+
+    void write_histories(const Simulation& sim);
+    void write_bodies(const Simulation& sim);
+    void write_energy(const Simulation& sim);
+    void log_contacts(const Simulation& sim);
+    void write_contact(const Simulation& sim, const Contact& contact);
+    void write_resting(const Simulation& sim);
+    void write_frame(const Simulation& sim);
+
+    std::filesystem::path folder_;
+    std::unique_ptr<FrameWriter> frames_;
+    std::optional<History> bodies_, contacts_, energy_, gauges_;
+    std::map<PairKey, Resting> resting_;
+};
+
+} // namespace hyoryu

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "plan_report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "hyoryu/core/parallel.hpp"
+
+namespace hyoryu {
+
+namespace {
+
+// Fluid particle-steps a second and thread: measured on one 2-core AVX2 machine in a developed 3-D dam
+// break with all default effects. A forecast from it is an order of magnitude, not a promise.
+constexpr double measured_rate = 0.55e6;
+
+double forecast(const Plan& plan)
+{
+    return plan.expected_steps * static_cast<double>(plan.counts.fluid) /
+           (measured_rate * thread_count());
+}
+
+std::string join_effects(const std::vector<Plan::Effect>& effects)
+{
+    std::string text;
+    for (const auto& effect : effects) {
+        text += fmt::format("    {:<22} {}\n", effect.name, effect.why);
+    }
+    return text;
+}
+
+std::string size_lines(const Scene& scene, const Plan& plan)
+{
+    const auto& n = plan.counts;
+    std::string text = fmt::format(
+        "  size\n    particles              {} fluid, {} wall, {} body\n    bodies, walls          {}, {}\n",
+        n.fluid, n.wall, n.body, n.bodies, n.walls);
+    text += fmt::format("    memory                 about {}\n", readable_bytes(plan.memory));
+    text += fmt::format("    disk                   about {} in {:.0f} frames, before compression\n",
+                        readable_bytes(plan.frames * plan.frame_bytes), plan.frames);
+    if (scene.dimensions == 2) {
+        text += "    two dimensions         masses, forces and impulses are per metre of width\n";
+    }
+    return text;
+}
+
+std::string time_lines(const Scene& scene, const Plan& plan)
+{
+    std::string text = "  time step\n";
+    if (plan.fluid) {
+        text += fmt::format("    speed of sound         {:.4g} m/s; largest expected speed {:.4g} m/s\n",
+                            plan.fluid->eos.c0, plan.expected_speed);
+    }
+    TimeLimit least;
+    for (const TimeLimit& limit : plan.limits) {
+        if (limit.name != "light body") {
+            text += fmt::format("    {:<22} {:.3e} s\n", limit.name, limit.dt);
+        } else if (limit.dt < least.dt) {
+            least = limit;
+        }
+    }
+    if (least.dt < infinity) {
+        text += fmt::format("    {:<22} {:.3e} s\n", "lightest body", least.dt);
+    }
+    text += fmt::format("    first step             {:.3e} s, {}\n", plan.first_step,
+                        scene.time.step ? "fixed by `time.step`"
+                                        : fmt::format("limited by: {}", shortest(plan.limits).name));
+    text += fmt::format("    steps                  about {:.0f} to {} s\n", plan.expected_steps,
+                        scene.time.end);
+    if (plan.fluid) {
+        text += fmt::format("    run time               about {} on {} threads (order of magnitude)\n",
+                            readable_seconds(forecast(plan)), thread_count());
+    }
+    return text;
+}
+
+} // namespace
+
+std::string readable_bytes(double bytes)
+{
+    constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+    int unit = 0;
+    while (bytes >= 1000 && unit < 4) {
+        bytes /= 1000;
+        ++unit;
+    }
+    return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+std::string readable_seconds(double seconds)
+{
+    if (seconds < 60) {
+        return fmt::format("{:.0f} s", seconds);
+    }
+    const auto whole = static_cast<long long>(seconds + 0.5);
+    return whole < 3600 ? fmt::format("{} min {:02} s", whole / 60, whole % 60)
+                        : fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string plan_text(const Scene& scene, const Plan& plan)
+{
+    std::string text = fmt::format("plan of \"{}\"\n  on\n{}  off\n{}", scene.title,
+                                   join_effects(plan.on), join_effects(plan.off));
+    if (!plan.pair_kinds.empty()) {
+        text += "  pair kinds\n";
+        for (const auto& kind : plan.pair_kinds) {
+            text += fmt::format("    {:<22} {}\n", kind.name, kind.why);
+        }
+    }
+    if (!plan.fields.empty()) {
+        text += "  fields\n";
+        std::size_t bytes = 0;
+        for (const auto& field : plan.fields) {
+            text += fmt::format("    {:<22} {:<8} {:>3} B\n", field.name, field.unit,
+                                field.bytes_per_particle);
+            bytes += field.bytes_per_particle;
+        }
+        text += fmt::format("    {:<22} {:<8} {:>3} B a particle\n", "together", "", bytes);
+    }
+    return text + size_lines(scene, plan) + time_lines(scene, plan);
+}
+
+std::string plan_json(const Scene& scene, const Plan& plan)
+{
+    using nlohmann::ordered_json;
+    const auto effects = [](const std::vector<Plan::Effect>& list) {
+        ordered_json array = ordered_json::array();
+        for (const auto& effect : list) {
+            array.push_back({{"name", effect.name}, {"why", effect.why}});
+        }
+        return array;
+    };
+    ordered_json json;
+    json["title"] = scene.title;
+    json["dimensions"] = scene.dimensions;
+    json["on"] = effects(plan.on);
+    json["off"] = effects(plan.off);
+    json["fields"] = ordered_json::array();
+    for (const auto& field : plan.fields) {
+        json["fields"].push_back({{"name", field.name}, {"unit", field.unit},
+                                  {"bytes_per_particle", field.bytes_per_particle},
+                                  {"bytes", field.bytes_per_particle *
+                                                static_cast<std::size_t>(plan.counts.particles())}});
+    }
+    json["pair_kinds"] = ordered_json::array();
+    for (const auto& kind : plan.pair_kinds) {
+        json["pair_kinds"].push_back({{"name", kind.name}, {"why", kind.why}});
+    }
+    const auto& n = plan.counts;
+    json["counts"] = {{"fluid", n.fluid}, {"wall", n.wall}, {"body", n.body}, {"bodies", n.bodies},
+                      {"walls", n.walls}};
+    json["time_step"] = {{"first", plan.first_step},
+                         {"limited_by", scene.time.step ? "fixed" : std::string(shortest(plan.limits).name)},
+                         {"steps", plan.expected_steps}};
+    json["time_step"]["limits"] = ordered_json::array();
+    for (const TimeLimit& limit : plan.limits) {
+        json["time_step"]["limits"].push_back(
+            {{"name", limit.name}, {"dt", limit.dt < infinity ? ordered_json(limit.dt) : ordered_json()}});
+    }
+    if (plan.fluid) {
+        json["sound_speed"] = plan.fluid->eos.c0;
+        json["expected_speed"] = plan.expected_speed;
+    }
+    json["forecast"] = {{"memory_bytes", plan.memory}, {"frames", plan.frames},
+                        {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
+                        {"wall_seconds", forecast(plan)}};
+    json["warnings"] = ordered_json::array();
+    for (const Diagnostic& warning : plan.warnings) {
+        json["warnings"].push_back(to_string(warning));
+    }
+    return json.dump(2) + "\n";
+}
+
+} // namespace hyoryu

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "progress.hpp"
+
+#include "plan_report.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr auto terminal_interval = std::chrono::milliseconds(200);
+constexpr auto line_interval = std::chrono::seconds(10);
+constexpr int bar_width = 24;
+
+} // namespace
+
+Progress::Progress(const std::filesystem::path& folder, Verbosity verbosity, double from)
+    : log_(folder / "run.log", std::ios::app), verbosity_(verbosity),
+      terminal_(isatty(STDERR_FILENO) == 1), from_(from)
+{
+}
+
+double Progress::wall_seconds() const
+{
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+std::string Progress::status(const Simulation& sim) const
+{
+    const double end = sim.scene.time.end;
+    const double wall = wall_seconds();
+    const auto steps = static_cast<double>(sim.clock.step - std::max<std::int64_t>(first_step_, 0));
+    const double done = end > from_ ? (sim.clock.time - from_) / (end - from_) : 1;
+    const double eta = done > 0 ? wall * (1 - done) / done : 0;
+    const auto n = static_cast<double>(sim.plan.counts.particles());
+    std::string text = fmt::format("{:3.0f} %  t = {:.4f} / {} s  step {}", 100 * sim.clock.time / end,
+                                   sim.clock.time, end, sim.clock.step);
+    if (n > 0) {
+        text += fmt::format("  {:.0f} particles  {:.2f} M particle-steps/s", n, n * steps / wall / 1e6);
+    }
+    return text + fmt::format("  ETA {}", readable_seconds(eta));
+}
+
+void Progress::show(const Simulation& sim)
+{
+    if (terminal_) {
+        const int filled = static_cast<int>(bar_width * std::min(sim.clock.time / sim.scene.time.end, 1.0));
+        fmt::print(stderr, "\r\x1b[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
+                   std::string(static_cast<std::size_t>(bar_width - filled), '.'), status(sim));
+        std::fflush(stderr);
+    } else {
+        fmt::print(stderr, "{}\n", status(sim));
+        log_ << status(sim) << '\n';
+    }
+}
+
+void Progress::update(const Simulation& sim)
+{
+    if (first_step_ < 0) {
+        first_step_ = sim.clock.step;
+    }
+    const auto now = Clock::now();
+    const auto interval = terminal_ ? Clock::duration(terminal_interval) : Clock::duration(line_interval);
+    if (verbosity_ == Verbosity::normal && now - shown_ >= interval) {
+        shown_ = now;
+        show(sim);
+    }
+}
+
+void Progress::line(const std::string& text)
+{
+    if (verbosity_ == Verbosity::normal) {
+        fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+    }
+    log_ << text << '\n';
+    log_.flush();
+}
+
+void Progress::end(const Simulation& sim)
+{
+    if (verbosity_ == Verbosity::normal) {
+        show(sim);
+        if (terminal_) {
+            fmt::print(stderr, "\n");
+        }
+    }
+    log_ << status(sim) << '\n';
+    log_.flush();
+}
+
+} // namespace hyoryu

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What a person sees of a run: a bar with ETA on a terminal, plain lines otherwise, and the log.
+#pragma once
+
+#include "hyoryu/sim/simulation.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+namespace hyoryu {
+
+enum class Verbosity { quiet, normal };
+
+class Progress {
+public:
+    /// Opens `folder/run.log`, or goes on with it. `from`: simulated time at the start [s].
+    Progress(const std::filesystem::path& folder, Verbosity verbosity, double from);
+
+    /// Shows how far the run is, at most a few times a second.
+    void update(const Simulation& sim);
+    /// A line for the terminal and the log.
+    void line(const std::string& text);
+    /// Ends the bar.
+    void end(const Simulation& sim);
+    double wall_seconds() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::string status(const Simulation& sim) const;
+    void show(const Simulation& sim);
+
+    std::ofstream log_;
+    Verbosity verbosity_;
+    bool terminal_;
+    double from_;
+    std::int64_t first_step_ = -1;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point shown_ = start_;
+};
+
+} // namespace hyoryu

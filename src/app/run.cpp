@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// The outer loop of a run: step, write what is due, show how far it is, stop when asked.
+#include "build_info.hpp"
+#include "commands.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+#include "plan_report.hpp"
+#include "progress.hpp"
+#include "stop_request.hpp"
+#include "summary.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/core/parallel.hpp"
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/sim/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path results_folder(const RunOptions& options)
+{
+    return options.folder.empty() ? fs::path(options.case_file.stem().string() + "-results")
+                                  : options.folder;
+}
+
+// Half of what the frames need uncompressed must be free: they compress to about that.
+void check_disk(const fs::path& folder, const Plan& plan)
+{
+    const double needed = 0.5 * plan.frames * plan.frame_bytes;
+    std::error_code error;
+    const auto space = fs::space(folder, error);
+    if (!error && needed > static_cast<double>(space.available)) {
+        throw IoError(fmt::format("the frames need about {}, but only {} are free at {}",
+                                  readable_bytes(needed),
+                                  readable_bytes(static_cast<double>(space.available)),
+                                  folder.string()));
+    }
+}
+
+// A checkpoint belongs to its case; only the end of the run may have moved.
+void check_same_case(const Scene& scene, const Snapshot& snapshot)
+{
+    const auto stored = snapshot.texts.find("case");
+    Scene now = scene;
+    if (stored != snapshot.texts.end()) {
+        now.time.end = parse_case(stored->second, "checkpoint").time.end;
+    }
+    if (stored == snapshot.texts.end() || to_toml(now) != stored->second) {
+        throw CaseError("the checkpoint was written by another case",
+                        "run with the case that is in the results folder, or start anew with --force");
+    }
+}
+
+struct Job {
+    fs::path folder;
+    std::string case_text;
+    Simulation sim;
+    Progress progress;
+    Outputs outputs;
+    Snapshot last_good;
+    std::int64_t first_step = 0;
+    double until = infinity;
+};
+
+void write_closing(Job& job, const std::string& reason)
+{
+    write_text(job.folder / "summary.json",
+               summary_json(job.sim, reason, job.progress.wall_seconds(), job.first_step));
+    write_master(job.folder, job.case_text, std::string(build_info::version));
+}
+
+Snapshot good_state(const Job& job)
+{
+    Snapshot snapshot = job.outputs.snapshot(job.sim);
+    snapshot.texts["case"] = job.case_text;
+    return snapshot;
+}
+
+void advance(Job& job)
+{
+    Simulation& sim = job.sim;
+    double saved = job.progress.wall_seconds();
+    while (!finished(sim.clock, sim.scene) && sim.clock.time < job.until && !stop_requested()) {
+        step(sim);
+        const std::int64_t frame = sim.clock.frame;
+        job.outputs.update(sim);
+        if (sim.clock.frame != frame) {
+            job.last_good = good_state(job);
+        }
+        if (job.progress.wall_seconds() - saved > sim.scene.output.checkpoint_every) {
+            job.outputs.write_checkpoint(good_state(job));
+            saved = job.progress.wall_seconds();
+        }
+        job.progress.update(sim);
+    }
+}
+
+int finish(Job& job)
+{
+    const bool done = finished(job.sim.clock, job.sim.scene);
+    const bool stopped = !done && stop_requested();
+    const std::string reason = done ? "done" : (stopped ? "interrupted" : "until");
+    job.outputs.finish(job.sim);
+    job.outputs.write_checkpoint(good_state(job));
+    write_closing(job, reason);
+    job.progress.end(job.sim);
+    if (stopped) {
+        job.progress.line(fmt::format("interrupted; checkpoint written. Go on with: hyoryu run "
+                                      "{} -o {} --resume",
+                                      job.sim.scene.file.string(), job.folder.string()));
+        return exit_code::interrupted;
+    }
+    job.progress.line(fmt::format("{} after {}; results in {}", done ? "done" : "stopped as asked",
+                                  readable_seconds(job.progress.wall_seconds()), job.folder.string()));
+    return exit_code::done;
+}
+
+int carry_out(Job& job)
+{
+    try {
+        advance(job);
+        return finish(job);
+    } catch (const NumericalError& error) {
+        // The state of the last frame was good; a run can go on from it with other settings.
+        job.progress.line(fmt::format("error: the numbers went wrong: {}", error.what()));
+        job.outputs.write_checkpoint(job.last_good);
+        write_closing(job, "numerical error");
+        throw;
+    }
+}
+
+Job start(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
+          const Filling& filling)
+{
+    prepare_results(folder, options.force ? Existing::replace : Existing::refuse);
+    check_disk(folder, plan);
+    const std::string case_text = to_toml(scene);
+    write_text(folder / "case.toml", case_text);
+    write_text(folder / "plan.json", plan_json(scene, plan));
+    Simulation sim = make_simulation(scene, plan, filling);
+    Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, 0);
+    Outputs outputs(folder, sim, filling.domain);
+    Job job{folder, case_text, std::move(sim), std::move(progress), std::move(outputs), {}};
+    job.outputs.update(job.sim);
+    job.last_good = good_state(job);
+    job.outputs.write_checkpoint(job.last_good);
+    return job;
+}
+
+Job resume(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
+           const Filling& filling)
+{
+    const Snapshot snapshot = read_checkpoint(folder);
+    check_same_case(scene, snapshot);
+    prepare_results(folder, Existing::extend);
+    Simulation sim = make_simulation(scene, plan, filling);
+    restore(sim, snapshot);
+    const std::int64_t first_step = sim.clock.step;
+    Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, sim.clock.time);
+    progress.line(fmt::format("going on from t = {} s, step {}", sim.clock.time, sim.clock.step));
+    Outputs outputs(folder, sim, snapshot);
+    return {folder,  to_toml(scene), std::move(sim), std::move(progress), std::move(outputs),
+            snapshot, first_step};
+}
+
+} // namespace
+
+int run_case(const RunOptions& options)
+{
+    set_threads(options.threads);
+    const Scene scene = read_case(options.case_file, options.overrides);
+    const Filling filling = fill(scene);
+    const Plan plan = make_plan(scene, filling);
+    if (!options.quiet) {
+        for (const Diagnostic& warning : plan.warnings) {
+            fmt::print(stderr, "{}\n", to_string(warning));
+        }
+    }
+    watch_for_stop();
+    const fs::path folder = results_folder(options);
+    Job job = options.resume ? resume(options, folder, scene, plan, filling)
+                             : start(options, folder, scene, plan, filling);
+    job.until = options.until.value_or(infinity);
+    return carry_out(job);
+}
+
+} // namespace hyoryu

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "summary.hpp"
+
+#include "build_info.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+namespace hyoryu {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json array(const Vec3& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+ordered_json energies(const Totals& t)
+{
+    return {{"fluid_kinetic", t.fluid_kinetic},   {"fluid_potential", t.fluid_potential},
+            {"fluid_internal", t.fluid_internal}, {"body_kinetic", t.body_kinetic},
+            {"body_potential", t.body_potential}};
+}
+
+double peak_memory()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+ordered_json contact_counters(const RigidCounters& c)
+{
+    return {{"impacts", c.impacts},
+            {"rounds", c.rounds},
+            {"events", c.events},
+            {"tangential_impacts", c.tangential_impacts},
+            {"capped_steps", c.capped_steps},
+            {"worst_residual", c.worst_residual},
+            {"worst_penetration", c.worst_penetration}};
+}
+
+} // namespace
+
+std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
+                         std::int64_t first_step)
+{
+    const Totals end = totals(sim);
+    const auto steps = static_cast<double>(sim.clock.step - first_step);
+    const auto& n = sim.plan.counts;
+    const Index fluid_now = sim.fluid ? sim.fluid->particles.fluid().size() : 0;
+    ordered_json json;
+    json["version"] = build_info::version;
+    json["commit"] = build_info::commit;
+    json["exit_reason"] = exit_reason;
+    json["steps"] = sim.clock.step;
+    json["simulated_seconds"] = sim.clock.time;
+    json["wall_seconds"] = wall_seconds;
+    json["threads"] = thread_count();
+    json["dimensions"] = sim.scene.dimensions;
+    json["per_metre_of_width"] = sim.scene.dimensions == 2;
+    json["particle_steps_per_second"] =
+        wall_seconds > 0 ? static_cast<double>(n.particles()) * steps / wall_seconds : 0;
+    json["fluid_particle_steps_per_second"] =
+        wall_seconds > 0 ? static_cast<double>(fluid_now) * steps / wall_seconds : 0;
+    json["pairs_per_second"] = wall_seconds > 0 ? sim.pair_visits / wall_seconds : 0;
+    json["peak_memory_bytes"] = peak_memory();
+    json["stages"] = ordered_json::object();
+    for (const StageTimer::Stage& stage : sim.timer.stages()) {
+        json["stages"][stage.name] = stage.seconds;
+    }
+    json["steps_by_limit"] = ordered_json(sim.steps_by_limit);
+    json["neighbour_builds"] = sim.fluid ? sim.fluid->neighbours.builds : 0;
+    json["counts"] = {{"fluid", fluid_now}, {"wall", n.wall}, {"body", n.body}, {"bodies", n.bodies},
+                      {"walls", n.walls}};
+    json["particles_lost"] = sim.fluid ? sim.fluid->lost.count : 0;
+    json["worst_density_error"] = sim.ledger.worst_density_error;
+    json["energy"] = {{"start", energies(sim.ledger.start)}, {"end", energies(end)},
+                      {"contact_loss", sim.ledger.contact_loss}};
+    json["momentum"] = {{"start", array(sim.ledger.start.momentum)},
+                        {"end", array(end.momentum)},
+                        {"wall_impulse", array(sim.ledger.wall_impulse)},
+                        {"gravity_impulse", array(sim.ledger.gravity_impulse)},
+                        {"lost", array(sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()))},
+                        {"worst_closure_of_a_step", sim.ledger.worst_closure}};
+    json["contact"] = contact_counters(sim.rigid.counters);
+    return json.dump(2) + "\n";
+}
+
+} // namespace hyoryu

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// `summary.json`: what a run was and what it cost.
+#pragma once
+
+#include "hyoryu/sim/simulation.hpp"
+
+#include <string>
+
+namespace hyoryu {
+
+/// `exit_reason`: "done", "interrupted", "until", "numerical error", "io error". `first_step`: step at
+/// which this process began.
+std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
+                         std::int64_t first_step);
+
+} // namespace hyoryu

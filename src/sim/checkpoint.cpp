@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/checkpoint.hpp"
+
+#include "hyoryu/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace hyoryu {
+
+namespace {
+
+using Numbers = std::vector<double>;
+
+void put(Numbers& out, double value)
+{
+    out.push_back(value);
+}
+void put(Numbers& out, const Vec3& v)
+{
+    out.insert(out.end(), v.begin(), v.end());
+}
+
+// Reads numbers in the order in which they were put.
+class Reader {
+public:
+    Reader(const Snapshot& snapshot, const std::string& name) : name_(name)
+    {
+        const auto found = snapshot.arrays.find(name);
+        const auto* numbers =
+            found == snapshot.arrays.end() ? nullptr : std::get_if<Numbers>(&found->second.values);
+        if (numbers == nullptr) {
+            throw IoError(fmt::format("the checkpoint has no `{}`: it belongs to another case", name));
+        }
+        numbers_ = numbers;
+    }
+    double number()
+    {
+        if (next_ >= numbers_->size()) {
+            throw IoError(fmt::format("`{}` of the checkpoint is too short: it belongs to another case",
+                                      name_));
+        }
+        return (*numbers_)[next_++];
+    }
+    Vec3 vector()
+    {
+        const double x = number();
+        const double y = number();
+        return {x, y, number()};
+    }
+    const Numbers& all() const { return *numbers_; }
+
+private:
+    std::string name_;
+    const Numbers* numbers_ = nullptr;
+    std::size_t next_ = 0;
+};
+
+void add(Snapshot& snapshot, const std::string& name, Numbers numbers)
+{
+    snapshot.arrays[name] = {name, "", 1, std::move(numbers)};
+}
+
+template <class T>
+void add_integers(Snapshot& snapshot, const std::string& name, std::span<const T> values)
+{
+    snapshot.arrays[name] = {name, "", 1, std::vector<T>(values.begin(), values.end())};
+}
+
+template <class T>
+const std::vector<T>& integers(const Snapshot& snapshot, const std::string& name)
+{
+    const auto found = snapshot.arrays.find(name);
+    const auto* values = found == snapshot.arrays.end()
+                             ? nullptr
+                             : std::get_if<std::vector<T>>(&found->second.values);
+    if (values == nullptr) {
+        throw IoError(fmt::format("the checkpoint has no `{}`: it belongs to another case", name));
+    }
+    return *values;
+}
+
+Numbers flat(std::span<const Vec3> column)
+{
+    Numbers numbers(3 * column.size());
+    for (std::size_t k = 0; k < column.size(); ++k) {
+        std::copy(column[k].begin(), column[k].end(), &numbers[3 * k]);
+    }
+    return numbers;
+}
+Numbers flat(std::span<const real> column)
+{
+    return {column.begin(), column.end()};
+}
+
+template <class T>
+void unflat(const Numbers& numbers, std::span<T> column)
+{
+    constexpr std::size_t n = std::is_same_v<T, Vec3> ? 3 : 1;
+    if (numbers.size() != n * column.size()) {
+        throw IoError("a column of the checkpoint has another length: it belongs to another case");
+    }
+    for (std::size_t k = 0; k < column.size(); ++k) {
+        if constexpr (n == 3) {
+            column[k] = Eigen::Map<const Vec3>(&numbers[3 * k]);
+        } else {
+            column[k] = numbers[k];
+        }
+    }
+}
+
+void save_fluid(const Fluid& fluid, Snapshot& snapshot)
+{
+    const Particles& particles = fluid.particles;
+    for_each(AllFields{}, [&](auto column) {
+        if (particles.has(column)) {
+            add(snapshot, fmt::format("fluid/{}", column.info.name), flat(particles[column]));
+        }
+    });
+    add_integers(snapshot, "fluid/id", particles.id());
+    add_integers(snapshot, "fluid/owner", particles.owner());
+    add(snapshot, "fluid/built_at", flat(fluid.neighbours.built_at));
+    Numbers numbers;
+    put(numbers, static_cast<double>(particles.fluid().size()));
+    put(numbers, static_cast<double>(fluid.neighbours.builds));
+    put(numbers, static_cast<double>(fluid.lost.count));
+    put(numbers, fluid.lost.momentum);
+    put(numbers, fluid.lost.energy);
+    add(snapshot, "fluid/numbers", std::move(numbers));
+}
+
+void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
+{
+    Particles& particles = fluid.particles;
+    Reader numbers(snapshot, "fluid/numbers");
+    const auto kept = static_cast<Index>(numbers.number());
+    if (kept > particles.fluid().size()) {
+        throw IoError("the checkpoint has more fluid particles than the case: it belongs to another case");
+    }
+    // Particles that were lost before the checkpoint leave the store; which rows go does not matter.
+    std::vector<std::int32_t> order(static_cast<std::size_t>(kept));
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        order[k] = static_cast<std::int32_t>(k);
+    }
+    particles.permute_fluid(order);
+    fluid.neighbours.builds = static_cast<long long>(numbers.number());
+    fluid.lost.count = static_cast<Index>(numbers.number());
+    fluid.lost.momentum = numbers.vector();
+    fluid.lost.energy = numbers.number();
+    particles.for_each_column([&](auto column, auto values) {
+        const Reader stored(snapshot, fmt::format("fluid/{}", column.info.name));
+        unflat(stored.all(), values);
+    });
+    const auto& id = integers<std::int64_t>(snapshot, "fluid/id");
+    const auto& owner = integers<std::int32_t>(snapshot, "fluid/owner");
+    if (id.size() != particles.id().size() || owner.size() != particles.owner().size()) {
+        throw IoError("the checkpoint numbers other particles: it belongs to another case");
+    }
+    std::copy(id.begin(), id.end(), particles.id().begin());
+    std::copy(owner.begin(), owner.end(), particles.owner().begin());
+    fluid.neighbours.built_at.resize(static_cast<std::size_t>(particles.size()));
+    const Reader built_at(snapshot, "fluid/built_at");
+    unflat(built_at.all(), std::span(fluid.neighbours.built_at));
+    const long long builds = fluid.neighbours.builds;
+    rebuild_neighbours(fluid);
+    fluid.neighbours.builds = builds;
+}
+
+void save_rigid(const Rigid& rigid, Snapshot& snapshot)
+{
+    Numbers numbers;
+    for (const Body& body : rigid.bodies) {
+        put(numbers, body.position);
+        const Quat& q = body.orientation;
+        for (const double c : {q.w(), q.x(), q.y(), q.z()}) {
+            put(numbers, c);
+        }
+        put(numbers, body.velocity);
+        put(numbers, body.angular_momentum);
+    }
+    add(snapshot, "rigid/bodies", std::move(numbers));
+    add(snapshot, "rigid/memory", save_memory(rigid));
+    const RigidCounters& c = rigid.counters;
+    add(snapshot, "rigid/counters",
+        {static_cast<double>(c.impacts), static_cast<double>(c.rounds), static_cast<double>(c.events),
+         static_cast<double>(c.tangential_impacts), static_cast<double>(c.capped_steps),
+         c.worst_residual, c.worst_penetration});
+}
+
+void restore_rigid(Rigid& rigid, const Snapshot& snapshot)
+{
+    Reader numbers(snapshot, "rigid/bodies");
+    for (Body& body : rigid.bodies) {
+        body.position = numbers.vector();
+        const double w = numbers.number();
+        const Vec3 xyz = numbers.vector();
+        body.orientation = Quat(w, xyz.x(), xyz.y(), xyz.z());
+        body.velocity = numbers.vector();
+        body.angular_momentum = numbers.vector();
+    }
+    const Reader memory(snapshot, "rigid/memory");
+    load_memory(rigid, memory.all());
+    Reader counters(snapshot, "rigid/counters");
+    RigidCounters& c = rigid.counters;
+    for (long long* count : {&c.impacts, &c.rounds, &c.events, &c.tangential_impacts, &c.capped_steps}) {
+        *count = static_cast<long long>(counters.number());
+    }
+    c.worst_residual = counters.number();
+    c.worst_penetration = counters.number();
+}
+
+Numbers numbers_of(const Ledger& ledger)
+{
+    const Totals& t = ledger.start;
+    Numbers n{t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic, t.body_potential};
+    put(n, t.momentum);
+    put(n, t.momentum_scale);
+    put(n, ledger.contact_loss);
+    put(n, ledger.wall_impulse);
+    put(n, ledger.gravity_impulse);
+    put(n, ledger.worst_closure);
+    put(n, ledger.worst_density_error);
+    return n;
+}
+
+void restore_ledger(Ledger& ledger, const Snapshot& snapshot)
+{
+    Reader n(snapshot, "ledger");
+    Totals& t = ledger.start;
+    for (double* value : {&t.fluid_kinetic, &t.fluid_potential, &t.fluid_internal, &t.body_kinetic,
+                          &t.body_potential}) {
+        *value = n.number();
+    }
+    t.momentum = n.vector();
+    t.momentum_scale = n.number();
+    ledger.contact_loss = n.number();
+    ledger.wall_impulse = n.vector();
+    ledger.gravity_impulse = n.vector();
+    ledger.worst_closure = n.number();
+    ledger.worst_density_error = n.number();
+}
+
+} // namespace
+
+Snapshot save(const Simulation& sim)
+{
+    Snapshot snapshot;
+    const Clock& c = sim.clock;
+    add(snapshot, "clock",
+        {c.time, static_cast<double>(c.step), c.dt, static_cast<double>(c.frame),
+         static_cast<double>(c.history)});
+    add(snapshot, "ledger", numbers_of(sim.ledger));
+    Numbers loads;
+    for (const Wrench& load : sim.loads.bodies) {
+        put(loads, load.force);
+        put(loads, load.torque);
+    }
+    add(snapshot, "loads", std::move(loads));
+    save_rigid(sim.rigid, snapshot);
+    if (sim.fluid) {
+        save_fluid(*sim.fluid, snapshot);
+    }
+    return snapshot;
+}
+
+void restore(Simulation& sim, const Snapshot& snapshot)
+{
+    Reader clock(snapshot, "clock");
+    sim.clock.time = clock.number();
+    sim.clock.step = static_cast<std::int64_t>(clock.number());
+    sim.clock.dt = clock.number();
+    sim.clock.frame = static_cast<std::int64_t>(clock.number());
+    sim.clock.history = static_cast<std::int64_t>(clock.number());
+    restore_ledger(sim.ledger, snapshot);
+    Reader loads(snapshot, "loads");
+    for (Wrench& load : sim.loads.bodies) {
+        load.force = loads.vector();
+        load.torque = loads.vector();
+    }
+    restore_rigid(sim.rigid, snapshot);
+    if (sim.fluid) {
+        restore_fluid(*sim.fluid, snapshot);
+    }
+}
+
+} // namespace hyoryu

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/frames.hpp"
+
+#include "hyoryu/scene/triangles.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+void push(std::vector<float>& numbers, const Vec3& v)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        numbers.push_back(static_cast<float>(v[axis]));
+    }
+}
+
+std::vector<float> floats(std::span<const Vec3> column)
+{
+    std::vector<float> numbers;
+    numbers.reserve(3 * column.size());
+    for (const Vec3& v : column) {
+        push(numbers, v);
+    }
+    return numbers;
+}
+
+std::vector<float> floats(std::span<const real> column)
+{
+    std::vector<float> numbers(column.size());
+    std::transform(column.begin(), column.end(), numbers.begin(),
+                   [](real v) { return static_cast<float>(v); });
+    return numbers;
+}
+
+// The rows of one column of the store.
+template <Field F>
+auto part(const Particles& particles, F column, Rows rows)
+{
+    return particles[column].subspan(at(rows.begin), at(rows.size()));
+}
+
+template <Field F>
+Column column_of(const Particles& particles, F column, Rows rows)
+{
+    return {std::string(F::info.name), std::string(F::info.unit), width<F>,
+            floats(part(particles, column, rows))};
+}
+
+// Index of the body of each row; -1 for fluid and walls.
+std::vector<std::int32_t> body_index(const Particles& particles, Rows rows)
+{
+    std::vector<std::int32_t> bodies;
+    for (Index k = rows.begin; k < rows.end; ++k) {
+        bodies.push_back(std::max(particles.owner()[at(k)], -1));
+    }
+    return bodies;
+}
+
+Cloud cloud_of(const Simulation& sim, std::string name, Rows rows, Kind kind)
+{
+    const Particles& particles = sim.fluid->particles;
+    Cloud cloud{std::move(name), sim.clock.time, sim.clock.frame};
+    cloud.points = floats(part(particles, field::position, rows));
+    const auto ids = particles.id().subspan(at(rows.begin), at(rows.size()));
+    cloud.columns.push_back({"Id", "", 1, std::vector<std::int64_t>(ids.begin(), ids.end())});
+    cloud.columns.push_back(column_of(particles, field::velocity, rows));
+    cloud.columns.push_back(column_of(particles, field::pressure, rows));
+    cloud.columns.push_back(column_of(particles, field::density, rows));
+    cloud.columns.push_back(
+        {"Kind", "", 1, std::vector<std::uint8_t>(at(rows.size()), static_cast<std::uint8_t>(kind))});
+    cloud.columns.push_back({"Body", "", 1, body_index(particles, rows)});
+    const auto& wanted = sim.scene.output.fields;
+    if (std::find(wanted.begin(), wanted.end(), "volume") != wanted.end()) {
+        cloud.columns.push_back(column_of(particles, field::volume, rows));
+    }
+    return cloud;
+}
+
+// Appends a surface and returns the number of corners it added.
+std::size_t append(Surface& all, const TriangleSurface& part, const Pose& pose)
+{
+    const auto first = static_cast<std::int32_t>(all.points.size() / 3);
+    for (const Vec3& corner : part.corners) {
+        push(all.points, pose.position + pose.orientation * corner);
+    }
+    for (const auto& triangle : part.triangles) {
+        for (const int corner : triangle) {
+            all.triangles.push_back(first + corner);
+        }
+    }
+    return part.corners.size();
+}
+
+} // namespace
+
+Cloud fluid_cloud(const Simulation& sim)
+{
+    return cloud_of(sim, "fluid", sim.fluid->particles.fluid(), Kind::fluid);
+}
+
+Cloud wall_cloud(const Simulation& sim)
+{
+    return cloud_of(sim, "walls", sim.fluid->particles.wall(), Kind::wall);
+}
+
+Cloud body_cloud(const Simulation& sim)
+{
+    Cloud cloud{"bodies", sim.clock.time, sim.clock.frame};
+    if (sim.fluid) {
+        cloud = cloud_of(sim, "bodies", sim.fluid->particles.body(), Kind::body);
+        cloud.points.clear(); // the rows stand where the loads were taken, half a step back
+    }
+    std::vector<float> velocities;
+    std::vector<std::int32_t> bodies;
+    for (std::size_t b = 0; b < sim.rigid.bodies.size(); ++b) {
+        const Body& body = sim.rigid.bodies[b];
+        const Vec3 omega = angular_velocity(body);
+        for (Index k = sim.body_particles.of[b].begin; k < sim.body_particles.of[b].end; ++k) {
+            const Vec3 r = body.orientation * sim.body_particles.points[at(k)];
+            push(cloud.points, body.position + r);
+            push(velocities, body.velocity + omega.cross(r));
+            bodies.push_back(static_cast<std::int32_t>(b));
+        }
+    }
+    const std::size_t count = bodies.size();
+    if (sim.fluid) {
+        cloud.columns[1].values = std::move(velocities);
+        return cloud;
+    }
+    std::vector<std::int64_t> ids(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        ids[k] = static_cast<std::int64_t>(k);
+    }
+    cloud.columns = {{"Id", "", 1, std::move(ids)},
+                     {"Velocity", "m/s", 3, std::move(velocities)},
+                     {"Kind", "", 1,
+                      std::vector<std::uint8_t>(count, static_cast<std::uint8_t>(Kind::body))},
+                     {"Body", "", 1, std::move(bodies)}};
+    return cloud;
+}
+
+Surface body_surface(const Simulation& sim)
+{
+    Surface all{"surfaces", sim.clock.time, sim.clock.frame};
+    std::vector<std::int32_t> bodies;
+    std::vector<float> velocities;
+    for (std::size_t b = 0; b < sim.rigid.bodies.size(); ++b) {
+        const Body& body = sim.rigid.bodies[b];
+        const TriangleSurface own = triangles_of(sim.scene.bodies[b].shape, sim.scene.dimensions);
+        const std::size_t added = append(all, own, {body.position, body.orientation});
+        const Vec3 omega = angular_velocity(body);
+        bodies.insert(bodies.end(), added, static_cast<std::int32_t>(b));
+        for (const Vec3& corner : own.corners) {
+            push(velocities, body.velocity + omega.cross(body.orientation * corner));
+        }
+    }
+    all.columns = {{"Body", "", 1, std::move(bodies)}, {"Velocity", "m/s", 3, std::move(velocities)}};
+    return all;
+}
+
+Surface wall_surface(const Scene& scene, const Bounds& domain)
+{
+    Surface all{"structures"};
+    std::vector<std::int32_t> walls;
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        const std::size_t added =
+            append(all, triangles_of(scene.walls[w], domain, scene.dimensions), {});
+        walls.insert(walls.end(), added, static_cast<std::int32_t>(w));
+    }
+    all.columns = {{"Wall", "", 1, std::move(walls)}};
+    return all;
+}
+
+} // namespace hyoryu
