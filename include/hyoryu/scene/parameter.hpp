@@ -11,7 +11,9 @@
 
 namespace hyoryu {
 
-enum class ValueKind { number, integer, boolean, text, choice, vector, texts, table, tables };
+/// `vector` is a list of numbers, `integers` of whole numbers, `texts` of texts; `tables` is written
+/// [[so]].
+enum class ValueKind { number, integer, boolean, text, choice, vector, integers, texts, table, tables };
 
 /// One key of the case file.
 struct Parameter {
@@ -25,6 +27,8 @@ struct Parameter {
     double minimum = -1e300;    // of each number
     double maximum = 1e300;
     bool minimum_excluded = false;
+    int shortest = 0; // elements of a list
+    int longest = 0;
 };
 
 /// All keys, in the order of the manual.

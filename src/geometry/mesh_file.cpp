@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "mesh_file.hpp"
+
+#include "hyoryu/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::uintmax_t stl_header = 84;        // bytes: 80 of text and the number of triangles
+constexpr std::uintmax_t stl_triangle = 50;      // bytes
+constexpr std::uintmax_t largest_file = 2u << 30; // bytes
+using Head = std::array<unsigned char, stl_header>;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why)
+{
+    throw IoError(fmt::format("the mesh {} {}", file.string(), why));
+}
+
+std::uint32_t little_endian(const Head& head)
+{
+    std::uint32_t value = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        value |= static_cast<std::uint32_t>(head[80 + k]) << (8 * k);
+    }
+    return value;
+}
+
+MeshKind stl_kind(const std::filesystem::path& file, std::uintmax_t size)
+{
+    Head head{};
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+    const std::string start(head.begin(), head.begin() + 5);
+    const std::uint32_t count = little_endian(head);
+    if (size >= stl_header && size == stl_header + stl_triangle * count) {
+        if (count > most_triangles) {
+            refuse(file, fmt::format("has {} triangles, at most {} are read", count, most_triangles));
+        }
+        return MeshKind::stl_binary;
+    }
+    const bool text = std::all_of(head.begin(), head.begin() + std::min<std::ptrdiff_t>(
+                                      static_cast<std::ptrdiff_t>(size), static_cast<std::ptrdiff_t>(head.size())),
+                                  [](unsigned char c) { return c >= ' ' || std::isspace(c) != 0; });
+    if (start == "solid" && text) {
+        return MeshKind::stl_text;
+    }
+    if (size < stl_header) {
+        refuse(file, "is no STL file");
+    }
+    refuse(file, fmt::format("is no STL file, or cut short: as a binary one it would have {} triangles "
+                             "and {} bytes, it has {}",
+                             count, stl_header + stl_triangle * count, size));
+}
+
+} // namespace
+
+MeshKind mesh_kind(const std::filesystem::path& file)
+{
+    std::error_code fault;
+    if (!std::filesystem::exists(file, fault)) {
+        refuse(file, "does not exist");
+    }
+    if (!std::filesystem::is_regular_file(file, fault) || !std::ifstream(file)) {
+        refuse(file, "cannot be read");
+    }
+    const std::uintmax_t size = std::filesystem::file_size(file, fault);
+    if (size == 0 || size > largest_file) {
+        refuse(file, size == 0 ? "is empty" : "is larger than 2 GiB");
+    }
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending == ".obj") {
+        return MeshKind::obj;
+    }
+    if (ending != ".stl") {
+        refuse(file, "is of an unknown kind, expected a name that ends in .stl or .obj");
+    }
+    return stl_kind(file, size);
+}
+
+} // namespace hyoryu

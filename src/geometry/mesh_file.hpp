@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// What a mesh file is, told from its name and first bytes before a reader trusts it.
+#pragma once
+
+#include <filesystem>
+
+namespace hyoryu {
+
+/// Triangles that a mesh may have; more is a mistake or an attack.
+inline constexpr long long most_triangles = 5000000;
+
+enum class MeshKind { stl_text, stl_binary, obj };
+
+/// Throws IoError if the file is missing, unreadable, of another kind, or contradicts itself.
+MeshKind mesh_kind(const std::filesystem::path& file);
+
+} // namespace hyoryu

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The parts of the reader: each reads one table of the case into the scene.
+#pragma once
+
+#include "reader_table.hpp"
+
+namespace hyoryu {
+
+/// A shape with its place in space.
+struct PlacedShape {
+    Shape shape;
+    Vec3 centre{0, 0, 0};
+    Quat rotation = Quat::Identity();
+};
+
+/// The shape of a fluid block or solid wall, in space; `kind` is the value of its key `shape`.
+PlacedShape read_placed_shape(TableReader& table, const std::string& kind);
+
+/// The shape of a body, about its centre of mass.
+Shape read_body_shape(TableReader& table, const std::string& kind);
+
+/// `rotation_deg` or `rotation`; no rotation if neither is there.
+Quat read_rotation(TableReader& table);
+
+void read_general(TableReader& root, Scene& scene);
+void read_fluid(TableReader table, Scene& scene);
+void read_walls(TableReader& root, Scene& scene);
+void read_bodies(TableReader& root, Scene& scene);
+void read_contact(TableReader table, Scene& scene);
+void read_gauges(TableReader& root, Scene& scene);
+void read_output(TableReader table, Scene& scene);
+
+/// Names that stand twice among walls and bodies, or among gauges.
+void check_names(TableReader& root, const Scene& scene);
+
+} // namespace hyoryu

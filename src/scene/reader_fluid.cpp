@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The whole case and its fluid.
+#include "reader.hpp"
+
+#include <fmt/format.h>
+
+namespace hyoryu {
+
+namespace {
+
+void read_viscosity(TableReader table, FluidSettings& fluid)
+{
+    const std::string model = table.choice("model");
+    if (model == "artificial") {
+        fluid.viscosity = ViscosityModel::artificial;
+        fluid.alpha = table.number("alpha");
+    } else if (model == "laminar") {
+        fluid.viscosity = ViscosityModel::laminar;
+        fluid.kinematic_viscosity = table.number("kinematic");
+    } else {
+        fluid.viscosity = ViscosityModel::none;
+    }
+    table.finish();
+}
+
+void read_diffusion(TableReader table, FluidSettings& fluid)
+{
+    const std::string model = table.choice("model");
+    fluid.diffusion = model == "fourtakas" ? DiffusionModel::fourtakas
+                      : model == "molteni" ? DiffusionModel::molteni
+                                           : DiffusionModel::none;
+    if (fluid.diffusion != DiffusionModel::none) {
+        fluid.delta = table.number("delta");
+    }
+    table.finish();
+}
+
+FluidBlock read_block(TableReader& table)
+{
+    FluidBlock block;
+    block.place = table.place();
+    const std::string kind = table.choice("shape");
+    if (!kind.empty()) {
+        const PlacedShape placed = read_placed_shape(table, kind);
+        block.shape = placed.shape;
+        block.centre = placed.centre;
+        block.rotation = placed.rotation;
+    }
+    block.velocity = table.planar("velocity");
+    table.finish();
+    return block;
+}
+
+void read_time(TableReader table, Scene& scene)
+{
+    scene.time.end = table.number("end");
+    scene.time.step = table.find_number("step");
+    scene.time.cfl = table.number("cfl");
+    if (scene.time.step && scene.time.end > 0 && *scene.time.step > scene.time.end) {
+        table.error("step", fmt::format("{} s is longer than the run of {} s", *scene.time.step,
+                                        scene.time.end));
+    }
+    table.finish();
+}
+
+void read_domain(TableReader table, Scene& scene)
+{
+    if (!table.present()) {
+        return;
+    }
+    const auto low = table.find_planar("min");
+    const auto high = table.find_planar("max");
+    scene.domain = DomainSettings{low.value_or(Vec3(0, 0, 0)), high.value_or(Vec3(0, 0, 0))};
+    if (low && high) {
+        const Vec3 size = *high - *low;
+        const bool flat = scene.dimensions == 2;
+        if (!(size.x() > 0 && size.z() > 0 && (flat || size.y() > 0))) {
+            table.error("max", "must lie above `min` in every direction");
+        }
+    }
+    if (!table.texts("periodic").empty()) {
+        table.error("periodic", "this version does not have periodic sides yet",
+                    "leave the key out, or give walls to the sides");
+    }
+    table.finish();
+}
+
+} // namespace
+
+void read_general(TableReader& root, Scene& scene)
+{
+    scene.title = root.text("title");
+    scene.gravity = root.planar("gravity");
+    scene.seed = static_cast<std::uint64_t>(root.integer("seed"));
+    read_time(root.table("time"), scene);
+    TableReader particles = root.table("particles");
+    scene.spacing = particles.number("spacing");
+    particles.finish();
+    read_domain(root.table("domain"), scene);
+}
+
+void read_fluid(TableReader table, Scene& scene)
+{
+    if (!table.present()) {
+        return;
+    }
+    FluidSettings fluid;
+    fluid.density = table.number("density");
+    table.choice("formulation");
+    fluid.sound_speed = table.find_number("sound_speed");
+    fluid.smoothing_ratio = table.number("smoothing_ratio");
+    read_viscosity(table.table("viscosity"), fluid);
+    read_diffusion(table.table("density_diffusion"), fluid);
+    TableReader shifting = table.table("shifting");
+    shifting.choice("model");
+    shifting.finish();
+    for (TableReader& block : table.tables("block")) {
+        fluid.blocks.push_back(read_block(block));
+    }
+    if (!table.has("block")) {
+        table.error("block", "is missing: a fluid needs a region that it fills at the start",
+                    "add [[fluid.block]], or leave [fluid] out for a case without fluid");
+    }
+    table.finish();
+    scene.fluid = std::move(fluid);
+}
+
+} // namespace hyoryu
