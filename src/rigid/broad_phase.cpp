@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "broad_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hyoryu {
+
+namespace {
+
+// Passes of widening the boxes by the speeds of their clusters; clusters that still grow afterwards
+// are met in the next step.
+constexpr int widenings = 3;
+// Added to every box so that contacts at rest stay paired [m].
+constexpr double skin = 1e-4;
+
+struct Box {
+    Vec3 low{0, 0, 0}, high{0, 0, 0};
+
+    bool meets(const Box& other) const
+    {
+        return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+    }
+};
+
+Box box_of(const Solid& solid, const Pose& pose, double margin)
+{
+    const Vec3 centre = pose.x + pose.R * solid.box_centre;
+    const Vec3 half = solid.form == Form::ball ? solid.box_half
+                                               : Vec3(pose.R.cwiseAbs() * solid.box_half);
+    const Vec3 reach = half + Vec3::Constant(margin + skin);
+    return {centre - reach, centre + reach};
+}
+
+// How far a point of the body may move within the step.
+double travel(const StepContext& context, int k)
+{
+    const Body& body = context.rigid.bodies[k];
+    const Mat3 inverse = inverse_inertia(context.memory.rotors[k], context.memory.poses[k].R);
+    const double spin = (inverse * body.angular_momentum).norm() +
+                        context.dt * (inverse * context.loads[k].torque).norm();
+    const double speed = body.velocity.norm() + context.dt * acceleration(context, k).norm();
+    return context.dt * (speed + spin * context.memory.geometry.solids[k].reach);
+}
+
+std::vector<Pair> body_pairs(const StepContext& context, const std::vector<double>& margins)
+{
+    const ContactMemory& memory = context.memory;
+    const int n = static_cast<int>(margins.size());
+    std::vector<Box> boxes;
+    for (int k = 0; k < n; ++k) {
+        boxes.push_back(box_of(memory.geometry.solids[k], memory.poses[k], margins[k]));
+    }
+    std::vector<int> order(margins.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+        return std::pair(boxes[a].low.x(), a) < std::pair(boxes[b].low.x(), b);
+    });
+    std::vector<Pair> pairs;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const int a = order[k];
+        for (std::size_t m = k + 1; m < order.size() && boxes[order[m]].low.x() <= boxes[a].high.x();
+             ++m) {
+            const int b = order[m];
+            if (boxes[a].meets(boxes[b]) && (memory.rotors[a].movable || memory.rotors[b].movable)) {
+                pairs.push_back({std::min(a, b), std::max(a, b)});
+            }
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+bool may_touch(const StepContext& context, int body, const Wall& wall, double margin)
+{
+    const Solid& solid = context.memory.geometry.solids[body];
+    const Pose& pose = context.memory.poses[body];
+    const double room = margin + skin + context.dt * wall.velocity.norm();
+    const Vec3 shift = wall.velocity * context.start;
+    for (const HalfSpace& plane : wall.half_spaces) {
+        if (plane.normal.dot(pose.x - plane.point - shift) < solid.reach + room) {
+            return true;
+        }
+    }
+    if (!wall.half_spaces.empty()) {
+        return false;
+    }
+    const Pose there = pose_of(wall.pose.x + shift, wall.pose.q);
+    return box_of(solid, pose, room).meets(box_of(wall.solid, there, 0));
+}
+
+std::vector<Pair> wall_pairs(const StepContext& context, const std::vector<double>& margins)
+{
+    std::vector<Pair> pairs;
+    const auto& walls = context.memory.geometry.walls;
+    for (int k = 0; k < static_cast<int>(margins.size()); ++k) {
+        for (int w = 0; context.memory.rotors[k].movable && w < static_cast<int>(walls.size()); ++w) {
+            if (may_touch(context, k, walls[w], margins[k])) {
+                pairs.push_back({k, -1 - w});
+            }
+        }
+    }
+    return pairs;
+}
+
+int root_of(std::vector<int>& parents, int k)
+{
+    while (parents[k] != k) {
+        parents[k] = parents[parents[k]];
+        k = parents[k];
+    }
+    return k;
+}
+
+// Union-find; immovable bodies link nothing.
+std::vector<int> roots(const StepContext& context, const std::vector<Pair>& pairs)
+{
+    std::vector<int> parents(context.memory.rotors.size());
+    std::iota(parents.begin(), parents.end(), 0);
+    for (const Pair& pair : pairs) {
+        if (context.memory.rotors[pair.a].movable && context.memory.rotors[pair.b].movable) {
+            const int a = root_of(parents, pair.a);
+            const int b = root_of(parents, pair.b);
+            parents[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    for (int k = 0; k < static_cast<int>(parents.size()); ++k) {
+        parents[k] = root_of(parents, k);
+    }
+    return parents;
+}
+
+// Twice the largest travel of each cluster, boundaries included.
+std::vector<double> widened(const StepContext& context, const std::vector<double>& own,
+                            const std::vector<int>& cluster, const std::vector<Pair>& walls)
+{
+    std::vector<double> largest(own.size(), 0);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+        largest[cluster[k]] = std::max(largest[cluster[k]], own[k]);
+    }
+    for (const Pair& pair : walls) {
+        double& most = largest[cluster[pair.a]];
+        most = std::max(most, context.dt * wall_velocity(context.memory, pair.b).norm());
+    }
+    std::vector<double> margins(own.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+        margins[k] = 2 * largest[cluster[k]];
+    }
+    return margins;
+}
+
+} // namespace
+
+void find_clusters(const StepContext& context)
+{
+    const int n = static_cast<int>(context.rigid.bodies.size());
+    std::vector<double> own;
+    for (int k = 0; k < n; ++k) {
+        own.push_back(travel(context, k));
+    }
+    std::vector<Pair> pairs = body_pairs(context, own);
+    std::vector<Pair> walls = wall_pairs(context, own);
+    std::vector<int> cluster = roots(context, pairs);
+    for (int pass = 0; pass < widenings && !(pairs.empty() && walls.empty()); ++pass) {
+        const std::vector<double> margins = widened(context, own, cluster, walls);
+        const std::size_t before = pairs.size() + walls.size();
+        pairs = body_pairs(context, margins);
+        walls = wall_pairs(context, margins);
+        cluster = roots(context, pairs);
+        if (pairs.size() + walls.size() == before) {
+            break;
+        }
+    }
+    auto& clusters = context.memory.clusters;
+    clusters.assign(context.rigid.bodies.size(), {});
+    for (int k = 0; k < n; ++k) {
+        if (context.memory.rotors[k].movable) {
+            clusters[cluster[k]].bodies.push_back(k);
+        }
+    }
+    for (const Pair& pair : pairs) {
+        const int k = context.memory.rotors[pair.a].movable ? pair.a : pair.b;
+        clusters[cluster[k]].pairs.push_back(pair);
+    }
+    for (const Pair& pair : walls) {
+        clusters[cluster[pair.a]].pairs.push_back(pair);
+    }
+    std::erase_if(clusters, [](const Cluster& c) { return c.bodies.empty(); });
+}
+
+} // namespace hyoryu

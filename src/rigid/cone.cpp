@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Sliding along the unit direction d of the tangent plane: p = p_n (1, -mu d),
+//   p_n = -b_n / den(d),   den = K_nn - mu K_nt . d,
+//   u_t = b_t + p_n (K_tn - mu K_tt d)   must be parallel to d.
+#include "cone.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace hyoryu {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+// Below this part of K_nn the denominator is that of a Painleve configuration (contact notes, section 1).
+constexpr double painleve = 1e-12;
+// A determinant below this part of the product of the diagonal means a direction that cannot move.
+constexpr double singular = 1e-13;
+// Newton's method converges quadratically from the fixed-point guess; more steps mean it does not.
+constexpr int newton_steps = 12;
+constexpr int fixed_point_steps = 3;
+// A scan this fine brackets every root: the condition is a trigonometric polynomial of degree two.
+constexpr int scan_points = 48;
+constexpr int bisections = 60; // to the last bit
+
+struct Slip {
+    double p_n = 0;
+    Vec2 u{0, 0}; // what is left of the tangential velocity
+    bool exists = false;
+};
+
+Slip slip_along(const Cone& cone, const Vec3& b, const Vec2& d)
+{
+    const Vec2 k_nt = cone.K.block<1, 2>(0, 1).transpose();
+    const Vec2 k_tn = cone.K.block<2, 1>(1, 0);
+    const double den = cone.K(0, 0) - cone.mu * k_nt.dot(d);
+    Slip slip;
+    slip.exists = den > painleve * cone.K(0, 0);
+    if (slip.exists) {
+        slip.p_n = -b[0] / den;
+        slip.u = b.tail<2>() + slip.p_n * (k_tn - cone.mu * (cone.K.block<2, 2>(1, 1) * d));
+    }
+    return slip;
+}
+
+Vec3 impulse_along(const Slip& slip, double mu, const Vec2& d)
+{
+    return {slip.p_n, -mu * slip.p_n * d.x(), -mu * slip.p_n * d.y()};
+}
+
+// d x u_t(d), multiplied by den(d) to be smooth everywhere; zero where u_t is parallel to d.
+double crossed(const Cone& cone, const Vec3& b, double angle)
+{
+    const Vec2 d(std::cos(angle), std::sin(angle));
+    const double den = cone.K(0, 0) - cone.mu * (cone.K(0, 1) * d.x() + cone.K(0, 2) * d.y());
+    const Vec2 k_tn = cone.K.block<2, 1>(1, 0);
+    const Vec2 w = den * b.tail<2>() - b[0] * (k_tn - cone.mu * (cone.K.block<2, 2>(1, 1) * d));
+    return d.x() * w.y() - d.y() * w.x();
+}
+
+std::optional<Vec3> accepted(const Cone& cone, const Vec3& b, double angle)
+{
+    const Vec2 d(std::cos(angle), std::sin(angle));
+    const Slip slip = slip_along(cone, b, d);
+    if (slip.exists && slip.u.dot(d) >= 0) {
+        return impulse_along(slip, cone.mu, d);
+    }
+    return std::nullopt;
+}
+
+// Fixed point d <- direction of u_t + c d, then Newton on the angle.
+std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d)
+{
+    for (int k = 0; k < fixed_point_steps; ++k) {
+        const Slip slip = slip_along(cone, b, d);
+        if (!slip.exists) {
+            return std::nullopt;
+        }
+        const double c = cone.mu * slip.p_n * 0.5 * (cone.K(1, 1) + cone.K(2, 2));
+        const Vec2 next = slip.u + c * d;
+        if (next.squaredNorm() == 0) {
+            return std::nullopt;
+        }
+        d = next.normalized();
+    }
+    double angle = std::atan2(d.y(), d.x());
+    for (int k = 0; k < newton_steps; ++k) {
+        constexpr double apart = 1e-6; // of the central difference, error about its square
+        const double f = crossed(cone, b, angle);
+        const double slope =
+            (crossed(cone, b, angle + apart) - crossed(cone, b, angle - apart)) / (2 * apart);
+        if (slope == 0) {
+            return std::nullopt;
+        }
+        const double change = f / slope;
+        angle -= change;
+        if (std::abs(change) < 1e-14) { // the last bits of an angle
+            return accepted(cone, b, angle);
+        }
+    }
+    return accepted(cone, b, angle);
+}
+
+std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
+{
+    const double step = 2 * std::numbers::pi / scan_points;
+    for (int k = 0; k < scan_points; ++k) {
+        double low = k * step;
+        double high = low + step;
+        double f_low = crossed(cone, b, low);
+        if (f_low * crossed(cone, b, high) > 0) {
+            continue;
+        }
+        for (int m = 0; m < bisections; ++m) {
+            const double mid = 0.5 * (low + high);
+            const double f = crossed(cone, b, mid);
+            (f * f_low > 0 ? low : high) = mid;
+            f_low = f * f_low > 0 ? f : f_low;
+        }
+        if (const auto p = accepted(cone, b, 0.5 * (low + high))) {
+            return p;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<Vec3> slide_in_plane(const Cone& cone, const Vec3& b)
+{
+    const double first = b[1] < 0 ? -1 : 1;
+    for (const double d : {first, -first}) {
+        const Slip slip = slip_along(cone, b, Vec2(d, 0));
+        if (slip.exists && slip.u.x() * d >= 0) {
+            return impulse_along(slip, cone.mu, Vec2(d, 0));
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+void invert(Cone& cone)
+{
+    const Mat3& K = cone.K;
+    cone.K_inverse.setZero();
+    if (cone.size == 1) {
+        cone.K_inverse(0, 0) = 1 / K(0, 0);
+        return;
+    }
+    const Mat3 block = cone.size == 3 ? K : Mat3(K + Mat3(Vec3(0, 0, 1).asDiagonal()));
+    const double bound = singular * block.diagonal().prod();
+    if (block.determinant() > bound) {
+        cone.K_inverse = block.inverse();
+    } else {
+        const Eigen::SelfAdjointEigenSolver<Mat3> modes(0.5 * (block + block.transpose()));
+        for (int k = 0; k < 3; ++k) {
+            if (modes.eigenvalues()[k] > singular * modes.eigenvalues()[2]) {
+                const Vec3 v = modes.eigenvectors().col(k);
+                cone.K_inverse += v * v.transpose() / modes.eigenvalues()[k];
+            }
+        }
+    }
+    if (cone.size == 2) {
+        cone.K_inverse.row(2).setZero();
+        cone.K_inverse.col(2).setZero();
+    }
+}
+
+ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
+{
+    if (b[0] >= 0) {
+        return {};
+    }
+    if (cone.size == 1) {
+        return {Vec3(-b[0] / cone.K(0, 0), 0, 0)};
+    }
+    const Vec3 stick = -(cone.K_inverse * b);
+    if (stick[0] >= 0 && stick.tail<2>().norm() <= cone.mu * stick[0]) {
+        return {stick};
+    }
+    std::optional<Vec3> slide;
+    if (cone.size == 2) {
+        slide = slide_in_plane(cone, b);
+    } else {
+        const Vec2 d = guess.tail<2>().squaredNorm() > 0 ? Vec2(-guess.tail<2>()) : Vec2(-stick.tail<2>());
+        slide = slide_by_newton(cone, b, d.normalized());
+        if (!slide) {
+            slide = slide_by_scan(cone, b);
+        }
+    }
+    if (slide) {
+        return {*slide};
+    }
+    return {stick[0] > 0 ? stick : Vec3(-b[0] / cone.K(0, 0), 0, 0), true};
+}
+
+} // namespace hyoryu

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The direct solution of a contact problem with an active set: contacts stick, slide or are open.
+#include "solver.hpp"
+
+#include <Eigen/QR>
+
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+enum State { open = 0, slides = 1, sticks = 2 };
+
+// Changes of the active set after which the iteration takes over.
+constexpr int rounds_of_guesses = 25;
+// A sliding direction has settled when it turns by less [rad].
+constexpr double settled_direction = 1e-9;
+// Relative rank tolerance of the redundant, symmetric problem (round-off times condition).
+constexpr double rank_tolerance = 1e-11;
+
+int unknowns(const Row& row, int state)
+{
+    return state == sticks ? row.cone.size : state;
+}
+
+// Column m of the impulses a contact may have in its state, in its axes.
+Vec3 direction(const Row& row, int state, const Vec3& d, int m)
+{
+    return state == sticks ? Vec3(Vec3::Unit(m)) : Vec3(Vec3(1, 0, 0) - row.cone.mu * d);
+}
+
+// The change of velocity at row i for the impulse p of row j.
+Vec3 coupling(const Row& i, const Row& j, const Vec3& p, const std::vector<Response>& bodies)
+{
+    Vec3 u = Vec3::Zero();
+    const Vec3 P = j.B * p;
+    const auto add = [&](int body, double sign_i, const Mat3& C, double sign_j, const Mat3& G) {
+        u += sign_i * sign_j *
+             (i.D.transpose() * bodies[body].inverse_mass.cwiseProduct(P) + C.transpose() * (G * p));
+    };
+    if (i.a == j.a) {
+        add(i.a, 1, i.Ca, 1, j.Ga);
+    }
+    if (i.a == j.b) {
+        add(i.a, 1, i.Ca, -1, j.Gb);
+    }
+    if (i.b >= 0 && i.b == j.a) {
+        add(i.b, -1, i.Cb, 1, j.Ga);
+    }
+    if (i.b >= 0 && i.b == j.b) {
+        add(i.b, -1, i.Cb, -1, j.Gb);
+    }
+    return u;
+}
+
+void assemble(std::span<Row> rows, const std::vector<Response>& bodies, SolverWork& work)
+{
+    int n = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        work.columns[k] = n;
+        n += unknowns(rows[k], work.states[k]);
+    }
+    work.W.setZero(n, n);
+    work.rhs.setZero(n);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const int mi = unknowns(rows[i], work.states[i]);
+        if (mi == 0) {
+            continue;
+        }
+        Vec3 u = -work.momenta[i]; // velocity without any impulse
+        u[0] += rows[i].target;
+        for (int r = 0; r < mi; ++r) {
+            work.rhs[work.columns[i] + r] = u[r];
+        }
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            for (int m = 0; m < unknowns(rows[j], work.states[j]); ++m) {
+                const Vec3 p = direction(rows[j], work.states[j], work.directions[j], m);
+                const Vec3 w = coupling(rows[i], rows[j], p, bodies);
+                for (int r = 0; r < mi; ++r) {
+                    work.W(work.columns[i] + r, work.columns[j] + m) = w[r];
+                }
+            }
+        }
+    }
+}
+
+// Impulses of all rows from the solution of the reduced problem, applied to the bodies.
+void apply(std::span<Row> rows, std::vector<Response>& bodies, const SolverWork& work)
+{
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        Vec3 p = Vec3::Zero();
+        for (int m = 0; m < unknowns(rows[k], work.states[k]); ++m) {
+            p += work.solution[work.columns[k] + m] *
+                 direction(rows[k], work.states[k], work.directions[k], m);
+        }
+        push(rows[k], p - rows[k].p, bodies);
+    }
+}
+
+// The state a contact should have had, from its impulse and velocity.
+int better_state(const Row& row, const Vec3& u, int state, Vec3& d)
+{
+    if (state == open) {
+        return u[0] < row.target - solved_speed ? sticks : open;
+    }
+    if (row.p[0] < 0) {
+        return open;
+    }
+    Vec3 t = row.p;
+    t[0] = 0;
+    if (state == sticks) {
+        if (row.cone.size == 1 || t.norm() <= row.cone.mu * row.p[0]) {
+            return sticks;
+        }
+        d = -t.normalized();
+        return slides;
+    }
+    Vec3 slip(0, u[1], row.cone.size == 3 ? u[2] : 0);
+    if (slip.dot(d) < -solved_speed) {
+        return sticks;
+    }
+    if (slip.norm() > solved_speed && (slip.normalized() - d).norm() > settled_direction) {
+        d = slip.normalized();
+        return slides + 2; // slides, in a new direction
+    }
+    return slides;
+}
+
+} // namespace
+
+bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
+{
+    const std::size_t n = rows.size();
+    work.states.assign(n, sticks);
+    work.columns.assign(n, 0);
+    work.directions.assign(n, Vec3::Zero());
+    work.momenta.clear();
+    for (Row& row : rows) {
+        push(row, -row.p, bodies);
+    }
+    for (const Row& row : rows) {
+        work.momenta.push_back(velocity(row, bodies));
+    }
+    bool changed = true;
+    for (int round = 0; round < rounds_of_guesses && changed; ++round) {
+        assemble(rows, bodies, work);
+        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+        decomposition.setThreshold(rank_tolerance);
+        if (work.W.size() > 0) {
+            decomposition.compute(work.W);
+            work.solution = decomposition.solve(work.rhs);
+        }
+        apply(rows, bodies, work);
+        changed = false;
+        for (std::size_t k = 0; k < n; ++k) {
+            const int now = work.states[k];
+            const int next =
+                better_state(rows[k], velocity(rows[k], bodies), now, work.directions[k]);
+            changed = changed || next != now;
+            work.states[k] = next > sticks ? static_cast<int>(slides) : next;
+        }
+    }
+    return !changed;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Time of impact: the root of the smallest gap that is not held.
+#include "sub_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// A gap is an event when it is below this at the end of the sub-step [m].
+constexpr double closed = -1e-10;
+// Two polytopes in contact may describe one contact by other features a moment later; only a gap deeper
+// than that play of the description is a new contact [m].
+constexpr double closed_in_contact = -1e-6;
+constexpr double located = 1e-11; // gap at the time found [m]
+constexpr int root_steps = 60;
+// Halvings of the time at which a contact that has just bounced off is found open.
+constexpr int halvings = 40;
+// Rotation above which the middle of the sub-step is looked at as well [rad].
+constexpr double half_look = 0.1;
+constexpr int most_looks = 32;
+
+class EventSearch {
+public:
+    EventSearch(const StepContext& context, const SubStep& sub)
+        : memory_(context.memory), sub_(sub)
+    {
+    }
+
+    double first()
+    {
+        const int looks = count_looks();
+        for (int look = 1; look <= looks; ++look) {
+            const double low = sub_.h * (look - 1) / looks;
+            double high = sub_.h * look / looks;
+            bool found = false;
+            place_all(high);
+            for (const Pair& pair : sub_.cluster.pairs) {
+                if (tired(memory_, pair.a, pair.b) || clearance(pair, high) >= limit(pair)) {
+                    continue;
+                }
+                const double root = closing_time(pair, low, high);
+                if (root < high || !found) {
+                    high = root;
+                    found = true;
+                }
+                place_all(high);
+            }
+            if (found) {
+                return high;
+            }
+        }
+        return sub_.h;
+    }
+
+private:
+    void place(int body, double s)
+    {
+        if (body >= 0 && memory_.rotors[body].movable) {
+            memory_.trial[body] = pose_at(memory_.paths[body], memory_.rotors[body], s);
+        }
+    }
+
+    void place_all(double s)
+    {
+        for (const int body : sub_.cluster.bodies) {
+            place(body, s);
+        }
+    }
+
+    bool holds(const Pair& pair) const
+    {
+        return std::any_of(memory_.held.begin(), memory_.held.end(), [&](const Feature& f) {
+            return f.a == pair.a && f.b == pair.b;
+        });
+    }
+
+    bool held(const Feature& feature) const
+    {
+        return std::find(memory_.held.begin(), memory_.held.end(), feature) != memory_.held.end();
+    }
+
+    double limit(const Pair& pair) const
+    {
+        return has_axis(pair, memory_.geometry) && holds(pair) ? closed_in_contact : closed;
+    }
+
+    // The smallest gap of the pair at the trial poses, held features left out.
+    double clearance(const Pair& pair, double s)
+    {
+        const Configuration at = configuration(memory_, memory_.trial, sub_.time + s);
+        if (has_axis(pair, memory_.geometry) && !holds(pair)) {
+            return axis_distance(pair, at);
+        }
+        memory_.looked_at.clear();
+        find_candidates(pair, at, memory_.looked_at);
+        double smallest = infinity;
+        for (const Candidate& c : memory_.looked_at) {
+            if (c.touch.gap < smallest && !held(c.feature)) {
+                smallest = c.touch.gap;
+            }
+        }
+        return smallest;
+    }
+
+    double clearance_at(const Pair& pair, double s)
+    {
+        place(pair.a, s);
+        place(pair.b, s);
+        return clearance(pair, s);
+    }
+
+    // Illinois method between an open and a closed time; bisection when a feature changes in between.
+    double closing_time(const Pair& pair, double low, double high)
+    {
+        double f_high = clearance_at(pair, high);
+        double f_low = clearance_at(pair, low);
+        for (int k = 1; f_low <= located && k <= halvings; ++k) {
+            const double s = low + (high - low) * std::ldexp(1.0, -k);
+            f_low = clearance_at(pair, s);
+            if (f_low > located) {
+                low = s;
+            }
+        }
+        if (f_low <= located) {
+            return high; // closed all the time: left to the projection
+        }
+        int side = 0;
+        for (int k = 0; k < root_steps; ++k) {
+            const bool finite = f_low < infinity && f_high > -infinity;
+            const bool bisect = !finite || k % 3 == 2;
+            double s = bisect ? 0.5 * (low + high) : low + (high - low) * f_low / (f_low - f_high);
+            s = std::clamp(s, low, high);
+            const double f = clearance_at(pair, s);
+            if (std::abs(f) < located) {
+                return s;
+            }
+            if (f > 0) {
+                low = s;
+                f_low = f;
+                f_high *= side == 1 ? 0.5 : 1;
+                side = 1;
+            } else {
+                high = s;
+                f_high = f;
+                f_low *= side == -1 ? 0.5 : 1;
+                side = -1;
+            }
+        }
+        return high;
+    }
+
+    // So many that no body turns or moves past another between two looks.
+    int count_looks() const
+    {
+        double looks = 1;
+        for (const int k : sub_.cluster.bodies) {
+            const double turn =
+                sub_.h * (memory_.rotors[k].inverse_moments.maxCoeff() * memory_.paths[k].L1.norm());
+            looks = std::max(looks, turn > half_look ? 2.0 : 1.0);
+        }
+        for (const Pair& pair : sub_.cluster.pairs) {
+            if (pair.b >= 0 || memory_.geometry.walls[-1 - pair.b].half_spaces.empty()) {
+                looks = std::max(looks, std::ceil(relative_travel(pair) / thickness(pair)));
+            }
+        }
+        return static_cast<int>(std::min<double>(looks, most_looks));
+    }
+
+    double relative_travel(const Pair& pair) const
+    {
+        const auto velocity = [&](int k) {
+            return k < 0 ? wall_velocity(memory_, k)
+                         : (memory_.rotors[k].movable ? memory_.paths[k].v1 : Vec3::Zero());
+        };
+        return sub_.h * (velocity(pair.a) - velocity(pair.b)).norm();
+    }
+
+    double thickness(const Pair& pair) const
+    {
+        const Solid& b = pair.b >= 0 ? memory_.geometry.solids[pair.b]
+                                     : memory_.geometry.walls[-1 - pair.b].solid;
+        return memory_.geometry.solids[pair.a].thickness + b.thickness;
+    }
+
+    ContactMemory& memory_;
+    const SubStep& sub_;
+};
+
+} // namespace
+
+double first_event(const StepContext& context, const SubStep& sub)
+{
+    return EventSearch(context, sub).first();
+}
+
+} // namespace hyoryu

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// A contact by the features that touch: its identity from step to step, and where it is at any pose.
+#pragma once
+
+#include "rotor.hpp"
+#include "solid.hpp"
+
+#include "hyoryu/rigid/rigid.hpp"
+
+#include <compare>
+#include <span>
+#include <vector>
+
+namespace hyoryu {
+
+/// Position and orientation, with the rotation matrix at hand.
+struct Pose {
+    Vec3 x{0, 0, 0};
+    Quat q = Quat::Identity();
+    Mat3 R = Mat3::Identity();
+};
+Pose pose_of(const Vec3& x, const Quat& q);
+
+/// A half-space of a boundary at time 0; it holds points within [lower, upper] only, and only while they
+/// are less than `slack` reaches of their body behind it.
+struct HalfSpace {
+    int side = 0;
+    Vec3 normal{0, 0, 1};
+    Vec3 point{0, 0, 0};
+    Vec3 lower = Vec3::Constant(-infinity);
+    Vec3 upper = Vec3::Constant(infinity);
+    double slack = infinity;
+};
+
+/// A boundary as the contact search sees it: half-spaces, or a convex solid.
+struct Wall {
+    std::vector<HalfSpace> half_spaces;
+    Solid solid;
+    Pose pose; // of the solid at time 0
+    Vec3 velocity{0, 0, 0};
+};
+Wall wall_of(const Boundary& boundary, int dimensions);
+
+enum class FeatureKind {
+    corner_plane, // corner i of a, half-space f
+    ball_plane,   // ball a, half-space f
+    rim_low,      // the point of rim i of rod a nearest to half-space f
+    rim_fixed,    // point j of rim i of rod a, half-space f
+    round,        // a ball and its nearest point on the partner
+    corner_face,  // corner i of the owner, face f of the other
+    crossing,     // edge i-j of the owner over the side k-l of face f of the other
+    edge_edge     // edge i-j of a, edge k-l of b
+};
+
+/// Bodies a and b (b as in Contact) and what touches. `owner` 0: i, j belong to a; 1: to b.
+struct Feature {
+    int a = 0, b = 0;
+    FeatureKind kind = FeatureKind::corner_plane;
+    int owner = 0;
+    int i = 0, j = 0, k = 0, l = 0, f = 0;
+    auto operator<=>(const Feature&) const = default;
+};
+
+/// Where and how two features face each other.
+struct Touch {
+    Vec3 point{0, 0, 0};
+    Vec3 normal{0, 0, 1}; // from b to a
+    double gap = 0;       // [m], negative if they overlap
+};
+
+/// A possible contact: in contact if the gap is within the tolerance, and not `beyond` a thin side.
+struct Candidate {
+    Feature feature;
+    Touch touch;
+    bool beyond = false;
+};
+
+/// All that geometry is made of; bodies by index, poses that change.
+struct Geometry {
+    std::vector<Solid> solids;
+    std::vector<Wall> walls;
+};
+
+/// A geometry with the poses at one time.
+struct Configuration {
+    const Geometry& geometry;
+    std::span<const Pose> poses;
+    double time = 0;
+};
+
+/// A solid and where it is.
+struct Placed {
+    const Solid& solid;
+    Pose pose;
+};
+Placed placed(const Configuration& at, int index);
+
+/// The touch of known features at these poses.
+Touch touch_of(const Feature& feature, const Configuration& at);
+
+/// The nearest point of a solid's surface to p, both in its body frame.
+Touch nearest(const Solid& solid, const Vec3& p);
+
+} // namespace hyoryu

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Gap functions: where a pair of features touches, at any pose.
+#include "feature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr int rim_points = 8;
+// Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
+constexpr double no_direction = 1e-9;
+
+const HalfSpace& half_space(const Wall& wall, int side)
+{
+    return *std::find_if(wall.half_spaces.begin(), wall.half_spaces.end(),
+                         [&](const HalfSpace& h) { return h.side == side; });
+}
+
+Vec3 rim_point(const Feature& feature, const Placed& rod, const Vec3& normal)
+{
+    const Mat3& R = rod.pose.R;
+    const Vec3 axis = R.col(0);
+    const Vec3 centre = rod.pose.x + (feature.i == 0 ? -1 : 1) * rod.solid.half_length * axis;
+    if (feature.kind == FeatureKind::rim_fixed) {
+        const double angle = 2 * std::numbers::pi * feature.j / rim_points;
+        return centre + rod.solid.radius * (std::cos(angle) * R.col(1) + std::sin(angle) * R.col(2));
+    }
+    const Vec3 down = axis * axis.dot(normal) - normal;
+    const double length = down.norm();
+    return centre + rod.solid.radius * (length > no_direction ? Vec3(down / length) : Vec3(R.col(1)));
+}
+
+Touch plane_touch(const Feature& feature, const Configuration& at)
+{
+    const Wall& wall = at.geometry.walls[-1 - feature.b];
+    const HalfSpace& plane = half_space(wall, feature.f);
+    const Placed body{at.geometry.solids[feature.a], at.poses[feature.a]};
+    Touch touch;
+    touch.normal = plane.normal;
+    if (feature.kind == FeatureKind::corner_plane) {
+        touch.point = body.pose.x + body.pose.R * body.solid.corners[feature.i];
+    } else if (feature.kind == FeatureKind::ball_plane) {
+        touch.point = body.pose.x - body.solid.radius * plane.normal;
+    } else {
+        touch.point = rim_point(feature, body, plane.normal);
+    }
+    touch.gap = plane.normal.dot(touch.point - plane.point - wall.velocity * at.time);
+    return touch;
+}
+
+Touch round_touch(const Feature& feature, const Configuration& at)
+{
+    const bool ball_is_a = feature.owner == 0;
+    const Placed ball = placed(at, ball_is_a ? feature.a : feature.b);
+    const Placed other = placed(at, ball_is_a ? feature.b : feature.a);
+    const Mat3& R = other.pose.R;
+    const Touch local = nearest(other.solid, R.transpose() * (ball.pose.x - other.pose.x));
+    const Vec3 out = R * local.normal;
+    return {other.pose.x + R * local.point, ball_is_a ? out : Vec3(-out),
+            local.gap - ball.solid.radius};
+}
+
+Touch face_touch(const Feature& feature, const Configuration& at)
+{
+    const bool owner_is_a = feature.owner == 0;
+    const Placed owner = placed(at, owner_is_a ? feature.a : feature.b);
+    const Placed other = placed(at, owner_is_a ? feature.b : feature.a);
+    const Face& face = other.solid.faces[feature.f];
+    Vec3 c = owner.solid.corners[feature.i];
+    if (feature.kind == FeatureKind::crossing) {
+        // where the edge passes the side k-l of the face, both seen along the normal of the face
+        const Vec3 n = other.pose.R * face.normal;
+        const Vec3 k = other.pose.x + other.pose.R * other.solid.corners[feature.k];
+        const Vec3 l = other.pose.x + other.pose.R * other.solid.corners[feature.l];
+        const Vec3 side = (l - k).cross(n);
+        const Vec3 d = owner.solid.corners[feature.j] - c;
+        const double along = side.dot(owner.pose.R * d);
+        const double from = side.dot(k - owner.pose.x - owner.pose.R * c);
+        const double t = std::abs(along) > 0 ? std::clamp(from / along, 0.0, 1.0) : 0.5;
+        c += t * d;
+    }
+    const Vec3 point = owner.pose.x + owner.pose.R * c;
+    const Vec3 n = other.pose.R * face.normal;
+    const double gap = n.dot(point - other.pose.x) - face.offset;
+    return {point, owner_is_a ? n : Vec3(-n), gap};
+}
+
+// Nearest points of two lines, kept on the edges.
+Touch edge_touch(const Feature& feature, const Configuration& at)
+{
+    const Placed a = placed(at, feature.a);
+    const Placed b = placed(at, feature.b);
+    const Vec3 p = a.pose.x + a.pose.R * a.solid.corners[feature.i];
+    const Vec3 q = b.pose.x + b.pose.R * b.solid.corners[feature.k];
+    const Vec3 u = a.pose.R * (a.solid.corners[feature.j] - a.solid.corners[feature.i]);
+    const Vec3 w = b.pose.R * (b.solid.corners[feature.l] - b.solid.corners[feature.k]);
+    const Vec3 cross = u.cross(w);
+    const double length = cross.norm();
+    if (length <= no_direction * u.norm() * w.norm()) {
+        const Vec3 away = (a.pose.x - b.pose.x).normalized();
+        return {p, away, away.dot(p - q)};
+    }
+    Vec3 n = cross / length;
+    if (n.dot(a.pose.x - b.pose.x) < 0) {
+        n = -n;
+    }
+    const Vec3 r = q - p;
+    const double s = std::clamp(r.cross(w).dot(cross) / sq(length), 0.0, 1.0);
+    const double t = std::clamp(r.cross(u).dot(cross) / sq(length), 0.0, 1.0);
+    const Vec3 on_a = p + s * u;
+    const Vec3 on_b = q + t * w;
+    return {0.5 * (on_a + on_b), n, n.dot(on_a - on_b)};
+}
+
+} // namespace
+
+Pose pose_of(const Vec3& x, const Quat& q)
+{
+    return {x, q, q.toRotationMatrix()};
+}
+
+Placed placed(const Configuration& at, int index)
+{
+    if (index >= 0) {
+        return {at.geometry.solids[index], at.poses[index]};
+    }
+    const Wall& wall = at.geometry.walls[-1 - index];
+    Pose pose = wall.pose;
+    pose.x += wall.velocity * at.time;
+    return {wall.solid, pose};
+}
+
+Touch touch_of(const Feature& feature, const Configuration& at)
+{
+    switch (feature.kind) {
+    case FeatureKind::corner_plane:
+    case FeatureKind::ball_plane:
+    case FeatureKind::rim_low:
+    case FeatureKind::rim_fixed:
+        return plane_touch(feature, at);
+    case FeatureKind::round:
+        return round_touch(feature, at);
+    case FeatureKind::corner_face:
+    case FeatureKind::crossing:
+        return face_touch(feature, at);
+    case FeatureKind::edge_edge:
+        return edge_touch(feature, at);
+    }
+    return {};
+}
+
+} // namespace hyoryu

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The convex hull of points, for bodies that come as meshes.
+#include "hyoryu/rigid/body.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace hyoryu {
+
+namespace {
+
+struct Face {
+    std::array<int, 3> corner;
+    Vec3 normal{0, 0, 0}; // unit, outwards
+    double offset = 0;    // normal . x on the face
+};
+
+Face make_face(const std::vector<Vec3>& p, int a, int b, int c)
+{
+    const auto at = [&](int k) { return p[static_cast<std::size_t>(k)]; };
+    const Vec3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
+    return {{a, b, c}, normal, normal.dot(at(a))};
+}
+
+// The point with the largest f.
+template <class F>
+int farthest(const std::vector<Vec3>& p, const F& f)
+{
+    int best = 0;
+    for (int k = 1; k < static_cast<int>(p.size()); ++k) {
+        if (f(p[static_cast<std::size_t>(k)]) > f(p[static_cast<std::size_t>(best)])) {
+            best = k;
+        }
+    }
+    return best;
+}
+
+// Four points that span as much as a greedy choice finds.
+std::vector<Face> first_tetrahedron(const std::vector<Vec3>& p)
+{
+    const auto at = [&](int k) { return p[static_cast<std::size_t>(k)]; };
+    const int a = farthest(p, [](const Vec3& x) { return x.x(); });
+    const int b = farthest(p, [&](const Vec3& x) { return (x - at(a)).squaredNorm(); });
+    const Vec3 line = (at(b) - at(a)).normalized();
+    const int c = farthest(p, [&](const Vec3& x) { return (x - at(a)).cross(line).squaredNorm(); });
+    const Vec3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
+    const int d = farthest(p, [&](const Vec3& x) { return std::abs(normal.dot(x - at(a))); });
+    if (normal.dot(at(d) - at(a)) > 0) {
+        return {make_face(p, a, c, b), make_face(p, a, b, d), make_face(p, b, c, d), make_face(p, c, a, d)};
+    }
+    return {make_face(p, a, b, c), make_face(p, a, d, b), make_face(p, b, d, c), make_face(p, c, d, a)};
+}
+
+// Replaces the faces that see the point by a cone from their horizon to it.
+void add_point(const std::vector<Vec3>& p, int point, double tolerance, std::vector<Face>& faces)
+{
+    const Vec3& x = p[static_cast<std::size_t>(point)];
+    const auto sees = [&](const Face& face) { return face.normal.dot(x) > face.offset + tolerance; };
+    std::set<std::pair<int, int>> edges;
+    for (const Face& face : faces) {
+        if (sees(face)) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                edges.insert({face.corner[k], face.corner[(k + 1) % 3]});
+            }
+        }
+    }
+    faces.erase(std::remove_if(faces.begin(), faces.end(), sees), faces.end());
+    for (const auto& [from, to] : edges) {
+        if (!edges.contains({to, from})) {
+            faces.push_back(make_face(p, from, to, point));
+        }
+    }
+}
+
+// The outline of faces that lie in one plane, counter-clockwise from outside.
+std::vector<int> outline(const std::vector<Face>& faces)
+{
+    std::set<std::pair<int, int>> edges;
+    for (const Face& face : faces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            edges.insert({face.corner[k], face.corner[(k + 1) % 3]});
+        }
+    }
+    std::map<int, int> next;
+    for (const auto& [from, to] : edges) {
+        if (!edges.contains({to, from})) {
+            next[from] = to;
+        }
+    }
+    std::vector<int> loop{next.begin()->first};
+    while (loop.size() < next.size()) {
+        loop.push_back(next.at(loop.back()));
+    }
+    return loop;
+}
+
+} // namespace
+
+Polytope convex_hull(const std::vector<Vec3>& points)
+{
+    const int low = farthest(points, [](const Vec3& x) { return -x.sum(); });
+    const int high = farthest(points, [](const Vec3& x) { return x.sum(); });
+    const double size = (points[static_cast<std::size_t>(high)] - points[static_cast<std::size_t>(low)]).norm();
+    const double tolerance = 1e-9 * size; // rounding of plane offsets, with room
+    std::vector<Face> faces = first_tetrahedron(points);
+    for (int k = 0; k < static_cast<int>(points.size()); ++k) {
+        add_point(points, k, tolerance, faces);
+    }
+
+    Polytope hull;
+    std::map<int, int> number; // of a point among the corners of the hull
+    while (!faces.empty()) {
+        const Face first = faces.front();
+        const auto coplanar = std::stable_partition(faces.begin(), faces.end(), [&](const Face& face) {
+            return face.normal.dot(first.normal) < 1 - 1e-12 ||
+                   std::abs(face.offset - first.offset) > 1e-7 * size;
+        });
+        std::vector<int> face;
+        for (const int k : outline({coplanar, faces.end()})) {
+            const auto known = number.try_emplace(k, static_cast<int>(number.size())).first;
+            if (known->second == static_cast<int>(hull.corners.size())) {
+                hull.corners.push_back(points[static_cast<std::size_t>(k)]);
+            }
+            face.push_back(known->second);
+        }
+        hull.faces.push_back(std::move(face));
+        faces.erase(coplanar, faces.end());
+    }
+    return hull;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "manifold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Corners this part of the size of a pair past the rim of a face still count as on it, so that flush
+// faces keep their corners; and points nearer to each other than that are one.
+constexpr double rim_tolerance = 1e-6;
+// Faces nearer to parallel than acos of this overlap face to face; corners of the reference then count.
+constexpr double face_to_face = 0.9;
+
+// The reference face's solid r, the other i, and the normal out of the reference face in world axes.
+struct Meeting {
+    const Pair& pair;
+    const Configuration& at;
+    Placed r;
+    Placed i;
+    int reference = 0;
+    int incident = 0;
+    int owner = 0; // 0 if the incident solid is a
+    int deepest = 0;
+    Vec3 normal{0, 0, 1};
+    double tolerance = 0;
+};
+
+Vec3 seen_from(const Placed& frame, const Placed& other, const Vec3& point)
+{
+    return frame.pose.R.transpose() * (other.pose.x + other.pose.R * point - frame.pose.x);
+}
+
+// The largest distance past a side of the face; negative inside.
+double past_sides(const Face& face, const Vec3& p)
+{
+    double past = -infinity;
+    for (const Side& side : face.sides) {
+        past = std::max(past, side.normal.dot(p) - side.offset);
+    }
+    return past;
+}
+
+int deepest_corner(const Solid& solid, const Vec3& n)
+{
+    int deepest = 0;
+    for (int k = 1; k < static_cast<int>(solid.corners.size()); ++k) {
+        if (n.dot(solid.corners[k]) < n.dot(solid.corners[deepest])) {
+            deepest = k;
+        }
+    }
+    return deepest;
+}
+
+// Among the faces of the deepest corner, the one that looks most against the normal.
+int facing_face(const Solid& solid, int corner, const Vec3& n)
+{
+    int best = -1;
+    for (const int f : solid.faces_of_corner[corner]) {
+        if (best < 0 || n.dot(solid.faces[f].normal) < n.dot(solid.faces[best].normal)) {
+            best = f;
+        }
+    }
+    return best;
+}
+
+void add_once(const Meeting& m, const Feature& feature, std::size_t first,
+              std::vector<Candidate>& found)
+{
+    const Touch touch = touch_of(feature, m.at);
+    const bool known = std::any_of(
+        found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const Candidate& c) {
+            const Vec3 d = c.touch.point - touch.point;
+            return (d - m.normal * m.normal.dot(d)).norm() < 2 * m.tolerance;
+        });
+    if (!known) {
+        found.push_back({feature, touch});
+    }
+}
+
+Feature corner_feature(const Meeting& m, int owner, int corner, int face)
+{
+    Feature feature{m.pair.a, m.pair.b, FeatureKind::corner_face, owner};
+    feature.i = corner;
+    feature.f = face;
+    return feature;
+}
+
+void add_corners(const Meeting& m, std::size_t first, std::vector<Candidate>& found)
+{
+    const Face& reference = m.r.solid.faces[m.reference];
+    const Face& incident = m.i.solid.faces[m.incident];
+    for (const int k : incident.corners) {
+        if (past_sides(reference, seen_from(m.r, m.i, m.i.solid.corners[k])) <= m.tolerance) {
+            add_once(m, corner_feature(m, m.owner, k, m.reference), first, found);
+        }
+    }
+    if ((m.i.pose.R * incident.normal).dot(m.normal) > -face_to_face) {
+        return;
+    }
+    for (const int k : reference.corners) {
+        if (past_sides(incident, seen_from(m.i, m.r, m.r.solid.corners[k])) <= m.tolerance) {
+            add_once(m, corner_feature(m, 1 - m.owner, k, m.incident), first, found);
+        }
+    }
+}
+
+// Edges of the incident face that pass a side of the reference face away from all corners.
+void add_crossings(const Meeting& m, std::size_t first, std::vector<Candidate>& found)
+{
+    const Face& reference = m.r.solid.faces[m.reference];
+    for (const Side& edge : m.i.solid.faces[m.incident].sides) {
+        const Vec3 p = seen_from(m.r, m.i, m.i.solid.corners[edge.i]);
+        const Vec3 q = seen_from(m.r, m.i, m.i.solid.corners[edge.j]);
+        for (const Side& side : reference.sides) {
+            const double dp = side.normal.dot(p) - side.offset;
+            const double dq = side.normal.dot(q) - side.offset;
+            if (dp * dq >= 0 || std::min(std::abs(dp), std::abs(dq)) <= m.tolerance) {
+                continue;
+            }
+            const Vec3 c = p + dp / (dp - dq) * (q - p);
+            if (past_sides(reference, c) <= m.tolerance) {
+                Feature feature{m.pair.a, m.pair.b, FeatureKind::crossing, m.owner};
+                feature.i = std::min(edge.i, edge.j);
+                feature.j = std::max(edge.i, edge.j);
+                feature.k = side.i;
+                feature.l = side.j;
+                feature.f = m.reference;
+                add_once(m, feature, first, found);
+            }
+        }
+    }
+}
+
+void add_faces(const Meeting& m, double distance, std::vector<Candidate>& found)
+{
+    const std::size_t first = found.size();
+    add_corners(m, first, found);
+    add_crossings(m, first, found);
+    double lowest = infinity;
+    for (std::size_t k = first; k < found.size(); ++k) {
+        lowest = std::min(lowest, found[k].touch.gap);
+    }
+    // The axis says how near the solids are; a corner just past the rim may have left no point to show it.
+    if (lowest > distance + m.tolerance) {
+        const Feature corner = corner_feature(m, m.owner, m.deepest, m.reference);
+        found.push_back({corner, touch_of(corner, m.at)});
+    }
+}
+
+Meeting meeting(const Pair& pair, const Separation& axis, const Configuration& at)
+{
+    const bool a_refers = axis.kind == AxisKind::face_of_a;
+    Meeting m{pair, at, placed(at, a_refers ? pair.a : pair.b),
+              placed(at, a_refers ? pair.b : pair.a)};
+    m.reference = a_refers ? axis.a : axis.b;
+    m.owner = a_refers ? 1 : 0;
+    m.normal = m.r.pose.R * m.r.solid.faces[m.reference].normal;
+    const Vec3 n = m.i.pose.R.transpose() * m.normal;
+    m.deepest = deepest_corner(m.i.solid, n);
+    m.incident = facing_face(m.i.solid, m.deepest, n);
+    m.tolerance = rim_tolerance * std::min(m.r.solid.reach, m.i.solid.reach);
+    return m;
+}
+
+} // namespace
+
+void add_manifold(const Pair& pair, const Separation& axis, const Configuration& at,
+                  std::vector<Candidate>& found)
+{
+    if (axis.kind != AxisKind::edges) {
+        add_faces(meeting(pair, axis, at), axis.distance, found);
+        return;
+    }
+    const Edge& ea = placed(at, pair.a).solid.edges[axis.a];
+    const Edge& eb = placed(at, pair.b).solid.edges[axis.b];
+    const Feature feature{pair.a, pair.b, FeatureKind::edge_edge, 0, ea.i, ea.j, eb.i, eb.j, 0};
+    found.push_back({feature, touch_of(feature, at)});
+}
+
+} // namespace hyoryu

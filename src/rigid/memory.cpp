@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Numbers of one remembered force: the feature and three components.
+constexpr std::size_t numbers_per_force = 12;
+
+} // namespace
+
+Pose pose_at(const Path& path, const Rotor& rotor, double s)
+{
+    const double part = path.h > 0 ? s / path.h : 0;
+    const Vec3 x = path.start.x + s * path.v0 + 0.5 * s * part * (path.v1 - path.v0);
+    const Vec3 L = path.L0 + 0.5 * part * (path.L1 - path.L0);
+    return pose_of(x, turned(rotor, path.start.q, L, s));
+}
+
+void prepare(Rigid& rigid)
+{
+    if (!rigid.memory) {
+        rigid.memory = std::make_unique<ContactMemory>();
+    }
+    ContactMemory& memory = *rigid.memory;
+    const std::size_t n = rigid.bodies.size();
+    const int dimensions = rigid.settings.dimensions;
+    if (memory.rotors.size() != n || memory.geometry.walls.size() != rigid.boundaries.size()) {
+        memory.rotors.clear();
+        memory.geometry = {};
+        for (const Body& body : rigid.bodies) {
+            memory.rotors.push_back(rotor_of(body, dimensions));
+            memory.geometry.solids.push_back(solid_of(body.shape, dimensions));
+        }
+        for (const Boundary& boundary : rigid.boundaries) {
+            memory.geometry.walls.push_back(wall_of(boundary, dimensions));
+        }
+    }
+    memory.poses.resize(n);
+    memory.paths.resize(n);
+    memory.responses.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        Body& body = rigid.bodies[k];
+        memory.poses[k] = pose_of(body.position, body.orientation);
+        for (int m = 0; m < 3; ++m) { // a locked axis does not move, whatever its velocity was
+            body.velocity[m] = memory.rotors[k].inverse_mass[m] > 0 ? body.velocity[m] : 0;
+            body.angular_momentum[m] = memory.rotors[k].turns[m] ? body.angular_momentum[m] : 0;
+        }
+        memory.responses[k].inverse_mass = memory.rotors[k].inverse_mass;
+        memory.responses[k].movable = memory.rotors[k].movable;
+    }
+    memory.fresh.clear();
+    memory.trial = memory.poses;
+    memory.middle = memory.poses;
+    memory.end = memory.poses;
+    memory.events.assign(n, 0);
+}
+
+Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses, double time)
+{
+    return {memory.geometry, poses, time};
+}
+
+Vec3 wall_velocity(const ContactMemory& memory, int b)
+{
+    return b < 0 ? memory.geometry.walls[-1 - b].velocity : Vec3::Zero();
+}
+
+const ContactLaws::Law& law_of(const Rigid& rigid, int a, int b)
+{
+    const int other = b < 0 ? rigid.boundaries[-1 - b].material : rigid.bodies[b].material;
+    return rigid.laws.of(rigid.bodies[a].material, other);
+}
+
+Vec3 acceleration(const StepContext& context, int body)
+{
+    const Vec3& inverse_mass = context.memory.rotors[body].inverse_mass;
+    const double mass = context.rigid.bodies[body].mass.mass;
+    return inverse_mass.cwiseProduct(mass * context.rigid.settings.gravity +
+                                     context.loads[body].force);
+}
+
+void set_responses(const StepContext& context, const Cluster& cluster)
+{
+    for (const int k : cluster.bodies) {
+        const Body& body = context.rigid.bodies[k];
+        Response& response = context.memory.responses[k];
+        response.inverse_inertia =
+            inverse_inertia(context.memory.rotors[k], context.memory.poses[k].R);
+        response.v = body.velocity;
+        response.omega = response.inverse_inertia * body.angular_momentum;
+    }
+}
+
+double separation_speed(const ContactMemory& memory, const Feature& feature, const Touch& touch)
+{
+    const auto at_point = [&](int k) {
+        const Response& body = memory.responses[k];
+        return Vec3(body.v + body.omega.cross(touch.point - memory.poses[k].x));
+    };
+    const Vec3 other =
+        feature.b >= 0 ? at_point(feature.b) : wall_velocity(memory, feature.b);
+    return touch.normal.dot(at_point(feature.a) - other);
+}
+
+std::vector<double> save_memory(const Rigid& rigid)
+{
+    std::vector<double> numbers;
+    if (!rigid.memory) {
+        return numbers;
+    }
+    for (const Remembered& r : rigid.memory->forces) {
+        const Feature& f = r.feature;
+        for (const int index : {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f}) {
+            numbers.push_back(index);
+        }
+        numbers.insert(numbers.end(), {r.force.x(), r.force.y(), r.force.z()});
+    }
+    return numbers;
+}
+
+void load_memory(Rigid& rigid, std::span<const double> numbers)
+{
+    rigid.memory = std::make_unique<ContactMemory>();
+    for (std::size_t k = 0; k + numbers_per_force <= numbers.size(); k += numbers_per_force) {
+        const auto index = [&](std::size_t m) { return static_cast<int>(numbers[k + m]); };
+        const Feature feature{index(0), index(1), static_cast<FeatureKind>(index(2)),
+                              index(3), index(4), index(5), index(6), index(7), index(8)};
+        rigid.memory->forces.push_back(
+            {feature, Vec3(numbers[k + 9], numbers[k + 10], numbers[k + 11])});
+    }
+}
+
+} // namespace hyoryu

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What the rigid layer keeps between steps, and its scratch.
+#pragma once
+
+#include "narrow_phase.hpp"
+#include "solver.hpp"
+
+namespace hyoryu {
+
+/// The path of a body over a smooth sub-step of length h: V and L change linearly, x is the parabola,
+/// q the free rotor with the mean momentum up to the time asked for.
+struct Path {
+    Pose start;
+    Vec3 v0{0, 0, 0}, v1{0, 0, 0}; // V [m/s]
+    Vec3 L0{0, 0, 0}, L1{0, 0, 0}; // L [kg m2/s]
+    double h = 0;                  // [s]
+};
+Pose pose_at(const Path& path, const Rotor& rotor, double s);
+
+/// The force of a persistent contact: the warm start of the next step.
+struct Remembered {
+    Feature feature;
+    Vec3 force{0, 0, 0}; // on a [N]
+};
+
+/// Bodies that may meet within a step, with all their pairs.
+struct Cluster {
+    std::vector<int> bodies;
+    std::vector<Pair> pairs;
+};
+
+/// A persistent contact of the current sub-step.
+struct Persistent {
+    Candidate candidate;
+    Vec3 impulse{0, 0, 0}; // over the whole sub-step, on a [N s]
+    TwoTouches touches;    // at the middle and the end
+    double effective_mass = 0; // [kg]
+    double dissipated = 0; // [J]
+};
+
+struct ContactMemory {
+    std::vector<Remembered> forces; // sorted by feature
+
+    // From the bodies and boundaries at the first step; shapes, masses and locks do not change.
+    Geometry geometry;
+    std::vector<Rotor> rotors;
+
+    // Scratch, by body.
+    std::vector<Pose> poses, trial, middle, end;
+    std::vector<Path> paths;
+    std::vector<Response> responses;
+    std::vector<int> events; // located events of this step
+
+    // Scratch of the cluster in hand.
+    std::vector<Cluster> clusters;
+    std::vector<Candidate> candidates, looked_at;
+    std::vector<Persistent> persistent;
+    std::vector<Feature> held; // not looked for by the event search
+    std::span<const Remembered> known;   // forces of the last sub-step
+    std::vector<Remembered> recent, fresh;
+    std::vector<Contact> resting;
+    std::vector<Feature> resting_features;
+    std::vector<Row> rows, group;
+    SolverWork solver;
+};
+
+/// What one step works on.
+struct StepContext {
+    Rigid& rigid;
+    ContactMemory& memory;
+    std::span<const Wrench> loads;
+    std::vector<Contact>& log;
+    double start = 0; // [s]
+    double dt = 0;    // [s]
+};
+
+/// Builds the tables if there are none for these bodies, and takes the poses of the bodies.
+void prepare(Rigid& rigid);
+
+Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses, double time);
+
+/// Velocity of a boundary, zero for a body.
+Vec3 wall_velocity(const ContactMemory& memory, int b);
+/// Restitution and friction of a pair.
+const ContactLaws::Law& law_of(const Rigid& rigid, int a, int b);
+/// Acceleration of a body under gravity and its load, without locked axes.
+Vec3 acceleration(const StepContext& context, int body);
+
+/// Sets V, omega and the inverse inertia of the bodies of a cluster as they are now.
+void set_responses(const StepContext& context, const Cluster& cluster);
+
+/// Normal velocity of separation of a contact, from the responses and poses of now [m/s].
+double separation_speed(const ContactMemory& memory, const Feature& feature, const Touch& touch);
+
+} // namespace hyoryu

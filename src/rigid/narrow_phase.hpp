@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The possible contacts of a pair at given poses.
+#pragma once
+
+#include "feature.hpp"
+
+#include <compare>
+
+namespace hyoryu {
+
+/// A body and its partner: another body, or -1 - (index of the boundary).
+struct Pair {
+    int a = 0, b = 0;
+    auto operator<=>(const Pair&) const = default;
+};
+
+/// Appends the features of the pair that face each other, in a fixed order.
+void find_candidates(const Pair& pair, const Configuration& at, std::vector<Candidate>& found);
+
+/// Whether the pair is made of two polytopes (rods as prisms), which have a separating axis.
+bool has_axis(const Pair& pair, const Geometry& geometry);
+
+/// The signed distance of a pair of polytopes [m].
+double axis_distance(const Pair& pair, const Configuration& at);
+
+} // namespace hyoryu

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Moving along the paths, and the gap projection.
+#include "sub_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr int most_sweeps = 10;
+// Gaps below this are left alone; they are the noise of positions [m].
+constexpr double no_gap = 1e-12;
+// Overlap that is put right at once; what is deeper was there from the start or was not located, and
+// goes by a share a step so that nothing jumps [m].
+constexpr double at_once = 1e-5;
+constexpr double share_of_deep = 0.2;
+
+void book_resting(ContactMemory& memory, const Persistent& p, const Vec3& impulse, double time,
+                  double part)
+{
+    const Feature& f = p.candidate.feature;
+    const Touch& touch = p.touches.push;
+    auto known = std::find(memory.resting_features.begin(), memory.resting_features.end(), f);
+    if (known == memory.resting_features.end()) {
+        memory.resting_features.push_back(f);
+        Contact contact{Contact::Kind::resting, time, f.a, f.b, touch.point, touch.normal};
+        contact.effective_mass = p.effective_mass;
+        memory.resting.push_back(contact);
+        known = memory.resting_features.end() - 1;
+    }
+    Contact& contact = memory.resting[static_cast<std::size_t>(known - memory.resting_features.begin())];
+    contact.normal_impulse += impulse.dot(contact.normal);
+    contact.tangential_impulse += impulse - impulse.dot(contact.normal) * contact.normal;
+    contact.energy_lost += part * p.dissipated;
+}
+
+void turn_by(Pose& pose, const Vec3& w)
+{
+    pose = pose_of(pose.x, (rotation_by(w) * pose.q).normalized());
+}
+
+// Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one; returns
+// how far it was off.
+double close_gap(const StepContext& context, const Feature& f, double wanted, double time)
+{
+    ContactMemory& memory = context.memory;
+    const Touch touch = touch_of(f, configuration(memory, memory.poses, time));
+    const double off = touch.gap - wanted;
+    if (std::abs(off) <= no_gap) {
+        return 0;
+    }
+    const Vec3& n = touch.normal;
+    const auto arm = [&](int k) { return Vec3((touch.point - memory.poses[k].x).cross(n)); };
+    const auto answer = [&](int k) {
+        const Vec3 turn = arm(k);
+        return n.dot(memory.responses[k].inverse_mass.cwiseProduct(n)) +
+               turn.dot(memory.responses[k].inverse_inertia * turn);
+    };
+    const double K = answer(f.a) + (f.b >= 0 ? answer(f.b) : 0);
+    if (K <= 0) {
+        return 0;
+    }
+    const auto move = [&](int k, double lambda) {
+        const Vec3 turn = lambda * (memory.responses[k].inverse_inertia * arm(k));
+        memory.poses[k].x += lambda * memory.responses[k].inverse_mass.cwiseProduct(n);
+        turn_by(memory.poses[k], turn);
+    };
+    move(f.a, -off / K);
+    if (f.b >= 0) {
+        move(f.b, off / K);
+    }
+    return std::abs(off);
+}
+
+struct Goal {
+    Feature feature;
+    double wanted = 0;
+};
+
+// Pressed contacts close in both senses; others only open.
+std::vector<Goal> goals(const StepContext& context, double time)
+{
+    ContactMemory& memory = context.memory;
+    const Configuration now = configuration(memory, memory.poses, time);
+    std::vector<Goal> list;
+    const auto aim = [](double gap) {
+        return gap < -at_once ? (1 - share_of_deep) * gap : 0.0;
+    };
+    for (const Persistent& p : memory.persistent) {
+        const Touch touch = touch_of(p.candidate.feature, now);
+        if (touch.gap < 0 || p.impulse.dot(p.touches.push.normal) > 0) {
+            list.push_back({p.candidate.feature, aim(touch.gap)});
+        }
+    }
+    return list;
+}
+
+} // namespace
+
+void move_to(const StepContext& context, const SubStep& sub, double s)
+{
+    ContactMemory& memory = context.memory;
+    const double part = sub.h > 0 ? s / sub.h : 0;
+    for (const int k : sub.cluster.bodies) {
+        const Path& path = memory.paths[k];
+        Body& body = context.rigid.bodies[k];
+        memory.poses[k] = pose_at(path, memory.rotors[k], s);
+        body.velocity = path.v0 + part * (path.v1 - path.v0);
+        body.angular_momentum = path.L0 + part * (path.L1 - path.L0);
+    }
+    for (const Persistent& p : memory.persistent) {
+        book_resting(memory, p, part * p.impulse, sub.time + s, part);
+    }
+}
+
+void project_gaps(const StepContext& context, const SubStep& sub, double time)
+{
+    const std::vector<Goal> list = goals(context, time);
+    if (list.empty()) {
+        return;
+    }
+    set_responses(context, sub.cluster);
+    double off = infinity;
+    for (int sweep = 0; sweep < most_sweeps && off > no_gap; ++sweep) {
+        off = 0;
+        for (const Goal& goal : list) {
+            off = std::max(off, close_gap(context, goal.feature, goal.wanted, time));
+        }
+    }
+}
+
+} // namespace hyoryu

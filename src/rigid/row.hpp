@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// One contact of a solve, and how bodies answer its impulse.
+#pragma once
+
+#include "cone.hpp"
+#include "feature.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+/// The velocities of a body during a solve.
+struct Response {
+    bool movable = true;
+    Vec3 inverse_mass{0, 0, 0}; // of each world axis [1/kg]
+    Mat3 inverse_inertia = Mat3::Zero();
+    Vec3 v{0, 0, 0};
+    Vec3 omega{0, 0, 0};
+};
+
+/// A contact at two configurations: the impulse acts at `push`, the velocity is asked for at `see`.
+/// They are the same in an impact; in a smooth step they are its middle and its end.
+struct TwoTouches {
+    Touch push;
+    Touch see;
+};
+
+/// Rows of the contact problem: u = D^T (v_a - v_b - w) + C_a^T omega_a - C_b^T omega_b, and the
+/// impulse B p changes v by B p / M and omega by G p.
+struct Row {
+    int a = 0, b = -1; // bodies; b < 0 is a boundary
+    int contact = 0;   // index of the contact in the caller's list
+    Cone cone;
+    Mat3 B = Mat3::Identity(); // n, t1, t2 where the impulse acts
+    Mat3 D = Mat3::Identity(); // the same where the velocity is seen
+    Mat3 Ca = Mat3::Zero(), Cb = Mat3::Zero(); // (arm x D)
+    Mat3 Ga = Mat3::Zero(), Gb = Mat3::Zero(); // I^-1 (arm x B)
+    Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};       // of the impulse [m]
+    Vec3 wall_velocity{0, 0, 0};
+    double target = 0; // wanted normal velocity [m/s]
+    Vec3 before{0, 0, 0}; // velocity at the start of the solve, in the axes of D [m/s]
+    Vec3 p{0, 0, 0};   // impulse in the axes of B [N s]
+    bool tangential = false;
+
+    Vec3 impulse() const { return B * p; }
+};
+
+/// Positions of the two centres of mass at the two configurations.
+struct Centres {
+    Vec3 push_a{0, 0, 0}, push_b{0, 0, 0}, see_a{0, 0, 0}, see_b{0, 0, 0};
+};
+
+/// Completes a row whose a, b, wall_velocity and cone.mu are set.
+void complete(Row& row, const TwoTouches& at, const Centres& centres,
+              const std::vector<Response>& bodies, int dimensions);
+
+/// The velocity of the contact in the axes (n, t1, t2).
+Vec3 velocity(const Row& row, const std::vector<Response>& bodies);
+
+/// Adds dp to the impulse of the row and to the bodies.
+void push(Row& row, const Vec3& dp, std::vector<Response>& bodies);
+
+} // namespace hyoryu

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The signed distance of two convex solids along their best separating axis.
+#pragma once
+
+#include "feature.hpp"
+
+namespace hyoryu {
+
+/// Which features span the separating axis.
+enum class AxisKind { face_of_a, face_of_b, edges };
+
+/// The axis along which two convex solids are farthest apart, or overlap least.
+struct Separation {
+    double distance = -infinity; // [m], negative if they overlap
+    AxisKind kind = AxisKind::face_of_a;
+    int a = 0; // face or edge of a
+    int b = 0; // face or edge of b
+};
+
+/// Separating axes of two polytopes: the normals of all faces, and the cross products of those edges that
+/// span a face of the Minkowski difference (Gregorius, GDC 2013). Returns early with the first face axis
+/// that separates by more than `enough`.
+Separation separation(const Placed& a, const Placed& b, double enough);
+
+} // namespace hyoryu

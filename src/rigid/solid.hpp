@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// A contact shape with the tables that the distance functions need.
+#pragma once
+
+#include "hyoryu/rigid/body.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+enum class Form { ball, rod, polytope };
+
+/// A plane through an edge of a face, square to the face: n . x <= offset inside the face.
+/// In two dimensions the edge is one corner (i == j).
+struct Side {
+    Vec3 normal{0, 0, 0};
+    double offset = 0; // [m]
+    int i = 0, j = 0;  // corners
+};
+
+/// A flat face; coplanar neighbours are merged, so that a contact sees the whole of it.
+struct Face {
+    Vec3 normal{0, 0, 1}; // outward unit
+    double offset = 0;    // n . x of the face [m]
+    std::vector<int> corners;
+    std::vector<Side> sides;
+};
+
+/// An edge between two faces, with the cross product of their normals (the arc on the Gauss map).
+struct Edge {
+    int i = 0, j = 0;
+    int left = 0, right = 0;
+    Vec3 arc{0, 0, 0};
+};
+
+/// A shape in its body frame. A rod carries a prism in `corners`, `faces` and `edges`: against planes and
+/// balls it is exact, against polytopes and other rods it is the prism of the same cross-section.
+struct Solid {
+    Form form = Form::ball;
+    double radius = 0;      // ball, rod [m]
+    double half_length = 0; // rod [m]
+    std::vector<Vec3> corners;
+    std::vector<Face> faces;
+    std::vector<Edge> edges;
+    std::vector<std::vector<int>> faces_of_corner;
+    Vec3 box_centre{0, 0, 0}; // bounding box in the body frame [m]
+    Vec3 box_half{0, 0, 0};
+    double reach = 0;     // largest distance of a point from the centre of mass [m]
+    double thickness = 0; // a length that motion must not jump over unseen: the inner radius [m]
+};
+
+/// The tables of a shape. In two dimensions a rod is the rectangle of its lengthwise section.
+Solid solid_of(const ContactShape& shape, int dimensions);
+
+/// The edges of a polygon in the x-z plane, from faces that are edges or from one face that is the polygon.
+std::vector<std::vector<int>> polygon_edges(const Polytope& polygon);
+
+} // namespace hyoryu
