@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What a results folder holds to be shown: the moments of its frames, the space they take, the range
+// of what is shown in colour.
+#pragma once
+
+#include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/core/types.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+/// The files of one frame.
+struct Moment {
+    double time = 0;          // [s]
+    std::string number;       // as in the names of the files: "000012"
+    std::filesystem::path fluid; // empty if the run has none; likewise below
+    std::filesystem::path bodies;
+    std::filesystem::path surfaces;
+};
+
+/// All moments in the order of time, or those next to the `times` asked for. Throws IoError.
+std::vector<Moment> moments_of(const std::filesystem::path& results,
+                               const std::vector<double>& times);
+
+using Box = Eigen::AlignedBox3d;
+
+/// What the pictures of a run have in common, so that an animation neither jumps nor flickers.
+struct Survey {
+    Box bounds;            // of everything [m]
+    Box inner;             // of what moves [m]
+    double spacing = 0;    // of the particles [m]
+    double colour_min = 0; // range of the array that is shown in colour
+    double colour_max = 1;
+    std::string unit;      // of that array
+    bool flat = false;     // a 2-D case: everything in one x-z plane
+};
+
+/// Looks at some frames spread over all of them. `structures` may be empty.
+Survey survey_of(const std::vector<Moment>& moments, const Surface& structures,
+                 const std::string& colour);
+
+/// One number a point: the column itself or, for vectors, their lengths; empty without the column.
+std::vector<float> magnitudes(const Cloud& cloud, const std::string& column);
+const Column* find_column(const std::vector<Column>& columns, const std::string& name);
+/// The values of a column of 32-bit integers; empty if there is none of this name.
+std::vector<std::int32_t> indices_in(const std::vector<Column>& columns, const std::string& name);
+
+} // namespace hyoryu

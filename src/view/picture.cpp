@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Composes a picture: surroundings once, fluid and bodies for each moment, labels above all.
+#ifdef HYORYU_HAS_VTK
+#include "picture.hpp"
+
+#include "camera.hpp"
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "offscreen_window.hpp"
+
+#include <vtkEDLShading.h>
+#include <vtkLightKit.h>
+#include <vtkNew.h>
+#include <vtkOpenGLFXAAPass.h>
+#include <vtkPNGWriter.h>
+#include <vtkRenderStepsPass.h>
+#include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <fmt/format.h>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double default_azimuth = -60;  // degrees
+constexpr double default_elevation = 30; // degrees
+// Spheres of half the spacing leave gaps between them; a little more closes the surface.
+constexpr double radius_of_spacing = 0.62;
+
+vtkSmartPointer<vtkRenderer> make_scene(vtkRenderWindow& window)
+{
+    auto scene = vtkSmartPointer<vtkRenderer>::New();
+    scene->SetBackground(0.96, 0.965, 0.97);
+    scene->SetBackground2(0.74, 0.80, 0.86);
+    scene->GradientBackgroundOn();
+    // Depth told by shade: without it a cloud of spheres is one flat patch of colour.
+    vtkNew<vtkRenderStepsPass> steps;
+    vtkNew<vtkEDLShading> depth_shade;
+    depth_shade->SetDelegatePass(steps);
+    vtkNew<vtkOpenGLFXAAPass> smooth_edges;
+    smooth_edges->SetDelegatePass(depth_shade);
+    scene->SetPass(smooth_edges);
+    vtkNew<vtkLightKit> lights;
+    lights->SetKeyLightIntensity(0.85);
+    lights->AddLightsToRenderer(scene);
+    window.AddRenderer(scene);
+    return scene;
+}
+
+/// A layer of its own, which the shading of depth does not touch.
+vtkSmartPointer<vtkRenderer> make_label_layer(vtkRenderWindow& window)
+{
+    auto labels = vtkSmartPointer<vtkRenderer>::New();
+    window.SetNumberOfLayers(2);
+    labels->SetLayer(1);
+    labels->InteractiveOff();
+    window.AddRenderer(labels);
+    return labels;
+}
+
+std::string scale_title(const std::string& colour, const std::string& unit)
+{
+    const std::string name = colour == "Velocity" ? "speed" : colour;
+    return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+} // namespace
+
+Picture::Picture(const std::filesystem::path& results, const Survey& survey,
+                 const Surface& structures, const RenderSettings& settings)
+    : survey_(survey), colour_(settings.colour),
+      to_camera_(view_direction(settings.azimuth_deg.value_or(default_azimuth),
+                                settings.elevation_deg.value_or(default_elevation))),
+      window_(offscreen_window(settings.width, settings.height)), scene_(make_scene(*window_)),
+      labels_(make_label_layer(*window_)),
+      colours_(water_colours(survey.colour_min, survey.colour_max))
+{
+    place_camera(settings);
+    add_surroundings(results, structures);
+    add_labels(settings);
+}
+
+void Picture::place_camera(const RenderSettings& settings)
+{
+    const double aspect = static_cast<double>(settings.width) / settings.height;
+    vtkCamera& camera = *scene_->GetActiveCamera();
+    if (survey_.flat) {
+        to_camera_ = -Vec3::UnitY();
+        aim_at_plane(camera, survey_.bounds, aspect);
+    } else {
+        aim(camera, survey_.bounds, to_camera_, aspect);
+    }
+}
+
+void Picture::add_surroundings(const std::filesystem::path& results, const Surface& structures)
+{
+    if (!structures.triangles.empty()) {
+        const Sides sides = survey_.flat ? Sides::all : Sides::facing_camera;
+        scene_->AddActor(structures_actor(structures, sides));
+        scene_->AddActor(edges_actor(structures));
+    } else if (std::filesystem::exists(results / "walls.hdf")) {
+        scene_->AddActor(wall_particles_actor(read_frame(results / "walls.hdf"),
+                                              0.5 * survey_.spacing, survey_.inner, to_camera_));
+    }
+}
+
+void Picture::add_labels(const RenderSettings& settings)
+{
+    time_ = time_label(settings.height);
+    labels_->AddActor2D(time_);
+    if (!survey_.unit.empty()) {
+        labels_->AddActor2D(colour_scale(*colours_, scale_title(settings.colour, survey_.unit)));
+    }
+}
+
+void Picture::add_for_this_moment(const Actor& actor)
+{
+    scene_->AddActor(actor);
+    of_this_moment_.push_back(actor);
+}
+
+void Picture::show(const Moment& moment)
+{
+    for (const Actor& actor : of_this_moment_) {
+        scene_->RemoveActor(actor);
+    }
+    of_this_moment_.clear();
+    const double radius = radius_of_spacing * survey_.spacing;
+    if (!moment.fluid.empty()) {
+        const Cloud fluid = read_frame(moment.fluid);
+        add_for_this_moment(fluid_actor(fluid, magnitudes(fluid, colour_), radius, *colours_));
+    }
+    if (!moment.surfaces.empty()) {
+        add_for_this_moment(bodies_actor(read_surface(moment.surfaces)));
+    } else if (!moment.bodies.empty()) {
+        add_for_this_moment(body_particles_actor(read_frame(moment.bodies), radius));
+    }
+    time_->SetInput(fmt::format("t = {:.2f} s", moment.time).c_str());
+}
+
+std::string Picture::png_of(const Moment& moment)
+{
+    show(moment);
+    scene_->ResetCameraClippingRange();
+    window_->Render();
+    vtkNew<vtkWindowToImageFilter> image;
+    image->SetInput(window_);
+    image->ReadFrontBufferOff();
+    image->ShouldRerenderOff();
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputConnection(image->GetOutputPort());
+    writer->WriteToMemoryOn();
+    writer->Write();
+    vtkUnsignedCharArray* const bytes = writer->GetResult();
+    if (bytes == nullptr || bytes->GetNumberOfValues() == 0) {
+        throw IoError("VTK gave no picture");
+    }
+    const auto* const begin = reinterpret_cast<const char*>(bytes->GetPointer(0));
+    return {begin, begin + bytes->GetNumberOfValues()};
+}
+
+} // namespace hyoryu
+#endif

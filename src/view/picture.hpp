@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The window, the lights and what stays in every picture of a run.
+#pragma once
+
+#include "hyoryu/view/render.hpp"
+#include "moments.hpp"
+#include "scene_actors.hpp"
+
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+namespace hyoryu {
+
+class Picture {
+public:
+    Picture(const std::filesystem::path& results, const Survey& survey, const Surface& structures,
+            const RenderSettings& settings);
+    /// The moment as the bytes of a PNG file.
+    std::string png_of(const Moment& moment);
+
+private:
+    void place_camera(const RenderSettings& settings);
+    void add_surroundings(const std::filesystem::path& results, const Surface& structures);
+    void add_labels(const RenderSettings& settings);
+    void show(const Moment& moment);
+    void add_for_this_moment(const Actor& actor);
+
+    Survey survey_;
+    std::string colour_;
+    Vec3 to_camera_;
+    vtkSmartPointer<vtkRenderWindow> window_;
+    vtkSmartPointer<vtkRenderer> scene_;
+    vtkSmartPointer<vtkRenderer> labels_;
+    vtkSmartPointer<vtkColorTransferFunction> colours_;
+    vtkSmartPointer<vtkTextActor> time_;
+    std::vector<Actor> of_this_moment_;
+};
+
+} // namespace hyoryu

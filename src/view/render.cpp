@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// From a results folder to pictures and an animation.
+#include "hyoryu/view/render.hpp"
+
+#include "hyoryu/core/error.hpp"
+
+#ifdef HYORYU_HAS_VTK
+#include "animation.hpp"
+#include "hyoryu/io/results.hpp"
+#include "moments.hpp"
+#include "picture.hpp"
+
+#include <fmt/format.h>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An empty folder for the pictures: those of an earlier call would slip into the animation.
+fs::path emptied_pictures(const fs::path& results)
+{
+    const fs::path pictures = results / "pictures";
+    try {
+        fs::create_directories(pictures);
+        std::vector<fs::path> old;
+        for (const auto& entry : fs::directory_iterator(pictures)) {
+            const std::string name = entry.path().filename().string();
+            if ((name.starts_with("frame_") && name.ends_with(".png")) || name == "animation.mp4") {
+                old.push_back(entry.path());
+            }
+        }
+        for (const fs::path& file : old) {
+            fs::remove(file);
+        }
+    } catch (const fs::filesystem_error& error) {
+        throw IoError(fmt::format("cannot prepare `{}`: {}", pictures.string(),
+                                  error.code().message()));
+    }
+    return pictures;
+}
+
+Surface structures_in(const fs::path& results)
+{
+    const fs::path file = results / "structures.hdf";
+    return fs::exists(file) ? read_surface(file) : Surface{};
+}
+
+} // namespace
+
+RenderResult render(const fs::path& results, const RenderSettings& settings)
+{
+    const std::vector<Moment> moments = moments_of(results, settings.times);
+    const Surface structures = structures_in(results);
+    const Survey survey = survey_of(moments, structures, settings.colour);
+    Picture picture(results, survey, structures, settings);
+    RenderResult result;
+    const fs::path folder = emptied_pictures(results);
+    for (const Moment& moment : moments) {
+        const fs::path file = folder / fmt::format("frame_{}.png", moment.number);
+        write_text(file, picture.png_of(moment));
+        result.pictures.push_back(file);
+    }
+    if (result.pictures.size() < 2) {
+        result.note = "no animation of a single picture";
+        return result;
+    }
+    result.note = animate(folder, settings.fps);
+    if (result.note.empty()) {
+        result.animation = folder / "animation.mp4";
+    }
+    return result;
+}
+
+} // namespace hyoryu
+
+#else
+
+namespace hyoryu {
+
+RenderResult render(const std::filesystem::path&, const RenderSettings&)
+{
+    throw IoError("cannot render: this program was built without VTK (HYORYU_VTK=OFF)");
+}
+
+} // namespace hyoryu
+
+#endif

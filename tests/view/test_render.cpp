@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Pictures of small synthetic runs, and our frames as VTK's own reader sees them.
+#ifdef HYORYU_HAS_VTK
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/view/render.hpp"
+#include "io/results_fixture.hpp"
+#include "synthetic_results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vtkFieldData.h>
+#include <vtkHDFReader.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace hyoryu {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Render : public testing::ResultsTest {
+protected:
+    static RenderSettings small()
+    {
+        RenderSettings settings;
+        settings.width = 320;
+        settings.height = 180;
+        return settings;
+    }
+
+    /// Renders, or skips the test where no off-screen context is to be had.
+    RenderResult rendered(const RenderSettings& settings)
+    {
+        try {
+            return render(folder, settings);
+        } catch (const IoError& error) {
+            if (std::string(error.what()).find("xvfb-run") == std::string::npos) {
+                throw;
+            }
+            no_context = error.what();
+            return {};
+        }
+    }
+
+    std::string no_context;
+};
+
+/// Share of the pixels that are neither sky nor text: red and blue of the sky lie in a narrow band.
+double covered(const fs::path& picture)
+{
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(picture.c_str());
+    reader->Update();
+    vtkDataArray& pixels = *reader->GetOutput()->GetPointData()->GetScalars();
+    vtkIdType count = 0;
+    for (vtkIdType i = 0; i < pixels.GetNumberOfTuples(); ++i) {
+        const double red = pixels.GetComponent(i, 0);
+        count += red < 180 || red > pixels.GetComponent(i, 2) + 2 ? 1 : 0;
+    }
+    return static_cast<double>(count) / static_cast<double>(pixels.GetNumberOfTuples());
+}
+
+void expect_picture(const fs::path& file)
+{
+    constexpr double labels = 0.035; // share that the colour scale and the time take
+    EXPECT_GT(covered(file), labels + 0.05) << file;
+}
+
+TEST_F(Render, MakesAPictureOfEveryFrame)
+{
+    testing::write_flood(folder, 0.08, 3);
+    const RenderResult result = rendered(small());
+    if (!no_context.empty()) {
+        GTEST_SKIP() << no_context;
+    }
+    ASSERT_EQ(result.pictures.size(), 3U);
+    for (const fs::path& picture : result.pictures) {
+        expect_picture(picture);
+    }
+    EXPECT_EQ(result.pictures[1], folder / "pictures/frame_000001.png");
+    EXPECT_NE(result.animation.has_value(), !result.note.empty());
+}
+
+TEST_F(Render, MakesThePicturesAskedFor)
+{
+    testing::write_flood(folder, 0.1, 4);
+    testing::put_text_into(folder / "pictures/frame_000009.png", "of an earlier call");
+    RenderSettings settings = small();
+    settings.times = {0.21};
+    const RenderResult result = rendered(settings);
+    if (!no_context.empty()) {
+        GTEST_SKIP() << no_context;
+    }
+    ASSERT_EQ(result.pictures.size(), 1U);
+    EXPECT_EQ(testing::content_of(folder / "pictures"), std::vector<std::string>{"frame_000002.png"});
+    EXPECT_FALSE(result.animation.has_value());
+    EXPECT_FALSE(result.note.empty());
+}
+
+// A run of bodies alone has neither fluid nor wall particles.
+TEST_F(Render, ShowsBodiesAlone)
+{
+    FrameWriter writer(folder);
+    writer.write(testing::make_timbers(0, 4));
+    writer.finish();
+    const RenderResult result = rendered(small());
+    if (!no_context.empty()) {
+        GTEST_SKIP() << no_context;
+    }
+    ASSERT_EQ(result.pictures.size(), 1U);
+    expect_picture(result.pictures[0]);
+}
+
+TEST_F(Render, ShowsAPlaneCaseFromItsSide)
+{
+    Cloud water = testing::make_water(0, 0.05);
+    Cloud timber{.name = "bodies", .time = 0, .index = 0, .points = {}, .columns = {}};
+    for (std::size_t i = 0; i < water.points.size(); i += 3) {
+        water.points[i + 1] = 0;
+    }
+    for (const float x : {1.0F, 1.05F, 1.1F}) {
+        timber.points.insert(timber.points.end(), {x, 0.0F, 0.8F});
+    }
+    FrameWriter writer(folder);
+    writer.write(water);
+    writer.write(timber);
+    writer.finish();
+    const RenderResult result = rendered(small());
+    if (!no_context.empty()) {
+        GTEST_SKIP() << no_context;
+    }
+    ASSERT_EQ(result.pictures.size(), 1U);
+    expect_picture(result.pictures[0]);
+}
+
+// The same reader as in ParaView 5.10: chunks of our own compressor, vertices, arrays, the time.
+TEST_F(Render, FramesAreWhatVtkReads)
+{
+    constexpr std::size_t points = 70000; // more than one chunk
+    FrameWriter writer(folder);
+    writer.write(testing::make_cloud("fluid", 4, points));
+    writer.write(testing::make_surface(4));
+    writer.finish();
+    vtkNew<vtkHDFReader> reader;
+    ASSERT_EQ(reader->CanReadFile((folder / "frames/fluid_000004.hdf").c_str()), 1);
+    reader->SetFileName((folder / "frames/fluid_000004.hdf").c_str());
+    reader->Update();
+    auto* cloud = vtkUnstructuredGrid::SafeDownCast(reader->GetOutput());
+    ASSERT_NE(cloud, nullptr);
+    ASSERT_EQ(cloud->GetNumberOfPoints(), static_cast<vtkIdType>(points));
+    ASSERT_EQ(cloud->GetNumberOfCells(), static_cast<vtkIdType>(points));
+    EXPECT_EQ(cloud->GetCellType(points - 1), VTK_VERTEX);
+    EXPECT_DOUBLE_EQ(cloud->GetPoint(69999)[0], 70003.0);
+    EXPECT_DOUBLE_EQ(cloud->GetPointData()->GetArray("Velocity")->GetComponent(69999, 2), -140006.0);
+    EXPECT_DOUBLE_EQ(cloud->GetPointData()->GetArray("Pressure")->GetComponent(1, 0), 0.5);
+    EXPECT_EQ(cloud->GetPointData()->GetNumberOfArrays(), 5);
+    EXPECT_DOUBLE_EQ(cloud->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 0.4);
+    reader->SetFileName((folder / "frames/surfaces_000004.hdf").c_str());
+    reader->Update();
+    auto* surface = vtkUnstructuredGrid::SafeDownCast(reader->GetOutput());
+    ASSERT_NE(surface, nullptr);
+    EXPECT_EQ(surface->GetNumberOfCells(), 2);
+    EXPECT_EQ(surface->GetCellType(1), VTK_TRIANGLE);
+}
+
+TEST_F(Render, OfNothingIsAnError)
+{
+    EXPECT_THROW(render(folder, small()), IoError);
+    EXPECT_THROW(render(folder / "none", small()), IoError);
+}
+
+} // namespace
+} // namespace hyoryu
+#endif
