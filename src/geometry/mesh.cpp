@@ -12,16 +12,18 @@
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
 #include <vtkCommand.h>
+#include <vtkExecutive.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
+#include <vtkSmartPointer.h>
 #include <vtkTriangleFilter.h>
 #endif
 
-#include <algorithm>
-#include <cmath>
+#include <string>
+#include <utility>
 
 namespace hyoryu {
 
@@ -57,34 +59,71 @@ Mesh to_mesh(vtkPolyData& surface, double scale)
     return mesh;
 }
 
-/// Runs a reader, makes triangles of its faces and merges coincident corners.
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why)
+{
+    throw IoError(fmt::format("the mesh {} {}", file.string(), why));
+}
+
+/// The readers take corners and corner numbers as they stand in the file; what follows trusts them.
+void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
+{
+    const vtkIdType count = surface.GetNumberOfPoints();
+    for (vtkIdType k = 0; k < count; ++k) {
+        if (!Eigen::Map<const Vec3>(surface.GetPoint(k)).allFinite()) {
+            refuse(file, "has corners that are no finite numbers");
+        }
+    }
+    vtkNew<vtkIdList> corners;
+    vtkCellArray& faces = *surface.GetPolys();
+    if (faces.GetNumberOfCells() == 0 || faces.GetNumberOfCells() > most_triangles) {
+        refuse(file, fmt::format("has {} faces, expected 1 .. {}", faces.GetNumberOfCells(), most_triangles));
+    }
+    for (vtkIdType k = 0; k < faces.GetNumberOfCells(); ++k) {
+        faces.GetCellAtId(k, corners);
+        for (vtkIdType n = 0; n < corners->GetNumberOfIds(); ++n) {
+            if (corners->GetId(n) < 0 || corners->GetId(n) >= count) {
+                refuse(file, fmt::format("has a face with a corner that is none of its {}", count));
+            }
+        }
+    }
+}
+
+/// The faces of a file as the reader finds them.
 template <class Reader>
-Mesh run_reader(const std::filesystem::path& file, double scale)
+vtkSmartPointer<vtkPolyData> read_surface(const std::filesystem::path& file)
 {
     std::string message;
     vtkNew<vtkCallbackCommand> observer;
     observer->SetCallback(keep_message);
     observer->SetClientData(&message);
     vtkNew<Reader> reader;
-    vtkNew<vtkTriangleFilter> triangulate;
-    vtkNew<vtkCleanPolyData> clean;
-    for (vtkAlgorithm* stage : {static_cast<vtkAlgorithm*>(reader), static_cast<vtkAlgorithm*>(triangulate),
-                                static_cast<vtkAlgorithm*>(clean)}) {
-        stage->AddObserver(vtkCommand::ErrorEvent, observer);
-        stage->AddObserver(vtkCommand::WarningEvent, observer);
+    for (vtkObject* source : {static_cast<vtkObject*>(reader), static_cast<vtkObject*>(reader->GetExecutive())}) {
+        source->AddObserver(vtkCommand::ErrorEvent, observer);
+        source->AddObserver(vtkCommand::WarningEvent, observer);
     }
     reader->SetFileName(file.c_str());
-    triangulate->SetInputConnection(reader->GetOutputPort());
+    reader->Update();
+    if (!message.empty()) {
+        refuse(file, "cannot be read: it is damaged or of another kind");
+    }
+    vtkSmartPointer<vtkPolyData> surface = reader->GetOutput();
+    check_surface(*surface, file);
+    return surface;
+}
+
+/// Makes triangles of the faces and merges coincident corners.
+vtkSmartPointer<vtkPolyData> cleaned(vtkPolyData& surface)
+{
+    vtkNew<vtkTriangleFilter> triangulate;
+    triangulate->SetInputData(&surface);
     triangulate->PassLinesOff();
     triangulate->PassVertsOff();
+    vtkNew<vtkCleanPolyData> clean;
     clean->SetInputConnection(triangulate->GetOutputPort());
     constexpr double merging = 1e-7; // of the diagonal: what rounding to float tears apart
     clean->SetTolerance(merging);
     clean->Update();
-    if (!message.empty()) {
-        throw IoError(fmt::format("the mesh {} cannot be read: it is damaged or of another kind", file.string()));
-    }
-    return to_mesh(*clean->GetOutput(), scale);
+    return clean->GetOutput();
 }
 
 void turn_if_inside_out(Mesh& mesh)
@@ -101,18 +140,11 @@ void turn_if_inside_out(Mesh& mesh)
 Mesh read_mesh(const std::filesystem::path& file, double scale)
 {
     const MeshKind kind = mesh_kind(file);
-    Mesh mesh = kind == MeshKind::obj ? run_reader<vtkOBJReader>(file, scale)
-                                      : run_reader<vtkSTLReader>(file, scale);
-    const auto finite = [](const Vec3& corner) { return corner.allFinite(); };
-    if (mesh.triangles.empty()) {
-        throw IoError(fmt::format("the mesh {} has no triangles", file.string()));
-    }
-    if (static_cast<long long>(mesh.triangles.size()) > most_triangles) {
-        throw IoError(fmt::format("the mesh {} has {} triangles, at most {} are read", file.string(),
-                                  mesh.triangles.size(), most_triangles));
-    }
-    if (!std::all_of(mesh.corners.begin(), mesh.corners.end(), finite)) {
-        throw IoError(fmt::format("the mesh {} has corners that are no finite numbers", file.string()));
+    const auto surface = kind == MeshKind::obj ? read_surface<vtkOBJReader>(file)
+                                               : read_surface<vtkSTLReader>(file);
+    Mesh mesh = to_mesh(*cleaned(*surface), scale);
+    if (mesh.triangles.empty() || static_cast<long long>(mesh.triangles.size()) > most_triangles) {
+        refuse(file, fmt::format("has {} triangles, expected 1 .. {}", mesh.triangles.size(), most_triangles));
     }
     turn_if_inside_out(mesh);
     return mesh;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 namespace hyoryu {
 
@@ -87,7 +88,6 @@ Scene read_scene(TableReader& root)
     read_contact(root.table("contact"), scene);
     read_gauges(root, scene);
     read_output(root.table("output"), scene);
-    check_names(root, scene);
     if (!root.has("fluid") && !root.has("body")) {
         root.error("", "the case has nothing to simulate", "add [fluid] with [[fluid.block]], or [[body]]");
     }

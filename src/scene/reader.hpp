@@ -30,7 +30,4 @@ void read_contact(TableReader table, Scene& scene);
 void read_gauges(TableReader& root, Scene& scene);
 void read_output(TableReader table, Scene& scene);
 
-/// Names that stand twice among walls and bodies, or among gauges.
-void check_names(TableReader& root, const Scene& scene);
-
 } // namespace hyoryu

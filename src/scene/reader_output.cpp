@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gauges, output and the names that must differ.
+// Gauges and output.
 #include "reader.hpp"
 
 #include "reader_hint.hpp"
@@ -105,26 +105,6 @@ void read_output(TableReader table, Scene& scene)
     scene.output.fields = table.texts("fields");
     scene.output.checkpoint_every = table.number("checkpoint_every");
     table.finish();
-}
-
-void check_names(TableReader& root, const Scene& scene)
-{
-    std::map<std::string, int> seen;
-    const auto check = [&](const std::string& name, const Place& place) {
-        const auto [at, is_new] = seen.emplace(name, place.line);
-        if (!is_new) {
-            const std::string first = at->second > 0 ? fmt::format(", first in line {}", at->second) : "";
-            root.reading().error(place, -1, "name",
-                                 fmt::format("the name \"{}\" stands twice{}", name, first),
-                                 "names of walls and bodies must differ");
-        }
-    };
-    for (const Wall& wall : scene.walls) {
-        check(wall.name, wall.place);
-    }
-    for (const BodySettings& body : scene.bodies) {
-        check(body.name, body.place);
-    }
 }
 
 } // namespace hyoryu

@@ -61,10 +61,10 @@ BasinWall read_basin(TableReader& table)
 /// The name typed, or one made of the kind and the number.
 std::string read_name(TableReader& table, std::string_view kind, std::size_t number)
 {
+    const std::string name = table.text("name");
     if (!table.has("name")) {
         return fmt::format("{}.{}", kind, number);
     }
-    const std::string name = table.text("name");
     const bool bad = std::any_of(name.begin(), name.end(), [](char c) {
         return static_cast<unsigned char>(c) < ' ' || std::string_view("\",;#/\\").find(c) != std::string::npos;
     });
@@ -74,12 +74,23 @@ std::string read_name(TableReader& table, std::string_view kind, std::size_t num
     return name;
 }
 
+/// Notes a mistake if a wall or body of that name stands in the case already.
+void claim_name(TableReader& table, const std::string& name)
+{
+    const auto [at, is_new] = table.reading().names.emplace(name, table.place().line);
+    if (!is_new) {
+        const std::string first = at->second > 0 ? fmt::format(", first in line {}", at->second) : "";
+        table.error("name", fmt::format("the name \"{}\" stands twice{}", name, first),
+                    "names of walls and bodies must differ");
+    }
+}
+
 Wall read_wall(TableReader& table, std::size_t number)
 {
     Wall wall;
     wall.place = table.place();
     wall.name = read_name(table, "wall", number);
-    table.text("name");
+    claim_name(table, wall.name);
     const std::string kind = table.choice("shape");
     if (kind == "plane") {
         wall.geometry = read_plane(table);
@@ -146,8 +157,9 @@ Index triangle_count(const Shape& shape)
 /// The body, or the block of its copies, x fastest.
 void append_copies(TableReader copies, const BodySettings& body, std::vector<BodySettings>& bodies)
 {
+    const std::size_t before = bodies.size();
+    bodies.push_back(body);
     if (!copies.present()) {
-        bodies.push_back(body);
         return;
     }
     std::vector<std::int64_t> count = copies.integers("count");
@@ -170,6 +182,7 @@ void append_copies(TableReader copies, const BodySettings& body, std::vector<Bod
             copies.error("pitch", fmt::format("copies along {} would coincide", "xyz"[k]));
         }
     }
+    bodies.resize(before);
     for (std::int64_t n = 0; n < total; ++n) {
         const std::int64_t i = n % count[0];
         const std::int64_t j = n / count[0] % count[1];
@@ -186,7 +199,6 @@ void read_body(TableReader& table, std::size_t number, Scene& scene)
     BodySettings body;
     body.place = table.place();
     body.name = read_name(table, "body", number);
-    table.text("name");
     const std::string kind = table.choice("shape");
     if (!kind.empty()) {
         body.shape = read_body_shape(table, kind);
@@ -197,7 +209,11 @@ void read_body(TableReader& table, std::size_t number, Scene& scene)
     read_motion(table, body);
     body.spacing = table.find_number("spacing").value_or(scene.spacing);
     body.material = table.text("material");
+    const std::size_t before = scene.bodies.size();
     append_copies(table.table("copies"), body, scene.bodies);
+    for (std::size_t k = before; k < scene.bodies.size(); ++k) {
+        claim_name(table, scene.bodies[k].name);
+    }
     table.finish();
 }
 

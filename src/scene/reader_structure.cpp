@@ -72,9 +72,10 @@ void TableReader::require(std::string_view key)
     if (has(key) || abandoned_) {
         return;
     }
-    const std::string why = chosen_.empty() ? "" : " with " + chosen_;
-    error(key, fmt::format("is missing, it is needed{}", why),
-          std::string(find_parameter(joined(schema_, key))->meaning));
+    const Parameter& rule = parameter(key);
+    const bool always = chosen_.empty() || rule.fallback == required;
+    error(key, always ? "is missing" : fmt::format("is missing, it is needed with {}", chosen_),
+          fmt::format("{}: {}", key, rule.meaning));
 }
 
 const TomlNode* TableReader::ask(std::string_view key)

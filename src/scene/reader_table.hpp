@@ -9,6 +9,7 @@
 #include "hyoryu/scene/parameter.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,7 @@ struct Reading {
     std::vector<std::string> overrides;
     int dimensions = 3;
     std::vector<Diagnostic> diagnostics;
+    std::map<std::string, int> names; // of walls and bodies, and the line where each stands
 
     /// Notes a mistake at a place of the file, or of that override.
     void error(const Place& place, int override_number, std::string key, std::string what,

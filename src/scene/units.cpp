@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 namespace hyoryu {
@@ -164,7 +165,8 @@ std::optional<Unit> parse_unit(std::string_view text)
 {
     constexpr std::size_t longest = 64;
     Unit unit;
-    int sign = 1;
+    skip_blanks(text);
+    int sign = take(text, "/") ? -1 : 1;
     skip_blanks(text);
     if (text.empty() || text.size() > longest) {
         return std::nullopt;

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The table of keys as a manual on the terminal.
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/parameter.hpp"
+
+#include "parameter_table.hpp"
+#include "reader_hint.hpp"
+
+#include <fmt/format.h>
+
+namespace hyoryu {
+
+namespace {
+
+/// A key without the brackets of lists: "body[2].size" and "body[].size" become "body.size".
+std::string plain(std::string_view key)
+{
+    std::string text;
+    bool inside = false;
+    for (const char c : key) {
+        inside = c == '[' || (inside && c != ']');
+        if (!inside && c != ']') {
+            text += c;
+        }
+    }
+    return text;
+}
+
+std::string kind_of(const Parameter& parameter)
+{
+    const bool free_length = parameter.shortest != parameter.longest;
+    const std::string count = free_length ? "" : fmt::format("{} ", parameter.longest);
+    switch (parameter.kind) {
+    case ValueKind::number:
+        return "number";
+    case ValueKind::integer:
+        return "whole number";
+    case ValueKind::boolean:
+        return "true or false";
+    case ValueKind::text:
+    case ValueKind::choice:
+        return "text";
+    case ValueKind::vector:
+        return fmt::format("list of {}numbers",
+                           free_length ? fmt::format("{} or {} ", parameter.shortest, parameter.longest) : count);
+    case ValueKind::integers:
+        return fmt::format("list of {}whole numbers", count);
+    case ValueKind::texts:
+        return fmt::format("list of {}texts", count);
+    case ValueKind::table:
+        return fmt::format("table, written [{}]", plain(parameter.key));
+    case ValueKind::tables:
+        return fmt::format("tables, each written [[{}]]", plain(parameter.key));
+    }
+    return {};
+}
+
+std::string entry_text(const Parameter& parameter)
+{
+    std::string text = fmt::format("{}\n    {}", parameter.key, kind_of(parameter));
+    if (!parameter.unit.empty()) {
+        text += fmt::format(" in {}", parameter.unit);
+    }
+    if (!parameter.bounds.empty()) {
+        text += fmt::format(", {}", parameter.bounds);
+    }
+    if (parameter.fallback == required) {
+        text += ", required";
+    } else if (!parameter.fallback.empty()) {
+        text += fmt::format(", default {}", parameter.fallback);
+    }
+    if (!parameter.choices.empty()) {
+        text += fmt::format("\n    one of {}", quoted_list(parameter.choices));
+    }
+    return text + fmt::format("\n    {}\n", parameter.meaning);
+}
+
+[[noreturn]] void refuse(std::string_view key)
+{
+    std::vector<std::string> names;
+    for (const Parameter& parameter : parameters()) {
+        names.push_back(plain(parameter.key));
+    }
+    const std::vector<std::string_view> candidates(names.begin(), names.end());
+    const std::string near = did_you_mean(plain(key), candidates);
+    throw CaseError(fmt::format("the case file has no key \"{}\"", key),
+                    near.empty() ? "`hyoryu describe` lists all keys" : near);
+}
+
+} // namespace
+
+std::string describe(std::string_view key)
+{
+    const std::string wanted = plain(key);
+    std::string text;
+    for (const Parameter& parameter : parameters()) {
+        const std::string name = plain(parameter.key);
+        if (wanted.empty() || name == wanted || name.starts_with(wanted + ".")) {
+            text += text.empty() ? "" : "\n";
+            text += entry_text(parameter);
+        }
+    }
+    if (text.empty()) {
+        refuse(key);
+    }
+    return text;
+}
+
+} // namespace hyoryu

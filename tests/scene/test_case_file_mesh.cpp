@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Meshes named by a case: found beside it, checked, centred for bodies.
+#include "test_case_file_support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#ifdef HYORYU_HAS_VTK
+
+namespace hyoryu {
+
+namespace {
+
+const std::string cube = R"(v 1 1 1
+v 3 1 1
+v 3 3 1
+v 1 3 1
+v 1 1 3
+v 3 1 3
+v 3 3 3
+v 1 3 3
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
+class CaseMesh : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::filesystem::create_directories(folder_);
+        std::ofstream(folder_ / "cube.obj") << cube;
+        std::ofstream(folder_ / "open.obj") << cube.substr(0, cube.size() - 10);
+        std::ofstream(folder_ / "bad.stl") << "nothing";
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::vector<Diagnostic> wrong(const std::string& text) const
+    {
+        try {
+            parse_case(text, folder_ / "case.toml");
+            return {};
+        } catch (const CaseError& error) {
+            return error.diagnostics();
+        }
+    }
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "hyoryu_case_mesh";
+};
+
+std::string body_of(const std::string& file)
+{
+    return short_case + "[[body]]\nshape = \"mesh\"\nfile = \"" + file +
+           "\"\nscale = 0.5\ndensity = 500\nposition = [5, 0, 0]\n";
+}
+
+} // namespace
+
+TEST_F(CaseMesh, OfABodyIsGivenAboutItsCentreOfMass)
+{
+    const Scene scene = parse_case(body_of("cube.obj"), folder_ / "case.toml");
+    const auto& mesh = std::get<MeshShape>(scene.bodies[0].shape);
+    EXPECT_NEAR(scene.bodies[0].mass, 500, 1e-9);
+    EXPECT_EQ(mesh.triangles.size(), 12u);
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& corner : mesh.corners) {
+        sum += corner;
+        EXPECT_NEAR(corner.cwiseAbs().maxCoeff(), 0.5, 1e-12);
+    }
+    EXPECT_NEAR(sum.norm(), 0, 1e-12);
+}
+
+TEST_F(CaseMesh, OfAWallStaysWhereItsFileSays)
+{
+    const Scene scene = parse_case(short_case + "[[wall]]\nshape = \"mesh\"\nfile = \"cube.obj\"\n",
+                                   folder_ / "case.toml");
+    const auto& solid = std::get<SolidWall>(scene.walls[0].geometry);
+    EXPECT_EQ(solid.centre, Vec3(0, 0, 0));
+    EXPECT_EQ(std::get<MeshShape>(solid.shape).corners[0], Vec3(1, 1, 1));
+}
+
+TEST_F(CaseMesh, IsWrittenWithItsFullPathAndReadsBack)
+{
+    const Scene scene = parse_case(body_of("cube.obj"), folder_ / "case.toml");
+    const std::string written = to_toml(scene);
+    const Scene again = parse_case(written, "elsewhere.toml");
+    EXPECT_EQ(to_toml(again), written);
+    EXPECT_EQ(std::get<MeshShape>(again.bodies[0].shape).corners,
+              std::get<MeshShape>(scene.bodies[0].shape).corners);
+}
+
+TEST_F(CaseMesh, ThatIsMissingDamagedOrOpenIsToldAtItsKey)
+{
+    for (const auto& [file, what] : std::vector<std::pair<std::string, std::string>>{
+             {"none.obj", "does not exist"}, {"bad.stl", "is no STL file"}, {"open.obj", "4 open edges"}}) {
+        const auto all = wrong(body_of(file));
+        ASSERT_EQ(all.size(), 1u) << file;
+        EXPECT_EQ(all[0].key, "body[0].file");
+        EXPECT_EQ(all[0].line, short_lines + 3);
+        EXPECT_EQ(all[0].column, 8);
+        EXPECT_NE(all[0].what.find(what), std::string::npos) << all[0].what;
+    }
+}
+
+TEST_F(CaseMesh, InTwoDimensionsIsNotThereYet)
+{
+    EXPECT_EQ(wrong("dimensions = 2\n" + body_of("cube.obj"))[0].key, "body[0].shape");
+}
+
+} // namespace hyoryu
+
+#endif
