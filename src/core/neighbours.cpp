@@ -121,7 +121,7 @@ void PairList::build(std::span<const Vec3> x, Rows destination,
     const auto void_row = static_cast<std::int32_t>(x.size());
     const Index blocks = (destination.size() + block_rows - 1) / block_rows;
     blocks_.resize(static_cast<std::size_t>(blocks));
-    parallel_for_uneven(0, blocks, [&](Index b) {
+    parallel_blocks(0, blocks, [&](Index b) {
         Block& block = blocks_[static_cast<std::size_t>(b)];
         Search search{.radius = radius, .found = block.entries};
         const Index first = destination.begin + b * block_rows;

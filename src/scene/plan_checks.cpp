@@ -116,6 +116,10 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
 {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
+        // Copies of one entry have one place and one warning.
+        if (b > 0 && body.place.line == scene.bodies[b - 1].place.line) {
+            continue;
+        }
         const double across = thinnest(body.shape, scene.dimensions);
         if (across < 3 * scene.spacing * (1 - 1e-9)) {
             warn(scene, body.place, body_key(b),

@@ -14,22 +14,25 @@ namespace hyoryu {
 void set_threads(int threads);
 int thread_count();
 
-/// Calls f(k) for k in [begin, end); equal shares a thread.
+// Below these sizes waking the other threads costs more than they save.
+inline constexpr Index worth_sharing_rows = 4096;
+inline constexpr Index worth_sharing_blocks = 16;
+
+/// Calls f(k) for k in [begin, end), each a few operations; equal shares a thread.
 template <class F>
 void parallel_for(Index begin, Index end, const F& f)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (end - begin >= worth_sharing_rows)
     for (Index k = begin; k < end; ++k) {
         f(k);
     }
 }
 
-/// Calls f(k) for k in [begin, end) where the work of neighbouring k is alike but uneven over the
-/// range: small blocks are dealt out in turn.
+/// Calls f(k) for k in [begin, end), each a block of much and uneven work: blocks are dealt out in turn.
 template <class F>
-void parallel_for_uneven(Index begin, Index end, const F& f)
+void parallel_blocks(Index begin, Index end, const F& f)
 {
-#pragma omp parallel for schedule(dynamic, 1)
+#pragma omp parallel for schedule(dynamic, 1) if (end - begin >= worth_sharing_blocks)
     for (Index k = begin; k < end; ++k) {
         f(k);
     }
@@ -44,7 +47,7 @@ T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
 {
     const Index chunks = (std::max<Index>(end - begin, 0) + chunk_rows - 1) / chunk_rows;
     std::vector<T> partial(static_cast<std::size_t>(chunks), zero);
-    parallel_for(0, chunks, [&](Index chunk) {
+    const auto add_up = [&](Index chunk) {
         T total = zero;
         const Index first = begin + chunk * chunk_rows;
         const Index last = std::min(end, first + chunk_rows);
@@ -52,7 +55,11 @@ T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
             total = add(total, f(k));
         }
         partial[static_cast<std::size_t>(chunk)] = total;
-    });
+    };
+#pragma omp parallel for schedule(static) if (chunks >= worth_sharing_blocks)
+    for (Index chunk = 0; chunk < chunks; ++chunk) {
+        add_up(chunk);
+    }
     T total = zero;
     for (const T& part : partial) {
         total = add(total, part);

@@ -164,7 +164,7 @@ void sweep(Particles& particles, const PairList& pairs, const Records<In>& recor
     if constexpr (Out::count > 0) {
         const Rows rows = pairs.rows();
         const Index blocks = (rows.size() + PairList::block_rows - 1) / PairList::block_rows;
-        parallel_for_uneven(0, blocks, [&](Index block) {
+        parallel_blocks(0, blocks, [&](Index block) {
             const Index first = rows.begin + block * PairList::block_rows;
             const Index last = std::min(rows.end, first + PairList::block_rows);
             for (Index i = first; i < last; ++i) {
