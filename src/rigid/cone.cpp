@@ -141,6 +141,14 @@ std::optional<Vec3> slide_in_plane(const Cone& cone, const Vec3& b)
     return std::nullopt;
 }
 
+// Fast sliding that no impulse of sliding can answer is stopped at once (a tangential impact).
+bool jams(const Cone& cone, const Vec3& b)
+{
+    const Vec2 t = b.tail<2>();
+    const double speed = t.norm();
+    return speed > std::abs(b[0]) && !slip_along(cone, b, t / speed).exists;
+}
+
 } // namespace
 
 void invert(Cone& cone)
@@ -180,7 +188,7 @@ ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
     }
     const Vec3 stick = -(cone.K_inverse * b);
     if (stick[0] >= 0 && stick.tail<2>().norm() <= cone.mu * stick[0]) {
-        return {stick};
+        return {stick, jams(cone, b)};
     }
     std::optional<Vec3> slide;
     if (cone.size == 2) {

@@ -13,7 +13,7 @@ namespace {
 enum State { open = 0, slides = 1, sticks = 2 };
 
 // Changes of the active set after which the iteration takes over.
-constexpr int rounds_of_guesses = 25;
+constexpr int rounds_of_guesses = 6;
 // A sliding direction has settled when it turns by less [rad].
 constexpr double settled_direction = 1e-9;
 // Relative rank tolerance of the redundant, symmetric problem (round-off times condition).

@@ -74,24 +74,38 @@ double close_gap(const StepContext& context, const Feature& f, double wanted, do
     return std::abs(off);
 }
 
+// An event leaves a contact nearer to zero than this [m].
+constexpr double overlapping = -1e-10;
+
 struct Goal {
     Feature feature;
     double wanted = 0;
 };
 
-// Pressed contacts close in both senses; others only open.
+double aim(double gap)
+{
+    return gap < -at_once ? (1 - share_of_deep) * gap : 0.0;
+}
+
+// Pressed contacts close in both senses; all others only open.
 std::vector<Goal> goals(const StepContext& context, double time)
 {
     ContactMemory& memory = context.memory;
     const Configuration now = configuration(memory, memory.poses, time);
     std::vector<Goal> list;
-    const auto aim = [](double gap) {
-        return gap < -at_once ? (1 - share_of_deep) * gap : 0.0;
-    };
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
-        if (touch.gap < 0 || p.impulse.dot(p.touches.push.normal) > 0) {
-            list.push_back({p.candidate.feature, aim(touch.gap)});
+        const bool pressed = p.impulse.dot(p.touches.push.normal) > 0;
+        if (pressed && std::abs(touch.gap) < at_once) {
+            list.push_back({p.candidate.feature, 0});
+        }
+    }
+    const std::size_t pressed = list.size();
+    for (const Candidate& c : memory.candidates) {
+        const bool known = std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(pressed),
+                                       [&](const Goal& goal) { return goal.feature == c.feature; });
+        if (!known && !c.beyond && c.touch.gap < overlapping) {
+            list.push_back({c.feature, aim(c.touch.gap)});
         }
     }
     return list;
@@ -117,6 +131,7 @@ void move_to(const StepContext& context, const SubStep& sub, double s)
 
 void project_gaps(const StepContext& context, const SubStep& sub, double time)
 {
+    ContactMemory& memory = context.memory;
     const std::vector<Goal> list = goals(context, time);
     if (list.empty()) {
         return;
@@ -128,6 +143,10 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
         for (const Goal& goal : list) {
             off = std::max(off, close_gap(context, goal.feature, goal.wanted, time));
         }
+    }
+    const Configuration now = configuration(memory, memory.poses, time);
+    for (Candidate& candidate : memory.candidates) {
+        candidate.touch = touch_of(candidate.feature, now);
     }
 }
 

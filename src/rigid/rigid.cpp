@@ -114,8 +114,8 @@ void advance(const StepContext& context, const Cluster& cluster)
         const double now = sub.time + s;
         move_to(context, sub, s);
         remember(memory, h);
-        project_gaps(context, sub, now);
         find_contacts(context, cluster, now);
+        project_gaps(context, sub, now);
         if (s < sub.h) {
             count_event(context);
         }

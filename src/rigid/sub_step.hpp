@@ -36,7 +36,8 @@ double first_event(const StepContext& context, const SubStep& sub);
 /// Moves the bodies along their paths to s and books the share of the contact impulses.
 void move_to(const StepContext& context, const SubStep& sub, double s);
 
-/// Brings the gaps of pressed contacts to zero, and pushes overlapping ones apart, by position alone.
+/// Brings the gaps of pressed contacts to zero, and pushes overlapping ones apart, by position alone; the
+/// possible contacts that were found move with the bodies.
 void project_gaps(const StepContext& context, const SubStep& sub, double time);
 
 /// Solves the rows island by island; returns the worst residual.

@@ -11,10 +11,10 @@ namespace hyoryu::test {
 
 constexpr double g = 9.81; // [m/s2]
 
-/// The cube of the flat drops: 6 x 5 x 6 cm, 250 kg/m3.
+/// The cube of the drops: 6 cm long and wide, 5 cm high, 250 kg/m3.
 inline Vec3 cube_size()
 {
-    return {0.06, 0.05, 0.06};
+    return {0.06, 0.06, 0.05};
 }
 /// The timber: 100 x 10 x 10 cm, 520 kg/m3.
 inline Vec3 timber_size()

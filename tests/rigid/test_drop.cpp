@@ -38,7 +38,7 @@ TEST_P(FlatDrop, FollowsTheParabolasAndComesToRest)
 {
     const auto [fall, dimensions] = GetParam();
     Rigid rigid = on_floor(e, 0.3, dimensions);
-    const double rest = 0.03;
+    const double rest = 0.025;
     rigid.bodies.push_back(box(cube_size(), 250, {0, 0, rest + fall}, dimensions));
     const double dt = 1e-3;
     double square = 0;
