@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// checkpoint.h5: a text header of 512 bytes (format, length, checksum), then an HDF5 file, which HDF5
-// finds behind it by itself. The checksum covers every byte, so HDF5 never sees a damaged file.
+// checkpoint.h5: a text header of 512 bytes (format, length, checksum), then an HDF5 file, which
+// HDF5 finds behind it by itself. The checksum covers every byte, so HDF5 never sees a damaged
+// file.
 #include "atomic_file.hpp"
 #include "hdf5.hpp"
 #include "hyoryu/core/error.hpp"
@@ -120,9 +121,10 @@ void verify(const std::filesystem::path& file)
     }
     const std::string format = fmt::format("{}\nformat {}\n", magic, format_version);
     if (!stored.starts_with(format)) {
-        throw IoError(fmt::format("`{}` is a checkpoint of another format than {}, the one that this "
-                                  "version reads",
-                                  file.string(), format_version));
+        throw IoError(
+            fmt::format("`{}` is a checkpoint of another format than {}, the one that this "
+                        "version reads",
+                        file.string(), format_version));
     }
     std::uint32_t checksum = 0;
     std::uintmax_t bytes = 0;

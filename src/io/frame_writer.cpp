@@ -32,7 +32,8 @@ struct Job {
 
     const std::string& name() const
     {
-        return std::visit([](const auto& frame) -> const std::string& { return frame.name; }, content);
+        return std::visit([](const auto& frame) -> const std::string& { return frame.name; },
+                          content);
     }
     double time() const
     {
@@ -78,7 +79,10 @@ struct FrameWriter::State {
 
     std::thread thread;
 
-    explicit State(std::filesystem::path where) : folder(std::move(where)), series(series_in(folder)) {}
+    explicit State(std::filesystem::path where)
+        : folder(std::move(where)), series(series_in(folder))
+    {
+    }
 
     void run();
     void write(const Job& job);
@@ -116,7 +120,8 @@ void FrameWriter::State::wait_until_idle(std::unique_lock<std::mutex>& lock)
     changed.wait(lock, [&] { return error || (queue.empty() && !working); });
 }
 
-/// The border of the thread: no exception may leave it, so the first one waits for the solver's side.
+/// The border of the thread: no exception may leave it, so the first one waits for the solver's
+/// side.
 void FrameWriter::State::run()
 {
     std::unique_lock lock(mutex);
@@ -149,9 +154,9 @@ void FrameWriter::State::run()
 void FrameWriter::State::write(const Job& job)
 {
     const std::filesystem::path file =
-        job.place == Place::alone
-            ? std::filesystem::path(job.name() + ".hdf")
-            : std::filesystem::path("frames") / fmt::format("{}_{:06}.hdf", job.name(), job.index());
+        job.place == Place::alone ? std::filesystem::path(job.name() + ".hdf")
+                                  : std::filesystem::path("frames") /
+                                        fmt::format("{}_{:06}.hdf", job.name(), job.index());
     std::visit([&](const auto& frame) { write_vtkhdf(folder / file, frame); }, job.content);
     if (job.place == Place::series) {
         std::vector<SeriesEntry>& entries = series[job.name()];

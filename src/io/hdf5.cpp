@@ -163,8 +163,8 @@ void put_attribute(hid_t object, const std::string& name, const std::string& tex
     const std::string action = fmt::format("write the attribute `{}`", name);
     const Handle type = string_type(H5T_VARIABLE);
     const Handle space = scalar_space();
-    const Handle attribute(
-        H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
+    const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose, action);
     const char* const letters = text.c_str();
     check(H5Awrite(attribute, type, &letters), action);
 }
@@ -174,8 +174,8 @@ void put_fixed_attribute(hid_t object, const std::string& name, const std::strin
     const std::string action = fmt::format("write the attribute `{}`", name);
     const Handle type = string_type(text.size());
     const Handle space = scalar_space();
-    const Handle attribute(
-        H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, action);
+    const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose, action);
     check(H5Awrite(attribute, type, text.c_str()), action);
 }
 

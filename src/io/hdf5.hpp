@@ -14,8 +14,8 @@
 
 namespace hyoryu::hdf5 {
 
-/// Held around every use of HDF5: the solver may write a checkpoint while the writer thread writes a
-/// frame, and not every HDF5 is built thread-safe. Also keeps HDF5 from printing its error stack.
+/// Held around every use of HDF5: the solver may write a checkpoint while the writer thread writes
+/// a frame, and not every HDF5 is built thread-safe. Also keeps HDF5 from printing its error stack.
 class Session {
 public:
     Session();
@@ -48,8 +48,8 @@ private:
 /// Throws IoError "cannot <action>: <what HDF5 says>" if `status` is negative.
 void check(herr_t status, std::string_view action);
 
-/// A file that is built in memory. HDF5 never meets a disk that is full: it cannot close a file that
-/// it failed to write, and its message hides the reason.
+/// A file that is built in memory. HDF5 never meets a disk that is full: it cannot close a file
+/// that it failed to write, and its message hides the reason.
 class FileImage {
 public:
     FileImage();

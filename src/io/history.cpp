@@ -39,8 +39,8 @@ std::string kept_text(const std::filesystem::path& file, const Table& table, dou
     }
     const std::string text = file_text(file);
     if (!text.starts_with(kept) && !kept.starts_with(text)) { // the latter: torn within the header
-        throw IoError(fmt::format("cannot go on with `{}`: it has other columns than this run writes",
-                                  file.string()));
+        throw IoError(fmt::format(
+            "cannot go on with `{}`: it has other columns than this run writes", file.string()));
     }
     const std::size_t header = std::min(kept.size(), text.size());
     for (const std::string_view line : whole_lines(std::string_view(text).substr(header))) {
@@ -87,8 +87,8 @@ History::History(const std::filesystem::path& folder, Table table)
 }
 
 History::History(const std::filesystem::path& folder, Table table, double keep_until)
-    : state_(std::make_unique<State>(
-          folder, table, kept_text(history_file(folder, table), table, keep_until)))
+    : state_(std::make_unique<State>(folder, table,
+                                     kept_text(history_file(folder, table), table, keep_until)))
 {
 }
 

@@ -18,8 +18,9 @@ namespace hyoryu {
 namespace {
 
 constexpr hsize_t rows_of_a_chunk = 65536;
-constexpr std::size_t worth_compressing = 65536; // bytes; below it the chunk index outweighs the gain
-constexpr int deflate_level = 1;                 // higher levels gain 2 % for twice the time
+constexpr std::size_t worth_compressing =
+    65536;                       // bytes; below it the chunk index outweighs the gain
+constexpr int deflate_level = 1; // higher levels gain 2 % for twice the time
 
 struct Deflater {
     void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
@@ -66,8 +67,8 @@ constexpr ElementType element_type()
     }
 }
 
-/// HDF5's shuffle: first bytes of all elements, then second bytes... Neighbouring particles agree in
-/// their leading bytes, which stand together then.
+/// HDF5's shuffle: first bytes of all elements, then second bytes... Neighbouring particles agree
+/// in their leading bytes, which stand together then.
 template <std::size_t Size>
 void shuffle(std::span<const std::byte> in, std::span<std::byte> out)
 {
@@ -95,8 +96,8 @@ void shuffle(std::size_t size, std::span<const std::byte> in, std::span<std::byt
 Bytes deflated(libdeflate_compressor* compressor, const Bytes& in, Bytes& scratch)
 {
     scratch.resize(libdeflate_zlib_compress_bound(compressor, in.size()));
-    const std::size_t size = libdeflate_zlib_compress(compressor, in.data(), in.size(),
-                                                      scratch.data(), scratch.size());
+    const std::size_t size =
+        libdeflate_zlib_compress(compressor, in.data(), in.size(), scratch.data(), scratch.size());
     return {scratch.begin(), scratch.begin() + static_cast<std::ptrdiff_t>(size)};
 }
 

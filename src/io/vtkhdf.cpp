@@ -72,8 +72,11 @@ PackedArray packed_list(const std::vector<T>& values, int components = 1)
 template <class Frame>
 Parts parts_of(const Frame& frame, const Cells& cells)
 {
-    Parts parts{packed_list(frame.points, 3), packed_list(cells.connectivity),
-                packed_list(cells.offsets), packed_list(cells.types), {}};
+    Parts parts{packed_list(frame.points, 3),
+                packed_list(cells.connectivity),
+                packed_list(cells.offsets),
+                packed_list(cells.types),
+                {}};
     for (const Column& column : frame.columns) {
         parts.columns.push_back(packed(view_of(column)));
         expects(parts.columns.back().view.dims[0] == parts.points.view.dims[0]);
@@ -186,8 +189,8 @@ void read_vtkhdf(const std::filesystem::path& file, Read read)
         const hdf5::Handle root = hdf5::open_group(open, "VTKHDF");
         read(open, root);
     } catch (const std::exception& error) {
-        throw IoError(fmt::format("`{}` is no frame of ours or damaged: {}", file.string(),
-                                  error.what()));
+        throw IoError(
+            fmt::format("`{}` is no frame of ours or damaged: {}", file.string(), error.what()));
     }
 }
 

@@ -52,19 +52,37 @@ std::string animate(const std::filesystem::path& pictures, int fps)
 {
     const std::filesystem::path unfinished = pictures / "animation.mp4.tmp";
     // H.264 in the form that every player shows needs even numbers of rows and columns.
-    const int code = run_silently(
-        {"ffmpeg", "-y", "-loglevel", "error", "-framerate", std::to_string(fps), "-pattern_type",
-         "glob", "-i", "frame_*.png", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264",
-         "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4", "animation.mp4.tmp"},
-        pictures);
+    const int code = run_silently({"ffmpeg",
+                                   "-y",
+                                   "-loglevel",
+                                   "error",
+                                   "-framerate",
+                                   std::to_string(fps),
+                                   "-pattern_type",
+                                   "glob",
+                                   "-i",
+                                   "frame_*.png",
+                                   "-vf",
+                                   "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                   "-c:v",
+                                   "libx264",
+                                   "-pix_fmt",
+                                   "yuv420p",
+                                   "-movflags",
+                                   "+faststart",
+                                   "-f",
+                                   "mp4",
+                                   "animation.mp4.tmp"},
+                                  pictures);
     std::error_code reason;
     if (code == 0) {
         std::filesystem::rename(unfinished, pictures / "animation.mp4", reason);
         return reason ? "no animation: " + reason.message() : "";
     }
     std::filesystem::remove(unfinished, reason);
-    return code < 0 ? fmt::format("no animation: ffmpeg cannot be started ({})", std::strerror(errno))
-                    : fmt::format("no animation: ffmpeg failed with exit code {}", code);
+    return code < 0
+               ? fmt::format("no animation: ffmpeg cannot be started ({})", std::strerror(errno))
+               : fmt::format("no animation: ffmpeg failed with exit code {}", code);
 }
 
 } // namespace hyoryu

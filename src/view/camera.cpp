@@ -12,10 +12,10 @@ namespace hyoryu {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double view_angle = 28;      // degrees, vertical: about a 85 mm lens
-constexpr double free_width = 0.94;    // share of the picture that the scene may fill
-constexpr double free_height = 0.78;   // the colour scale and the time take the rest
-constexpr double shift_up = 0.045;     // of the height: the scale below is taller than the time above
+constexpr double view_angle = 28;    // degrees, vertical: about a 85 mm lens
+constexpr double free_width = 0.94;  // share of the picture that the scene may fill
+constexpr double free_height = 0.78; // the colour scale and the time take the rest
+constexpr double shift_up = 0.045;   // of the height: the scale below is taller than the time above
 
 /// Right, up and towards the camera.
 Mat3 view_axes(const Vec3& direction)
@@ -42,7 +42,8 @@ struct Stand {
 };
 
 /// The nearest stand from which all corners lie within the slopes, horizontally and vertically. For
-/// each axis the two tightest planes meet at one depth; the farther of the two depths holds for both.
+/// each axis the two tightest planes meet at one depth; the farther of the two depths holds for
+/// both.
 Stand nearest_stand(const Eigen::Matrix<double, 3, 8>& corners, double slope_x, double slope_y)
 {
     const Eigen::Vector2d slopes(slope_x, slope_y);
@@ -76,8 +77,8 @@ void aim(vtkCamera& camera, const Box& box, const Vec3& direction, double aspect
 {
     const Mat3 axes = view_axes(direction);
     const double slope = std::tan(0.5 * view_angle * degree);
-    const Stand stand = nearest_stand(corners_in_view(box, axes), slope * aspect * free_width,
-                                      slope * free_height);
+    const Stand stand =
+        nearest_stand(corners_in_view(box, axes), slope * aspect * free_width, slope * free_height);
     const Vec3 eye = axes.transpose() * stand.eye;
     const Vec3 focus = eye - stand.distance * direction;
     camera.SetPosition(eye.data());

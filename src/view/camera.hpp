@@ -8,7 +8,8 @@
 
 namespace hyoryu {
 
-/// Direction from the scene to the camera: azimuth from +x about z, elevation from the ground [degrees].
+/// Direction from the scene to the camera: azimuth from +x about z, elevation from the ground
+/// [degrees].
 Vec3 view_direction(double azimuth_deg, double elevation_deg);
 
 /// Looks at the box from `direction` so that it just fits into the picture, in perspective.

@@ -48,9 +48,10 @@ std::vector<Moment> nearest(const std::vector<Moment>& all, const std::vector<do
 {
     std::vector<Moment> chosen;
     for (const double time : times) {
-        chosen.push_back(*std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-            return std::abs(a.time - time) < std::abs(b.time - time);
-        }));
+        chosen.push_back(
+            *std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+                return std::abs(a.time - time) < std::abs(b.time - time);
+            }));
     }
     return chosen;
 }

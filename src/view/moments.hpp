@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a results folder holds to be shown: the moments of its frames, the space they take, the range
-// of what is shown in colour.
+// What a results folder holds to be shown: the moments of its frames, the space they take, the
+// range of what is shown in colour.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"
@@ -15,8 +15,8 @@ namespace hyoryu {
 
 /// The files of one frame.
 struct Moment {
-    double time = 0;          // [s]
-    std::string number;       // as in the names of the files: "000012"
+    double time = 0;             // [s]
+    std::string number;          // as in the names of the files: "000012"
     std::filesystem::path fluid; // empty if the run has none; likewise below
     std::filesystem::path bodies;
     std::filesystem::path surfaces;
@@ -35,8 +35,8 @@ struct Survey {
     double spacing = 0;    // of the particles [m]
     double colour_min = 0; // range of the array that is shown in colour
     double colour_max = 1;
-    std::string unit;      // of that array
-    bool flat = false;     // a 2-D case: everything in one x-z plane
+    std::string unit;  // of that array
+    bool flat = false; // a 2-D case: everything in one x-z plane
 };
 
 /// Looks at some frames spread over all of them. `structures` may be empty.

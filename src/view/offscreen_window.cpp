@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Off-screen windows: EGL without a surface (Debian's VTK is built for X alone, so it is made here),
-// or X.
+// Off-screen windows: EGL without a surface (Debian's VTK is built for X alone, so it is made
+// here), or X.
 #ifdef HYORYU_HAS_VTK
 #include "offscreen_window.hpp"
 
@@ -54,7 +54,8 @@ EGLContext context_on(EGLDisplay display)
     // offer none of the default kind.
     constexpr std::array<EGLint, 5> any_surface{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, config_wish[0],
                                                 config_wish[1], EGL_NONE};
-    if (eglChooseConfig(display, any_surface.data(), &config, 1, &count) == EGL_FALSE || count == 0) {
+    if (eglChooseConfig(display, any_surface.data(), &config, 1, &count) == EGL_FALSE ||
+        count == 0) {
         return EGL_NO_CONTEXT;
     }
     return eglCreateContext(display, config, EGL_NO_CONTEXT, context_wish.data());
@@ -114,8 +115,8 @@ private:
     bool usable_ = false;
 };
 
-/// Whether DISPLAY leads to a server that answers. VTK aborts the process if it does not, so Xlib is
-/// asked first; it is loaded by hand because nothing else here needs it.
+/// Whether DISPLAY leads to a server that answers. VTK aborts the process if it does not, so Xlib
+/// is asked first; it is loaded by hand because nothing else here needs it.
 bool x_server_answers()
 {
     if (std::getenv("DISPLAY") == nullptr) {
@@ -147,8 +148,9 @@ vtkSmartPointer<vtkRenderWindow> offscreen_window(int width, int height)
     } else if (x_server_answers()) {
         window = vtkSmartPointer<vtkRenderWindow>::New();
     } else {
-        throw IoError("cannot render: EGL gives no off-screen context (libegl1 with Mesa is needed) and "
-                      "no X server answers; start the program by `xvfb-run`");
+        throw IoError(
+            "cannot render: EGL gives no off-screen context (libegl1 with Mesa is needed) and "
+            "no X server answers; start the program by `xvfb-run`");
     }
     window->SetOffScreenRendering(1);
     window->SetMultiSamples(0); // many samples a pixel double the time; FXAA smooths the edges

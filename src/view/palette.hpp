@@ -11,8 +11,12 @@ namespace hyoryu {
 using Rgb = std::array<std::uint8_t, 3>;
 
 // Pine, oak, larch, walnut, cedar, beech: neighbours in number are told apart.
-inline constexpr std::array<Rgb, 6> woods{
-    {{206, 160, 104}, {158, 108, 62}, {222, 184, 130}, {128, 84, 52}, {182, 116, 78}, {196, 148, 112}}};
+inline constexpr std::array<Rgb, 6> woods{{{206, 160, 104},
+                                           {158, 108, 62},
+                                           {222, 184, 130},
+                                           {128, 84, 52},
+                                           {182, 116, 78},
+                                           {196, 148, 112}}};
 // Concrete, plaster, stone.
 inline constexpr std::array<Rgb, 3> stones{{{206, 204, 198}, {216, 208, 194}, {190, 188, 184}}};
 

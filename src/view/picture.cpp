@@ -8,15 +8,19 @@
 #include "hyoryu/io/results.hpp"
 #include "offscreen_window.hpp"
 
+#include <vtkCallbackCommand.h>
 #include <vtkEDLShading.h>
 #include <vtkLightKit.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFXAAPass.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkPNGWriter.h>
+#include <vtkProperty.h>
 #include <vtkRenderStepsPass.h>
-#include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
+#include <vtk_glew.h>
 
 #include <fmt/format.h>
 
@@ -26,8 +30,22 @@ namespace {
 
 constexpr double default_azimuth = -60;  // degrees
 constexpr double default_elevation = 30; // degrees
-// Spheres of half the spacing leave gaps between them; a little more closes the surface.
+// Spheres of half the spacing leave gaps between them; a little more closes the surface. In a plane
+// there are no spheres behind that would close it.
 constexpr double radius_of_spacing = 0.62;
+constexpr double radius_of_spacing_in_a_plane = 0.72;
+
+/// Depth told by shade: without it a cloud of spheres is one flat patch of colour. A plane case has
+/// no depth to tell.
+void shade_depth(vtkRenderer& scene)
+{
+    vtkNew<vtkRenderStepsPass> steps;
+    vtkNew<vtkEDLShading> depth_shade;
+    depth_shade->SetDelegatePass(steps);
+    vtkNew<vtkOpenGLFXAAPass> smooth_edges;
+    smooth_edges->SetDelegatePass(depth_shade);
+    scene.SetPass(smooth_edges);
+}
 
 vtkSmartPointer<vtkRenderer> make_scene(vtkRenderWindow& window)
 {
@@ -35,18 +53,21 @@ vtkSmartPointer<vtkRenderer> make_scene(vtkRenderWindow& window)
     scene->SetBackground(0.96, 0.965, 0.97);
     scene->SetBackground2(0.74, 0.80, 0.86);
     scene->GradientBackgroundOn();
-    // Depth told by shade: without it a cloud of spheres is one flat patch of colour.
-    vtkNew<vtkRenderStepsPass> steps;
-    vtkNew<vtkEDLShading> depth_shade;
-    depth_shade->SetDelegatePass(steps);
-    vtkNew<vtkOpenGLFXAAPass> smooth_edges;
-    smooth_edges->SetDelegatePass(depth_shade);
-    scene->SetPass(smooth_edges);
+    scene->UseFXAAOn();
     vtkNew<vtkLightKit> lights;
-    lights->SetKeyLightIntensity(0.85);
+    lights->SetKeyToFillRatio(2);
+    lights->SetKeyToHeadRatio(1.5);
     lights->AddLightsToRenderer(scene);
     window.AddRenderer(scene);
     return scene;
+}
+
+/// The shading of depth leaves blending off; texts without it are coarse and bold.
+void blend(vtkObject* labels, unsigned long, void*, void*)
+{
+    auto* const window =
+        vtkOpenGLRenderWindow::SafeDownCast(vtkRenderer::SafeDownCast(labels)->GetRenderWindow());
+    window->GetState()->vtkglEnable(GL_BLEND);
 }
 
 /// A layer of its own, which the shading of depth does not touch.
@@ -55,12 +76,14 @@ vtkSmartPointer<vtkRenderer> make_label_layer(vtkRenderWindow& window)
     auto labels = vtkSmartPointer<vtkRenderer>::New();
     window.SetNumberOfLayers(2);
     labels->SetLayer(1);
-    labels->InteractiveOff();
+    vtkNew<vtkCallbackCommand> before_labels;
+    before_labels->SetCallback(blend);
+    labels->AddObserver(vtkCommand::StartEvent, before_labels);
     window.AddRenderer(labels);
     return labels;
 }
 
-std::string scale_title(const std::string& colour, const std::string& unit)
+std::string title_of(const std::string& colour, const std::string& unit)
 {
     const std::string name = colour == "Velocity" ? "speed" : colour;
     return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
@@ -75,7 +98,8 @@ Picture::Picture(const std::filesystem::path& results, const Survey& survey,
                                 settings.elevation_deg.value_or(default_elevation))),
       window_(offscreen_window(settings.width, settings.height)), scene_(make_scene(*window_)),
       labels_(make_label_layer(*window_)),
-      colours_(water_colours(survey.colour_min, survey.colour_max))
+      colours_(water_colours(survey.colour_min, survey.colour_max)),
+      radius_(survey.spacing * (survey.flat ? radius_of_spacing_in_a_plane : radius_of_spacing))
 {
     place_camera(settings);
     add_surroundings(results, structures);
@@ -90,6 +114,7 @@ void Picture::place_camera(const RenderSettings& settings)
         to_camera_ = -Vec3::UnitY();
         aim_at_plane(camera, survey_.bounds, aspect);
     } else {
+        shade_depth(*scene_);
         aim(camera, survey_.bounds, to_camera_, aspect);
     }
 }
@@ -98,11 +123,13 @@ void Picture::add_surroundings(const std::filesystem::path& results, const Surfa
 {
     if (!structures.triangles.empty()) {
         const Sides sides = survey_.flat ? Sides::all : Sides::facing_camera;
-        scene_->AddActor(structures_actor(structures, sides));
+        const Actor actor = structures_actor(structures, sides);
+        light(*actor);
+        scene_->AddActor(actor);
         scene_->AddActor(edges_actor(structures));
     } else if (std::filesystem::exists(results / "walls.hdf")) {
-        scene_->AddActor(wall_particles_actor(read_frame(results / "walls.hdf"),
-                                              0.5 * survey_.spacing, survey_.inner, to_camera_));
+        scene_->AddActor(wall_particles_actor(read_frame(results / "walls.hdf"), radius_,
+                                              survey_.inner, to_camera_));
     }
 }
 
@@ -111,8 +138,17 @@ void Picture::add_labels(const RenderSettings& settings)
     time_ = time_label(settings.height);
     labels_->AddActor2D(time_);
     if (!survey_.unit.empty()) {
-        labels_->AddActor2D(colour_scale(*colours_, scale_title(settings.colour, survey_.unit)));
+        const std::string title = title_of(settings.colour, survey_.unit);
+        labels_->AddActor2D(colour_scale(*colours_, settings.height));
+        labels_->AddActor2D(scale_title(title, settings.height));
     }
+}
+
+/// A face that looks straight at camera and lamps would be bleached: in a plane, colours as they
+/// are.
+void Picture::light(vtkActor& actor) const
+{
+    actor.GetProperty()->SetLighting(!survey_.flat);
 }
 
 void Picture::add_for_this_moment(const Actor& actor)
@@ -127,15 +163,18 @@ void Picture::show(const Moment& moment)
         scene_->RemoveActor(actor);
     }
     of_this_moment_.clear();
-    const double radius = radius_of_spacing * survey_.spacing;
     if (!moment.fluid.empty()) {
         const Cloud fluid = read_frame(moment.fluid);
-        add_for_this_moment(fluid_actor(fluid, magnitudes(fluid, colour_), radius, *colours_));
+        add_for_this_moment(fluid_actor(fluid, magnitudes(fluid, colour_), radius_, *colours_));
     }
     if (!moment.surfaces.empty()) {
-        add_for_this_moment(bodies_actor(read_surface(moment.surfaces)));
+        const Surface bodies = read_surface(moment.surfaces);
+        const Actor actor = bodies_actor(bodies);
+        light(*actor);
+        add_for_this_moment(actor);
+        add_for_this_moment(edges_actor(bodies));
     } else if (!moment.bodies.empty()) {
-        add_for_this_moment(body_particles_actor(read_frame(moment.bodies), radius));
+        add_for_this_moment(body_particles_actor(read_frame(moment.bodies), radius_));
     }
     time_->SetInput(fmt::format("t = {:.2f} s", moment.time).c_str());
 }

@@ -24,6 +24,7 @@ private:
     void add_surroundings(const std::filesystem::path& results, const Surface& structures);
     void add_labels(const RenderSettings& settings);
     void show(const Moment& moment);
+    void light(vtkActor& actor) const;
     void add_for_this_moment(const Actor& actor);
 
     Survey survey_;
@@ -33,6 +34,7 @@ private:
     vtkSmartPointer<vtkRenderer> scene_;
     vtkSmartPointer<vtkRenderer> labels_;
     vtkSmartPointer<vtkColorTransferFunction> colours_;
+    double radius_; // of a particle [m]
     vtkSmartPointer<vtkTextActor> time_;
     std::vector<Actor> of_this_moment_;
 };

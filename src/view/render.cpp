@@ -35,8 +35,8 @@ fs::path emptied_pictures(const fs::path& results)
             fs::remove(file);
         }
     } catch (const fs::filesystem_error& error) {
-        throw IoError(fmt::format("cannot prepare `{}`: {}", pictures.string(),
-                                  error.code().message()));
+        throw IoError(
+            fmt::format("cannot prepare `{}`: {}", pictures.string(), error.code().message()));
     }
     return pictures;
 }

@@ -58,8 +58,8 @@ vtkSmartPointer<vtkPolyData> mesh_of(const Surface& surface)
     auto data = points_of(surface.points);
     vtkNew<vtkCellArray> cells;
     for (std::size_t k = 0; k + 2 < surface.triangles.size(); k += 3) {
-        cells->InsertNextCell({surface.triangles[k], surface.triangles[k + 1],
-                               surface.triangles[k + 2]});
+        cells->InsertNextCell(
+            {surface.triangles[k], surface.triangles[k + 1], surface.triangles[k + 2]});
     }
     data->SetPolys(cells);
     return data;
@@ -120,16 +120,16 @@ Actor mesh_actor(vtkPolyData& data)
     mapper->SetInputConnection(normals->GetOutputPort());
     mapper->SetColorModeToDirectScalars();
     Actor actor = actor_of(*mapper);
-    actor->GetProperty()->SetAmbient(0.45);
-    actor->GetProperty()->SetDiffuse(0.75);
+    actor->GetProperty()->SetAmbient(0.55);
+    actor->GetProperty()->SetDiffuse(0.65);
     return actor;
 }
 
 bool stands_before(const Vec3& point, const Box& inner, const Vec3& to_camera)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        const bool beyond = to_camera[axis] > 0 ? point[axis] > inner.max()[axis]
-                                                : point[axis] < inner.min()[axis];
+        const bool beyond =
+            to_camera[axis] > 0 ? point[axis] > inner.max()[axis] : point[axis] < inner.min()[axis];
         // A wall that is seen edge-on hides nothing, whatever side it is on.
         if (beyond && std::abs(to_camera[axis]) > 0.1) {
             return true;
@@ -156,8 +156,8 @@ vtkSmartPointer<vtkColorTransferFunction> water_colours(double from, double to)
         double at, r, g, b;
     };
     // Lightness grows evenly from stop to stop, so that equal steps of speed look equal.
-    constexpr std::array<Stop, 6> stops{{{0.00, 0.02, 0.13, 0.34},
-                                         {0.20, 0.03, 0.27, 0.54},
+    constexpr std::array<Stop, 6> stops{{{0.00, 0.03, 0.18, 0.42},
+                                         {0.20, 0.04, 0.30, 0.58},
                                          {0.42, 0.06, 0.45, 0.70},
                                          {0.64, 0.22, 0.66, 0.81},
                                          {0.84, 0.62, 0.87, 0.92},
@@ -226,7 +226,8 @@ Actor structures_actor(const Surface& surface, Sides sides)
 Actor edges_actor(const Surface& surface)
 {
     constexpr double grey = 0.45;
-    vtkNew<vtkCleanPolyData> joined; // corners that faces do not share would make every side an edge
+    vtkNew<vtkCleanPolyData>
+        joined; // corners that faces do not share would make every side an edge
     joined->SetInputData(mesh_of(surface));
     vtkNew<vtkFeatureEdges> edges;
     edges->SetInputConnection(joined->GetOutputPort());
@@ -243,30 +244,38 @@ Actor edges_actor(const Surface& surface)
 }
 
 vtkSmartPointer<vtkScalarBarActor> colour_scale(vtkColorTransferFunction& colours,
-                                                const std::string& title)
+                                                int picture_height)
 {
     auto bar = vtkSmartPointer<vtkScalarBarActor>::New();
     bar->SetLookupTable(&colours);
-    bar->SetTitle(title.c_str());
     bar->SetOrientationToHorizontal();
     bar->SetPosition(0.31, 0.02);
     bar->SetWidth(0.38);
-    bar->SetHeight(0.10);
-    bar->SetVerticalTitleSeparation(6);
+    bar->SetHeight(0.065);
     bar->SetNumberOfLabels(5);
-    bar->SetLabelFormat("%.3g");
+    bar->SetLabelFormat("%.4g");
     bar->UnconstrainedFontSizeOn();
-    constexpr int size = 17;
-    set_text(*bar->GetTitleTextProperty(), size);
-    set_text(*bar->GetLabelTextProperty(), size);
+    set_text(*bar->GetLabelTextProperty(), picture_height / 42);
     return bar;
+}
+
+vtkSmartPointer<vtkTextActor> scale_title(const std::string& title, int picture_height)
+{
+    auto label = vtkSmartPointer<vtkTextActor>::New();
+    set_text(*label->GetTextProperty(), picture_height / 40);
+    label->GetTextProperty()->SetJustificationToCentered();
+    label->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    label->SetPosition(0.5, 0.092);
+    label->SetInput(title.c_str());
+    return label;
 }
 
 vtkSmartPointer<vtkTextActor> time_label(int picture_height)
 {
     auto label = vtkSmartPointer<vtkTextActor>::New();
     set_text(*label->GetTextProperty(), picture_height / 30);
-    label->SetPosition(24, picture_height - picture_height / 15);
+    label->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    label->SetPosition(0.02, 0.93);
     return label;
 }
 

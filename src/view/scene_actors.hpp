@@ -24,7 +24,8 @@ Actor fluid_actor(const Cloud& cloud, const std::vector<float>& values, double r
                   vtkColorTransferFunction& colours);
 /// Particles of bodies, each body in its own tone of wood.
 Actor body_particles_actor(const Cloud& cloud, double radius);
-/// Wall particles, grey; those that stand outside of `inner` on the side of the camera are left out.
+/// Wall particles, grey; those that stand outside of `inner` on the side of the camera are left
+/// out.
 Actor wall_particles_actor(const Cloud& cloud, double radius, const Box& inner,
                            const Vec3& to_camera);
 
@@ -37,7 +38,8 @@ Actor structures_actor(const Surface& surface, Sides sides);
 Actor edges_actor(const Surface& surface);
 
 vtkSmartPointer<vtkScalarBarActor> colour_scale(vtkColorTransferFunction& colours,
-                                                const std::string& title);
+                                                int picture_height);
+vtkSmartPointer<vtkTextActor> scale_title(const std::string& title, int picture_height);
 vtkSmartPointer<vtkTextActor> time_label(int picture_height);
 
 } // namespace hyoryu

@@ -56,8 +56,11 @@ protected:
 /// `count` points with one column of every type; all values depend on the frame.
 inline Cloud make_cloud(std::string name, std::int64_t index, std::size_t count)
 {
-    Cloud cloud{.name = std::move(name), .time = 0.1 * static_cast<double>(index), .index = index,
-                .points = {}, .columns = {}};
+    Cloud cloud{.name = std::move(name),
+                .time = 0.1 * static_cast<double>(index),
+                .index = index,
+                .points = {},
+                .columns = {}};
     std::vector<float> velocity;
     std::vector<double> pressure;
     std::vector<std::int32_t> body;
@@ -74,8 +77,11 @@ inline Cloud make_cloud(std::string name, std::int64_t index, std::size_t count)
         id.push_back(static_cast<std::int64_t>(i) << 33U);
         kind.push_back(static_cast<std::uint8_t>(i % 3));
     }
-    cloud.columns = {{"Body", "", 1, body}, {"Id", "", 1, id}, {"Kind", "", 1, kind},
-                     {"Pressure", "Pa", 1, pressure}, {"Velocity", "m/s", 3, velocity}};
+    cloud.columns = {{"Body", "", 1, body},
+                     {"Id", "", 1, id},
+                     {"Kind", "", 1, kind},
+                     {"Pressure", "Pa", 1, pressure},
+                     {"Velocity", "m/s", 3, velocity}};
     return cloud;
 }
 
@@ -83,7 +89,9 @@ inline Cloud make_cloud(std::string name, std::int64_t index, std::size_t count)
 inline Surface make_surface(std::int64_t index)
 {
     const float z = static_cast<float>(index);
-    return {.name = "surfaces", .time = 0.1 * static_cast<double>(index), .index = index,
+    return {.name = "surfaces",
+            .time = 0.1 * static_cast<double>(index),
+            .index = index,
             .points = {0, 0, z, 1, 0, z, 1, 1, z, 0, 1, z},
             .triangles = {0, 1, 2, 0, 2, 3},
             .columns = {{"Body", "", 1, std::vector<std::int32_t>{0, 0, 0, 0}}}};

@@ -92,7 +92,8 @@ TEST_F(Checkpoint, ThatIsMissingTornOrForeignIsAnError)
     EXPECT_THROW(read_checkpoint(folder), IoError);
     write_checkpoint(folder, make_snapshot());
     const std::string good = text_of(folder / "checkpoint.h5");
-    for (const std::size_t size : {std::size_t{0}, std::size_t{100}, std::size_t{512}, good.size() - 1}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{100}, std::size_t{512}, good.size() - 1}) {
         put_text_into(folder / "checkpoint.h5", good.substr(0, size));
         EXPECT_THROW(read_checkpoint(folder), IoError) << size;
     }

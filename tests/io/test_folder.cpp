@@ -25,7 +25,8 @@ protected:
         for (const char* name : {"bodies", "contacts", "energy", "gauges"}) {
             const History history(folder, {name, {{"time", "s"}}});
         }
-        for (const char* name : {"case.toml", "plan.json", "summary.json", "run.log", "report.html"}) {
+        for (const char* name :
+             {"case.toml", "plan.json", "summary.json", "run.log", "report.html"}) {
             write_text(folder / name, "x");
         }
         write_checkpoint(folder, {});

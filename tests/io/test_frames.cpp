@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames: what is written comes back, series name what is there, and a disk that refuses loses nothing.
+// Frames: what is written comes back, series name what is there, and a disk that refuses loses
+// nothing.
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/results.hpp"
 #include "results_fixture.hpp"
@@ -47,7 +48,8 @@ TEST_F(Frames, ComeBackAtEverySize)
     }
     writer.finish();
     for (const Cloud& cloud : clouds) {
-        expect_equal(read_frame(folder / fmt::format("frames/fluid_{:06}.hdf", cloud.index)), cloud);
+        expect_equal(read_frame(folder / fmt::format("frames/fluid_{:06}.hdf", cloud.index)),
+                     cloud);
     }
 }
 

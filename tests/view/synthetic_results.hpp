@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A results folder as a run would leave it, made of formulae: a wave runs down a flume, lifts timbers
-// and breaks on a house.
+// A results folder as a run would leave it, made of formulae: a wave runs down a flume, lifts
+// timbers and breaks on a house.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -18,8 +18,8 @@ namespace hyoryu::testing {
 inline void add_box(Surface& surface, std::vector<std::int32_t>& owner, const Vec3& centre,
                     const Vec3& half, const Mat3& turn, std::int32_t index, bool inwards)
 {
-    constexpr std::array<std::array<int, 4>, 6> faces{{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    constexpr std::array<std::array<int, 4>, 6> faces{
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
     const auto first = static_cast<std::int32_t>(surface.points.size() / 3);
     for (int k = 0; k < 8; ++k) {
         const Vec3 corner((k & 1) != 0 ? half.x() : -half.x(), (k & 2) != 0 ? half.y() : -half.y(),
@@ -37,8 +37,8 @@ inline void add_box(Surface& surface, std::vector<std::int32_t>& owner, const Ve
         for (const std::array<int, 3>& corner : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
             for (const int c : corner) {
                 const int k = inwards ? corner[2] + corner[0] - c : c;
-                surface.triangles.push_back(first + faces[f][static_cast<std::size_t>(
-                    c == corner[1] ? corner[1] : k)]);
+                surface.triangles.push_back(
+                    first + faces[f][static_cast<std::size_t>(c == corner[1] ? corner[1] : k)]);
             }
         }
     }
@@ -53,8 +53,11 @@ inline double wave(double x, double time)
 
 inline Cloud make_water(std::int64_t index, double spacing)
 {
-    Cloud cloud{.name = "fluid", .time = 0.1 * static_cast<double>(index), .index = index,
-                .points = {}, .columns = {}};
+    Cloud cloud{.name = "fluid",
+                .time = 0.1 * static_cast<double>(index),
+                .index = index,
+                .points = {},
+                .columns = {}};
     std::vector<float> velocity;
     std::vector<float> pressure;
     for (double x = 0.5 * spacing; x < 6; x += spacing) {
@@ -80,10 +83,31 @@ inline Cloud make_water(std::int64_t index, double spacing)
     return cloud;
 }
 
+/// The row of water nearest to y = 0, in the plane y = 0: a 2-D case.
+inline Cloud make_plane_water(std::int64_t index, double spacing)
+{
+    const Cloud water = make_water(index, spacing);
+    const auto& velocity = std::get<std::vector<float>>(water.columns[0].values);
+    Cloud plane{.name = "fluid", .time = water.time, .index = index, .points = {}, .columns = {}};
+    std::vector<float> in_plane;
+    for (std::size_t i = 0; i < water.points.size(); i += 3) {
+        if (water.points[i + 1] < static_cast<float>(spacing)) {
+            plane.points.insert(plane.points.end(), {water.points[i], 0.0F, water.points[i + 2]});
+            in_plane.insert(in_plane.end(), {velocity[i], 0.0F, velocity[i + 2]});
+        }
+    }
+    plane.columns = {{"Velocity", "m/s", 3, in_plane}};
+    return plane;
+}
+
 inline Surface make_timbers(std::int64_t index, int count)
 {
-    Surface surface{.name = "surfaces", .time = 0.1 * static_cast<double>(index), .index = index,
-                    .points = {}, .triangles = {}, .columns = {}};
+    Surface surface{.name = "surfaces",
+                    .time = 0.1 * static_cast<double>(index),
+                    .index = index,
+                    .points = {},
+                    .triangles = {},
+                    .columns = {}};
     std::vector<std::int32_t> body;
     for (int b = 0; b < count; ++b) {
         const double x = 1.0 + 0.35 * b + 0.8 * surface.time;
@@ -91,7 +115,8 @@ inline Surface make_timbers(std::int64_t index, int count)
         const Mat3 turn = (Eigen::AngleAxisd(0.7 * b + surface.time, Vec3::UnitZ()) *
                            Eigen::AngleAxisd(0.2 * std::sin(b + 3 * surface.time), Vec3::UnitY()))
                               .toRotationMatrix();
-        add_box(surface, body, {x, y, wave(x, surface.time) + 0.02}, {0.2, 0.04, 0.04}, turn, b, false);
+        add_box(surface, body, {x, y, wave(x, surface.time) + 0.02}, {0.2, 0.04, 0.04}, turn, b,
+                false);
     }
     surface.columns = {{"Body", "", 1, body}};
     return surface;
@@ -99,7 +124,8 @@ inline Surface make_timbers(std::int64_t index, int count)
 
 inline Surface make_flume()
 {
-    Surface surface{.name = "structures", .time = 0, .index = 0, .points = {}, .triangles = {}, .columns = {}};
+    Surface surface{
+        .name = "structures", .time = 0, .index = 0, .points = {}, .triangles = {}, .columns = {}};
     std::vector<std::int32_t> wall;
     add_box(surface, wall, {3, 0.5, 0.5}, {3, 0.5, 0.5}, Mat3::Identity(), 0, true);
     add_box(surface, wall, {4.8, 0.5, 0.25}, {0.2, 0.2, 0.25}, Mat3::Identity(), 1, false);
