@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""Checks that the arrows between layers point one way: a layer includes only itself and what it may.
+
+Usage: scripts/check_layers.py [ROOT]; exit 1 and one line an offence if any include breaks the order.
+"""
+import pathlib
+import re
+import sys
+
+MAY_INCLUDE = {
+    "core": set(),
+    "fluid": {"core"},
+    "rigid": {"core"},
+    "coupling": {"core", "fluid", "rigid"},
+    "geometry": {"core"},
+    "scene": {"core", "fluid", "rigid", "coupling", "geometry"},
+    "sim": {"core", "fluid", "rigid", "coupling", "scene"},
+    "io": {"core"},
+    "view": {"core", "io"},
+    "vtk": {"core", "io", "geometry", "view"},
+    "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "view"},
+}
+VTK_LAYERS = {"vtk"}
+INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')
+VTK = re.compile(r"#include\s+<vtk")
+
+
+def offences(root):
+    for base in (root / "include" / "hyoryu", root / "src"):
+        for file in sorted(base.rglob("*.[hc]pp")):
+            layer = file.relative_to(base).parts[0]
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                place = f"{file.relative_to(root)}:{number}"
+                found = INCLUDE.match(line)
+                if found and found[1] != layer and found[1] not in MAY_INCLUDE[layer]:
+                    yield f"{place}: {layer} must not include {found[1]}"
+                if VTK.match(line) and layer not in VTK_LAYERS:
+                    yield f"{place}: only src/vtk may include VTK"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
+    found = list(offences(root))
+    print("\n".join(found) if found else "layers: every arrow points one way")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Same bits for any thread count and across a restart; absent effects cost nothing; momentum closes.
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/sim/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hyoryu {
+namespace {
+
+constexpr const char* flood = R"(
+title = "small flood"
+[time]
+end = 10.0
+[particles]
+spacing = 0.05
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.6, 0.6, 0.6]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [2.0, 0.6, 1.0]
+open = ["+z"]
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.3, 0.3, 0.3]
+density = 400.0
+position = [0.9, 0.31, 0.15]
+[[body]]
+name = "ball"
+shape = "sphere"
+radius = 0.15
+density = 600.0
+position = [1.25, 0.3, 0.4]
+)";
+
+Simulation make(const std::string& text)
+{
+    const Scene scene = parse_case(text, "test.toml");
+    const Filling filling = fill(scene);
+    return make_simulation(scene, make_plan(scene, filling), filling);
+}
+
+void advance(Simulation& sim, int steps)
+{
+    for (int k = 0; k < steps; ++k) {
+        step(sim);
+        if (frame_due(sim.clock, sim.scene)) {
+            sim.clock.frame += 1;
+        }
+    }
+}
+
+void expect_same_bits(const Snapshot& a, const Snapshot& b)
+{
+    ASSERT_EQ(a.arrays.size(), b.arrays.size());
+    for (const auto& [name, column] : a.arrays) {
+        EXPECT_EQ(column.values, b.arrays.at(name).values) << name;
+    }
+}
+
+TEST(Promises, SameBitsForOneTwoAndThreeThreads)
+{
+    set_threads(1);
+    Simulation one = make(flood);
+    advance(one, 150);
+    for (const int threads : {2, 3}) {
+        set_threads(threads);
+        Simulation more = make(flood);
+        advance(more, 150);
+        expect_same_bits(save(one), save(more));
+    }
+    set_threads(0);
+}
+
+TEST(Promises, AResumedRunContinuesWithTheSameBits)
+{
+    Simulation whole = make(flood);
+    advance(whole, 90);
+    const Snapshot middle = save(whole);
+    advance(whole, 85);
+
+    Simulation resumed = make(flood);
+    restore(resumed, middle);
+    advance(resumed, 85);
+    expect_same_bits(save(whole), save(resumed));
+}
+
+TEST(Promises, MomentumOfFluidBodiesAndWallsCloses)
+{
+    Simulation sim = make(flood);
+    advance(sim, 300);
+    EXPECT_LE(sim.ledger.worst_closure, 1e-10);
+    EXPECT_GT(sim.ledger.worst_closure, 0); // it was measured at all
+    EXPECT_EQ(sim.fluid->lost.count, 0);
+}
+
+TEST(Promises, WithoutFluidThereAreNoParticlesListsOrSweeps)
+{
+    Simulation sim = make(R"(
+[time]
+end = 1.0
+[particles]
+spacing = 0.05
+[[body]]
+shape = "box"
+size = [0.1, 0.1, 0.1]
+density = 500.0
+position = [0.0, 0.0, 1.0]
+)");
+    advance(sim, 10);
+    EXPECT_FALSE(sim.fluid.has_value());
+    EXPECT_TRUE(sim.plan.fields.empty());
+    EXPECT_TRUE(sim.plan.pair_kinds.empty());
+    EXPECT_EQ(sim.plan.counts.particles(), 0);
+    EXPECT_FALSE(sim.plan.runs("contact")); // alone in space
+    for (const auto& stage : sim.timer.stages()) {
+        EXPECT_TRUE(stage.name == "bodies" || stage.name == "books") << stage.name;
+    }
+}
+
+TEST(Promises, WithoutBodiesThereAreNoBodyPairsAndNoContact)
+{
+    const std::string text = flood;
+    Simulation sim = make(text.substr(0, text.find("[[body]]")));
+    advance(sim, 10);
+    EXPECT_FALSE(sim.plan.runs("contact"));
+    EXPECT_FALSE(sim.plan.runs("body_load"));
+    EXPECT_TRUE(sim.fluid->neighbours.body_solid.empty());
+    EXPECT_TRUE(sim.fluid->neighbours.wall_body.empty());
+    EXPECT_EQ(sim.rigid.counters.rounds, 0);
+    for (const auto& kind : sim.plan.pair_kinds) {
+        EXPECT_EQ(kind.name.find("body"), std::string::npos) << kind.name;
+    }
+}
+
+TEST(Promises, AnAbsentEffectHasNoFieldAndNoLineOfTheStep)
+{
+    Simulation bare = make(std::string(flood) + R"(
+)");
+    const Scene plain = parse_case(flood, "test.toml",
+                                   {"fluid.viscosity.model=none", "fluid.density_diffusion.model=none"});
+    const Filling filling = fill(plain);
+    Simulation without = make_simulation(plain, make_plan(plain, filling), filling);
+    EXPECT_TRUE(bare.fluid->particles.has(field::viscous_force));
+    EXPECT_FALSE(without.fluid->particles.has(field::viscous_force));
+    EXPECT_FALSE(without.fluid->particles.has(field::diffusion_rate));
+    EXPECT_FALSE(without.plan.runs("artificial_viscosity"));
+    advance(without, 20);
+}
+
+TEST(Promises, AnEffectOfNoStrengthGivesTheBitsOfItsAbsence)
+{
+    // alpha = 0 switches the effect off; the run equals one whose model is "none" bit for bit.
+    const auto state = [](const std::vector<std::string>& overrides) {
+        const Scene scene = parse_case(flood, "test.toml", overrides);
+        const Filling filling = fill(scene);
+        Simulation sim = make_simulation(scene, make_plan(scene, filling), filling);
+        advance(sim, 60);
+        return save(sim);
+    };
+    expect_same_bits(state({"fluid.viscosity.alpha=0"}), state({"fluid.viscosity.model=none"}));
+}
+
+} // namespace
+} // namespace hyoryu
