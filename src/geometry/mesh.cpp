@@ -76,7 +76,8 @@ void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
     vtkNew<vtkIdList> corners;
     vtkCellArray& faces = *surface.GetPolys();
     if (faces.GetNumberOfCells() == 0 || faces.GetNumberOfCells() > most_triangles) {
-        refuse(file, fmt::format("has {} faces, expected 1 .. {}", faces.GetNumberOfCells(), most_triangles));
+        refuse(file, fmt::format("has {} faces, expected 1 .. {}", faces.GetNumberOfCells(),
+                                 most_triangles));
     }
     for (vtkIdType k = 0; k < faces.GetNumberOfCells(); ++k) {
         faces.GetCellAtId(k, corners);
@@ -97,7 +98,8 @@ vtkSmartPointer<vtkPolyData> read_surface(const std::filesystem::path& file)
     observer->SetCallback(keep_message);
     observer->SetClientData(&message);
     vtkNew<Reader> reader;
-    for (vtkObject* source : {static_cast<vtkObject*>(reader), static_cast<vtkObject*>(reader->GetExecutive())}) {
+    for (vtkObject* source :
+         {static_cast<vtkObject*>(reader), static_cast<vtkObject*>(reader->GetExecutive())}) {
         source->AddObserver(vtkCommand::ErrorEvent, observer);
         source->AddObserver(vtkCommand::WarningEvent, observer);
     }
@@ -140,11 +142,12 @@ void turn_if_inside_out(Mesh& mesh)
 Mesh read_mesh(const std::filesystem::path& file, double scale)
 {
     const MeshKind kind = mesh_kind(file);
-    const auto surface = kind == MeshKind::obj ? read_surface<vtkOBJReader>(file)
-                                               : read_surface<vtkSTLReader>(file);
+    const auto surface =
+        kind == MeshKind::obj ? read_surface<vtkOBJReader>(file) : read_surface<vtkSTLReader>(file);
     Mesh mesh = to_mesh(*cleaned(*surface), scale);
     if (mesh.triangles.empty() || static_cast<long long>(mesh.triangles.size()) > most_triangles) {
-        refuse(file, fmt::format("has {} triangles, expected 1 .. {}", mesh.triangles.size(), most_triangles));
+        refuse(file, fmt::format("has {} triangles, expected 1 .. {}", mesh.triangles.size(),
+                                 most_triangles));
     }
     turn_if_inside_out(mesh);
     return mesh;

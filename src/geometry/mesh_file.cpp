@@ -8,16 +8,19 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 namespace hyoryu {
 
 namespace {
 
-constexpr std::uintmax_t stl_header = 84;        // bytes: 80 of text and the number of triangles
-constexpr std::uintmax_t stl_triangle = 50;      // bytes
+constexpr std::uintmax_t stl_header = 84;         // bytes: 80 of text and the number of triangles
+constexpr std::uintmax_t stl_triangle = 50;       // bytes
 constexpr std::uintmax_t largest_file = 2u << 30; // bytes
 using Head = std::array<unsigned char, stl_header>;
 
@@ -35,6 +38,39 @@ std::uint32_t little_endian(const Head& head)
     return value;
 }
 
+/// The three numbers of a corner are finite. VTK takes "nan" and "1e999" for zero, without a word.
+bool finite_corner(std::istringstream& line)
+{
+    std::string word;
+    for (int k = 0; k < 3; ++k) {
+        double number = 0;
+        if (!(line >> word)) {
+            return false;
+        }
+        const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
+        const auto [stop, fault] = std::from_chars(begin, word.data() + word.size(), number);
+        if (fault != std::errc{} || stop != word.data() + word.size() || !std::isfinite(number)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Checks every corner of a text file; `keyword` begins the line of one.
+void check_corners(const std::filesystem::path& file, const std::string& keyword)
+{
+    std::ifstream stream(file);
+    std::string text;
+    for (long long number = 1; std::getline(stream, text); ++number) {
+        std::istringstream line(text);
+        std::string word;
+        if (line >> word && word == keyword && !finite_corner(line)) {
+            refuse(file,
+                   fmt::format("has a corner in line {} that is not three finite numbers", number));
+        }
+    }
+}
+
 MeshKind stl_kind(const std::filesystem::path& file, std::uintmax_t size)
 {
     Head head{};
@@ -44,22 +80,27 @@ MeshKind stl_kind(const std::filesystem::path& file, std::uintmax_t size)
     const std::uint32_t count = little_endian(head);
     if (size >= stl_header && size == stl_header + stl_triangle * count) {
         if (count > most_triangles) {
-            refuse(file, fmt::format("has {} triangles, at most {} are read", count, most_triangles));
+            refuse(file,
+                   fmt::format("has {} triangles, at most {} are read", count, most_triangles));
         }
         return MeshKind::stl_binary;
     }
-    const bool text = std::all_of(head.begin(), head.begin() + std::min<std::ptrdiff_t>(
-                                      static_cast<std::ptrdiff_t>(size), static_cast<std::ptrdiff_t>(head.size())),
-                                  [](unsigned char c) { return c >= ' ' || std::isspace(c) != 0; });
+    const bool text = std::all_of(
+        head.begin(),
+        head.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(size),
+                                                static_cast<std::ptrdiff_t>(head.size())),
+        [](unsigned char c) { return c >= ' ' || std::isspace(c) != 0; });
     if (start == "solid" && text) {
+        check_corners(file, "vertex");
         return MeshKind::stl_text;
     }
     if (size < stl_header) {
         refuse(file, "is no STL file");
     }
-    refuse(file, fmt::format("is no STL file, or cut short: as a binary one it would have {} triangles "
-                             "and {} bytes, it has {}",
-                             count, stl_header + stl_triangle * count, size));
+    refuse(file,
+           fmt::format("is no STL file, or cut short: as a binary one it would have {} triangles "
+                       "and {} bytes, it has {}",
+                       count, stl_header + stl_triangle * count, size));
 }
 
 } // namespace
@@ -81,6 +122,7 @@ MeshKind mesh_kind(const std::filesystem::path& file)
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (ending == ".obj") {
+        check_corners(file, "v");
         return MeshKind::obj;
     }
     if (ending != ".stl") {

@@ -29,7 +29,8 @@ std::vector<std::string> lines_of(const std::string& text)
             line.pop_back();
         }
         std::replace_if(
-            line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+            line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; },
+            ' ');
         lines.push_back(line.size() > longest ? std::string() : line);
     }
     return lines;
@@ -89,7 +90,8 @@ Scene read_scene(TableReader& root)
     read_gauges(root, scene);
     read_output(root.table("output"), scene);
     if (!root.has("fluid") && !root.has("body")) {
-        root.error("", "the case has nothing to simulate", "add [fluid] with [[fluid.block]], or [[body]]");
+        root.error("", "the case has nothing to simulate",
+                   "add [fluid] with [[fluid.block]], or [[body]]");
     }
     root.finish();
     return scene;
@@ -113,8 +115,8 @@ Scene read_case(const std::filesystem::path& file, const std::vector<std::string
     std::error_code fault;
     const auto status = std::filesystem::status(file, fault);
     const auto refuse = [&file](std::string what, std::string hint) {
-        throw CaseError({Diagnostic{
-            .file = file.string(), .what = std::move(what), .hint = std::move(hint)}});
+        throw CaseError(
+            {Diagnostic{.file = file.string(), .what = std::move(what), .hint = std::move(hint)}});
     };
     if (!std::filesystem::exists(status)) {
         refuse("there is no such file", "`hyoryu new` writes a case to start from");
@@ -122,7 +124,8 @@ Scene read_case(const std::filesystem::path& file, const std::vector<std::string
     if (std::filesystem::is_directory(status)) {
         refuse("is a folder, expected a case file", "name the .toml file in it");
     }
-    if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, fault) > largest_file) {
+    if (std::filesystem::is_regular_file(status) &&
+        std::filesystem::file_size(file, fault) > largest_file) {
         refuse(fmt::format("is larger than {} MiB, which no case file is", largest_file >> 20), "");
     }
     std::ifstream stream(file, std::ios::binary);

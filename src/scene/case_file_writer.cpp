@@ -10,8 +10,8 @@ namespace hyoryu {
 
 namespace {
 
-/// The shortest text that reads back as the same double, with a point or exponent so that TOML takes
-/// it for a number with a sign of zero.
+/// The shortest text that reads back as the same double, with a point or exponent so that TOML
+/// takes it for a number with a sign of zero.
 std::string toml(double value)
 {
     std::string text = fmt::format("{}", value);
@@ -72,7 +72,8 @@ std::string line(std::string_view key, const std::optional<T>& value)
 }
 
 /// The names whose flag is set.
-std::vector<std::string> named(const std::array<bool, 6>& flags, const std::array<const char*, 6>& names)
+std::vector<std::string> named(const std::array<bool, 6>& flags,
+                               const std::array<const char*, 6>& names)
 {
     std::vector<std::string> set;
     for (std::size_t k = 0; k < flags.size(); ++k) {
@@ -92,7 +93,8 @@ std::string shape_lines(const Shape& shape)
         return "shape = \"sphere\"\n" + line("radius", sphere->radius);
     }
     if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
-        return "shape = \"cylinder\"\n" + line("radius", cylinder->radius) + line("length", cylinder->length);
+        return "shape = \"cylinder\"\n" + line("radius", cylinder->radius) +
+               line("length", cylinder->length);
     }
     const auto& mesh = std::get<MeshShape>(shape);
     return "shape = \"mesh\"\n" + line("file", mesh.file) + line("scale", mesh.scale);
@@ -152,13 +154,14 @@ std::string geometry_lines(const Wall& wall)
                line("open", named(basin->open, {"-x", "+x", "-y", "+y", "-z", "+z"}));
     }
     const auto& solid = std::get<SolidWall>(wall.geometry);
-    return shape_lines(solid.shape) + line("position", solid.centre) + line("rotation", solid.rotation);
+    return shape_lines(solid.shape) + line("position", solid.centre) +
+           line("rotation", solid.rotation);
 }
 
 std::string wall_text(const Wall& wall)
 {
-    return "\n[[wall]]\n" + line("name", wall.name) + geometry_lines(wall) + line("material", wall.material) +
-           "[wall.motion]\n" + line("velocity", wall.velocity);
+    return "\n[[wall]]\n" + line("name", wall.name) + geometry_lines(wall) +
+           line("material", wall.material) + "[wall.motion]\n" + line("velocity", wall.velocity);
 }
 
 std::string body_text(const BodySettings& body, int dimensions)
@@ -169,13 +172,15 @@ std::string body_text(const BodySettings& body, int dimensions)
            (by_density ? line("density", body.density) : line("mass", body.mass)) +
            line("position", body.position) + line("rotation", body.rotation) +
            line("velocity", body.velocity) + line("angular_velocity", body.angular_velocity) +
-           line("spacing", body.spacing) + line("material", body.material) + line("fixed", body.fixed) +
+           line("spacing", body.spacing) + line("material", body.material) +
+           line("fixed", body.fixed) +
            line("locks", named(body.locks, {"x", "y", "z", "rx", "ry", "rz"}));
 }
 
 std::string contact_text(const ContactSettings& contact)
 {
-    std::string text = "\n[contact]\nmethod = \"impulse\"\n" + line("restitution", contact.restitution) +
+    std::string text = "\n[contact]\nmethod = \"impulse\"\n" +
+                       line("restitution", contact.restitution) +
                        line("friction", contact.friction);
     for (const MaterialPair& pair : contact.pairs) {
         text += "\n[[contact.pair]]\n" +
@@ -188,7 +193,8 @@ std::string contact_text(const ContactSettings& contact)
 
 std::string gauge_text(const Gauge& gauge)
 {
-    constexpr std::array<const char*, 5> types{"elevation", "pressure", "velocity", "force", "front"};
+    constexpr std::array<const char*, 5> types{"elevation", "pressure", "velocity", "force",
+                                               "front"};
     constexpr std::array<const char*, 3> axes{"x", "y", "z"};
     std::string text = "\n[[gauge]]\n" + line("name", gauge.name) +
                        line("type", std::string(types[static_cast<std::size_t>(gauge.type)]));
@@ -203,8 +209,9 @@ std::string gauge_text(const Gauge& gauge)
 
 std::string output_text(const OutputSettings& output)
 {
-    return "\n[output]\n" + line("every", output.every) + line("history_every", output.history_every) +
-           line("fields", output.fields) + line("checkpoint_every", output.checkpoint_every);
+    return "\n[output]\n" + line("every", output.every) +
+           line("history_every", output.history_every) + line("fields", output.fields) +
+           line("checkpoint_every", output.checkpoint_every);
 }
 
 } // namespace

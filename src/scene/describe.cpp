@@ -41,8 +41,9 @@ std::string kind_of(const Parameter& parameter)
     case ValueKind::choice:
         return "text";
     case ValueKind::vector:
-        return fmt::format("list of {}numbers",
-                           free_length ? fmt::format("{} or {} ", parameter.shortest, parameter.longest) : count);
+        return fmt::format(
+            "list of {}numbers",
+            free_length ? fmt::format("{} or {} ", parameter.shortest, parameter.longest) : count);
     case ValueKind::integers:
         return fmt::format("list of {}whole numbers", count);
     case ValueKind::texts:

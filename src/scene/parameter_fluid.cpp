@@ -8,8 +8,9 @@ namespace {
 
 Parameter smoothing_row()
 {
-    Parameter row = positive("fluid.smoothing_ratio", "", "1.5",
-                             "Smoothing length over particle spacing: more is smoother and slower.");
+    Parameter row =
+        positive("fluid.smoothing_ratio", "", "1.5",
+                 "Smoothing length over particle spacing: more is smoother and slower.");
     row.bounds = "1.2 .. 2.0";
     row.minimum = 1.2;
     row.maximum = 2.0;
@@ -24,26 +25,30 @@ std::vector<Parameter> model_parameters()
         positive("fluid.density", "kg/m3", "1000", "Density of the fluid at rest."),
         choice_row("fluid.formulation", {"sph"}, "sph",
                    "How the fluid is solved: \"sph\" is weakly compressible SPH."),
-        positive("fluid.sound_speed", "m/s", "",
-                 "Artificial speed of sound; without it ten times the largest speed that the scene lets "
-                 "expect, which keeps density within 1 % of that at rest."),
+        positive(
+            "fluid.sound_speed", "m/s", "",
+            "Artificial speed of sound; without it ten times the largest speed that the scene lets "
+            "expect, which keeps density within 1 % of that at rest."),
         smoothing_row(),
         table_row("fluid.viscosity", "Internal friction of the fluid."),
         choice_row("fluid.viscosity.model", {"artificial", "laminar", "none"}, "artificial",
                    "\"artificial\" damps with `alpha`, \"laminar\" takes a physical viscosity "
                    "(`kinematic`), \"none\" is inviscid."),
-        not_negative("fluid.viscosity.alpha", "", "0.02",
-                     "Coefficient of the artificial viscosity; 0.01 to 0.1 for dam breaks and bores."),
+        not_negative(
+            "fluid.viscosity.alpha", "", "0.02",
+            "Coefficient of the artificial viscosity; 0.01 to 0.1 for dam breaks and bores."),
         not_negative("fluid.viscosity.kinematic", "m2/s", "1e-6",
                      "Kinematic viscosity of the laminar model; 1e-6 m2/s is water at 20 degrees."),
-        table_row("fluid.density_diffusion", "Smoothing of density, which keeps pressure free of noise."),
+        table_row("fluid.density_diffusion",
+                  "Smoothing of density, which keeps pressure free of noise."),
         choice_row("fluid.density_diffusion.model", {"fourtakas", "molteni", "none"}, "fourtakas",
                    "\"fourtakas\" corrects for the hydrostatic part and suits deep still water, "
                    "\"molteni\" does not, \"none\" switches it off."),
         not_negative("fluid.density_diffusion.delta", "", "0.1",
                      "Coefficient of the density diffusion."),
         table_row("fluid.shifting", "Evening out of the particles' places."),
-        choice_row("fluid.shifting.model", {"none"}, "none", "This version does not shift particles."),
+        choice_row("fluid.shifting.model", {"none"}, "none",
+                   "This version does not shift particles."),
     };
 }
 
@@ -54,9 +59,10 @@ std::vector<Parameter> fluid_parameters()
     std::vector<Parameter> rows = model_parameters();
     const std::vector<Parameter> blocks = {
         tables_row("fluid.block", "A region filled with fluid at the start."),
-        choice_row("fluid.block[].shape", {"box", "sphere", "cylinder", "mesh"}, required,
-                   "box: min and max, or size and position; sphere: radius; cylinder: radius and length "
-                   "along x before rotation; mesh: a closed surface from a file."),
+        choice_row(
+            "fluid.block[].shape", {"box", "sphere", "cylinder", "mesh"}, required,
+            "box: min and max, or size and position; sphere: radius; cylinder: radius and length "
+            "along x before rotation; mesh: a closed surface from a file."),
         vector_row("fluid.block[].min", "m", "", "Lower corner of a box."),
         vector_row("fluid.block[].max", "m", "", "Upper corner of a box."),
         vector_row("fluid.block[].size", "m", "", "Edge lengths of a box, instead of min and max."),
@@ -65,7 +71,8 @@ std::vector<Parameter> fluid_parameters()
         positive("fluid.block[].radius", "m", "", "Radius of a sphere or cylinder."),
         positive("fluid.block[].length", "m", "", "Length of a cylinder."),
         text_row("fluid.block[].file", "", "STL or OBJ file of a mesh, relative to the case file."),
-        positive("fluid.block[].scale", "", "1", "Factor on the numbers of a mesh file, to metres."),
+        positive("fluid.block[].scale", "", "1",
+                 "Factor on the numbers of a mesh file, to metres."),
         table_row("fluid.block[].rotation_deg", "Rotation about the centre of the shape."),
         vector_row("fluid.block[].rotation_deg.axis", "", "[0.0, 1.0, 0.0] in 2-D, else required",
                    "Axis of rotation, of any length."),

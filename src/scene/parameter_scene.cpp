@@ -12,8 +12,9 @@ Parameter dimensions_row()
             .kind = ValueKind::integer,
             .bounds = "2 or 3",
             .fallback = "3",
-            .meaning = "3, or 2 for a case in the x-z plane whose masses and forces are per metre of "
-                       "width and whose y components are read and ignored.",
+            .meaning =
+                "3, or 2 for a case in the x-z plane whose masses and forces are per metre of "
+                "width and whose y components are read and ignored.",
             .minimum = 2,
             .maximum = 3};
 }
@@ -30,9 +31,10 @@ Parameter seed_row()
 
 Parameter gauge_place_row()
 {
-    Parameter row = vector_row("gauge[].at", "m", "",
-                               "Where it measures: a point, or the x and y of the vertical line of an "
-                               "elevation gauge.");
+    Parameter row =
+        vector_row("gauge[].at", "m", "",
+                   "Where it measures: a point, or the x and y of the vertical line of an "
+                   "elevation gauge.");
     row.shortest = 2;
     return row;
 }
@@ -48,22 +50,26 @@ std::vector<Parameter> general_parameters()
         seed_row(),
         table_row("time", "How long is simulated, and in which steps."),
         positive("time.end", "s", required, "Simulated time at which the run ends."),
-        positive("time.step", "s", "",
-                 "A fixed time step; without it every step is as long as the limits of sound speed, "
-                 "viscosity and force allow."),
+        positive(
+            "time.step", "s", "",
+            "A fixed time step; without it every step is as long as the limits of sound speed, "
+            "viscosity and force allow."),
         positive("time.cfl", "", "0.6",
                  "Factor on the limits of the adaptive time step; smaller is safer and slower."),
         table_row("particles", "The resolution."),
-        positive("particles.spacing", "m", required,
-                 "Distance between the particles of fluid and walls at the start: the resolution of "
-                 "the run."),
-        table_row("domain", "The box outside which particles leave the run; without it the bounds of "
-                            "the scene."),
+        positive(
+            "particles.spacing", "m", required,
+            "Distance between the particles of fluid and walls at the start: the resolution of "
+            "the run."),
+        table_row("domain",
+                  "The box outside which particles leave the run; without it the bounds of "
+                  "the scene."),
         vector_row("domain.min", "m", required, "Lower corner of the domain."),
         vector_row("domain.max", "m", required, "Upper corner of the domain."),
-        texts_row("domain.periodic", {}, "[]",
-                  "Directions in which the domain repeats itself; this version has none, so the list "
-                  "must be empty."),
+        texts_row(
+            "domain.periodic", {}, "[]",
+            "Directions in which the domain repeats itself; this version has none, so the list "
+            "must be empty."),
     };
 }
 
@@ -72,13 +78,15 @@ std::vector<Parameter> output_parameters()
     return {
         tables_row("gauge", "An instrument: a column of gauges.csv."),
         text_row("gauge[].name", "gauge.1, gauge.2 ...", "Name of the column; unique."),
-        choice_row("gauge[].type", {"elevation", "pressure", "velocity", "force", "front"}, required,
-                   "What is measured: the water level over a place (at), pressure or velocity at a "
-                   "point (at), the force on a wall or body (on), or how far the water has come along "
-                   "an axis (axis)."),
+        choice_row(
+            "gauge[].type", {"elevation", "pressure", "velocity", "force", "front"}, required,
+            "What is measured: the water level over a place (at), pressure or velocity at a "
+            "point (at), the force on a wall or body (on), or how far the water has come along "
+            "an axis (axis)."),
         gauge_place_row(),
         text_row("gauge[].on", "", "The wall or body whose force is measured, by its name."),
-        choice_row("gauge[].axis", {"x", "y", "z"}, "x", "The axis along which the front is followed."),
+        choice_row("gauge[].axis", {"x", "y", "z"}, "x",
+                   "The axis along which the front is followed."),
         table_row("output", "What is written, and how often."),
         positive("output.every", "s", "time.end / 100", "Simulated time between two frames."),
         not_negative("output.history_every", "s", "0",

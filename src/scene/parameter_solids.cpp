@@ -8,8 +8,8 @@ namespace {
 
 Parameter quaternion_row(std::string_view key)
 {
-    Parameter row = vector_row(key, "", "",
-                               "The rotation as a unit quaternion [w, x, y, z], instead of rotation_deg.");
+    Parameter row = vector_row(
+        key, "", "", "The rotation as a unit quaternion [w, x, y, z], instead of rotation_deg.");
     row.shortest = row.longest = 4;
     return row;
 }
@@ -38,10 +38,12 @@ std::vector<Parameter> wall_parameters()
 {
     return {
         tables_row("wall", "A fixed or moving boundary, for fluid and for bodies."),
-        text_row("wall[].name", "wall.1, wall.2 ...", "Name in results; unique among walls and bodies."),
-        choice_row("wall[].shape", {"plane", "basin", "box", "sphere", "cylinder", "mesh"}, required,
-                   "plane: point and normal; basin: the inside of a box; box: min and max, or size and "
-                   "position; sphere, cylinder and mesh as for bodies."),
+        text_row("wall[].name", "wall.1, wall.2 ...",
+                 "Name in results; unique among walls and bodies."),
+        choice_row(
+            "wall[].shape", {"plane", "basin", "box", "sphere", "cylinder", "mesh"}, required,
+            "plane: point and normal; basin: the inside of a box; box: min and max, or size and "
+            "position; sphere, cylinder and mesh as for bodies."),
         vector_row("wall[].point", "m", "[0.0, 0.0, 0.0]", "A point of a plane."),
         vector_row("wall[].normal", "", "[0.0, 0.0, 1.0]",
                    "Direction from a plane into the free space, of any length."),
@@ -72,17 +74,20 @@ std::vector<Parameter> body_parameters()
 {
     std::vector<Parameter> rows = {
         tables_row("body", "A rigid body, such as a timber, a container or a car."),
-        text_row("body[].name", "body.1, body.2 ...", "Name in results; unique among walls and bodies."),
-        choice_row("body[].shape", {"box", "sphere", "cylinder", "mesh"}, required,
-                   "box: size; sphere: radius, a disc in 2-D; cylinder: radius and length along its x "
-                   "axis, a rectangle in 2-D; mesh: a closed surface from a file."),
+        text_row("body[].name", "body.1, body.2 ...",
+                 "Name in results; unique among walls and bodies."),
+        choice_row(
+            "body[].shape", {"box", "sphere", "cylinder", "mesh"}, required,
+            "box: size; sphere: radius, a disc in 2-D; cylinder: radius and length along its x "
+            "axis, a rectangle in 2-D; mesh: a closed surface from a file."),
         vector_row("body[].size", "m", "", "Edge lengths of a box."),
         positive("body[].radius", "m", "", "Radius of a sphere or cylinder."),
         positive("body[].length", "m", "", "Length of a cylinder."),
         text_row("body[].file", "", "STL or OBJ file of a mesh, relative to the case file."),
         positive("body[].scale", "", "1", "Factor on the numbers of a mesh file, to metres."),
         positive("body[].density", "kg/m3", "", "Density; give it or the mass."),
-        positive("body[].mass", "kg", "", "Mass, per metre of width in 2-D; give it or the density."),
+        positive("body[].mass", "kg", "",
+                 "Mass, per metre of width in 2-D; give it or the density."),
         vector_row("body[].position", "m", required, "Centre of mass at the start."),
         table_row("body[].rotation_deg", "Rotation about the centre of mass at the start."),
         vector_row("body[].rotation_deg.axis", "", "[0.0, 1.0, 0.0] in 2-D, else required",
@@ -101,7 +106,8 @@ std::vector<Parameter> body_parameters()
          .fallback = "false",
          .meaning = "Whether the body is held where it is."},
         texts_row("body[].locks", {"x", "y", "z", "rx", "ry", "rz"}, "[]",
-                  "Directions of the world in which the body cannot move (x, y, z) or turn (rx, ry, rz)."),
+                  "Directions of the world in which the body cannot move (x, y, z) or turn (rx, "
+                  "ry, rz)."),
     };
     for (Parameter& row : copies_parameters()) {
         rows.push_back(std::move(row));
@@ -118,9 +124,10 @@ std::vector<Parameter> contact_parameters()
         table_row("contact", "How bodies hit each other and the walls."),
         choice_row("contact.method", {"impulse"}, "impulse",
                    "\"impulse\" solves for the impulses that keep bodies apart, with friction."),
-        fraction("contact.restitution", "0.4",
-                 "Part of the approach speed that a pair keeps after an impact, unless contact.pair "
-                 "names the pair."),
+        fraction(
+            "contact.restitution", "0.4",
+            "Part of the approach speed that a pair keeps after an impact, unless contact.pair "
+            "names the pair."),
         not_negative("contact.friction", "", "0.3",
                      "Dynamic friction coefficient, unless contact.pair names the pair."),
         tables_row("contact.pair", "The contact of two materials."),

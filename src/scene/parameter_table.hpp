@@ -37,7 +37,11 @@ inline Parameter tables_row(std::string_view key, std::string_view meaning)
 inline Parameter any_number(std::string_view key, std::string_view unit, std::string_view fallback,
                             std::string_view meaning)
 {
-    return {.key = key, .kind = ValueKind::number, .unit = unit, .fallback = fallback, .meaning = meaning};
+    return {.key = key,
+            .kind = ValueKind::number,
+            .unit = unit,
+            .fallback = fallback,
+            .meaning = meaning};
 }
 inline Parameter positive(std::string_view key, std::string_view unit, std::string_view fallback,
                           std::string_view meaning)
@@ -48,8 +52,8 @@ inline Parameter positive(std::string_view key, std::string_view unit, std::stri
     row.minimum_excluded = true;
     return row;
 }
-inline Parameter not_negative(std::string_view key, std::string_view unit, std::string_view fallback,
-                              std::string_view meaning)
+inline Parameter not_negative(std::string_view key, std::string_view unit,
+                              std::string_view fallback, std::string_view meaning)
 {
     Parameter row = any_number(key, unit, fallback, meaning);
     row.bounds = ">= 0";

@@ -92,8 +92,8 @@ void read_gauges(TableReader& root, Scene& scene)
         if (gauge.name.find_first_of(",;\"\n\r#") != std::string::npos || gauge.name.empty()) {
             table.error("name", "is no name of a column", "use letters, digits, `_`, `-` and `.`");
         } else if (!seen.emplace(gauge.name, gauge.place.line).second) {
-            table.error("name", fmt::format("the gauge \"{}\" stands twice, first in line {}", gauge.name,
-                                            seen[gauge.name]));
+            table.error("name", fmt::format("the gauge \"{}\" stands twice, first in line {}",
+                                            gauge.name, seen[gauge.name]));
         }
     }
 }

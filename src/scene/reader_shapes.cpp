@@ -130,7 +130,8 @@ Quat from_quaternion(TableReader& table)
     constexpr double typed = 1e-3;
     const double excess = std::abs(rotation.squaredNorm() - 1);
     if (!(excess < typed)) {
-        table.error("rotation", fmt::format("is no unit quaternion, its norm is {:.6g}", rotation.norm()));
+        table.error("rotation",
+                    fmt::format("is no unit quaternion, its norm is {:.6g}", rotation.norm()));
         return Quat::Identity();
     }
     if (table.reading().dimensions == 2 && (q[1] != 0 || q[3] != 0)) {

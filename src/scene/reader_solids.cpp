@@ -43,8 +43,8 @@ BasinWall read_basin(TableReader& table)
     const auto high = table.find_planar("max");
     constexpr std::array<std::string_view, 6> sides{"-x", "+x", "-y", "+y", "-z", "+z"};
     for (const std::string& side : table.texts("open")) {
-        basin.open[static_cast<std::size_t>(std::find(sides.begin(), sides.end(), side) - sides.begin())] =
-            true;
+        basin.open[static_cast<std::size_t>(std::find(sides.begin(), sides.end(), side) -
+                                            sides.begin())] = true;
     }
     if (low && high) {
         basin.min = *low;
@@ -66,7 +66,8 @@ std::string read_name(TableReader& table, std::string_view kind, std::size_t num
         return fmt::format("{}.{}", kind, number);
     }
     const bool bad = std::any_of(name.begin(), name.end(), [](char c) {
-        return static_cast<unsigned char>(c) < ' ' || std::string_view("\",;#/\\").find(c) != std::string::npos;
+        return static_cast<unsigned char>(c) < ' ' ||
+               std::string_view("\",;#/\\").find(c) != std::string::npos;
     });
     if (name.empty() || bad || name.front() == ' ' || name.back() == ' ') {
         table.error("name", "is no name", "use letters, digits, blanks within, `_`, `-` and `.`");
@@ -79,7 +80,8 @@ void claim_name(TableReader& table, const std::string& name)
 {
     const auto [at, is_new] = table.reading().names.emplace(name, table.place().line);
     if (!is_new) {
-        const std::string first = at->second > 0 ? fmt::format(", first in line {}", at->second) : "";
+        const std::string first =
+            at->second > 0 ? fmt::format(", first in line {}", at->second) : "";
         table.error("name", fmt::format("the name \"{}\" stands twice{}", name, first),
                     "names of walls and bodies must differ");
     }
@@ -114,8 +116,8 @@ void read_mass(TableReader& table, BodySettings& body)
     const auto mass = table.find_number("mass");
     if (table.has("density") == table.has("mass")) {
         const bool both = table.has("mass");
-        table.error(both ? "mass" : "density",
-                    both ? "give either `density` or `mass`, not both" : "is missing: give `density` or `mass`");
+        table.error(both ? "mass" : "density", both ? "give either `density` or `mass`, not both"
+                                                    : "is missing: give `density` or `mass`");
         return;
     }
     const double body_volume = volume(body.shape, table.reading().dimensions);
@@ -134,7 +136,8 @@ void read_motion(TableReader& table, BodySettings& body)
     body.angular_velocity = table.vector("angular_velocity");
     const Vec3& w = body.angular_velocity;
     if (table.reading().dimensions == 2 && (w.x() != 0 || w.z() != 0)) {
-        table.error("angular_velocity", "in two dimensions bodies turn about y", "write [0, value, 0]");
+        table.error("angular_velocity", "in two dimensions bodies turn about y",
+                    "write [0, value, 0]");
     }
     body.fixed = table.flag("fixed");
     if (body.fixed && (body.velocity.norm() > 0 || w.norm() > 0)) {
@@ -173,8 +176,9 @@ void append_copies(TableReader copies, const BodySettings& body, std::vector<Bod
     }
     const std::int64_t total = count[0] * count[1] * count[2];
     if (total > most_bodies || total * triangle_count(body.shape) > most_copied_triangles) {
-        copies.error("count", fmt::format("{} x {} x {} are too many, at most {} bodies and {} triangles",
-                                          count[0], count[1], count[2], most_bodies, most_copied_triangles));
+        copies.error("count",
+                     fmt::format("{} x {} x {} are too many, at most {} bodies and {} triangles",
+                                 count[0], count[1], count[2], most_bodies, most_copied_triangles));
         return;
     }
     for (Index k = 0; k < 3; ++k) {
@@ -231,7 +235,8 @@ std::set<std::string> materials_of(const Scene& scene)
     return materials;
 }
 
-MaterialPair read_pair(TableReader& table, const Scene& scene, const std::set<std::string>& materials)
+MaterialPair read_pair(TableReader& table, const Scene& scene,
+                       const std::set<std::string>& materials)
 {
     MaterialPair pair;
     const std::vector<std::string> names = table.texts("materials");
@@ -240,8 +245,9 @@ MaterialPair read_pair(TableReader& table, const Scene& scene, const std::set<st
         pair.materials[k] = names[k];
         if (materials.count(names[k]) == 0) {
             const std::string near = did_you_mean(names[k], known);
-            table.error_at("materials", k, fmt::format("no wall or body has the material \"{}\"", names[k]),
-                           near.empty() && !known.empty() ? "named are: " + quoted_list(known) : near);
+            table.error_at(
+                "materials", k, fmt::format("no wall or body has the material \"{}\"", names[k]),
+                near.empty() && !known.empty() ? "named are: " + quoted_list(known) : near);
         }
     }
     pair.restitution = table.find_number("restitution").value_or(scene.contact.restitution);

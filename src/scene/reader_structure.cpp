@@ -45,7 +45,8 @@ std::string lengths(const Parameter& rule, std::string_view elements)
 
 } // namespace
 
-TableReader::TableReader(Reading& reading, const TomlNode* node, std::string path, std::string schema)
+TableReader::TableReader(Reading& reading, const TomlNode* node, std::string path,
+                         std::string schema)
     : reading_(reading), node_(node), path_(std::move(path)), schema_(std::move(schema))
 {
 }
@@ -99,13 +100,15 @@ const TomlArray* TableReader::ask_list(std::string_view key, std::string_view el
     }
     const TomlArray* items = node->array();
     if (items == nullptr) {
-        reading_.error(*node, full(key), fmt::format("expected a list of {}, found {}",
-                                                     lengths(rule, elements), found(*node)));
+        reading_.error(
+            *node, full(key),
+            fmt::format("expected a list of {}, found {}", lengths(rule, elements), found(*node)));
         return nullptr;
     }
     const auto count = static_cast<int>(items->size());
     if (count < rule.shortest || count > rule.longest) {
-        reading_.error(*node, full(key), fmt::format("expected {}, found {}", lengths(rule, elements), count));
+        reading_.error(*node, full(key),
+                       fmt::format("expected {}, found {}", lengths(rule, elements), count));
         return nullptr;
     }
     return items;
@@ -139,7 +142,8 @@ std::vector<TableReader> TableReader::tables(std::string_view key)
     const TomlNode& node = find_entry(*node_->table(), key)->node;
     const TomlArray* items = node.array();
     if (items == nullptr) {
-        reading_.error(node, full(key), fmt::format("expected a list of tables, found {}", found(node)),
+        reading_.error(node, full(key),
+                       fmt::format("expected a list of tables, found {}", found(node)),
                        fmt::format("write [[{}]], once for each", joined(schema_, key)));
         return readers;
     }
@@ -158,7 +162,8 @@ std::vector<TableReader> TableReader::tables(std::string_view key)
 void TableReader::error(std::string_view key, std::string what, std::string hint)
 {
     if (has(key)) {
-        reading_.error(find_entry(*node_->table(), key)->node, full(key), std::move(what), std::move(hint));
+        reading_.error(find_entry(*node_->table(), key)->node, full(key), std::move(what),
+                       std::move(hint));
     } else if (node_ != nullptr && !path_.empty()) {
         reading_.error(*node_, full(key), std::move(what), std::move(hint));
     } else {
@@ -166,7 +171,8 @@ void TableReader::error(std::string_view key, std::string what, std::string hint
     }
 }
 
-void TableReader::error_at(std::string_view key, std::size_t index, std::string what, std::string hint)
+void TableReader::error_at(std::string_view key, std::size_t index, std::string what,
+                           std::string hint)
 {
     const TomlNode& list = find_entry(*node_->table(), key)->node;
     reading_.error((*list.array())[index], fmt::format("{}[{}]", full(key), index), std::move(what),

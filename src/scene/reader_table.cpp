@@ -93,7 +93,8 @@ std::optional<double> TableReader::to_number(const TomlNode& node, const Paramet
         value = static_cast<double>(*integer);
     } else if (const auto* number = std::get_if<double>(&node.value)) {
         value = *number;
-    } else if (const auto* text = std::get_if<std::string>(&node.value); text && !rule.unit.empty()) {
+    } else if (const auto* text = std::get_if<std::string>(&node.value);
+               text && !rule.unit.empty()) {
         Quantity quantity = parse_quantity(*text, rule.unit);
         if (!quantity.fault.empty() && rule.unit == "kg" && reading_.dimensions == 2) {
             quantity = parse_quantity(*text, "kg/m");
@@ -112,8 +113,9 @@ std::optional<double> TableReader::to_number(const TomlNode& node, const Paramet
         return std::nullopt;
     }
     if (!within(value, rule)) {
-        reading_.error(node, key, fmt::format("{}{} is out of range, expected {}{}", value,
-                                              spaced_unit(rule), rule.bounds, spaced_unit(rule)));
+        reading_.error(node, key,
+                       fmt::format("{}{} is out of range, expected {}{}", value, spaced_unit(rule),
+                                   rule.bounds, spaced_unit(rule)));
         return std::nullopt;
     }
     return value;
@@ -158,7 +160,8 @@ bool TableReader::flag(std::string_view key)
     }
     const auto* value = std::get_if<bool>(&node->value);
     if (value == nullptr) {
-        reading_.error(*node, full(key), fmt::format("expected true or false, found {}", found(*node)));
+        reading_.error(*node, full(key),
+                       fmt::format("expected true or false, found {}", found(*node)));
     }
     return value != nullptr && *value;
 }
@@ -192,9 +195,10 @@ bool TableReader::is_choice(const TomlNode& node, const std::string& value, cons
                        fmt::format("this version does not have \"{}\" yet, it has {}", value,
                                    quoted_list(rule.choices)));
     } else {
-        reading_.error(node, key,
-                       fmt::format("unknown \"{}\", expected one of {}", value, quoted_list(rule.choices)),
-                       did_you_mean(value, rule.choices));
+        reading_.error(
+            node, key,
+            fmt::format("unknown \"{}\", expected one of {}", value, quoted_list(rule.choices)),
+            did_you_mean(value, rule.choices));
     }
     return false;
 }
@@ -207,8 +211,9 @@ std::string TableReader::choice(std::string_view key)
     if (node != nullptr) {
         const auto* text = std::get_if<std::string>(&node->value);
         if (text == nullptr) {
-            reading_.error(*node, full(key), fmt::format("expected one of {}, found {}",
-                                                         quoted_list(rule.choices), found(*node)));
+            reading_.error(*node, full(key),
+                           fmt::format("expected one of {}, found {}", quoted_list(rule.choices),
+                                       found(*node)));
         }
         value = text != nullptr && is_choice(*node, *text, rule, full(key)) ? *text : "";
     }

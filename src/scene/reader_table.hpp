@@ -37,7 +37,8 @@ struct Reading {
 /// One table of the file, or its absence, which gives the defaults.
 class TableReader {
 public:
-    /// `path` is where the table stands ("body[2]"), `schema` its name in the table of keys ("body[]").
+    /// `path` is where the table stands ("body[2]"), `schema` its name in the table of keys
+    /// ("body[]").
     TableReader(Reading& reading, const TomlNode* node, std::string path, std::string schema);
 
     bool present() const { return node_ != nullptr; }
@@ -86,7 +87,8 @@ private:
     const TomlNode* ask(std::string_view key);
     const TomlArray* ask_list(std::string_view key, std::string_view elements);
     std::string full(std::string_view key) const;
-    std::optional<double> to_number(const TomlNode& node, const Parameter& rule, const std::string& key);
+    std::optional<double> to_number(const TomlNode& node, const Parameter& rule,
+                                    const std::string& key);
     std::optional<std::int64_t> to_integer(const TomlNode& node, const Parameter& rule,
                                            const std::string& key);
     bool is_choice(const TomlNode& node, const std::string& value, const Parameter& rule,

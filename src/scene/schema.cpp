@@ -34,8 +34,9 @@ std::string number_schema(const Parameter& parameter)
     if (parameter.maximum < unbounded) {
         schema += fmt::format(", \"maximum\": {}", parameter.maximum);
     }
-    return parameter.unit.empty() ? schema
-                                  : fmt::format("\"anyOf\": [{{{}}}, {{\"type\": \"string\"}}]", schema);
+    return parameter.unit.empty()
+               ? schema
+               : fmt::format("\"anyOf\": [{{{}}}, {{\"type\": \"string\"}}]", schema);
 }
 
 std::string integer_schema(const Parameter& parameter)
@@ -99,15 +100,18 @@ std::string object_schema(std::string_view prefix)
         if (name.find('.') != std::string_view::npos) {
             continue;
         }
-        properties += fmt::format("{}\n{}: {{\"description\": {}, {}}}", properties.empty() ? "" : ",",
-                                  json(name), json(parameter.meaning), value_schema(parameter));
+        properties +=
+            fmt::format("{}\n{}: {{\"description\": {}, {}}}", properties.empty() ? "" : ",",
+                        json(name), json(parameter.meaning), value_schema(parameter));
         if (parameter.fallback == required) {
             needed += (needed.empty() ? "" : ", ") + json(name);
         }
     }
-    const std::string requires_text = needed.empty() ? "" : fmt::format(", \"required\": [{}]", needed);
-    return fmt::format("\"type\": \"object\", \"additionalProperties\": false{}, \"properties\": {{{}}}",
-                       requires_text, properties);
+    const std::string requires_text =
+        needed.empty() ? "" : fmt::format(", \"required\": [{}]", needed);
+    return fmt::format(
+        "\"type\": \"object\", \"additionalProperties\": false{}, \"properties\": {{{}}}",
+        requires_text, properties);
 }
 
 } // namespace

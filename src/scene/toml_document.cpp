@@ -120,10 +120,14 @@ std::string found(const TomlNode& node)
         std::string operator()(const std::string& text) const
         {
             constexpr std::size_t longest = 60;
-            return text.size() > longest ? fmt::format("the text \"{}...\"", text.substr(0, longest))
-                                         : fmt::format("the text \"{}\"", text);
+            return text.size() > longest
+                       ? fmt::format("the text \"{}...\"", text.substr(0, longest))
+                       : fmt::format("the text \"{}\"", text);
         }
-        std::string operator()(std::int64_t integer) const { return fmt::format("the number {}", integer); }
+        std::string operator()(std::int64_t integer) const
+        {
+            return fmt::format("the number {}", integer);
+        }
         std::string operator()(double number) const { return fmt::format("the number {}", number); }
         std::string operator()(bool flag) const { return flag ? "true" : "false"; }
         std::string operator()(const TomlDate&) const { return "a date or time"; }

@@ -101,7 +101,8 @@ std::optional<TomlNode> parse_value(std::string_view value)
     }
 }
 
-/// The value that a step leads to, added as a table if there was none; null if the step leads nowhere.
+/// The value that a step leads to, added as a table if there was none; null if the step leads
+/// nowhere.
 TomlNode* follow(TomlNode& from, const PathStep& step, int number)
 {
     TomlTable* table = from.table();
@@ -133,9 +134,10 @@ std::string apply_override(TomlNode& root, std::string_view text, int number)
     }
     const auto steps = parse_path(text.substr(0, equals));
     if (!steps) {
-        return fmt::format("\"{}\" is no key: expected names with dots between them, and [0], [1] ... "
-                           "for the elements of a list",
-                           trimmed(text.substr(0, equals)));
+        return fmt::format(
+            "\"{}\" is no key: expected names with dots between them, and [0], [1] ... "
+            "for the elements of a list",
+            trimmed(text.substr(0, equals)));
     }
     auto value = parse_value(trimmed(text.substr(equals + 1)));
     if (!value) {

@@ -127,7 +127,8 @@ std::string_view take_name(std::string_view& text)
     return name;
 }
 
-/// The exponent at the front of the text: "3", "^3", "^-1", "²"; 1 if there is none, 0 if it is bad.
+/// The exponent at the front of the text: "3", "^3", "^-1", "²"; 1 if there is none, 0 if it is
+/// bad.
 int take_power(std::string_view& text)
 {
     if (take(text, "²")) {
@@ -199,7 +200,8 @@ Quantity parse_quantity(std::string_view text, std::string_view expected)
     const auto [stop, fault] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
     if (fault != std::errc{} || !std::isfinite(number) || (plus && rest.starts_with("-"))) {
         return {0, fmt::format("expected a number in {}, found the text \"{}\"", expected, text),
-                fmt::format("a number, or a text with a number and a unit such as \"10 {}\"", expected)};
+                fmt::format("a number, or a text with a number and a unit such as \"10 {}\"",
+                            expected)};
     }
     rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()));
     skip_blanks(rest);

@@ -13,7 +13,8 @@ namespace hyoryu {
 
 namespace {
 
-const std::array<Vec3, 4> tetrahedron = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 3)};
+const std::array<Vec3, 4> tetrahedron = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 2, 0),
+                                         Vec3(0, 0, 3)};
 const std::vector<std::array<int, 3>> outward = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
 
 std::string text_stl(std::vector<std::array<int, 3>> triangles)
@@ -23,8 +24,8 @@ std::string text_stl(std::vector<std::array<int, 3>> triangles)
         text += "facet normal 0 0 0\n outer loop\n";
         for (const int k : triangle) {
             const Vec3& corner = tetrahedron[static_cast<std::size_t>(k)];
-            text += "  vertex " + std::to_string(corner.x()) + " " + std::to_string(corner.y()) + " " +
-                    std::to_string(corner.z()) + "\n";
+            text += "  vertex " + std::to_string(corner.x()) + " " + std::to_string(corner.y()) +
+                    " " + std::to_string(corner.z()) + "\n";
         }
         text += " endloop\nendfacet\n";
     }
@@ -50,7 +51,8 @@ std::string obj(const std::vector<std::array<int, 3>>& triangles)
 {
     std::string text = "# a tetrahedron\n";
     for (const Vec3& v : tetrahedron) {
-        text += "v " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " + std::to_string(v.z()) + "\n";
+        text += "v " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+                std::to_string(v.z()) + "\n";
     }
     for (const auto& t : triangles) {
         text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " +
@@ -71,9 +73,10 @@ protected:
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
 private:
-    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
-                                    ("hyoryu_mesh_" + std::string(testing::UnitTest::GetInstance()
-                                                                      ->current_test_info()->name()));
+    std::filesystem::path folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        ("hyoryu_mesh_" +
+         std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 /// Why reading fails; empty if it does not.
@@ -112,7 +115,8 @@ TEST(Closure, FaultsAreNamed)
 
 TEST(Solid, PropertiesOfATetrahedronAreThoseOfTheBooks)
 {
-    const SolidProperties solid = solid_properties({{tetrahedron.begin(), tetrahedron.end()}, outward});
+    const SolidProperties solid =
+        solid_properties({{tetrahedron.begin(), tetrahedron.end()}, outward});
     EXPECT_NEAR(solid.volume, 1, 1e-14);
     EXPECT_NEAR((solid.centroid - Vec3(0.25, 0.5, 0.75)).norm(), 0, 1e-14);
     // Integral of x^2 about the centroid of a right tetrahedron with edge a: 3 a^2 V / 80.
@@ -132,8 +136,10 @@ TEST_F(MeshFile, OfAnUnknownKindOrMissingIsRefused)
 
 TEST_F(MeshFile, WithAHostileTriangleCountIsRefused)
 {
-    EXPECT_NE(refusal(write("a.stl", binary_stl(4000000000u, outward))).find("4000000000"), std::string::npos);
-    EXPECT_NE(refusal(write("b.stl", binary_stl(4, outward).substr(0, 200))).find("cut short"), std::string::npos);
+    EXPECT_NE(refusal(write("a.stl", binary_stl(4000000000u, outward))).find("4000000000"),
+              std::string::npos);
+    EXPECT_NE(refusal(write("b.stl", binary_stl(4, outward).substr(0, 200))).find("cut short"),
+              std::string::npos);
     EXPECT_NE(refusal(write("c.stl", "solid \xff\xff" + std::string(300, '\xee'))), "");
 }
 
@@ -141,8 +147,9 @@ TEST_F(MeshFile, WithAHostileTriangleCountIsRefused)
 
 TEST_F(MeshFile, OfEachKindGivesTheSameSolid)
 {
-    for (const auto& file : {write("t.stl", text_stl(outward)), write("b.STL", binary_stl(4, outward)),
-                             write("o.obj", obj(outward))}) {
+    for (const auto& file :
+         {write("t.stl", text_stl(outward)), write("b.STL", binary_stl(4, outward)),
+          write("o.obj", obj(outward))}) {
         const Mesh mesh = read_mesh(file, 2);
         EXPECT_EQ(mesh.corners.size(), 4u) << file;
         EXPECT_EQ(mesh.triangles.size(), 4u) << file;
@@ -157,12 +164,14 @@ TEST_F(MeshFile, InsideOutIsTurned)
     for (auto& triangle : inward) {
         std::swap(triangle[0], triangle[1]);
     }
-    EXPECT_NEAR(solid_properties(read_mesh(write("a.stl", binary_stl(4, inward)), 1)).volume, 1, 1e-6);
+    EXPECT_NEAR(solid_properties(read_mesh(write("a.stl", binary_stl(4, inward)), 1)).volume, 1,
+                1e-6);
 }
 
 TEST_F(MeshFile, OpenIsReadAndToldByClosure)
 {
-    EXPECT_EQ(closure_fault(read_mesh(write("a.obj", obj({outward[0], outward[1]})), 1)), "4 open edges");
+    EXPECT_EQ(closure_fault(read_mesh(write("a.obj", obj({outward[0], outward[1]})), 1)),
+              "4 open edges");
 }
 
 TEST_F(MeshFile, OfGarbageIsRefusedInSilence)
@@ -174,7 +183,10 @@ TEST_F(MeshFile, OfGarbageIsRefusedInSilence)
     EXPECT_NE(refusal(write("d.obj", std::string(1000, '\0'))), "");
     EXPECT_NE(refusal(write("e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n")), "");
     EXPECT_NE(refusal(write("f.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "");
-    EXPECT_NE(refusal(write("g.stl", "solid binary" + binary_stl(4, outward).substr(12) + "x")), "");
+    EXPECT_NE(refusal(write("h.obj", "v 0 0 1e999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).find("line 1"),
+              std::string::npos);
+    EXPECT_NE(refusal(write("g.stl", "solid binary" + binary_stl(4, outward).substr(12) + "x")),
+              "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 

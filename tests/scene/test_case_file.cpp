@@ -93,7 +93,8 @@ TEST(CaseFile, DerivesMassOrDensityFromTheShape)
 {
     const Scene scene = parse_case(full_case, "case.toml");
     EXPECT_NEAR(scene.bodies[0].mass, 5.2, 1e-12);
-    EXPECT_NEAR(scene.bodies[6].density, 3.7 / (4.0 / 3.0 * std::numbers::pi * std::pow(0.13, 3)), 1e-9);
+    EXPECT_NEAR(scene.bodies[6].density, 3.7 / (4.0 / 3.0 * std::numbers::pi * std::pow(0.13, 3)),
+                1e-9);
     EXPECT_NEAR(scene.bodies[7].density, 37 / (std::numbers::pi * sq(0.13) * 0.71), 1e-9);
 }
 
@@ -153,7 +154,8 @@ TEST(CaseFile, WrittenCaseReadsBackBitByBit)
         const BodySettings& b = scene.bodies[k];
         EXPECT_EQ(a.name, b.name);
         EXPECT_TRUE(same_bits(a.density, b.density) && same_bits(a.mass, b.mass)) << b.name;
-        EXPECT_TRUE(same_bits(a.position, b.position) && same_bits(a.rotation, b.rotation)) << b.name;
+        EXPECT_TRUE(same_bits(a.position, b.position) && same_bits(a.rotation, b.rotation))
+            << b.name;
         EXPECT_EQ(a.locks, b.locks);
         EXPECT_EQ(a.fixed, b.fixed);
         EXPECT_EQ(a.spacing, b.spacing);
@@ -179,10 +181,11 @@ TEST(CaseFile, AwkwardNumbersSurviveWriting)
 
 TEST(CaseFile, OverridesReplaceAndAddKeys)
 {
-    const Scene scene = parse_case(full_case, "case.toml",
-                                   {"fluid.density=1025", "body[1].radius = 0.2", "time.end=\"2 min\"",
-                                    "particles.spacing=5 cm", "fluid.viscosity={model=\"laminar\"}",
-                                    "output.fields=[\"density\"]", "title=flood"});
+    const Scene scene =
+        parse_case(full_case, "case.toml",
+                   {"fluid.density=1025", "body[1].radius = 0.2", "time.end=\"2 min\"",
+                    "particles.spacing=5 cm", "fluid.viscosity={model=\"laminar\"}",
+                    "output.fields=[\"density\"]", "title=flood"});
     EXPECT_EQ(scene.fluid->density, 1025);
     EXPECT_EQ(std::get<SphereShape>(scene.bodies[6].shape).radius, 0.2);
     EXPECT_EQ(scene.time.end, 120);
@@ -199,7 +202,8 @@ TEST(CaseFile, DiagnosticAtAPlaceShowsTheLine)
     const auto file = std::filesystem::path(testing::TempDir()) / "hyoryu_place.toml";
     std::ofstream(file) << full_case;
     const Scene scene = read_case(file);
-    const Diagnostic diagnostic = diagnostic_at(scene, scene.bodies[0].place, "body[0]", "tips over");
+    const Diagnostic diagnostic =
+        diagnostic_at(scene, scene.bodies[0].place, "body[0]", "tips over");
     EXPECT_EQ(diagnostic.source, "[[body]]");
     EXPECT_EQ(diagnostic.file, file.string());
     EXPECT_EQ(diagnostic.column, 1);

@@ -47,62 +47,107 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
     const std::vector<Mistake> all = {
         {"[output]\nevry = 1\n", 2, 1, 4, "output.evry", "unknown key", "did you mean \"every\"?"},
         {"[outputs]\nevery = 1\n", 1, 2, 7, "outputs", "unknown key", "\"output\""},
-        {"[output]\nevery = true\n", 2, 9, 4, "output.every", "expected a number in s, found true", ""},
-        {"[output]\nevery = \"10 m\"\n", 2, 9, 6, "output.every", "the unit \"m\" does not fit, expected s", "ms, min, h"},
+        {"[output]\nevery = true\n", 2, 9, 4, "output.every", "expected a number in s, found true",
+         ""},
+        {"[output]\nevery = \"10 m\"\n", 2, 9, 6, "output.every",
+         "the unit \"m\" does not fit, expected s", "ms, min, h"},
         {"[output]\nevery = \"10 sec\"\n", 2, 9, 8, "output.every", "unknown unit \"sec\"", ""},
         {"[output]\nevery = \"10\"\n", 2, 9, 4, "output.every", "has no unit", "10 s"},
         {"[output]\nevery = \"soon\"\n", 2, 9, 6, "output.every", "found the text \"soon\"", ""},
-        {"[output]\nevery = -0.5\n", 2, 9, 4, "output.every", "-0.5 s is out of range, expected > 0 s", ""},
+        {"[output]\nevery = -0.5\n", 2, 9, 4, "output.every",
+         "-0.5 s is out of range, expected > 0 s", ""},
         {"[output]\nevery = inf\n", 2, 9, 3, "output.every", "no finite number", ""},
-        {"[output]\nfields = [\"id\", \"speed\"]\n", 2, 17, 7, "output.fields[1]", "expected one of \"velocity\"", ""},
+        {"[output]\nfields = [\"id\", \"speed\"]\n", 2, 17, 7, "output.fields[1]",
+         "expected one of \"velocity\"", ""},
         {"[output]\nfields = \"id\"\n", 2, 10, 4, "output.fields", "expected a list", ""},
         {"[contact]\nrestitution = 1.5\n", 2, 15, 3, "contact.restitution", "expected 0 .. 1", ""},
-        {"[contact]\nmethod = \"penalty\"\n", 2, 10, 9, "contact.method", "does not have \"penalty\" yet", ""},
-        {"[domain]\nmin = [0, 0]\nmax = [1, 1, 1]\n", 2, 7, 6, "domain.min", "expected 3 numbers, found 2", ""},
-        {"[domain]\nmin = [0, 0, 0]\nmax = [1, -1, 1]\n", 3, 7, 10, "domain.max", "above `min`", ""},
-        {"[domain]\nmin = [0, 0, 0]\nmax = [1, 1, \"1 s\"]\n", 3, 14, 5, "domain.max[2]", "does not fit", ""},
-        {"[domain]\nmin = [0,0,0]\nmax = [1,1,1]\nperiodic = [\"y\"]\n", 4, 12, 5, "domain.periodic", "does not have periodic", ""},
+        {"[contact]\nmethod = \"penalty\"\n", 2, 10, 9, "contact.method",
+         "does not have \"penalty\" yet", ""},
+        {"[domain]\nmin = [0, 0]\nmax = [1, 1, 1]\n", 2, 7, 6, "domain.min",
+         "expected 3 numbers, found 2", ""},
+        {"[domain]\nmin = [0, 0, 0]\nmax = [1, -1, 1]\n", 3, 7, 10, "domain.max", "above `min`",
+         ""},
+        {"[domain]\nmin = [0, 0, 0]\nmax = [1, 1, \"1 s\"]\n", 3, 14, 5, "domain.max[2]",
+         "does not fit", ""},
+        {"[domain]\nmin = [0,0,0]\nmax = [1,1,1]\nperiodic = [\"y\"]\n", 4, 12, 5,
+         "domain.periodic", "does not have periodic", ""},
         {"[domain]\nmin = [0,0,0]\n", 1, 1, 8, "domain.max", "is missing", "Upper corner"},
         {"[wall]\nshape = \"plane\"\n", 1, 1, 6, "wall", "expected a list of tables", "[[wall]]"},
         {"[[output]]\nevery = 1\n", 1, 1, 10, "output", "expected a table", "[output]"},
-        {"[[wall]]\nshape = \"plane\"\nnormal = [0, 0, 0]\n", 3, 10, 9, "wall[0].normal", "no direction", ""},
-        {"[[wall]]\nshape = \"terrain\"\n", 2, 9, 9, "wall[0].shape", "does not have \"terrain\" yet", ""},
-        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = \"x.csv\"\n", 4, 1, 5, "wall[0].motion.table", "does not have this key yet", "velocity"},
-        {"[[wall]]\nshape = \"basin\"\nmin=[0,0,0]\nmax=[1,1,1]\nopen = [\"up\"]\n", 5, 9, 4, "wall[0].open[0]", "expected one of \"-x\"", ""},
-        {"[[wall]]\nshape = \"box\"\nmin=[0,0,0]\nmax=[1,1,1]\nradius = 3\n", 5, 1, 6, "wall[0].radius", "has no meaning with shape = \"box\"", "\"min\""},
-        {"[[wall]]\nshape = \"cylinder\"\nradius = 1\nposition=[0,0,0]\n", 1, 1, 8, "wall[0].length", "is missing, it is needed with shape = \"cylinder\"", "Length"},
-        {"[[wall]]\nname = \"a,b\"\nshape = \"plane\"\n", 2, 8, 5, "wall[0].name", "is no name", ""},
-        {"[[wall]]\nname = \"w\"\nshape = \"plane\"\n[[wall]]\nname = \"w\"\nshape = \"plane\"\n", 5, 8, 3, "wall[1].name", "stands twice, first in line 10", ""},
-        {"[[wall]]\nshape = \"sphere\"\nradius=1\nposition=[0,0,0]\nrotation_deg={axis=[0,0,0],angle=3}\n", 5, 20, 7, "wall[0].rotation_deg.axis", "no direction", ""},
-        {"[[wall]]\nshape = \"sphere\"\nradius=1\nposition=[0,0,0]\nrotation_deg={axis=[0,0,1]}\n", 5, 14, 14, "wall[0].rotation_deg.angle", "is missing", ""},
-        {"[[wall]]\nshape = \"sphere\"\nradius=1\nposition=[0,0,0]\nrotation=[1,1,0,0]\n", 5, 10, 9, "wall[0].rotation", "no unit quaternion", ""},
+        {"[[wall]]\nshape = \"plane\"\nnormal = [0, 0, 0]\n", 3, 10, 9, "wall[0].normal",
+         "no direction", ""},
+        {"[[wall]]\nshape = \"terrain\"\n", 2, 9, 9, "wall[0].shape",
+         "does not have \"terrain\" yet", ""},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = \"x.csv\"\n", 4, 1, 5,
+         "wall[0].motion.table", "does not have this key yet", "velocity"},
+        {"[[wall]]\nshape = \"basin\"\nmin=[0,0,0]\nmax=[1,1,1]\nopen = [\"up\"]\n", 5, 9, 4,
+         "wall[0].open[0]", "expected one of \"-x\"", ""},
+        {"[[wall]]\nshape = \"box\"\nmin=[0,0,0]\nmax=[1,1,1]\nradius = 3\n", 5, 1, 6,
+         "wall[0].radius", "has no meaning with shape = \"box\"", "\"min\""},
+        {"[[wall]]\nshape = \"cylinder\"\nradius = 1\nposition=[0,0,0]\n", 1, 1, 8,
+         "wall[0].length", "is missing, it is needed with shape = \"cylinder\"", "Length"},
+        {"[[wall]]\nname = \"a,b\"\nshape = \"plane\"\n", 2, 8, 5, "wall[0].name", "is no name",
+         ""},
+        {"[[wall]]\nname = \"w\"\nshape = \"plane\"\n[[wall]]\nname = \"w\"\nshape = \"plane\"\n",
+         5, 8, 3, "wall[1].name", "stands twice, first in line 10", ""},
+        {"[[wall]]\nshape = "
+         "\"sphere\"\nradius=1\nposition=[0,0,0]\nrotation_deg={axis=[0,0,0],angle=3}\n",
+         5, 20, 7, "wall[0].rotation_deg.axis", "no direction", ""},
+        {"[[wall]]\nshape = \"sphere\"\nradius=1\nposition=[0,0,0]\nrotation_deg={axis=[0,0,1]}\n",
+         5, 14, 14, "wall[0].rotation_deg.angle", "is missing", ""},
+        {"[[wall]]\nshape = \"sphere\"\nradius=1\nposition=[0,0,0]\nrotation=[1,1,0,0]\n", 5, 10, 9,
+         "wall[0].rotation", "no unit quaternion", ""},
         {sphere + "density = 500\n", 1, 1, 8, "body[0].radius", "is missing", ""},
         {sphere + "radius = 1\n", 1, 1, 8, "body[0].density", "give `density` or `mass`", ""},
         {sphere + "radius = 1\nmass = 1\ndensity = 1\n", 5, 8, 1, "body[0].mass", "not both", ""},
-        {sphere + "radius = 1\nmass = 1\nshade = 1\n", 6, 1, 5, "body[0].shade", "unknown key", "\"shape\""},
+        {sphere + "radius = 1\nmass = 1\nshade = 1\n", 6, 1, 5, "body[0].shade", "unknown key",
+         "\"shape\""},
         {sphere + "radius = 1\nmass = \"1 kg/m\"\n", 5, 8, 8, "body[0].mass", "does not fit", ""},
-        {sphere + "radius = 1\nmass = 1\nfixed = \"yes\"\n", 6, 9, 5, "body[0].fixed", "expected true or false", ""},
-        {sphere + "radius = 1\nmass = 1\nfixed = true\nvelocity = [1,0,0]\n", 7, 12, 7, "body[0].velocity", "fixed body", ""},
-        {sphere + "radius = 1\nmass = 1\nlocks = [\"q\"]\n", 6, 10, 3, "body[0].locks[0]", "expected one of \"x\"", ""},
-        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[9999,9999,9999]\npitch=[1,1,1]\n", 7, 7, 16, "body[0].copies.count", "too many", ""},
-        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,1.5]\npitch=[1,1,1]\n", 7, 12, 3, "body[0].copies.count[2]", "expected a whole number", ""},
-        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,0]\npitch=[1,1,1]\n", 7, 12, 1, "body[0].copies.count[2]", "0 is out of range, expected 1 .. 100000", ""},
-        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,1]\npitch=[0,1,1]\n", 8, 7, 7, "body[0].copies.pitch", "copies along x would coincide", ""},
-        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,1]\n", 6, 1, 13, "body[0].copies.pitch", "is missing", ""},
-        {"[[body]]\nshape = \"cilinder\"\n", 2, 9, 10, "body[0].shape", "unknown \"cilinder\"", "did you mean \"cylinder\"?"},
-        {"[[body]]\nshape = \"particles\"\n", 2, 9, 11, "body[0].shape", "does not have \"particles\" yet", ""},
-        {"[[body]]\nshape = \"box\"\nsize=[1,0,1]\nmass=1\nposition=[0,0,0]\n", 3, 6, 7, "body[0].size", "must be > 0", ""},
-        {"[[contact.pair]]\nmaterials = [\"pin\", \"oak\"]\n" + sphere + "radius=1\nmass=1\nmaterial=\"pine\"\n", 2, 14, 5, "contact.pair[0].materials[0]", "no wall or body has the material \"pin\"", "did you mean \"pine\"?"},
-        {"[[contact.pair]]\nmaterials = [\"pine\"]\n", 2, 13, 8, "contact.pair[0].materials", "expected 2 texts, found 1", ""},
-        {"[[gauge]]\ntype = \"force\"\non = \"bod.1\"\n" + sphere + "radius=1\nmass=1\n", 3, 6, 7, "gauge[0].on", "no wall or body is named", "did you mean \"body.1\"?"},
-        {"[[gauge]]\ntype = \"pressure\"\nat = [1, 2]\n", 3, 6, 6, "gauge[0].at", "expected 3 numbers", ""},
+        {sphere + "radius = 1\nmass = 1\nfixed = \"yes\"\n", 6, 9, 5, "body[0].fixed",
+         "expected true or false", ""},
+        {sphere + "radius = 1\nmass = 1\nfixed = true\nvelocity = [1,0,0]\n", 7, 12, 7,
+         "body[0].velocity", "fixed body", ""},
+        {sphere + "radius = 1\nmass = 1\nlocks = [\"q\"]\n", 6, 10, 3, "body[0].locks[0]",
+         "expected one of \"x\"", ""},
+        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[9999,9999,9999]\npitch=[1,1,1]\n", 7, 7,
+         16, "body[0].copies.count", "too many", ""},
+        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,1.5]\npitch=[1,1,1]\n", 7, 12, 3,
+         "body[0].copies.count[2]", "expected a whole number", ""},
+        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,0]\npitch=[1,1,1]\n", 7, 12, 1,
+         "body[0].copies.count[2]", "0 is out of range, expected 1 .. 100000", ""},
+        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,1]\npitch=[0,1,1]\n", 8, 7, 7,
+         "body[0].copies.pitch", "copies along x would coincide", ""},
+        {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,1]\n", 6, 1, 13,
+         "body[0].copies.pitch", "is missing", ""},
+        {"[[body]]\nshape = \"cilinder\"\n", 2, 9, 10, "body[0].shape", "unknown \"cilinder\"",
+         "did you mean \"cylinder\"?"},
+        {"[[body]]\nshape = \"particles\"\n", 2, 9, 11, "body[0].shape",
+         "does not have \"particles\" yet", ""},
+        {"[[body]]\nshape = \"box\"\nsize=[1,0,1]\nmass=1\nposition=[0,0,0]\n", 3, 6, 7,
+         "body[0].size", "must be > 0", ""},
+        {"[[contact.pair]]\nmaterials = [\"pin\", \"oak\"]\n" + sphere +
+             "radius=1\nmass=1\nmaterial=\"pine\"\n",
+         2, 14, 5, "contact.pair[0].materials[0]", "no wall or body has the material \"pin\"",
+         "did you mean \"pine\"?"},
+        {"[[contact.pair]]\nmaterials = [\"pine\"]\n", 2, 13, 8, "contact.pair[0].materials",
+         "expected 2 texts, found 1", ""},
+        {"[[gauge]]\ntype = \"force\"\non = \"bod.1\"\n" + sphere + "radius=1\nmass=1\n", 3, 6, 7,
+         "gauge[0].on", "no wall or body is named", "did you mean \"body.1\"?"},
+        {"[[gauge]]\ntype = \"pressure\"\nat = [1, 2]\n", 3, 6, 6, "gauge[0].at",
+         "expected 3 numbers", ""},
         {"[[gauge]]\ntype = \"pressure\"\n", 1, 1, 9, "gauge[0].at", "is missing", ""},
-        {"[[gauge]]\ntype = \"front\"\non = \"w\"\n", 3, 1, 2, "gauge[0].on", "has no meaning with type = \"front\"", ""},
-        {"[fluid.viscosity]\nmodel = \"laminar\"\nalpha = 0.1\n", 3, 1, 5, "fluid.viscosity.alpha", "has no meaning with model = \"laminar\"", "kinematic"},
-        {"[fluid.viscosity]\nkinematic = 1\n", 2, 1, 9, "fluid.viscosity.kinematic", "has no meaning with model = \"artificial\"", ""},
-        {"[fluid.viscosity]\nmodel = \"sps\"\n", 2, 9, 5, "fluid.viscosity.model", "does not have \"sps\" yet, it has \"artificial\"", ""},
-        {"[fluid.shifting]\nmodel = \"fickian\"\n", 2, 9, 9, "fluid.shifting.model", "\"fickian\"", ""},
-        {"[fluid.density_diffusion]\nmodel = \"none\"\ndelta = 0.1\n", 3, 1, 5, "fluid.density_diffusion.delta", "has no meaning", ""},
+        {"[[gauge]]\ntype = \"front\"\non = \"w\"\n", 3, 1, 2, "gauge[0].on",
+         "has no meaning with type = \"front\"", ""},
+        {"[fluid.viscosity]\nmodel = \"laminar\"\nalpha = 0.1\n", 3, 1, 5, "fluid.viscosity.alpha",
+         "has no meaning with model = \"laminar\"", "kinematic"},
+        {"[fluid.viscosity]\nkinematic = 1\n", 2, 1, 9, "fluid.viscosity.kinematic",
+         "has no meaning with model = \"artificial\"", ""},
+        {"[fluid.viscosity]\nmodel = \"sps\"\n", 2, 9, 5, "fluid.viscosity.model",
+         "does not have \"sps\" yet, it has \"artificial\"", ""},
+        {"[fluid.shifting]\nmodel = \"fickian\"\n", 2, 9, 9, "fluid.shifting.model", "\"fickian\"",
+         ""},
+        {"[fluid.density_diffusion]\nmodel = \"none\"\ndelta = 0.1\n", 3, 1, 5,
+         "fluid.density_diffusion.delta", "has no meaning", ""},
     };
     for (const Mistake& m : all) {
         expect_found(m, mistakes(short_case + m.lines));
@@ -111,7 +156,8 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
 
 TEST(CaseFileErrors, AllAreToldAtOnceInTheOrderOfTheFile)
 {
-    const auto all = mistakes(short_case + "[output]\nevry = 1\nhistory_every = -1\n[contact]\nfriction = \"a\"\n");
+    const auto all = mistakes(
+        short_case + "[output]\nevry = 1\nhistory_every = -1\n[contact]\nfriction = \"a\"\n");
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[0].key, "output.evry");
     EXPECT_EQ(all[1].key, "output.history_every");
@@ -121,7 +167,10 @@ TEST(CaseFileErrors, AllAreToldAtOnceInTheOrderOfTheFile)
 
 TEST(CaseFileErrors, AMistakeDoesNotBringFalseOnes)
 {
-    EXPECT_EQ(mistakes(short_case + "[[body]]\nshape = \"bx\"\nsize = [1,1,1]\nmass = 1\nposition = [0,0,0]\n").size(), 1u);
+    EXPECT_EQ(mistakes(short_case +
+                       "[[body]]\nshape = \"bx\"\nsize = [1,1,1]\nmass = 1\nposition = [0,0,0]\n")
+                  .size(),
+              1u);
     EXPECT_EQ(mistakes(replaced(short_case, "end = 1", "end = \"1 m\"")).size(), 1u);
     EXPECT_EQ(mistakes(replaced(short_case, "spacing = 0.1", "spacing = 0")).size(), 1u);
 }
@@ -139,7 +188,10 @@ TEST(CaseFileErrors, UnknownKeysAreFoundInEveryTable)
         std::string path = table;
         for (auto at = path.find("[]"); at != std::string::npos; at = path.find("[]", at + 1)) {
             // The last but one wall and the last block are those with a rotation.
-            path.replace(at, 2, path.starts_with("wall") ? "[3]" : path.starts_with("fluid") ? "[2]" : "[0]");
+            path.replace(at, 2,
+                         path.starts_with("wall")    ? "[3]"
+                         : path.starts_with("fluid") ? "[2]"
+                                                     : "[0]");
         }
         const Parameter& parameter = *find_parameter(table);
         path += parameter.kind == ValueKind::tables ? "[0].zzzzzz=1" : ".zzzzzz=1";
@@ -153,7 +205,8 @@ TEST(CaseFileErrors, UnknownKeysAreFoundInEveryTable)
 
 TEST(CaseFileErrors, WithoutFluidItsGaugesHaveNoMeaning)
 {
-    const std::string text = "[time]\nend=1\n[particles]\nspacing=1\n" + sphere + "radius=1\nmass=1\n";
+    const std::string text =
+        "[time]\nend=1\n[particles]\nspacing=1\n" + sphere + "radius=1\nmass=1\n";
     EXPECT_TRUE(mistakes(text).empty());
     for (const std::string type : {"elevation", "pressure", "velocity"}) {
         const auto all = mistakes(text + "[[gauge]]\ntype = \"" + type + "\"\nat = [0,0,0]\n");
@@ -169,7 +222,9 @@ TEST(CaseFileErrors, MissingTablesAreNamed)
     EXPECT_NE(mistake_at(all, "time.end").what.find("is missing"), std::string::npos);
     EXPECT_NE(mistake_at(all, "particles.spacing").what.find("is missing"), std::string::npos);
     EXPECT_EQ(mistake_at(all, "fluid.block").line, 1);
-    EXPECT_NE(mistakes("[time]\nend=1\n[particles]\nspacing=1\n")[0].what.find("nothing to simulate"), std::string::npos);
+    EXPECT_NE(
+        mistakes("[time]\nend=1\n[particles]\nspacing=1\n")[0].what.find("nothing to simulate"),
+        std::string::npos);
 }
 
 TEST(CaseFileErrors, RotationsInTwoDimensionsAreAboutY)
@@ -183,8 +238,9 @@ TEST(CaseFileErrors, RotationsInTwoDimensionsAreAboutY)
 
 TEST(CaseFileErrors, OverridesAreNamedAsTheirPlace)
 {
-    const auto all = mistakes(short_case, {"fluid.density=-1", "fluid.densty=3", "nonsense", "wall[2].name=x",
-                                           "a[=3", "time.end.x=3", "time.end=[1", "title=1\nseed=2"});
+    const auto all =
+        mistakes(short_case, {"fluid.density=-1", "fluid.densty=3", "nonsense", "wall[2].name=x",
+                              "a[=3", "time.end.x=3", "time.end=[1", "title=1\nseed=2"});
     ASSERT_EQ(all.size(), 8u);
     for (const Diagnostic& d : all) {
         EXPECT_EQ(d.file.substr(0, 6), "--set ");
@@ -214,7 +270,11 @@ TEST(CaseFileErrors, HostileFilesAreRefused)
     EXPECT_EQ(mistakes(dots + " = 1\n").size(), 1u);
     EXPECT_EQ(mistakes("[" + dots + "]\n").size(), 1u);
     EXPECT_EQ(mistakes("a = " + std::string(100000, '[')).size(), 1u);
-    EXPECT_EQ(mistakes(std::string("\x7f" "ELF\x02\0\x01\xff\xfe", 9)).size(), 1u);
+    EXPECT_EQ(mistakes(std::string("\x7f"
+                                   "ELF\x02\0\x01\xff\xfe",
+                                   9))
+                  .size(),
+              1u);
     EXPECT_EQ(mistakes(std::string(1000, '\0')).size(), 1u);
     std::string many;
     for (int n = 0; n < 500; ++n) {

@@ -165,7 +165,8 @@ max = [1, 1, 1]
 inline constexpr int short_lines = 9;
 
 /// What is wrong with a case; empty if nothing is.
-inline std::vector<Diagnostic> mistakes(const std::string& text, const std::vector<std::string>& overrides = {})
+inline std::vector<Diagnostic> mistakes(const std::string& text,
+                                        const std::vector<std::string>& overrides = {})
 {
     try {
         parse_case(text, "case.toml", overrides);
@@ -178,7 +179,8 @@ inline std::vector<Diagnostic> mistakes(const std::string& text, const std::vect
 /// The mistake at that key, or an empty one.
 inline Diagnostic mistake_at(const std::vector<Diagnostic>& all, const std::string& key)
 {
-    const auto at = std::find_if(all.begin(), all.end(), [&](const Diagnostic& d) { return d.key == key; });
+    const auto at =
+        std::find_if(all.begin(), all.end(), [&](const Diagnostic& d) { return d.key == key; });
     return at == all.end() ? Diagnostic{} : *at;
 }
 
@@ -186,7 +188,8 @@ inline Diagnostic mistake_at(const std::vector<Diagnostic>& all, const std::stri
 inline std::string replaced(std::string text, const std::string& from, const std::string& to)
 {
     const auto at = text.find(from);
-    return at == std::string::npos ? "the text to replace is not there" : text.replace(at, from.size(), to);
+    return at == std::string::npos ? "the text to replace is not there"
+                                   : text.replace(at, from.size(), to);
 }
 
 } // namespace hyoryu

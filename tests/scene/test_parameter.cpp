@@ -94,7 +94,9 @@ TEST(Parameters, DescribeOfAnUnknownKeyNamesTheNearest)
 TEST(Parameters, DefaultsOfTheSceneAreThoseOfTheTable)
 {
     const Scene scene = parse_case(short_case, "case.toml");
-    const auto number = [](const char* key) { return std::stod(std::string(find_parameter(key)->fallback)); };
+    const auto number = [](const char* key) {
+        return std::stod(std::string(find_parameter(key)->fallback));
+    };
     EXPECT_EQ(number("time.cfl"), TimeSettings{}.cfl);
     EXPECT_EQ(number("fluid.density"), FluidSettings{}.density);
     EXPECT_EQ(number("fluid.viscosity.alpha"), FluidSettings{}.alpha);

@@ -17,19 +17,19 @@ struct Mesh {
     std::vector<std::array<int, 3>> triangles; // corner numbers
 };
 
-/// Reads an STL (ASCII or binary) or OBJ file and merges coincident corners; a surface that is inside
-/// out is turned. Throws IoError with the reason if the file is missing, unreadable, empty or of
-/// another kind, or if this build has no VTK.
+/// Reads an STL (ASCII or binary) or OBJ file and merges coincident corners; a surface that is
+/// inside out is turned. Throws IoError with the reason if the file is missing, unreadable, empty
+/// or of another kind, or if this build has no VTK.
 Mesh read_mesh(const std::filesystem::path& file, double scale);
 
-/// Why the mesh does not enclose a volume (open edges, edges of three triangles, triangles that face
-/// the wrong way, zero volume); empty if it does.
+/// Why the mesh does not enclose a volume (open edges, edges of three triangles, triangles that
+/// face the wrong way, zero volume); empty if it does.
 std::string closure_fault(const Mesh& mesh);
 
 /// The solid that a closed mesh encloses.
 struct SolidProperties {
-    double volume = 0;         // [m3]
-    Vec3 centroid{0, 0, 0};    // [m]
+    double volume = 0;                 // [m3]
+    Vec3 centroid{0, 0, 0};            // [m]
     Mat3 second_moment = Mat3::Zero(); // integral of x x^T about the centroid [m5]
 };
 SolidProperties solid_properties(const Mesh& mesh);
