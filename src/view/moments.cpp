@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -178,6 +179,15 @@ void choose_range(std::vector<float>& sample, Survey& survey)
     survey.colour_min = low < 0 ? -rounded_up(-low) : 0.0;
 }
 
+int digits_between(const std::vector<Moment>& moments)
+{
+    double gap = 1;
+    for (std::size_t k = 1; k < moments.size(); ++k) {
+        gap = std::min(gap, std::abs(moments[k].time - moments[k - 1].time));
+    }
+    return std::clamp(static_cast<int>(std::ceil(-std::log10(std::max(gap, 1e-6)) - 1e-6)), 2, 6);
+}
+
 } // namespace
 
 const Column* find_column(const std::vector<Column>& columns, const std::string& name)
@@ -245,6 +255,7 @@ Survey survey_of(const std::vector<Moment>& moments, const Surface& structures,
         survey_moment(moments[k], colour, sample, survey);
     }
     choose_range(sample, survey);
+    survey.time_digits = digits_between(moments);
     survey.flat = survey.inner.isEmpty() || survey.inner.sizes().y() == 0;
     const Moment& first = moments.front();
     if (!first.fluid.empty()) {

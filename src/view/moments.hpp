@@ -35,8 +35,9 @@ struct Survey {
     double spacing = 0;    // of the particles [m]
     double colour_min = 0; // range of the array that is shown in colour
     double colour_max = 1;
-    std::string unit;  // of that array
-    bool flat = false; // a 2-D case: everything in one x-z plane
+    std::string unit;    // of that array
+    int time_digits = 2; // behind the point, so that neighbouring times differ
+    bool flat = false;   // a 2-D case: everything in one x-z plane
 };
 
 /// Looks at some frames spread over all of them. `structures` may be empty.

@@ -124,7 +124,7 @@ void Picture::add_surroundings(const std::filesystem::path& results, const Surfa
     if (!structures.triangles.empty()) {
         const Sides sides = survey_.flat ? Sides::all : Sides::facing_camera;
         const Actor actor = structures_actor(structures, sides);
-        light(*actor);
+        put_into_plane(*actor, Layer::structures);
         scene_->AddActor(actor);
         scene_->AddActor(edges_actor(structures));
     } else if (std::filesystem::exists(results / "walls.hdf")) {
@@ -144,11 +144,14 @@ void Picture::add_labels(const RenderSettings& settings)
     }
 }
 
-/// A face that looks straight at camera and lamps would be bleached: in a plane, colours as they
-/// are.
-void Picture::light(vtkActor& actor) const
+/// In a plane everything would lie at one depth, so each kind has its own; and a face that looks
+/// straight at camera and lamps would be bleached, so colours stay as they are.
+void Picture::put_into_plane(vtkActor& actor, Layer layer) const
 {
-    actor.GetProperty()->SetLighting(!survey_.flat);
+    if (survey_.flat) {
+        actor.SetPosition(0, -static_cast<int>(layer) * survey_.spacing, 0);
+        actor.GetProperty()->LightingOff();
+    }
 }
 
 void Picture::add_for_this_moment(const Actor& actor)
@@ -170,13 +173,15 @@ void Picture::show(const Moment& moment)
     if (!moment.surfaces.empty()) {
         const Surface bodies = read_surface(moment.surfaces);
         const Actor actor = bodies_actor(bodies);
-        light(*actor);
+        const Actor edges = edges_actor(bodies);
+        put_into_plane(*actor, Layer::bodies);
+        put_into_plane(*edges, Layer::edges);
         add_for_this_moment(actor);
-        add_for_this_moment(edges_actor(bodies));
+        add_for_this_moment(edges);
     } else if (!moment.bodies.empty()) {
         add_for_this_moment(body_particles_actor(read_frame(moment.bodies), radius_));
     }
-    time_->SetInput(fmt::format("t = {:.2f} s", moment.time).c_str());
+    time_->SetInput(fmt::format("t = {:.{}f} s", moment.time, survey_.time_digits).c_str());
 }
 
 std::string Picture::png_of(const Moment& moment)

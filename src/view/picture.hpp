@@ -20,11 +20,14 @@ public:
     std::string png_of(const Moment& moment);
 
 private:
+    /// From back to front in a plane case; the fluid lies at 0.
+    enum class Layer { structures = -1, bodies = 1, edges = 2 };
+
     void place_camera(const RenderSettings& settings);
     void add_surroundings(const std::filesystem::path& results, const Surface& structures);
     void add_labels(const RenderSettings& settings);
     void show(const Moment& moment);
-    void light(vtkActor& actor) const;
+    void put_into_plane(vtkActor& actor, Layer layer) const;
     void add_for_this_moment(const Actor& actor);
 
     Survey survey_;

@@ -182,4 +182,14 @@ TEST_F(Render, OfNothingIsAnError)
 
 } // namespace
 } // namespace hyoryu
+#else
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/view/render.hpp"
+
+#include <gtest/gtest.h>
+
+TEST(Render, SaysThatItWasBuiltWithoutVtk)
+{
+    EXPECT_THROW(hyoryu::render("anything", {}), hyoryu::IoError);
+}
 #endif
