@@ -26,6 +26,13 @@ bool one_body(std::span<const Row> rows, const std::vector<Response>& bodies)
     });
 }
 
+void set_impulses(std::span<Row> rows, const std::vector<Vec3>& p, std::vector<Response>& bodies)
+{
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        push(rows[k], p[k] - rows[k].p, bodies);
+    }
+}
+
 double change_of(Row& row, std::vector<Response>& bodies)
 {
     Vec3 b = velocity(row, bodies) - row.cone.K * row.p;
@@ -81,11 +88,18 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
     if (left <= solved_speed) {
         return left;
     }
-    const bool small = rows.size() <= dense_contacts;
-    if (small && solve_directly(rows, bodies, work)) {
-        left = residual(rows, bodies);
-        if (left <= 10 * solved_speed) { // round-off of an ill-conditioned stack
-            return left;
+    if (rows.size() <= dense_contacts) {
+        work.start.clear();
+        for (const Row& row : rows) {
+            work.start.push_back(row.p);
+        }
+        solve_directly(rows, bodies, work);
+        const double left_directly = residual(rows, bodies);
+        if (left_directly <= 10 * solved_speed) { // round-off of an ill-conditioned stack
+            return left_directly;
+        }
+        if (left_directly > left) {
+            set_impulses(rows, work.start, bodies);
         }
     }
     left = gauss_seidel(rows, bodies, many_sweeps);

@@ -16,7 +16,7 @@ struct SolverWork {
     std::vector<Response> before;
     std::vector<int> states;
     std::vector<int> columns;
-    std::vector<Vec3> directions, impulses, momenta;
+    std::vector<Vec3> directions, impulses, momenta, start;
 };
 
 /// Solves normal velocity >= target, impulse >= 0, Coulomb friction for all rows together, from the

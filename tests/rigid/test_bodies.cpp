@@ -29,7 +29,7 @@ Body thrown(Body body, const Vec3& velocity, const Vec3& omega)
 Rigid jumble(int n)
 {
     Rigid rigid = scene(0.4, 0.3);
-    Basin basin{{-1, -1, 0}, {1, 1, 1}};
+    Basin basin{{-1, -1, 0}, {1, 1, 9}}; // higher than anything flies
     basin.open[5] = true;
     rigid.boundaries.push_back({"tank", basin});
     rigid.boundaries.push_back({"house", Obstacle{box_polytope({0.3, 0.3, 0.4}, 3), {0, 0, 0.2}}});
@@ -86,7 +86,6 @@ TEST(Ledger, MomentumOfEveryBodyClosesFromTheLog)
             EXPECT_LE(overlap(rigid, static_cast<int>(a), static_cast<int>(b), 1.5), 1e-4);
         }
     }
-    printf("ledger %.2e torque %.2e penetration %.2e residual %.2e events %lld rounds %lld capped %lld\n", worst, most_turn, rigid.counters.worst_penetration, rigid.counters.worst_residual, rigid.counters.events, rigid.counters.rounds, rigid.counters.capped_steps);
 }
 
 TEST(MidAir, CornerOnFaceKeepsMomentumAndLosesEnergy)
@@ -153,7 +152,6 @@ TEST(Invariance, TurnedWorldGivesTheSameMotion)
     turned.bodies[0].orientation = turn * plain.bodies[0].orientation;
     run(plain, 1e-3, 500);
     run(turned, 1e-3, 500);
-    printf("turned %.2e\n", (turned.bodies[0].position - turn * plain.bodies[0].position).norm());
     EXPECT_LE((turned.bodies[0].position - turn * plain.bodies[0].position).norm(), 1e-9);
 }
 
@@ -168,7 +166,6 @@ TEST(Invariance, OrderOfBodiesDoesNotMatter)
     for (std::size_t k = 0; k < 4; ++k) {
         worst = std::max(worst, (one.bodies[k].position - other.bodies[3 - k].position).norm());
     }
-    printf("permuted %.2e\n", worst);
     EXPECT_LE(worst, 1e-9);
 }
 

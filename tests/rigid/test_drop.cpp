@@ -54,8 +54,6 @@ TEST_P(FlatDrop, FollowsTheParabolasAndComesToRest)
     run(rigid, dt, 1000, {}, 1.2);
     EXPECT_LE((cube.position - settled).norm(), 1e-9);
     EXPECT_NEAR(cube.position.z(), rest, 1e-9);
-    RecordProperty("rms", std::to_string(std::sqrt(square / 1200)));
-    printf("rms %.3e drift %.3e impacts %lld rounds %lld events %lld capped %lld\n", std::sqrt(square/1200), (cube.position - settled).norm(), rigid.counters.impacts, rigid.counters.rounds, rigid.counters.events, rigid.counters.capped_steps);
 }
 
 // Bottom face, centre, or particle 10 cm above the wall.

@@ -33,7 +33,6 @@ TEST_P(Tilted, LeavesTheFirstImpactAsComputed)
     const Vec3 v = rigid.bodies[0].velocity + Vec3(0, 0, g * flight);
     // a turn counter-clockwise in x-z is one about -y
     const double omega = -angular_velocity(rigid.bodies[0]).y();
-    printf("tilt %.0f mu %.1f v %.6f %.6f w %.6f (%.6f %.6f %.6f)\n", drop.tilt, drop.mu, v.x(), v.z(), omega, drop.velocity.x(), drop.velocity.z(), drop.omega);
     EXPECT_NEAR(v.x(), drop.velocity.x(), 1e-5);
     EXPECT_NEAR(v.z(), drop.velocity.z(), 1e-5);
     EXPECT_NEAR(omega, drop.omega, 1e-5 * drop.omega);
@@ -59,7 +58,6 @@ TEST(CornerDrop, LeavesTheFirstImpactAsComputed)
         EXPECT_LE((v - expected).norm(), 2e-5);
         const double E = energy(rigid);
         EXPECT_NEAR(E, mu > 0 ? 0.0408397 : 0.0533546, 1e-6);
-        printf("corner mu %.1f v %.6f %.6f %.6f E %.7f\n", mu, v.x(), v.y(), v.z(), E);
     }
 }
 
@@ -98,7 +96,6 @@ TEST(RandomImpacts, NeverGainEnergy)
         }
     }
     EXPECT_LE(worst, 1e-12);
-    printf("worst gain %.3e\n", worst);
 }
 
 TEST(Cradle, PassesTheBlowOn)

@@ -94,7 +94,6 @@ TEST_P(Spin, FlipsTenTimesInTwentySeconds)
     EXPECT_NEAR(last, 1.022490 + 9 * 2.044981, 2 * dt * dt + 2e-5);
     EXPECT_LE(std::abs(kinetic_energy(body) / E - 1), 1e-7);
     EXPECT_EQ(body.angular_momentum, L);
-    printf("dt %.0e E %.2e last flip err %.2e q %.12f %.12f %.12f %.12f\n", dt, kinetic_energy(body)/E-1, last - (1.022490 + 9 * 2.044981), body.orientation.w(), body.orientation.x(), body.orientation.y(), body.orientation.z());
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, Spin, testing::Values(1e-2, 1e-3, 1e-4));

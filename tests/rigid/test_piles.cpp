@@ -52,7 +52,6 @@ void expect_still(Rigid& rigid, double dt, int steps, double drift)
         motion += kinetic_energy(body);
     }
     EXPECT_LE(motion, 1e-15);
-    printf("drift %.3e KE %.3e residual %.2e penetration %.2e\n", largest_drift(rigid, start), motion, rigid.counters.worst_residual, rigid.counters.worst_penetration);
 }
 
 TEST(Piles, TenBoxesStand)

@@ -33,7 +33,6 @@ TEST_P(Slide, StopsWhereCoulombSays)
     const double distance = cube.position.head<2>().norm();
     EXPECT_NEAR(distance, 1 / (2 * mu * g), 1e-5 * distance);
     EXPECT_LE(std::abs(cube.position.cross(direction).z()), 1e-9 * distance);
-    printf("slide mu %.1f heading %.0f: stop err %.2e dist err %.2e dir %.2e\n", mu, heading, stop/t_stop-1, distance*2*mu*g-1, cube.position.cross(direction).z()/distance);
 }
 
 INSTANTIATE_TEST_SUITE_P(Headings, Slide,
@@ -71,7 +70,6 @@ TEST(Slope, SlidesWithTheExactAcceleration)
         run(rigid, 1e-3, 2000);
         const double a = 2 * (rigid.bodies[0].position - start).norm() / sq(2.0);
         EXPECT_NEAR(a, 0.062446, 1e-5 * 0.062446 + 5e-7); // the last digit of the notes
-        printf("slope a %.9f exact %.9f\n", a, g*(0.5-0.57*std::sqrt(3)/2));
     }
 }
 
@@ -81,7 +79,6 @@ TEST(Slope, SticksWithoutCreep)
     const Vec3 start = rigid.bodies[0].position;
     run(rigid, 1e-3, 10000);
     EXPECT_LE((rigid.bodies[0].position - start).norm(), 1e-7);
-    printf("creep %.3e\n", (rigid.bodies[0].position - start).norm());
 }
 
 TEST(Roll, SkidTurnsIntoRolling)
@@ -94,7 +91,6 @@ TEST(Roll, SkidTurnsIntoRolling)
     EXPECT_NEAR(ball.velocity.x(), 15.0 / 7, 1e-6 * 15 / 7);
     EXPECT_NEAR(ball.position.x(), 2.330088, 1e-5);
     EXPECT_NEAR(ball.velocity.x() - 0.1 * angular_velocity(ball).y(), 0, 1e-9);
-    printf("roll v %.2e x %.2e slip %.2e\n", ball.velocity.x()*7/15-1, ball.position.x()-2.330088, ball.velocity.x() - 0.1 * angular_velocity(ball).y());
 }
 
 } // namespace

@@ -53,7 +53,6 @@ TEST_P(Timber, FallsBouncesAndSettlesAsTheEventSolver)
     EXPECT_NEAR(first->time, exact.t_d, 1e-6);
     EXPECT_NEAR(peak, exact.peak, 0.05e-3);
     EXPECT_NEAR(right(body).x(), exact.final_x, 0.05e-3);
-    printf("mu %.1f t_D err %.3e peak err %.3e mm final err %.3e mm, events %lld rounds %lld\n", exact.mu, first->time - exact.t_d, 1e3*(peak - exact.peak), 1e3*(right(body).x() - exact.final_x), rigid.counters.events, rigid.counters.rounds);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -72,7 +71,6 @@ TEST(TimberConvergence, IsSecondOrder)
             x.push_back(right(rigid.bodies[0]).x());
         }
         const double order = std::log2(std::abs((x[0] - x[3]) / (x[2] - x[3]))) / 2;
-        printf("mu %.1f errors %.3e %.3e %.3e order %.3f\n", mu, x[0]-x[3], x[1]-x[3], x[2]-x[3], order);
         EXPECT_GE(order, 1.8) << "mu " << mu;
     }
 }
