@@ -151,6 +151,8 @@ void Picture::put_into_plane(vtkActor& actor, Layer layer) const
     if (survey_.flat) {
         actor.SetPosition(0, -static_cast<int>(layer) * survey_.spacing, 0);
         actor.GetProperty()->LightingOff();
+        actor.GetProperty()->SetAmbient(0);
+        actor.GetProperty()->SetDiffuse(1);
     }
 }
 
