@@ -3,7 +3,7 @@
 #include "hyoryu/geometry/mesh.hpp"
 
 #include "hyoryu/core/error.hpp"
-#include "mesh_file.hpp"
+#include "geometry/mesh_file.hpp"
 
 #include <fmt/format.h>
 

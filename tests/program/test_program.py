@@ -1,0 +1,306 @@
+#!/usr/bin/env python3
+"""Drives the program as a user does: commands, messages, exit codes, files, restart.
+
+Usage: test_program.py PATH_TO_HYORYU [NAME...]; needs nothing but Python's standard library.
+"""
+import json
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+HYORYU = None
+CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+
+FLOOD = """
+title = "small flood"
+[time]
+end = 0.5
+[particles]
+spacing = 0.05
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.5, 0.5, 0.6]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.6, 0.5, 1.0]
+open = ["+z"]
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.25, 0.25, 0.25]
+density = 400.0
+position = [0.8, 0.26, 0.125]
+[output]
+every = 0.05
+"""
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.dir = pathlib.Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def call(self, *arguments, **options):
+        return subprocess.run([HYORYU, *map(str, arguments)], cwd=self.dir, capture_output=True,
+                              text=True, timeout=600, **options)
+
+    def write(self, text, name="case.toml"):
+        (self.dir / name).write_text(text)
+        return name
+
+    def files(self):
+        return sorted(p.name for p in self.dir.iterdir())
+
+    def read(self, folder, name):
+        return (self.dir / folder / name).read_bytes()
+
+
+class Commands(ProgramTest):
+    def test_version_names_version_and_commit(self):
+        done = self.call("--version")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"hyoryu \d+\.\d+\.\d+ \(commit ")
+
+    def test_the_program_does_not_link_vtk(self):
+        # VTK's libraries take longer to load than a start may: they live in a module.
+        linked = subprocess.run(["ldd", HYORYU], capture_output=True, text=True).stdout
+        self.assertNotIn("libvtk", linked)
+
+    def test_help_of_every_command(self):
+        for command in ([], ["run"], ["check"], ["describe"], ["info"], ["render"]):
+            self.assertEqual(self.call(*command, "--help").returncode, 0, command)
+
+    def test_wrong_usage_is_the_users_mistake(self):
+        for arguments in ([], ["fly"], ["run"], ["run", "x.toml", "--threads", "0"]):
+            self.assertEqual(self.call(*arguments).returncode, 2, arguments)
+
+    def test_describe(self):
+        done = self.call("describe", "fluid.density")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("kg/m3", done.stdout)
+        self.assertEqual(self.call("describe", "fluid.densty").returncode, 2)
+        json.loads(self.call("describe", "--json-schema").stdout)
+
+    def test_check_names_effects_on_and_off(self):
+        done = self.call("check", CASES / "bouncing_box" / "case.toml", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        plan = json.loads(done.stdout)
+        on = {effect["name"] for effect in plan["on"]}
+        off = {effect["name"] for effect in plan["off"]}
+        self.assertTrue({"gravity", "contact"} <= on)
+        self.assertTrue({"pressure", "artificial_viscosity", "density_diffusion", "body_load"} <= off)
+        self.assertEqual(plan["counts"]["fluid"], 0)
+        self.assertEqual(self.files(), [])
+
+    def test_every_case_passes_its_check(self):
+        for case in sorted(CASES.glob("*/case.toml")):
+            done = self.call("check", case)
+            self.assertEqual(done.returncode, 0, f"{case}: {done.stderr}")
+            self.assertTrue((case.parent / "README.md").exists(), case)
+
+
+class Mistakes(ProgramTest):
+    def refused(self, text, *expected, arguments=()):
+        before = set(self.files())
+        name = self.write(text)
+        done = self.call("run", name, "-o", "out", *arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        for part in expected:
+            self.assertIn(part, done.stderr)
+        self.assertEqual(set(self.files()) - before, {"case.toml"} - before, "something was written")
+
+    def test_unknown_key(self):
+        self.refused(FLOOD.replace("[fluid]", "[fluid]\ndensty = 1000.0"),
+                     "case.toml:8:1", "fluid.densty", "density", "^^^^^^")
+
+    def test_wrong_unit(self):
+        self.refused(FLOOD.replace("spacing = 0.05", 'spacing = "5 s"'), "case.toml:6:11",
+                     "particles.spacing")
+
+    def test_negative_density(self):
+        self.refused(FLOOD.replace("density = 400.0", "density = -400.0"), "density", "-400")
+
+    def test_all_mistakes_at_once(self):
+        text = FLOOD.replace("spacing = 0.05", 'spacing = "5 s"').replace("density = 400.0",
+                                                                          "density = -400.0")
+        self.refused(text, "particles.spacing", "density", "-400")
+
+    def test_overlapping_bodies(self):
+        second = '[[body]]\nname = "second"\nshape = "box"\nsize = [0.2, 0.2, 0.2]\n' \
+                 "density = 500.0\nposition = [0.9, 0.26, 0.15]\n"
+        self.refused(FLOOD.replace("[output]", second + "[output]"), "overlaps", "crate", "second")
+
+    def test_body_in_the_floor(self):
+        self.refused(FLOOD.replace("0.26, 0.125]", "0.26, 0.1]"), "overlaps", "basin")
+
+    def test_missing_case(self):
+        done = self.call("run", "nowhere.toml")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nowhere.toml", done.stderr)
+
+    def test_unreadable_mesh(self):
+        (self.dir / "bad.stl").write_text("this is no mesh")
+        mesh = FLOOD.replace('shape = "box"\nsize = [0.25, 0.25, 0.25]',
+                             'shape = "mesh"\nfile = "bad.stl"')
+        self.refused(mesh, "bad.stl")
+        self.refused(mesh.replace("bad.stl", "missing.stl"), "missing.stl")
+
+    def test_non_empty_results_folder(self):
+        (self.dir / "out").mkdir()
+        (self.dir / "out" / "precious.txt").write_text("mine")
+        for arguments in ((), ("--force",)):
+            done = self.call("run", self.write(FLOOD), "-o", "out", *arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual([p.name for p in (self.dir / "out").iterdir()], ["precious.txt"])
+
+    def test_a_fixed_step_beyond_stability(self):
+        self.refused(FLOOD.replace("end = 0.5", "end = 0.5\nstep = 0.1"), "time.step")
+
+    def test_an_absurd_spacing_is_refused_with_the_estimate(self):
+        self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-7"), "particles")
+
+
+class Runs(ProgramTest):
+    CONTRACT = {
+        "bodies.csv": "time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,fx,fy,fz,tx,ty,tz",
+        "contacts.csv": "time,a,b,x,y,z,nx,ny,nz,approach_speed,normal_impulse,"
+                        "tangential_impulse_x,tangential_impulse_y,tangential_impulse_z,energy_lost",
+        "energy.csv": "time,fluid_kinetic,fluid_potential,fluid_internal,body_kinetic,"
+                      "body_potential,contact_loss,momentum_x,momentum_y,momentum_z",
+    }
+
+    def run_flood(self, out, *arguments, text=FLOOD):
+        done = self.call("run", self.write(text), "-o", out, *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def expect_equal(self, one, other):
+        for name in ("bodies.csv", "contacts.csv", "energy.csv"):
+            self.assertEqual(self.read(one, name), self.read(other, name), name)
+        frames = sorted(p.name for p in (self.dir / one / "frames").iterdir())
+        self.assertEqual(frames, sorted(p.name for p in (self.dir / other / "frames").iterdir()))
+        for frame in frames:
+            self.assertEqual(self.read(one, f"frames/{frame}"), self.read(other, f"frames/{frame}"), frame)
+
+    def test_results_are_complete(self):
+        self.run_flood("out")
+        out = self.dir / "out"
+        for name in ("case.toml", "plan.json", "summary.json", "fluid.hdf.series", "bodies.hdf.series",
+                     "surfaces.hdf.series", "walls.hdf", "results.h5", "checkpoint.h5", "run.log"):
+            self.assertTrue((out / name).exists(), name)
+        for name, header in self.CONTRACT.items():
+            lines = (out / name).read_text().splitlines()
+            self.assertTrue(lines[0].startswith("#"), name)
+            self.assertTrue(lines[1].startswith(header), lines[1])
+        series = json.loads((out / "fluid.hdf.series").read_text())
+        self.assertEqual(len(series["files"]), 11)
+        self.assertEqual(series["files"][-1]["time"], 0.5)
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertEqual(summary["exit_reason"], "done")
+        self.assertEqual(summary["particles_lost"], 0)
+        self.assertLess(summary["momentum"]["worst_closure_of_a_step"], 1e-10)
+        self.assertEqual(list(out.rglob("*.tmp")), [])
+        self.assertEqual(self.call("info", "out").returncode, 0)
+
+    def test_the_resolved_case_gives_the_same_bits(self):
+        self.run_flood("out")
+        done = self.call("run", "out/case.toml", "-o", "again")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.expect_equal("out", "again")
+
+    def test_same_bits_for_one_two_and_three_threads(self):
+        self.run_flood("one", "--threads", "1")
+        for threads in (2, 3):
+            self.run_flood(f"with{threads}", "--threads", threads)
+            self.expect_equal("one", f"with{threads}")
+
+    def test_stopping_and_resuming_gives_the_same_bits(self):
+        self.run_flood("whole")
+        self.run_flood("parts", "--until", "0.17")
+        self.run_flood("parts", "--resume", "--until", "0.31")
+        self.run_flood("parts", "--resume")
+        self.expect_equal("whole", "parts")
+
+    def test_ctrl_c_writes_a_checkpoint_and_resume_goes_on(self):
+        text = FLOOD.replace("spacing = 0.05", "spacing = 0.04")
+        case = self.write(text)
+        process = subprocess.Popen([HYORYU, "run", case, "-o", "out"], cwd=self.dir,
+                                   stderr=subprocess.DEVNULL)
+        while not (self.dir / "out" / "frames" / "fluid_000003.hdf").exists():
+            time.sleep(0.01)
+            self.assertIsNone(process.poll(), "ended before it was interrupted")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 130)
+        summary = json.loads((self.dir / "out" / "summary.json").read_text())
+        self.assertEqual(summary["exit_reason"], "interrupted")
+        self.assertLess(summary["simulated_seconds"], 0.5)
+        self.run_flood("out", "--resume", text=text)
+        self.run_flood("whole", text=text)
+        self.expect_equal("whole", "out")
+
+    def test_resuming_another_case_is_refused(self):
+        self.run_flood("out", "--until", "0.1")
+        done = self.call("run", self.write(FLOOD.replace("400.0", "500.0")), "-o", "out", "--resume")
+        self.assertEqual(done.returncode, 2, done.stderr)
+
+    def test_resuming_nothing_or_garbage_is_told(self):
+        (self.dir / "out").mkdir()
+        self.write(FLOOD)
+        self.assertEqual(self.call("run", "case.toml", "-o", "out", "--resume").returncode, 4)
+        (self.dir / "out" / "checkpoint.h5").write_bytes(b"garbage" * 100)
+        self.assertEqual(self.call("run", "case.toml", "-o", "out", "--resume").returncode, 4)
+
+    def test_a_full_disk_keeps_what_was_written(self):
+        # No file may grow beyond 200 kB: the checkpoint and later histories meet the wall.
+        case = self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.025"))
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (200000, 200000))
+
+        done = self.call("run", case, "-o", "out", preexec_fn=limit)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("error", done.stderr)
+        self.assertEqual(list((self.dir / "out").rglob("*.tmp")), [])
+
+    def test_force_replaces_an_earlier_run(self):
+        self.run_flood("out", "--until", "0.1")
+        self.assertEqual(self.call("run", "case.toml", "-o", "out").returncode, 2)
+        self.run_flood("out", "--force")
+
+    def test_numbers_that_go_wrong_are_told_and_the_last_good_state_kept(self):
+        # A sound speed far below the flow's own speed: the fluid collapses into itself.
+        text = FLOOD.replace("[fluid]", "[fluid]\nsound_speed = 0.6")
+        done = self.call("run", self.write(text), "-o", "out")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r"step \d+, t = .*fluid particle \d+.*sound_speed")
+        self.assertTrue((self.dir / "out" / "checkpoint.h5").exists())
+        summary = json.loads((self.dir / "out" / "summary.json").read_text())
+        self.assertEqual(summary["exit_reason"], "numerical error")
+
+    def test_render_makes_pictures(self):
+        self.run_flood("out")
+        done = self.call("render", "out", "--times", "0,0.5", "--width", "320", "--height", "240")
+        if done.returncode == 4 and "VTK" in done.stderr:
+            self.skipTest("built without VTK")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        pictures = sorted((self.dir / "out" / "pictures").glob("*.png"))
+        self.assertEqual(len(pictures), 2)
+        for picture in pictures:
+            self.assertGreater(picture.stat().st_size, 5000)
+
+
+if __name__ == "__main__":
+    HYORYU = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main(verbosity=2)
