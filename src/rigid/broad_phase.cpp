@@ -20,15 +20,16 @@ struct Box {
 
     bool meets(const Box& other) const
     {
-        return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+        return (low.array() <= other.high.array()).all() &&
+               (other.low.array() <= high.array()).all();
     }
 };
 
 Box box_of(const Solid& solid, const Pose& pose, double margin)
 {
     const Vec3 centre = pose.x + pose.R * solid.box_centre;
-    const Vec3 half = solid.form == Form::ball ? solid.box_half
-                                               : Vec3(pose.R.cwiseAbs() * solid.box_half);
+    const Vec3 half =
+        solid.form == Form::ball ? solid.box_half : Vec3(pose.R.cwiseAbs() * solid.box_half);
     const Vec3 reach = half + Vec3::Constant(margin + skin);
     return {centre - reach, centre + reach};
 }
@@ -60,10 +61,11 @@ std::vector<Pair> body_pairs(const StepContext& context, const std::vector<doubl
     std::vector<Pair> pairs;
     for (std::size_t k = 0; k < order.size(); ++k) {
         const int a = order[k];
-        for (std::size_t m = k + 1; m < order.size() && boxes[order[m]].low.x() <= boxes[a].high.x();
-             ++m) {
+        for (std::size_t m = k + 1;
+             m < order.size() && boxes[order[m]].low.x() <= boxes[a].high.x(); ++m) {
             const int b = order[m];
-            if (boxes[a].meets(boxes[b]) && (memory.rotors[a].movable || memory.rotors[b].movable)) {
+            if (boxes[a].meets(boxes[b]) &&
+                (memory.rotors[a].movable || memory.rotors[b].movable)) {
                 pairs.push_back({std::min(a, b), std::max(a, b)});
             }
         }
@@ -95,7 +97,8 @@ std::vector<Pair> wall_pairs(const StepContext& context, const std::vector<doubl
     std::vector<Pair> pairs;
     const auto& walls = context.memory.geometry.walls;
     for (int k = 0; k < static_cast<int>(margins.size()); ++k) {
-        for (int w = 0; context.memory.rotors[k].movable && w < static_cast<int>(walls.size()); ++w) {
+        for (int w = 0; context.memory.rotors[k].movable && w < static_cast<int>(walls.size());
+             ++w) {
             if (may_touch(context, k, walls[w], margins[k])) {
                 pairs.push_back({k, -1 - w});
             }

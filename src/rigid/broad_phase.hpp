@@ -6,9 +6,9 @@
 
 namespace hyoryu {
 
-/// Splits the bodies into clusters that cannot meet within the step, by sweeping boxes that bound their
-/// motion. The speed of a body is bounded by twice the largest speed of its cluster, which is what a
-/// blow by a much heavier body gives it. A body in free flight is a cluster without pairs.
+/// Splits the bodies into clusters that cannot meet within the step, by sweeping boxes that bound
+/// their motion. The speed of a body is bounded by twice the largest speed of its cluster, which is
+/// what a blow by a much heavier body gives it. A body in free flight is a cluster without pairs.
 void find_clusters(const StepContext& context);
 
 } // namespace hyoryu

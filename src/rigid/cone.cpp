@@ -17,7 +17,8 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-// Below this part of K_nn the denominator is that of a Painleve configuration (contact notes, section 1).
+// Below this part of K_nn the denominator is that of a Painleve configuration (contact notes,
+// section 1).
 constexpr double painleve = 1e-12;
 // A determinant below this part of the product of the diagonal means a direction that cannot move.
 constexpr double singular = 1e-13;
@@ -53,19 +54,36 @@ Vec3 impulse_along(const Slip& slip, double mu, const Vec2& d)
     return {slip.p_n, -mu * slip.p_n * d.x(), -mu * slip.p_n * d.y()};
 }
 
-// d x u_t(d), multiplied by den(d) to be smooth everywhere; zero where u_t is parallel to d.
-double crossed(const Cone& cone, const Vec3& b, double angle)
+double cross(const Vec2& a, const Vec2& b)
 {
-    const Vec2 d(std::cos(angle), std::sin(angle));
-    const double den = cone.K(0, 0) - cone.mu * (cone.K(0, 1) * d.x() + cone.K(0, 2) * d.y());
-    const Vec2 k_tn = cone.K.block<2, 1>(1, 0);
-    const Vec2 w = den * b.tail<2>() - b[0] * (k_tn - cone.mu * (cone.K.block<2, 2>(1, 1) * d));
-    return d.x() * w.y() - d.y() * w.x();
+    return a.x() * b.y() - a.y() * b.x();
 }
 
-std::optional<Vec3> accepted(const Cone& cone, const Vec3& b, double angle)
+struct Crossed {
+    double value = 0;
+    double slope = 0; // by the angle of d
+};
+
+// d x w with w = den(d) u_t(d), smooth everywhere; zero where u_t is parallel to d.
+Crossed crossed(const Cone& cone, const Vec3& b, const Vec2& d)
 {
-    const Vec2 d(std::cos(angle), std::sin(angle));
+    const Vec2 turned(-d.y(), d.x()); // derivative of d
+    const Vec2 k_nt = cone.K.block<1, 2>(0, 1).transpose();
+    const Vec2 k_tn = cone.K.block<2, 1>(1, 0);
+    const Eigen::Matrix2d k_tt = cone.mu * cone.K.block<2, 2>(1, 1);
+    const double den = cone.K(0, 0) - cone.mu * k_nt.dot(d);
+    const Vec2 w = den * b.tail<2>() - b[0] * (k_tn - k_tt * d);
+    const Vec2 w_slope = -cone.mu * k_nt.dot(turned) * b.tail<2>() + b[0] * (k_tt * turned);
+    return {cross(d, w), cross(turned, w) + cross(d, w_slope)};
+}
+
+Vec2 at_angle(double angle)
+{
+    return {std::cos(angle), std::sin(angle)};
+}
+
+std::optional<Vec3> accepted(const Cone& cone, const Vec3& b, const Vec2& d)
+{
     const Slip slip = slip_along(cone, b, d);
     if (slip.exists && slip.u.dot(d) >= 0) {
         return impulse_along(slip, cone.mu, d);
@@ -88,22 +106,19 @@ std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d)
         }
         d = next.normalized();
     }
-    double angle = std::atan2(d.y(), d.x());
     for (int k = 0; k < newton_steps; ++k) {
-        constexpr double apart = 1e-6; // of the central difference, error about its square
-        const double f = crossed(cone, b, angle);
-        const double slope =
-            (crossed(cone, b, angle + apart) - crossed(cone, b, angle - apart)) / (2 * apart);
-        if (slope == 0) {
+        const Crossed f = crossed(cone, b, d);
+        if (f.slope == 0) {
             return std::nullopt;
         }
-        const double change = f / slope;
-        angle -= change;
+        const double change = -f.value / f.slope;
+        // the turn by `change` up to a length that the normalisation takes out
+        d = Vec2(d.x() - change * d.y(), d.y() + change * d.x()).normalized();
         if (std::abs(change) < 1e-14) { // the last bits of an angle
-            return accepted(cone, b, angle);
+            break;
         }
     }
-    return accepted(cone, b, angle);
+    return accepted(cone, b, d);
 }
 
 std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
@@ -112,17 +127,17 @@ std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
     for (int k = 0; k < scan_points; ++k) {
         double low = k * step;
         double high = low + step;
-        double f_low = crossed(cone, b, low);
-        if (f_low * crossed(cone, b, high) > 0) {
+        double f_low = crossed(cone, b, at_angle(low)).value;
+        if (f_low * crossed(cone, b, at_angle(high)).value > 0) {
             continue;
         }
         for (int m = 0; m < bisections; ++m) {
             const double mid = 0.5 * (low + high);
-            const double f = crossed(cone, b, mid);
+            const double f = crossed(cone, b, at_angle(mid)).value;
             (f * f_low > 0 ? low : high) = mid;
             f_low = f * f_low > 0 ? f : f_low;
         }
-        if (const auto p = accepted(cone, b, 0.5 * (low + high))) {
+        if (const auto p = accepted(cone, b, at_angle(0.5 * (low + high)))) {
             return p;
         }
     }
@@ -194,7 +209,8 @@ ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
     if (cone.size == 2) {
         slide = slide_in_plane(cone, b);
     } else {
-        const Vec2 d = guess.tail<2>().squaredNorm() > 0 ? Vec2(-guess.tail<2>()) : Vec2(-stick.tail<2>());
+        const Vec2 d =
+            guess.tail<2>().squaredNorm() > 0 ? Vec2(-guess.tail<2>()) : Vec2(-stick.tail<2>());
         slide = slide_by_newton(cone, b, d.normalized());
         if (!slide) {
             slide = slide_by_scan(cone, b);

@@ -19,13 +19,14 @@ struct Cone {
 void invert(Cone& cone);
 
 struct ConeImpulse {
-    Vec3 p{0, 0, 0};         // [N s]
-    bool tangential = false; // a Painleve configuration: the sticking impulse took the place of sliding
+    Vec3 p{0, 0, 0}; // [N s]
+    bool tangential =
+        false; // a Painleve configuration: the sticking impulse took the place of sliding
 };
 
 /// The impulse p with b_n + (K p)_n = 0, p_n >= 0, |p_t| <= mu p_n, and p_t against the velocity of
-/// sliding that is left (Moreau 1988). `b` is the velocity without p, less the wanted normal velocity;
-/// `guess` is an earlier impulse, for the direction of sliding.
+/// sliding that is left (Moreau 1988). `b` is the velocity without p, less the wanted normal
+/// velocity; `guess` is an earlier impulse, for the direction of sliding.
 ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess);
 
 } // namespace hyoryu

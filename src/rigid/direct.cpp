@@ -36,8 +36,9 @@ Vec3 coupling(const Row& i, const Row& j, const Vec3& p, const std::vector<Respo
     Vec3 u = Vec3::Zero();
     const Vec3 P = j.B * p;
     const auto add = [&](int body, double sign_i, const Mat3& C, double sign_j, const Mat3& G) {
-        u += sign_i * sign_j *
-             (i.D.transpose() * bodies[body].inverse_mass.cwiseProduct(P) + C.transpose() * (G * p));
+        u +=
+            sign_i * sign_j *
+            (i.D.transpose() * bodies[body].inverse_mass.cwiseProduct(P) + C.transpose() * (G * p));
     };
     if (i.a == j.a) {
         add(i.a, 1, i.Ca, 1, j.Ga);

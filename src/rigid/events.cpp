@@ -11,8 +11,8 @@ namespace {
 
 // A gap is an event when it is below this at the end of the sub-step [m].
 constexpr double closed = -1e-10;
-// Two polytopes in contact may describe one contact by other features a moment later; only a gap deeper
-// than that play of the description is a new contact [m].
+// Two polytopes in contact may describe one contact by other features a moment later; only a gap
+// deeper than that play of the description is a new contact [m].
 constexpr double closed_in_contact = -1e-6;
 constexpr double located = 1e-11; // gap at the time found [m]
 constexpr int root_steps = 60;
@@ -24,8 +24,7 @@ constexpr int most_looks = 32;
 
 class EventSearch {
 public:
-    EventSearch(const StepContext& context, const SubStep& sub)
-        : memory_(context.memory), sub_(sub)
+    EventSearch(const StepContext& context, const SubStep& sub) : memory_(context.memory), sub_(sub)
     {
     }
 
@@ -72,9 +71,8 @@ private:
 
     bool holds(const Pair& pair) const
     {
-        return std::any_of(memory_.held.begin(), memory_.held.end(), [&](const Feature& f) {
-            return f.a == pair.a && f.b == pair.b;
-        });
+        return std::any_of(memory_.held.begin(), memory_.held.end(),
+                           [&](const Feature& f) { return f.a == pair.a && f.b == pair.b; });
     }
 
     bool held(const Feature& feature) const
@@ -112,7 +110,8 @@ private:
         return clearance(pair, s);
     }
 
-    // Illinois method between an open and a closed time; bisection when a feature changes in between.
+    // Illinois method between an open and a closed time; bisection when a feature changes in
+    // between.
     double closing_time(const Pair& pair, double low, double high)
     {
         double f_high = clearance_at(pair, high);
@@ -157,8 +156,8 @@ private:
     {
         double looks = 1;
         for (const int k : sub_.cluster.bodies) {
-            const double turn =
-                sub_.h * (memory_.rotors[k].inverse_moments.maxCoeff() * memory_.paths[k].L1.norm());
+            const double turn = sub_.h * (memory_.rotors[k].inverse_moments.maxCoeff() *
+                                          memory_.paths[k].L1.norm());
             looks = std::max(looks, turn > half_look ? 2.0 : 1.0);
         }
         for (const Pair& pair : sub_.cluster.pairs) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A contact by the features that touch: its identity from step to step, and where it is at any pose.
+// A contact by the features that touch: its identity from step to step, and where it is at any
+// pose.
 #pragma once
 
 #include "rotor.hpp"
@@ -21,8 +22,8 @@ struct Pose {
 };
 Pose pose_of(const Vec3& x, const Quat& q);
 
-/// A half-space of a boundary at time 0; it holds points within [lower, upper] only, and only while they
-/// are less than `slack` reaches of their body behind it.
+/// A half-space of a boundary at time 0; it holds points within [lower, upper] only, and only while
+/// they are less than `slack` reaches of their body behind it.
 struct HalfSpace {
     int side = 0;
     Vec3 normal{0, 0, 1};

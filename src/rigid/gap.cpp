@@ -27,11 +27,13 @@ Vec3 rim_point(const Feature& feature, const Placed& rod, const Vec3& normal)
     const Vec3 centre = rod.pose.x + (feature.i == 0 ? -1 : 1) * rod.solid.half_length * axis;
     if (feature.kind == FeatureKind::rim_fixed) {
         const double angle = 2 * std::numbers::pi * feature.j / rim_points;
-        return centre + rod.solid.radius * (std::cos(angle) * R.col(1) + std::sin(angle) * R.col(2));
+        return centre +
+               rod.solid.radius * (std::cos(angle) * R.col(1) + std::sin(angle) * R.col(2));
     }
     const Vec3 down = axis * axis.dot(normal) - normal;
     const double length = down.norm();
-    return centre + rod.solid.radius * (length > no_direction ? Vec3(down / length) : Vec3(R.col(1)));
+    return centre +
+           rod.solid.radius * (length > no_direction ? Vec3(down / length) : Vec3(R.col(1)));
 }
 
 Touch plane_touch(const Feature& feature, const Configuration& at)

@@ -10,8 +10,8 @@ namespace hyoryu {
 namespace {
 
 constexpr int inner_steps = 300;
-constexpr int outer_passes = 4;  // of the De Saxce correction, which settles like mu^k
-constexpr int power_steps = 12;  // enough for a bound within the safety factor
+constexpr int outer_passes = 4; // of the De Saxce correction, which settles like mu^k
+constexpr int power_steps = 12; // enough for a bound within the safety factor
 constexpr double safety = 1.3;
 
 // Scaling a contact by one number keeps its cone and evens out mass ratios.
@@ -81,7 +81,8 @@ double stiffness(std::span<Row> rows, std::vector<Response>& bodies, SolverWork&
 }
 
 // One pass with the De Saxce term mu |u_t| held fixed.
-void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work, double L)
+void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                      double L)
 {
     const std::size_t n = rows.size();
     std::vector<double> lift(n);
@@ -112,8 +113,8 @@ void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, Solver
         const double theta_next = 0.5 * (std::sqrt(sq(sq(theta)) + 4 * sq(theta)) - sq(theta));
         const double beta = theta * (1 - theta) / (sq(theta) + theta_next);
         for (std::size_t k = 0; k < n; ++k) {
-            const Vec3 next = onto_cone(work.impulses[k] - gradient[k] / L, rows[k].cone.mu,
-                                        rows[k].cone.size);
+            const Vec3 next =
+                onto_cone(work.impulses[k] - gradient[k] / L, rows[k].cone.mu, rows[k].cone.size);
             uphill += gradient[k].dot(next - previous[k]);
             moved = std::max(moved, (next - work.impulses[k]).norm() / scale_of(rows[k]));
             work.impulses[k] = next + beta * (next - previous[k]);

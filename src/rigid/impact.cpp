@@ -46,7 +46,8 @@ void collect(const StepContext& context, std::vector<Row>& rows)
     }
 }
 
-// Work done by the contacts, 1/2 sum P . (u- + u+): the change of kinetic energy seen from the walls.
+// Work done by the contacts, 1/2 sum P . (u- + u+): the change of kinetic energy seen from the
+// walls.
 double work_done(const std::vector<Row>& rows, const std::vector<Response>& bodies)
 {
     double work = 0;
@@ -159,8 +160,8 @@ void book(const std::vector<Row>& rows, const StepContext& context, std::size_t 
                                              known.normal == c.touch.normal;
                                   });
         if (entry == context.log.end()) {
-            Contact contact{Contact::Kind::impact, time, c.feature.a, c.feature.b, c.touch.point,
-                            c.touch.normal};
+            Contact contact{Contact::Kind::impact, time,          c.feature.a,
+                            c.feature.b,           c.touch.point, c.touch.normal};
             contact.approach_speed = -row.before[0];
             contact.effective_mass = 1 / row.cone.K(0, 0);
             context.log.push_back(contact);

@@ -8,13 +8,15 @@ namespace hyoryu {
 
 namespace {
 
-// Corners this part of the size of a pair past the rim of a face still count as on it, so that flush
-// faces keep their corners; and points nearer to each other than that are one.
+// Corners this part of the size of a pair past the rim of a face still count as on it, so that
+// flush faces keep their corners; and points nearer to each other than that are one.
 constexpr double rim_tolerance = 1e-6;
-// Faces nearer to parallel than acos of this overlap face to face; corners of the reference then count.
+// Faces nearer to parallel than acos of this overlap face to face; corners of the reference then
+// count.
 constexpr double face_to_face = 0.9;
 
-// The reference face's solid r, the other i, and the normal out of the reference face in world axes.
+// The reference face's solid r, the other i, and the normal out of the reference face in world
+// axes.
 struct Meeting {
     const Pair& pair;
     const Configuration& at;
@@ -143,7 +145,8 @@ void add_faces(const Meeting& m, double distance, std::vector<Candidate>& found)
     for (std::size_t k = first; k < found.size(); ++k) {
         lowest = std::min(lowest, found[k].touch.gap);
     }
-    // The axis says how near the solids are; a corner just past the rim may have left no point to show it.
+    // The axis says how near the solids are; a corner just past the rim may have left no point to
+    // show it.
     if (lowest > distance + m.tolerance) {
         const Feature corner = corner_feature(m, m.owner, m.deepest, m.reference);
         found.push_back({corner, touch_of(corner, m.at)});

@@ -7,9 +7,9 @@
 
 namespace hyoryu {
 
-/// Appends the corners of the overlap of the two faces that meet along the axis, or the pair of edges.
-/// The overlap of two convex polygons has as corners: the corners of each within the other, and the
-/// crossings of their edges.
+/// Appends the corners of the overlap of the two faces that meet along the axis, or the pair of
+/// edges. The overlap of two convex polygons has as corners: the corners of each within the other,
+/// and the crossings of their edges.
 void add_manifold(const Pair& pair, const Separation& axis, const Configuration& at,
                   std::vector<Candidate>& found);
 

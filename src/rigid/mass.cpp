@@ -39,8 +39,8 @@ void add_tetrahedron(Moments& sums, const Vec3& a, const Vec3& b, const Vec3& c,
     const Vec3 s = a + b + c;
     sums.mass += mass;
     sums.first += mass / 4 * s;
-    sums.second += mass / 20 *
-                   (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+    sums.second +=
+        mass / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
 }
 
 // A triangle with one corner at the origin: integral of x x^T = A/12 (a a^T + b b^T + s s^T).
@@ -115,7 +115,8 @@ Polytope box_polytope(const Vec3& size, int dimensions)
         box.corners.emplace_back((k & 1) != 0 ? h.x() : -h.x(), (k & 2) != 0 ? h.y() : -h.y(),
                                  (k & 4) != 0 ? h.z() : -h.z());
     }
-    box.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    box.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                 {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     return box;
 }
 

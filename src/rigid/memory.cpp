@@ -60,7 +60,8 @@ void prepare(Rigid& rigid)
     memory.events.assign(n, 0);
 }
 
-Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses, double time)
+Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses,
+                            double time)
 {
     return {memory.geometry, poses, time};
 }
@@ -102,8 +103,7 @@ double separation_speed(const ContactMemory& memory, const Feature& feature, con
         const Response& body = memory.responses[k];
         return Vec3(body.v + body.omega.cross(touch.point - memory.poses[k].x));
     };
-    const Vec3 other =
-        feature.b >= 0 ? at_point(feature.b) : wall_velocity(memory, feature.b);
+    const Vec3 other = feature.b >= 0 ? at_point(feature.b) : wall_velocity(memory, feature.b);
     return touch.normal.dot(at_point(feature.a) - other);
 }
 
@@ -115,7 +115,8 @@ std::vector<double> save_memory(const Rigid& rigid)
     }
     for (const Remembered& r : rigid.memory->forces) {
         const Feature& f = r.feature;
-        for (const int index : {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f}) {
+        for (const int index :
+             {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f}) {
             numbers.push_back(index);
         }
         numbers.insert(numbers.end(), {r.force.x(), r.force.y(), r.force.z()});
@@ -129,7 +130,8 @@ void load_memory(Rigid& rigid, std::span<const double> numbers)
     for (std::size_t k = 0; k + numbers_per_force <= numbers.size(); k += numbers_per_force) {
         const auto index = [&](std::size_t m) { return static_cast<int>(numbers[k + m]); };
         const Feature feature{index(0), index(1), static_cast<FeatureKind>(index(2)),
-                              index(3), index(4), index(5), index(6), index(7), index(8)};
+                              index(3), index(4), index(5),
+                              index(6), index(7), index(8)};
         rigid.memory->forces.push_back(
             {feature, Vec3(numbers[k + 9], numbers[k + 10], numbers[k + 11])});
     }

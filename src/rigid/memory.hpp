@@ -7,8 +7,8 @@
 
 namespace hyoryu {
 
-/// The path of a body over a smooth sub-step of length h: V and L change linearly, x is the parabola,
-/// q the free rotor with the mean momentum up to the time asked for.
+/// The path of a body over a smooth sub-step of length h: V and L change linearly, x is the
+/// parabola, q the free rotor with the mean momentum up to the time asked for.
 struct Path {
     Pose start;
     Vec3 v0{0, 0, 0}, v1{0, 0, 0}; // V [m/s]
@@ -32,10 +32,10 @@ struct Cluster {
 /// A persistent contact of the current sub-step.
 struct Persistent {
     Candidate candidate;
-    Vec3 impulse{0, 0, 0}; // over the whole sub-step, on a [N s]
-    TwoTouches touches;    // at the middle and the end
+    Vec3 impulse{0, 0, 0};     // over the whole sub-step, on a [N s]
+    TwoTouches touches;        // at the middle and the end
     double effective_mass = 0; // [kg]
-    double dissipated = 0; // [J]
+    double dissipated = 0;     // [J]
 };
 
 struct ContactMemory {
@@ -55,8 +55,8 @@ struct ContactMemory {
     std::vector<Cluster> clusters;
     std::vector<Candidate> candidates, looked_at;
     std::vector<Persistent> persistent;
-    std::vector<Feature> held; // not looked for by the event search
-    std::span<const Remembered> known;   // forces of the last sub-step
+    std::vector<Feature> held;         // not looked for by the event search
+    std::span<const Remembered> known; // forces of the last sub-step
     std::vector<Remembered> recent, fresh;
     std::vector<Contact> resting;
     std::vector<Feature> resting_features;
@@ -77,7 +77,8 @@ struct StepContext {
 /// Builds the tables if there are none for these bodies, and takes the poses of the bodies.
 void prepare(Rigid& rigid);
 
-Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses, double time);
+Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses,
+                            double time);
 
 /// Velocity of a boundary, zero for a body.
 Vec3 wall_velocity(const ContactMemory& memory, int b);

@@ -14,8 +14,8 @@ constexpr int passes = 2;
 // More coplanar contacts of a pair than this are thinned out to the outermost ones.
 constexpr std::size_t most_contacts = 8;
 
-// Keeps, of the contacts of one pair in one plane, those outermost in eight directions: the others lie
-// within their hull and cannot approach on their own.
+// Keeps, of the contacts of one pair in one plane, those outermost in eight directions: the others
+// lie within their hull and cannot approach on their own.
 void thin_out(std::vector<Persistent>& found, std::size_t first)
 {
     if (found.size() - first <= most_contacts) {
@@ -31,12 +31,13 @@ void thin_out(std::vector<Persistent>& found, std::size_t first)
         // another normal belongs to another plane
         kept[k] = found[first + k].candidate.touch.normal.dot(n) < 1 - 1e-9;
     }
-    for (const auto& [x, y] : {std::pair(1, 0), {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {
+    for (const auto& [x, y] :
+         {std::pair(1, 0), {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {
         const Vec3 out = x * u + y * w;
         std::size_t best = 0;
         for (std::size_t k = 1; k < kept.size(); ++k) {
-            const Vec3 step = found[first + k].candidate.touch.point -
-                              found[first + best].candidate.touch.point;
+            const Vec3 step =
+                found[first + k].candidate.touch.point - found[first + best].candidate.touch.point;
             best = step.dot(out) > 0 ? k : best;
         }
         kept[best] = true;
@@ -50,7 +51,8 @@ void thin_out(std::vector<Persistent>& found, std::size_t first)
     found.resize(end);
 }
 
-// Touching contacts that do not fly apart; everything that the event search must not look for is held.
+// Touching contacts that do not fly apart; everything that the event search must not look for is
+// held.
 void choose_persistent(const StepContext& context, double h)
 {
     ContactMemory& memory = context.memory;
@@ -69,7 +71,8 @@ void choose_persistent(const StepContext& context, double h)
             first = memory.persistent.size();
         }
         const bool touches = !c.beyond && c.touch.gap <= settings.contact_tolerance;
-        const bool rests = touches && (separation_speed(memory, f, c.touch) <= settings.resting_speed);
+        const bool rests =
+            touches && (separation_speed(memory, f, c.touch) <= settings.resting_speed);
         if (rests) {
             Persistent p{c};
             const auto known = std::lower_bound(
@@ -93,8 +96,8 @@ void plan_free_motion(const StepContext& context, const SubStep& sub)
     for (const int k : sub.cluster.bodies) {
         const Body& body = context.rigid.bodies[k];
         Path& path = memory.paths[k];
-        path = {memory.poses[k], body.velocity, body.velocity, body.angular_momentum,
-                body.angular_momentum, sub.h};
+        path = {memory.poses[k],       body.velocity,         body.velocity,
+                body.angular_momentum, body.angular_momentum, sub.h};
         path.v1 += sub.h * acceleration(context, k);
         for (int m = 0; m < 3; ++m) {
             path.L1[m] += memory.rotors[k].turns[m] ? sub.h * context.loads[k].torque[m] : 0;

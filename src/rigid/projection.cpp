@@ -12,8 +12,8 @@ namespace {
 constexpr int most_sweeps = 10;
 // Gaps below this are left alone; they are the noise of positions [m].
 constexpr double no_gap = 1e-12;
-// Overlap that is put right at once; what is deeper was there from the start or was not located, and
-// goes by a share a step so that nothing jumps [m].
+// Overlap that is put right at once; what is deeper was there from the start or was not located,
+// and goes by a share a step so that nothing jumps [m].
 constexpr double at_once = 1e-5;
 constexpr double share_of_deep = 0.2;
 
@@ -30,7 +30,8 @@ void book_resting(ContactMemory& memory, const Persistent& p, const Vec3& impuls
         memory.resting.push_back(contact);
         known = memory.resting_features.end() - 1;
     }
-    Contact& contact = memory.resting[static_cast<std::size_t>(known - memory.resting_features.begin())];
+    Contact& contact =
+        memory.resting[static_cast<std::size_t>(known - memory.resting_features.begin())];
     contact.normal_impulse += impulse.dot(contact.normal);
     contact.tangential_impulse += impulse - impulse.dot(contact.normal) * contact.normal;
     contact.energy_lost += part * p.dissipated;
@@ -41,8 +42,8 @@ void turn_by(Pose& pose, const Vec3& w)
     pose = pose_of(pose.x, (rotation_by(w) * pose.q).normalized());
 }
 
-// Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one; returns
-// how far it was off.
+// Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one;
+// returns how far it was off.
 double close_gap(const StepContext& context, const Feature& f, double wanted, double time)
 {
     ContactMemory& memory = context.memory;
@@ -102,8 +103,9 @@ std::vector<Goal> goals(const StepContext& context, double time)
     }
     const std::size_t pressed = list.size();
     for (const Candidate& c : memory.candidates) {
-        const bool known = std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(pressed),
-                                       [&](const Goal& goal) { return goal.feature == c.feature; });
+        const bool known =
+            std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(pressed),
+                        [&](const Goal& goal) { return goal.feature == c.feature; });
         if (!known && !c.beyond && c.touch.gap < overlapping) {
             list.push_back({c.feature, aim(c.touch.gap)});
         }

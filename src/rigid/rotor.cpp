@@ -11,8 +11,8 @@ namespace hyoryu {
 
 namespace {
 
-// Below this angle per call the second-order splitting is exact to round-off (its error is about the
-// cube of the angle).
+// Below this angle per call the second-order splitting is exact to round-off (its error is about
+// the cube of the angle).
 constexpr double small_turn = 1e-5; // [rad]
 // Steps of the midpoint rule for two free axes, a case without an exact splitting.
 constexpr int midpoint_steps = 8;
@@ -53,8 +53,8 @@ void turn_about(Quat& q, Vec3& l, int k, double angle)
     l[j] = c * l[j] - s * li;
 }
 
-// H = |l|^2 / 2 I2 + d1 l1^2 / 2 + d3 l3^2 / 2 with d = 1/I - 1/I2: Strang splitting of the last two;
-// the first commutes with everything and is applied by the caller.
+// H = |l|^2 / 2 I2 + d1 l1^2 / 2 + d3 l3^2 / 2 with d = 1/I - 1/I2: Strang splitting of the last
+// two; the first commutes with everything and is applied by the caller.
 void strang(Quat& q, Vec3& l, double d1, double d3, double s)
 {
     turn_about(q, l, 0, 0.5 * s * d1 * l[0]);

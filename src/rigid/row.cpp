@@ -42,7 +42,8 @@ void fill(Row& row, const TwoTouches& at, const Centres& c, const std::vector<Re
     row.arm_a = at.push.point - c.push_a;
     row.Ca = crossed(at.see.point - c.see_a, row.D);
     row.Ga = a.inverse_inertia * crossed(row.arm_a, row.B);
-    row.cone.K = row.D.transpose() * a.inverse_mass.asDiagonal() * row.B + row.Ca.transpose() * row.Ga;
+    row.cone.K =
+        row.D.transpose() * a.inverse_mass.asDiagonal() * row.B + row.Ca.transpose() * row.Ga;
     if (row.b >= 0) {
         const Response& b = bodies[row.b];
         row.arm_b = at.push.point - c.push_b;
@@ -84,9 +85,9 @@ void complete(Row& row, const TwoTouches& at, const Centres& centres,
     const double least = locked_part * row.cone.K(0, 0);
     if (row.cone.size == 2 && row.cone.K(1, 1) <= least) {
         row.cone.size = 1;
-    } else if (row.cone.size == 3 && row.cone.K(1, 1) * row.cone.K(2, 2) -
-                                             row.cone.K(1, 2) * row.cone.K(2, 1) <=
-                                         least * (row.cone.K(1, 1) + row.cone.K(2, 2))) {
+    } else if (row.cone.size == 3 &&
+               row.cone.K(1, 1) * row.cone.K(2, 2) - row.cone.K(1, 2) * row.cone.K(2, 1) <=
+                   least * (row.cone.K(1, 1) + row.cone.K(2, 2))) {
         row.cone.size = 1 + movable_tangents(row);
         fill(row, at, centres, bodies);
     }

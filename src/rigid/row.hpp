@@ -31,15 +31,15 @@ struct Row {
     int a = 0, b = -1; // bodies; b < 0 is a boundary
     int contact = 0;   // index of the contact in the caller's list
     Cone cone;
-    Mat3 B = Mat3::Identity(); // n, t1, t2 where the impulse acts
-    Mat3 D = Mat3::Identity(); // the same where the velocity is seen
+    Mat3 B = Mat3::Identity();                 // n, t1, t2 where the impulse acts
+    Mat3 D = Mat3::Identity();                 // the same where the velocity is seen
     Mat3 Ca = Mat3::Zero(), Cb = Mat3::Zero(); // (arm x D)
     Mat3 Ga = Mat3::Zero(), Gb = Mat3::Zero(); // I^-1 (arm x B)
     Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};       // of the impulse [m]
     Vec3 wall_velocity{0, 0, 0};
-    double target = 0; // wanted normal velocity [m/s]
+    double target = 0;    // wanted normal velocity [m/s]
     Vec3 before{0, 0, 0}; // velocity at the start of the solve, in the axes of D [m/s]
-    Vec3 p{0, 0, 0};   // impulse in the axes of B [N s]
+    Vec3 p{0, 0, 0};      // impulse in the axes of B [N s]
     bool tangential = false;
 
     Vec3 impulse() const { return B * p; }

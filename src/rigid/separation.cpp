@@ -7,8 +7,8 @@ namespace hyoryu {
 
 namespace {
 
-// A face axis is kept unless another axis is better by more than this: near parallel features describe
-// one contact, and the face gives it more points [m].
+// A face axis is kept unless another axis is better by more than this: near parallel features
+// describe one contact, and the face gives it more points [m].
 constexpr double face_preference = 1e-7;
 // Sine of the angle below which two edges are parallel and their cross product is noise.
 constexpr double parallel_edges = 1e-4;

@@ -17,9 +17,9 @@ struct Separation {
     int b = 0; // face or edge of b
 };
 
-/// Separating axes of two polytopes: the normals of all faces, and the cross products of those edges that
-/// span a face of the Minkowski difference (Gregorius, GDC 2013). Returns early with the first face axis
-/// that separates by more than `enough`.
+/// Separating axes of two polytopes: the normals of all faces, and the cross products of those
+/// edges that span a face of the Minkowski difference (Gregorius, GDC 2013). Returns early with the
+/// first face axis that separates by more than `enough`.
 Separation separation(const Placed& a, const Placed& b, double enough);
 
 } // namespace hyoryu

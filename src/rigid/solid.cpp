@@ -10,10 +10,11 @@ namespace hyoryu {
 
 namespace {
 
-// Sides of the prism that stands for a rod against polytopes: its normals are within 11 degrees of the
-// true ones, at a cost near that of a box.
+// Sides of the prism that stands for a rod against polytopes: its normals are within 11 degrees of
+// the true ones, at a cost near that of a box.
 constexpr int prism_sides = 16;
-// Two faces are one plane if their unit normals differ by less (the faces of a mesh in single precision).
+// Two faces are one plane if their unit normals differ by less (the faces of a mesh in single
+// precision).
 constexpr double coplanar_angle = 1e-5;
 
 Vec3 middle(const std::vector<Vec3>& points)
@@ -51,7 +52,8 @@ Face face_through(const std::vector<Vec3>& corners, std::vector<int> of_face, co
 }
 
 // Corners of a convex planar set in counter-clockwise order about its middle, seen from outside.
-std::vector<int> in_order(const std::vector<Vec3>& corners, std::vector<int> set, const Vec3& normal)
+std::vector<int> in_order(const std::vector<Vec3>& corners, std::vector<int> set,
+                          const Vec3& normal)
 {
     Vec3 centre = Vec3::Zero();
     for (const int k : set) {
@@ -63,9 +65,8 @@ std::vector<int> in_order(const std::vector<Vec3>& corners, std::vector<int> set
         const Vec3 d = corners[k] - centre;
         return std::atan2(d.dot(w), d.dot(u));
     };
-    std::sort(set.begin(), set.end(), [&](int k, int m) {
-        return std::pair(angle(k), k) < std::pair(angle(m), m);
-    });
+    std::sort(set.begin(), set.end(),
+              [&](int k, int m) { return std::pair(angle(k), k) < std::pair(angle(m), m); });
     return set;
 }
 
@@ -167,8 +168,8 @@ void add_polytope(Solid& solid, const Polytope& shape, int dimensions)
     solid.faces_of_corner.resize(solid.corners.size());
     solid.thickness = solid.reach;
     for (std::size_t f = 0; f < solid.faces.size(); ++f) {
-        solid.thickness = std::min(solid.thickness, solid.faces[f].offset -
-                                                        solid.faces[f].normal.dot(inside));
+        solid.thickness =
+            std::min(solid.thickness, solid.faces[f].offset - solid.faces[f].normal.dot(inside));
         for (const int k : solid.faces[f].corners) {
             solid.faces_of_corner[k].push_back(static_cast<int>(f));
         }

@@ -33,8 +33,9 @@ struct Edge {
     Vec3 arc{0, 0, 0};
 };
 
-/// A shape in its body frame. A rod carries a prism in `corners`, `faces` and `edges`: against planes and
-/// balls it is exact, against polytopes and other rods it is the prism of the same cross-section.
+/// A shape in its body frame. A rod carries a prism in `corners`, `faces` and `edges`: against
+/// planes and balls it is exact, against polytopes and other rods it is the prism of the same
+/// cross-section.
 struct Solid {
     Form form = Form::ball;
     double radius = 0;      // ball, rod [m]
@@ -52,7 +53,8 @@ struct Solid {
 /// The tables of a shape. In two dimensions a rod is the rectangle of its lengthwise section.
 Solid solid_of(const ContactShape& shape, int dimensions);
 
-/// The edges of a polygon in the x-z plane, from faces that are edges or from one face that is the polygon.
+/// The edges of a polygon in the x-z plane, from faces that are edges or from one face that is the
+/// polygon.
 std::vector<std::vector<int>> polygon_edges(const Polytope& polygon);
 
 } // namespace hyoryu

@@ -21,8 +21,7 @@ constexpr std::size_t dense_contacts = 100;
 bool one_body(std::span<const Row> rows, const std::vector<Response>& bodies)
 {
     return std::all_of(rows.begin(), rows.end(), [&](const Row& row) {
-        return row.a == rows[0].a &&
-               (row.b < 0 || !bodies[row.b].movable);
+        return row.a == rows[0].a && (row.b < 0 || !bodies[row.b].movable);
     });
 }
 

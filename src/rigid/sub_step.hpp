@@ -20,14 +20,14 @@ bool tired(const ContactMemory& memory, int a, int b);
 /// Finds all possible contacts of the cluster at the current poses.
 void find_contacts(const StepContext& context, const Cluster& cluster, double time);
 
-/// Impact rounds: while any touching contacts approach, all of them are solved together, each with the
-/// restitution of its own approach; then looked at again. The clamp of the energy (Kane and Levinson
-/// 1985) keeps every round dissipative.
+/// Impact rounds: while any touching contacts approach, all of them are solved together, each with
+/// the restitution of its own approach; then looked at again. The clamp of the energy (Kane and
+/// Levinson 1985) keeps every round dissipative.
 void solve_impacts(const StepContext& context, const Cluster& cluster, double time);
 
 /// The smooth motion over the sub-step with persistent contacts: fills the paths and `persistent`.
-/// The velocity is asked for with the arm at the end, the impulse acts with the arm at the middle, which
-/// makes the scheme second order.
+/// The velocity is asked for with the arm at the end, the impulse acts with the arm at the middle,
+/// which makes the scheme second order.
 void plan_motion(const StepContext& context, const SubStep& sub);
 
 /// The first time within the sub-step at which a contact that is not held closes; h if none does.
@@ -36,8 +36,8 @@ double first_event(const StepContext& context, const SubStep& sub);
 /// Moves the bodies along their paths to s and books the share of the contact impulses.
 void move_to(const StepContext& context, const SubStep& sub, double s);
 
-/// Brings the gaps of pressed contacts to zero, and pushes overlapping ones apart, by position alone; the
-/// possible contacts that were found move with the bodies.
+/// Brings the gaps of pressed contacts to zero, and pushes overlapping ones apart, by position
+/// alone; the possible contacts that were found move with the bodies.
 void project_gaps(const StepContext& context, const SubStep& sub, double time);
 
 /// Solves the rows island by island; returns the worst residual.

@@ -41,9 +41,11 @@ Rigid jumble(int n)
         } else if (k % 3 == 2) {
             shape = Rod{0.06, 0.5};
         }
-        Body body = body_of(shape, k % 2 == 0 ? 500 : 2500, {0.9 * r(0), 0.9 * r(1), 0.8 + 0.3 * k});
+        Body body =
+            body_of(shape, k % 2 == 0 ? 500 : 2500, {0.9 * r(0), 0.9 * r(1), 0.8 + 0.3 * k});
         body.orientation = Quat(r(2), r(3), r(4), r(5)).normalized();
-        rigid.bodies.push_back(thrown(body, 4 * Vec3(r(6), r(7), r(8)), 10 * Vec3(r(9), r(10), r(11))));
+        rigid.bodies.push_back(
+            thrown(body, 4 * Vec3(r(6), r(7), r(8)), 10 * Vec3(r(9), r(10), r(11))));
     }
     return rigid;
 }
@@ -57,7 +59,8 @@ TEST(Ledger, MomentumOfEveryBodyClosesFromTheLog)
         std::vector<Wrench> loads(rigid.bodies.size());
         for (std::size_t m = 0; m < loads.size(); ++m) {
             const int base = static_cast<int>(m) + 100 * k;
-            loads[m].force = 10 * Vec3(number(base) - 0.5, number(base + 7) - 0.5, number(base + 13));
+            loads[m].force =
+                10 * Vec3(number(base) - 0.5, number(base + 7) - 0.5, number(base + 13));
         }
         const std::vector<Body> before = rigid.bodies;
         std::vector<Contact> log;
@@ -69,14 +72,19 @@ TEST(Ledger, MomentumOfEveryBodyClosesFromTheLog)
             Vec3 moment = Vec3::Zero();
             for (const Contact& contact : log) {
                 const Vec3 P = contact.normal_impulse * contact.normal + contact.tangential_impulse;
-                const double sign = contact.a == static_cast<int>(m) ? 1 : contact.b == static_cast<int>(m) ? -1 : 0;
+                const double sign = contact.a == static_cast<int>(m)   ? 1
+                                    : contact.b == static_cast<int>(m) ? -1
+                                                                       : 0;
                 sum += sign * P;
-                moment += sign * (contact.point - 0.5 * (before[m].position + now.position)).cross(P);
+                moment +=
+                    sign * (contact.point - 0.5 * (before[m].position + now.position)).cross(P);
                 EXPECT_GE(contact.energy_lost, 0);
             }
             const Vec3 gained = now.mass.mass * (now.velocity - before[m].velocity);
-            worst = std::max(worst, (gained - sum).norm() / (now.mass.mass * (0.1 + now.velocity.norm())));
-            most_turn = std::max(most_turn, (now.angular_momentum - before[m].angular_momentum - moment).norm());
+            worst = std::max(worst,
+                             (gained - sum).norm() / (now.mass.mass * (0.1 + now.velocity.norm())));
+            most_turn = std::max(
+                most_turn, (now.angular_momentum - before[m].angular_momentum - moment).norm());
         }
     }
     EXPECT_LE(worst, 1e-12);
@@ -97,8 +105,10 @@ TEST(MidAir, CornerOnFaceKeepsMomentumAndLosesEnergy)
          {std::pair(Quat::Identity(), corner_first), {turn_about(Vec3::UnitZ(), 45), edge_first}}) {
         Rigid rigid = scene(0.6, 0.3);
         rigid.settings.gravity.setZero();
-        rigid.bodies.push_back(thrown(box({0.2, 0.2, 0.2}, 500, {-0.5, 0.02, 0.01}), {2, 0, 0}, Vec3::Zero()));
-        rigid.bodies.push_back(thrown(box({0.2, 0.2, 0.2}, 900, {0.5, 0, 0}), {-3, 0, 0}, Vec3::Zero()));
+        rigid.bodies.push_back(
+            thrown(box({0.2, 0.2, 0.2}, 500, {-0.5, 0.02, 0.01}), {2, 0, 0}, Vec3::Zero()));
+        rigid.bodies.push_back(
+            thrown(box({0.2, 0.2, 0.2}, 900, {0.5, 0, 0}), {-3, 0, 0}, Vec3::Zero()));
         rigid.bodies[0].orientation = left;
         rigid.bodies[1].orientation = right;
         const auto momentum = [&] {
@@ -219,7 +229,8 @@ TEST(Overlap, InitialOverlapLeavesWithoutEnergy)
 
 TEST(Painleve, SlidingRodTerminates)
 {
-    // the timber at 57.7 degrees pushed into its contact, with more friction than any solution allows
+    // the timber at 57.7 degrees pushed into its contact, with more friction than any solution
+    // allows
     Rigid rigid = on_floor(0.0, 1.5);
     rigid.bodies.push_back(box(timber_size(), 520, Vec3::Zero()));
     Body& body = rigid.bodies[0];

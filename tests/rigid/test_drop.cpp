@@ -43,9 +43,8 @@ TEST_P(FlatDrop, FollowsTheParabolasAndComesToRest)
     const double dt = 1e-3;
     double square = 0;
     const Body& cube = rigid.bodies[0];
-    run(rigid, dt, 1200, [&](double t) {
-        square += sq(cube.position.z() - exact_height(t, fall, rest));
-    });
+    run(rigid, dt, 1200,
+        [&](double t) { square += sq(cube.position.z() - exact_height(t, fall, rest)); });
     EXPECT_LE(std::sqrt(square / 1200), 1e-6);
     EXPECT_LE(std::abs(cube.position.x()), 1e-12);
     EXPECT_LE(cube.orientation.vec().norm(), 1e-9);

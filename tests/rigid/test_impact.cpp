@@ -38,11 +38,12 @@ TEST_P(Tilted, LeavesTheFirstImpactAsComputed)
     EXPECT_NEAR(omega, drop.omega, 1e-5 * drop.omega);
 }
 
-INSTANTIATE_TEST_SUITE_P(Drops, Tilted,
-                         testing::Values(TiltedDrop{10, 0.0, 0.129830, {0, 0, -0.311056}, 54.024934},
-                                         TiltedDrop{10, 0.3, 0.129830, {-0.407212, 0, -0.043340}, 43.402527},
-                                         TiltedDrop{30, 0.0, 0.136651, {0, 0, 0.404990}, 47.886429},
-                                         TiltedDrop{30, 0.3, 0.136651, {-0.595628, 0, 0.831453}, 16.251499}));
+INSTANTIATE_TEST_SUITE_P(
+    Drops, Tilted,
+    testing::Values(TiltedDrop{10, 0.0, 0.129830, {0, 0, -0.311056}, 54.024934},
+                    TiltedDrop{10, 0.3, 0.129830, {-0.407212, 0, -0.043340}, 43.402527},
+                    TiltedDrop{30, 0.0, 0.136651, {0, 0, 0.404990}, 47.886429},
+                    TiltedDrop{30, 0.3, 0.136651, {-0.595628, 0, 0.831453}, 16.251499}));
 
 TEST(CornerDrop, LeavesTheFirstImpactAsComputed)
 {
@@ -78,7 +79,8 @@ TEST(RandomImpacts, NeverGainEnergy)
         Body cube = box(cube_size(), 250, {0, 0, 0.1});
         cube.orientation = Quat(r(2) - 0.5, r(3) - 0.5, r(4) - 0.5, r(5) - 0.5).normalized();
         cube.velocity = {4 * r(6) - 2, 4 * r(7) - 2, -1 - r(8)};
-        cube.angular_momentum = angular_momentum(cube, 40 * Vec3(r(9) - 0.5, r(10) - 0.5, r(11) - 0.5));
+        cube.angular_momentum =
+            angular_momentum(cube, 40 * Vec3(r(9) - 0.5, r(10) - 0.5, r(11) - 0.5));
         rigid.bodies.push_back(cube);
         const double before = kinetic_energy(cube);
         const std::vector<Contact> log = run(rigid, 1e-2, 20);

@@ -63,8 +63,8 @@ TEST(Piles, TenBoxesStand)
 TEST(Piles, PyramidStands)
 {
     Rigid rigid = on_floor(0.0, 0.5);
-    for (const Vec3& p : {Vec3(-0.22, 0, 0.1), Vec3(0, 0, 0.1), Vec3(0.22, 0, 0.1), Vec3(-0.11, 0, 0.3),
-                          Vec3(0.11, 0, 0.3), Vec3(0, 0, 0.5)}) {
+    for (const Vec3& p : {Vec3(-0.22, 0, 0.1), Vec3(0, 0, 0.1), Vec3(0.22, 0, 0.1),
+                          Vec3(-0.11, 0, 0.3), Vec3(0.11, 0, 0.3), Vec3(0, 0, 0.5)}) {
         rigid.bodies.push_back(box(Vec3::Constant(0.2), 1000, p));
     }
     expect_still(rigid, 1e-3, 500, 1e-9);

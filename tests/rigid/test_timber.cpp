@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The timber released at 45 degrees on its lower right edge (contact notes, table (c), law S; test T7).
+// The timber released at 45 degrees on its lower right edge (contact notes, table (c), law S; test
+// T7).
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -46,9 +47,8 @@ TEST_P(Timber, FallsBouncesAndSettlesAsTheEventSolver)
     const std::vector<Contact> log = run(rigid, 1e-3, 1000, [&](double t) {
         peak = t > exact.t_d ? std::max(peak, right(body).z()) : 0;
     });
-    const auto first = std::find_if(log.begin(), log.end(), [](const Contact& c) {
-        return c.kind == Contact::Kind::impact;
-    });
+    const auto first = std::find_if(
+        log.begin(), log.end(), [](const Contact& c) { return c.kind == Contact::Kind::impact; });
     ASSERT_NE(first, log.end());
     EXPECT_NEAR(first->time, exact.t_d, 1e-6);
     EXPECT_NEAR(peak, exact.peak, 0.05e-3);

@@ -18,7 +18,9 @@ namespace hyoryu {
 struct Ball {
     double radius = 0; // [m]
 };
-/// A circular cylinder about the body's x axis; contact with planes is exact.
+/// A circular cylinder about the body's x axis. Contact with planes and balls is exact; against
+/// polytopes and other rods it is a prism of 16 sides of the same cross-section. In two dimensions
+/// it is the rectangle of its lengthwise section.
 struct Rod {
     double radius = 0; // [m]
     double length = 0; // [m]
@@ -30,38 +32,40 @@ struct Polytope {
 };
 using ContactShape = std::variant<Ball, Rod, Polytope>;
 
-/// The polytope of a box of the given edge lengths; a rectangle in the x-z plane if `dimensions` is 2.
+/// The polytope of a box of the given edge lengths; a rectangle in the x-z plane if `dimensions`
+/// is 2.
 Polytope box_polytope(const Vec3& size, int dimensions);
 
-/// The convex hull of the points; nearly coplanar triangles are merged into faces. The points must span a
-/// volume. Source: incremental hull, de Berg et al. (2008), ch. 11.
+/// The convex hull of the points; nearly coplanar triangles are merged into faces. The points must
+/// span a volume. Source: incremental hull, de Berg et al. (2008), ch. 11.
 Polytope convex_hull(const std::vector<Vec3>& points);
 
 /// Mass, and inertia about the centre of mass in body axes.
 struct MassProperties {
-    double mass = 0;                  // [kg]; kg/m in two dimensions
-    Mat3 inertia = Mat3::Identity();  // I_b [kg m2]; kg m in two dimensions
+    double mass = 0;                 // [kg]; kg/m in two dimensions
+    Mat3 inertia = Mat3::Identity(); // I_b [kg m2]; kg m in two dimensions
 };
 
 /// The exact mass properties of a shape of uniform density. Two dimensions: per metre of width, and
 /// the inertia about y is that of the cross-section in the x-z plane.
 MassProperties mass_properties(const ContactShape& shape, double density, int dimensions);
 
-/// A rigid body. State: pose (x, q), V and the angular momentum L in world axes, so that torque-free
-/// rotation keeps L exactly.
+/// A rigid body. State: pose (x, q), V and the angular momentum L in world axes, so that
+/// torque-free rotation keeps L exactly.
 struct Body {
     std::string name;
     ContactShape shape;
     MassProperties mass;
-    int material = 0;                   // index into ContactLaws
-    std::array<bool, 6> locks{};        // x y z rx ry rz in world axes; all true: fixed
-    Vec3 position{0, 0, 0};             // x_cg [m]
+    int material = 0;                    // index into ContactLaws
+    std::array<bool, 6> locks{};         // x y z rx ry rz in world axes; all true: fixed
+    Vec3 position{0, 0, 0};              // x_cg [m]
     Quat orientation = Quat::Identity(); // q, body to world
-    Vec3 velocity{0, 0, 0};             // V [m/s]
-    Vec3 angular_momentum{0, 0, 0};     // L [kg m2/s]
+    Vec3 velocity{0, 0, 0};              // V [m/s]
+    Vec3 angular_momentum{0, 0, 0};      // L [kg m2/s]
 };
 
-/// omega = R I_b^-1 R^T L, with locked axes removed [rad/s].
+/// omega = R I_b^-1 R^T L; with locked axes, the inertia restricted to the free axes is inverted
+/// [rad/s]. In two dimensions only L_y may differ from zero.
 Vec3 angular_velocity(const Body& body);
 /// L of a body that turns with omega.
 Vec3 angular_momentum(const Body& body, const Vec3& omega);
@@ -80,7 +84,8 @@ struct Plane {
     Vec3 normal{0, 0, 1}; // unit
 };
 /// The inside of a box with optional sides (-x +x -y +y -z +z); a side holds a point only while the
-/// point is within the extent of the side.
+/// point is within the extent of the side towards open neighbours, and not further behind it than a
+/// twentieth of the reach of its body: what has left over a rim is not pulled back.
 struct Basin {
     Vec3 min{0, 0, 0};
     Vec3 max{0, 0, 0};
@@ -107,7 +112,7 @@ struct ContactLaws {
         double restitution = 0.4; // e [1]
         double friction = 0.3;    // mu [1]
     };
-    Law otherwise;                                       // of pairs that are not listed
+    Law otherwise;                                         // of pairs that are not listed
     std::vector<std::pair<std::array<int, 2>, Law>> pairs; // unordered pairs of material indices
     const Law& of(int a, int b) const;
 };

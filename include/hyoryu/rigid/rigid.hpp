@@ -14,35 +14,35 @@ namespace hyoryu {
 struct Contact {
     enum class Kind { impact, resting };
     Kind kind = Kind::impact;
-    double time = 0;              // of the impact, located within the step [s]
-    int a = 0;                    // body
-    int b = -1;                   // other body, or -1 - (index of the boundary)
-    Vec3 point{0, 0, 0};          // [m]
-    Vec3 normal{0, 0, 1};         // from b to a, unit
-    double approach_speed = 0;    // normal speed of approach before the impact [m/s], >= 0
-    double normal_impulse = 0;    // on a, along the normal [N s]
+    double time = 0;                  // of the impact, located within the step [s]
+    int a = 0;                        // body
+    int b = -1;                       // other body, or -1 - (index of the boundary)
+    Vec3 point{0, 0, 0};              // [m]
+    Vec3 normal{0, 0, 1};             // from b to a, unit
+    double approach_speed = 0;        // normal speed of approach before the impact [m/s], >= 0
+    double normal_impulse = 0;        // on a, along the normal [N s]
     Vec3 tangential_impulse{0, 0, 0}; // on a [N s]
-    double effective_mass = 0;    // 1 / (n . K n) [kg]
-    double energy_lost = 0;       // [J], >= 0
+    double effective_mass = 0;        // 1 / (n . K n) [kg]
+    double energy_lost = 0;           // [J], >= 0
 };
 
 /// Choices of the solver, with the defaults of the method.
 struct RigidSettings {
     int dimensions = 3;
-    Vec3 gravity{0, 0, -9.81};        // [m/s2]
-    double contact_tolerance = 1e-7;  // gap below which a point is in contact [m]
-    double resting_speed = 1e-3;      // approach speed below which restitution is zero [m/s]
+    Vec3 gravity{0, 0, -9.81};       // [m/s2]
+    double contact_tolerance = 1e-7; // gap below which a point is in contact [m]
+    double resting_speed = 1e-3;     // approach speed below which restitution is zero [m/s]
 };
 
 /// Counters that tell how hard the contact problem was.
 struct RigidCounters {
     long long impacts = 0;
-    long long rounds = 0;              // impact rounds
-    long long events = 0;              // located sub-steps
-    long long tangential_impacts = 0;  // Painleve configurations met
-    long long capped_steps = 0;        // steps that ran into the limit of events
-    double worst_residual = 0;         // largest remaining approach speed of a solve [m/s]
-    double worst_penetration = 0;      // [m]
+    long long rounds = 0;             // impact rounds
+    long long events = 0;             // located sub-steps
+    long long tangential_impacts = 0; // Painleve configurations met
+    long long capped_steps = 0;       // steps that ran into the limit of events
+    double worst_residual = 0;        // largest remaining approach speed of a solve [m/s]
+    double worst_penetration = 0;     // [m]
 };
 
 struct ContactMemory; // persistent contacts and their impulses (warm start); private to rigid
@@ -62,8 +62,12 @@ struct Rigid {
 };
 
 /// Advances all bodies from `time` to `time + dt` under gravity and one constant wrench a body
-/// (`loads[k]` acts on `bodies[k]`), with impacts located in time, and appends what happened to `log`.
-/// Source: the project's contact notes; Moreau (1988) for the time-discrete cone law.
+/// (`loads[k]` acts on `bodies[k]`), with impacts located in time, and appends what happened to
+/// `log`. The impulses in the log make up all that contact did to a body: M dV = sum of impulses +
+/// M g dt + F dt to round-off. Torques act with the arms at the middle of a sub-step (`point`),
+/// exact for impacts. Shapes, masses and locks must not change after the first step; locked
+/// velocities are set to zero. Source: the project's contact notes; Moreau (1988) for the
+/// time-discrete cone law.
 void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
           std::vector<Contact>& log);
 
@@ -71,8 +75,8 @@ void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
 std::vector<double> save_memory(const Rigid& rigid);
 void load_memory(Rigid& rigid, std::span<const double> numbers);
 
-/// Depth by which two bodies, or a body and a boundary, overlap at `time` [m]; negative or zero if they
-/// do not. `b` as in Contact.
+/// Depth by which two bodies, or a body and a boundary, overlap at `time` [m]; negative or zero if
+/// they do not. `b` as in Contact.
 double overlap(const Rigid& rigid, int a, int b, double time);
 
 } // namespace hyoryu
