@@ -10,112 +10,143 @@ namespace hyoryu {
 
 namespace {
 
-// Squared distances of one run of candidates, kept in cache.
-struct Distances {
-    std::vector<float> squared;
+// All points that may be near any place of one cell of a grid, side by side, so that the rows of a cell
+// share them and each row is one straight loop.
+class Candidates {
+public:
+    explicit Candidates(real radius) : radius_(radius) {}
+
+    /// Gathers what is near the cell of the point, unless it is there already.
+    void gather(std::span<const CellGrid* const> grids, const Vec3& point);
+    /// Appends the rows within the radius of the point; `out` has room for all of them.
+    std::int32_t* append_near(const Vec3& point, std::int32_t* out);
+    std::size_t size() const { return count_; }
+
+private:
+    void add(const CellGrid& grid);
+    void add_run(const CellGrid& grid, std::int32_t begin, std::int32_t end, const Vec3& low);
+
+    real radius_;
+    Vec3 origin_{infinity, 0, 0}; // of the cell; positions are relative to it [m]
+    real cell_ = 0;
+    float slack_ = 0;
+    std::size_t count_ = 0; // of candidates; the columns have room for more
+    std::vector<float> x_, y_, z_, squared_;
+    std::vector<std::int32_t> row_;
 };
 
-// Appends the rows of the run [begin, end) that are within the radius. Branch-free: every candidate is
-// written and the end moves on if it is near.
-std::int32_t* append_near(const CellGrid& grid, std::int32_t begin, std::int32_t end,
-                          const std::array<float, 3>& p, float radius_squared,
-                          Distances& distances, std::int32_t* out)
+void Candidates::gather(std::span<const CellGrid* const> grids, const Vec3& point)
 {
-    const std::int32_t n = end - begin;
-    if (static_cast<std::size_t>(n) > distances.squared.size()) {
-        distances.squared.resize(static_cast<std::size_t>(n));
+    const Vec3 inside = point - origin_;
+    if ((inside.array() >= 0).all() && (inside.array() < cell_).all()) {
+        return;
     }
-    float* const squared = distances.squared.data();
-    const float* const x = grid.x.data() + begin;
-    const float* const y = grid.y.data() + begin;
-    const float* const z = grid.z.data() + begin;
-    for (std::int32_t k = 0; k < n; ++k) {
-        squared[k] = sq(x[k] - p[0]) + sq(y[k] - p[1]) + sq(z[k] - p[2]);
+    // Cells of the first grid that has any: the rows of a destination come in their order.
+    const CellGrid* frame = grids.front();
+    for (const CellGrid* grid : grids) {
+        frame = frame->order.empty() ? grid : frame;
     }
-    const std::int32_t* const order = grid.order.data() + begin;
-    for (std::int32_t k = 0; k < n; ++k) {
-        *out = order[k];
-        out += squared[k] <= radius_squared ? 1 : 0;
+    cell_ = frame->cell;
+    origin_ = frame->origin + cell_ * ((point - frame->origin) / cell_).array().floor().matrix();
+    slack_ = 0;
+    count_ = 0;
+    for (const CellGrid* grid : grids) {
+        if (!grid->order.empty()) {
+            add(*grid);
+        }
     }
-    return out;
 }
 
-// Offset from a point to the nearest place of the cell [k, k + 1) x cell, along one axis.
-float gap(Index k, real cell, real p)
+void Candidates::add(const CellGrid& grid)
 {
-    const real low = static_cast<real>(k) * cell;
-    return static_cast<float>(p < low ? low - p : (p > low + cell ? p - low - cell : 0));
-}
-
-// Collects the rows near one point after another at the end of a vector.
-struct Search {
-    real radius;
-    std::vector<std::int32_t>& found;
-    std::size_t count = 0; // entries of `found` in use
-    Distances distances;
-
-    // Adds all rows of the grid within the radius of the point, in the order of the cells.
-    void add_near(const CellGrid& grid, const Vec3& point);
-    void add_run(const CellGrid& grid, Index row, Index lo, Index hi, const std::array<float, 3>& p);
-};
-
-void Search::add_near(const CellGrid& grid, const Vec3& point)
-{
-    const Vec3 p = point - grid.origin;
-    const real reach = radius + grid.slack;
+    slack_ = std::max(slack_, grid.slack);
+    const real reach = radius_ + grid.slack;
     std::array<Index, 3> lo{};
     std::array<Index, 3> hi{};
+    const Vec3 low = origin_ - grid.origin;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        lo[a] = std::max<Index>(static_cast<Index>(std::floor((p[axis] - reach) / grid.cell)), 0);
-        hi[a] = std::min<Index>(static_cast<Index>(std::floor((p[axis] + reach) / grid.cell)),
+        lo[a] = std::max<Index>(static_cast<Index>(std::floor((low[axis] - reach) / grid.cell)), 0);
+        hi[a] = std::min<Index>(static_cast<Index>(std::floor((low[axis] + cell_ + reach) / grid.cell)),
                                 grid.count[a] - 1);
         if (lo[a] > hi[a]) {
             return;
         }
     }
-    const std::array<float, 3> pf{static_cast<float>(p.x()), static_cast<float>(p.y()),
-                                  static_cast<float>(p.z())};
     for (Index cz = lo[2]; cz <= hi[2]; ++cz) {
         for (Index cy = lo[1]; cy <= hi[1]; ++cy) {
-            // Only the cells of this row that the sphere of the radius can touch.
-            const float rest = static_cast<float>(sq(reach)) - sq(gap(cy, grid.cell, p.y())) -
-                               sq(gap(cz, grid.cell, p.z()));
-            if (rest <= 0) {
-                continue;
-            }
-            const real half = std::sqrt(rest) + grid.slack;
-            const auto left = static_cast<Index>(std::floor((p.x() - half) / grid.cell));
-            const auto right = static_cast<Index>(std::floor((p.x() + half) / grid.cell));
-            add_run(grid, grid.count[0] * (cy + grid.count[1] * cz), std::max(left, lo[0]),
-                    std::min(right, hi[0]), pf);
+            const Index row = grid.count[0] * (cy + grid.count[1] * cz);
+            const std::int32_t begin = grid.start[static_cast<std::size_t>(row + lo[0])];
+            const std::int32_t end = grid.start[static_cast<std::size_t>(row + hi[0]) + 1];
+            add_run(grid, begin, end, low);
         }
     }
 }
 
-void Search::add_run(const CellGrid& grid, Index row, Index lo, Index hi,
-                     const std::array<float, 3>& p)
+void Candidates::add_run(const CellGrid& grid, std::int32_t begin, std::int32_t end, const Vec3& low)
 {
-    if (lo > hi) {
-        return;
+    const auto n = static_cast<std::size_t>(end - begin);
+    if (count_ + n > row_.size()) {
+        for (std::vector<float>* column : {&x_, &y_, &z_, &squared_}) {
+            column->resize(2 * (count_ + n));
+        }
+        row_.resize(2 * (count_ + n));
     }
-    const std::int32_t begin = grid.start[static_cast<std::size_t>(row + lo)];
-    const std::int32_t end = grid.start[static_cast<std::size_t>(row + hi) + 1];
-    const std::size_t needed = count + static_cast<std::size_t>(end - begin) + 1;
-    if (needed > found.size()) {
-        found.resize(2 * needed);
+    const auto copy = [&](const std::vector<float>& from, double shift, std::vector<float>& to) {
+        const float* const source = from.data() + begin;
+        float* const target = to.data() + count_;
+        const auto offset = static_cast<float>(shift);
+        for (std::size_t k = 0; k < n; ++k) {
+            target[k] = source[k] - offset;
+        }
+    };
+    copy(grid.x, low.x(), x_);
+    copy(grid.y, low.y(), y_);
+    copy(grid.z, low.z(), z_);
+    std::copy_n(grid.order.data() + begin, n, row_.data() + count_);
+    count_ += n;
+}
+
+std::int32_t* Candidates::append_near(const Vec3& point, std::int32_t* out)
+{
+    const Vec3 offset = point - origin_;
+    const float px = static_cast<float>(offset.x());
+    const float py = static_cast<float>(offset.y());
+    const float pz = static_cast<float>(offset.z());
+    const std::size_t n = count_;
+    const float* const x = x_.data();
+    const float* const y = y_.data();
+    const float* const z = z_.data();
+    float* const squared = squared_.data();
+    for (std::size_t k = 0; k < n; ++k) {
+        squared[k] = sq(x[k] - px) + sq(y[k] - py) + sq(z[k] - pz);
     }
-    const float radius_squared = sq(static_cast<float>(radius) + grid.slack);
-    const std::int32_t* const filled =
-        append_near(grid, begin, end, p, radius_squared, distances, found.data() + count);
-    count = static_cast<std::size_t>(filled - found.data());
+    // Branch-free: every candidate is written and the end moves on if it is near.
+    const float limit = sq(static_cast<float>(radius_) + 2 * slack_);
+    const std::int32_t* const row = row_.data();
+    for (std::size_t k = 0; k < n; ++k) {
+        *out = row[k];
+        out += squared[k] <= limit ? 1 : 0;
+    }
+    return out;
+}
+
+// Takes the rows of one owner out of the entries from `begin` on; returns the new number of entries.
+std::size_t without_kin(std::vector<std::int32_t>& entries, std::size_t begin, std::size_t end,
+                        std::span<const std::int32_t> owner, Index row)
+{
+    const std::int32_t own = owner[static_cast<std::size_t>(row)];
+    const auto first = entries.begin();
+    const auto kept = std::remove_if(
+        first + static_cast<Index>(begin), first + static_cast<Index>(end),
+        [&](std::int32_t j) { return owner[static_cast<std::size_t>(j)] == own; });
+    return static_cast<std::size_t>(kept - first);
 }
 
 } // namespace
 
 void PairList::build(std::span<const Vec3> x, Rows destination,
-                     std::span<const CellGrid* const> sources, real radius,
-                     std::span<const std::int32_t> owner)
+                     std::span<const CellGrid* const> sources, real radius, const ListChoice& choice)
 {
     rows_ = destination;
     const auto void_row = static_cast<std::int32_t>(x.size());
@@ -123,31 +154,33 @@ void PairList::build(std::span<const Vec3> x, Rows destination,
     blocks_.resize(static_cast<std::size_t>(blocks));
     parallel_blocks(0, blocks, [&](Index b) {
         Block& block = blocks_[static_cast<std::size_t>(b)];
-        Search search{.radius = radius, .found = block.entries};
+        auto& entries = block.entries;
+        Candidates candidates(radius);
         const Index first = destination.begin + b * block_rows;
         const Index last = std::min(destination.end, first + block_rows);
+        std::size_t count = 0;
         for (Index i = first; i < last; ++i) {
-            const std::size_t begin = search.count;
-            block.start[static_cast<std::size_t>(i - first)] = static_cast<std::int32_t>(begin);
-            for (const CellGrid* source : sources) {
-                search.add_near(*source, x[static_cast<std::size_t>(i)]);
+            const auto row = static_cast<std::size_t>(i);
+            block.start[static_cast<std::size_t>(i - first)] = static_cast<std::int32_t>(count);
+            if (!choice.wanted.empty() && choice.wanted[row] == 0) {
+                continue;
             }
-            if (!owner.empty()) {
-                const std::int32_t own = owner[static_cast<std::size_t>(i)];
-                const auto found = block.entries.begin();
-                search.count = static_cast<std::size_t>(
-                    std::remove_if(found + static_cast<Index>(begin),
-                                   found + static_cast<Index>(search.count),
-                                   [&](std::int32_t j) { return owner[static_cast<std::size_t>(j)] == own; }) -
-                    found);
+            candidates.gather(sources, x[row]);
+            if (count + candidates.size() + lanes > entries.size()) {
+                entries.resize(2 * (count + candidates.size() + lanes));
             }
-            block.entries.resize(std::max(block.entries.size(), search.count + lanes));
-            while (search.count % lanes != 0) {
-                block.entries[search.count++] = void_row;
+            const std::size_t begin = count;
+            count = static_cast<std::size_t>(
+                candidates.append_near(x[row], entries.data() + begin) - entries.data());
+            if (!choice.owner.empty()) {
+                count = without_kin(entries, begin, count, choice.owner, i);
+            }
+            while (count % lanes != 0) {
+                entries[count++] = void_row;
             }
         }
         std::fill(block.start.begin() + (last - first), block.start.end(),
-                  static_cast<std::int32_t>(search.count));
+                  static_cast<std::int32_t>(count));
     });
 }
 
@@ -155,6 +188,17 @@ void PairList::clear()
 {
     rows_ = {};
     blocks_.clear();
+}
+
+std::vector<std::uint8_t> PairList::met(Index all_rows) const
+{
+    std::vector<std::uint8_t> marks(static_cast<std::size_t>(all_rows) + 1, 0); // one for the void row
+    for (const Block& block : blocks_) {
+        for (std::int32_t k = 0; k < block.start.back(); ++k) {
+            marks[static_cast<std::size_t>(block.entries[static_cast<std::size_t>(k)])] = 1;
+        }
+    }
+    return marks;
 }
 
 Index PairList::entries() const

@@ -96,13 +96,16 @@ void build_lists(Fluid& fluid)
     const CellGrid* const body_grid[] = {&n.body_grid};
     const CellGrid* const solid_grids[] = {&n.wall_grid, &n.body_grid};
     n.fluid_fluid.build(x, particles.fluid(), fluid_grid, r);
+    // Dry walls meet nothing and get no lists of their own.
     if (particles.solid().size() > 0) {
         n.fluid_solid.build(x, particles.fluid(), solid_grids, r);
-        n.solid_fluid.build(x, particles.solid(), fluid_grid, r);
+        n.solid_fluid.build(x, particles.solid(), fluid_grid, r,
+                            {.wanted = n.fluid_solid.met(particles.size())});
     }
     if (particles.body().size() > 0) {
-        n.body_solid.build(x, particles.body(), solid_grids, r, particles.owner());
-        n.wall_body.build(x, particles.wall(), body_grid, r);
+        n.body_solid.build(x, particles.body(), solid_grids, r, {.owner = particles.owner()});
+        n.wall_body.build(x, particles.wall(), body_grid, r,
+                          {.wanted = n.body_solid.met(particles.size())});
     }
     n.builds += 1;
     // Pressure and velocity loops of the fluid; extrapolation and loads of the solids; films.

@@ -12,6 +12,12 @@
 
 namespace hyoryu {
 
+/// What is left out of neighbour lists. An empty span leaves out nothing.
+struct ListChoice {
+    std::span<const std::int32_t> owner = {};  // neighbours of the row's own owner (one rigid body)
+    std::span<const std::uint8_t> wanted = {}; // rows marked 0 get no neighbours
+};
+
 /// Lists of one pair kind (destination <- source). Rows are kept in blocks, each with its own
 /// storage, so that blocks are built in parallel and no entry is ever moved. Every list is filled up
 /// to whole packs with the void row, which is far from everything.
@@ -21,9 +27,10 @@ public:
 
     /// `x`: positions of all rows. Neighbours of a row are listed grid by grid in the order of the cells;
     /// a row of the source is its own neighbour, as kernel sums want it and differences do not mind.
-    /// Rows of the same owner are left out when `owner` is not empty (a body does not act on itself).
     void build(std::span<const Vec3> x, Rows destination, std::span<const CellGrid* const> sources,
-               real radius, std::span<const std::int32_t> owner = {});
+               real radius, const ListChoice& choice = {});
+    /// Which rows stand in any list, by row; what has met nothing needs no list of its own.
+    std::vector<std::uint8_t> met(Index all_rows) const;
     void clear();
 
     Rows rows() const { return rows_; }
