@@ -100,6 +100,26 @@ void advance(Job& job)
     }
 }
 
+// What a user should know before trusting the numbers.
+void tell_doubts(Job& job)
+{
+    constexpr double noteworthy = 0.1; // ten times what the sound speed is chosen for
+    const double compression = job.sim.ledger.worst_density_error;
+    if (compression > noteworthy) {
+        job.progress.line(fmt::format("note: the density of some fluid was off by up to {:.0f} %, as happens "
+                                      "when it is squeezed between solids",
+                                      100 * compression));
+    }
+    if (job.sim.fluid && job.sim.fluid->lost.count > 0) {
+        job.progress.line(fmt::format("note: {} fluid particles left the domain and were taken out",
+                                      job.sim.fluid->lost.count));
+    }
+    if (job.sim.rigid.counters.capped_steps > 0) {
+        job.progress.line(fmt::format("note: in {} steps the contacts were too many to locate each impact",
+                                      job.sim.rigid.counters.capped_steps));
+    }
+}
+
 int finish(Job& job)
 {
     const bool done = finished(job.sim.clock, job.sim.scene);
@@ -109,6 +129,7 @@ int finish(Job& job)
     job.outputs.write_checkpoint(good_state(job));
     write_closing(job, reason);
     job.progress.end(job.sim);
+    tell_doubts(job);
     if (stopped) {
         job.progress.line(fmt::format("interrupted; checkpoint written. Go on with: hyoryu run "
                                       "{} -o {} --resume",

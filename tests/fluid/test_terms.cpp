@@ -95,7 +95,7 @@ TEST(Terms, BackstopStopsOnlyWhatApproaches)
     stop(hand, particle(0.5, -4, 1, 0), particle(0, 0, 1, 0), sum);
     EXPECT_NEAR(sum[field::force].x, 4, 1e-9); // -1 * (-2)/0.25 * 0.5
     Record<Fields<Force>, real> far;
-    stop({{1.5, 0, 0}, 1.5, 2.25, 3, -2}, particle(1.5, -4, 1, 0), particle(0, 0, 1, 0), far);
+    stop(Pair<real>{{1.5, 0, 0}, 1.5, 2.25, 3, -2}, particle(1.5, -4, 1, 0), particle(0, 0, 1, 0), far);
     EXPECT_EQ(far[field::force].x, 0);
 }
 

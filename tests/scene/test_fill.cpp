@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Shapes to particles, and the plan.
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/plan.hpp"
+#include "hyoryu/scene/rigid_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace hyoryu {
+namespace {
+
+constexpr const char* tank = R"(
+[time]
+end = 1.0
+[particles]
+spacing = 0.1
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 1.0, 0.5]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 1.0, 0.8]
+open = ["+z"]
+)";
+
+TEST(Fill, FluidMeetsTheWallAtHalfASpacing)
+{
+    const Filling filling = fill(parse_case(tank, "t.toml"));
+    ASSERT_EQ(filling.fluid.size(), 500u);
+    for (const Vec3& p : filling.fluid) {
+        EXPECT_GE(p.minCoeff(), 0.05 - 1e-12);
+        EXPECT_LE(p.z(), 0.45 + 1e-12);
+    }
+    double nearest = infinity;
+    for (const Vec3& p : filling.wall) {
+        EXPECT_FALSE((p.array() > 0).all() && p.x() < 1 && p.y() < 1 && p.z() < 0.8);
+        nearest = std::min(nearest, (p - filling.fluid.front()).norm());
+    }
+    EXPECT_NEAR(nearest, 0.1, 1e-12);
+    // 3 layers of floor, 3 layers of four sides: a 16 x 16 ring over 8 + a full 16 x 16 below.
+    EXPECT_EQ(filling.wall.size(), 16u * 16 * 3 + (16u * 16 - 100) * 8);
+}
+
+TEST(Fill, DepthIsThatOfTheSurfaceAbove)
+{
+    const Filling filling = fill(parse_case(tank, "t.toml"));
+    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
+        EXPECT_NEAR(filling.fluid_depth[k], 0.5 - filling.fluid[k].z(), 1e-12);
+    }
+}
+
+TEST(Fill, ABodyTakesOutExactlyItsVolume)
+{
+    const std::string body = R"(
+[[body]]
+shape = "box"
+size = [0.4, 0.3, 0.3]
+density = 500.0
+position = [0.5, 0.5, 0.3]
+rotation_deg = { axis = [0, 0, 1], angle = 30.0 }
+)";
+    const Filling filling = fill(parse_case(tank + body, "t.toml"));
+    // 0.036 m3 in water 0.5 m deep: 36 particles of 0.001 m3, to the accuracy of the sub-cells.
+    EXPECT_NEAR(500.0 - static_cast<double>(filling.fluid.size()), 36, 1);
+}
+
+TEST(Fill, CoincidentWallsShareTheirParticles)
+{
+    const std::string floor = R"(
+[[wall]]
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+)";
+    const Filling filling = fill(parse_case(tank + floor, "t.toml"));
+    for (std::size_t a = 0; a < filling.wall.size(); a += 7) {
+        for (std::size_t b = 0; b < filling.wall.size(); ++b) {
+            if (a != b) {
+                ASSERT_GT((filling.wall[a] - filling.wall[b]).norm(), 0.05);
+            }
+        }
+    }
+}
+
+TEST(Aggregate, LayersConformToTheSurface)
+{
+    const double R = 0.5;
+    const double dp = 0.1;
+    const Aggregate ball = aggregate(SphereShape{R}, dp, 3);
+    double farthest = 0;
+    Vec3 centre = Vec3::Zero();
+    for (const Vec3& p : ball.points) {
+        farthest = std::max(farthest, p.norm());
+        centre += p;
+    }
+    EXPECT_NEAR(farthest, R - dp / 2, 1e-12);
+    EXPECT_NEAR(ball.particle_volume * static_cast<double>(ball.points.size()),
+                4.0 / 3.0 * std::numbers::pi * R * R * R, 1e-12);
+    // One particle stands for about one lattice cell.
+    EXPECT_NEAR(ball.particle_volume / (dp * dp * dp), 1, 0.1);
+    EXPECT_LT(centre.norm() / static_cast<double>(ball.points.size()), 0.1 * dp);
+
+    const Aggregate box = aggregate(BoxShape{{0.3, 0.2, 0.1}}, dp, 3);
+    EXPECT_EQ(box.points.size(), 6u);
+    EXPECT_EQ(box.surface_points, 6);
+}
+
+TEST(Plan, NamesWhatRunsAndWhatDoesNot)
+{
+    const Scene scene = parse_case(tank, "t.toml");
+    const Plan plan = make_plan(scene, fill(scene));
+    for (const char* effect : {"gravity", "pressure", "artificial_viscosity", "density_diffusion"}) {
+        EXPECT_TRUE(plan.runs(effect)) << effect;
+    }
+    for (const char* effect : {"contact", "body_load", "rigid_motion", "laminar_viscosity", "shifting"}) {
+        EXPECT_FALSE(plan.runs(effect)) << effect;
+    }
+    // c0 = 10 x 2 sqrt(g H)
+    EXPECT_NEAR(plan.fluid->eos.c0, 20 * std::sqrt(9.81 * 0.5), 0.01 * plan.fluid->eos.c0);
+}
+
+TEST(Plan, AbsurdSizesAreRefusedBeforeAnythingIsMade)
+{
+    const Scene scene = parse_case(tank, "t.toml", {"particles.spacing=1e-6"});
+    EXPECT_THROW(fill(scene), CaseError);
+}
+
+TEST(RigidScene, AMeshMeetsOthersByItsHull)
+{
+    std::vector<Vec3> points;
+    for (int k = 0; k < 8; ++k) {
+        points.emplace_back((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 2 : -2, (k & 4) != 0 ? 3 : -3);
+    }
+    points.emplace_back(0.1, 0.2, 0.3); // inside
+    const Polytope hull = convex_hull(points);
+    EXPECT_EQ(hull.corners.size(), 8u);
+    ASSERT_EQ(hull.faces.size(), 6u);
+    for (const auto& face : hull.faces) {
+        EXPECT_EQ(face.size(), 4u);
+        const Vec3& a = hull.corners[static_cast<std::size_t>(face[0])];
+        const Vec3& b = hull.corners[static_cast<std::size_t>(face[1])];
+        const Vec3& c = hull.corners[static_cast<std::size_t>(face[2])];
+        EXPECT_GT((b - a).cross(c - b).dot(a), 0); // counter-clockwise from outside
+    }
+}
+
+} // namespace
+} // namespace hyoryu
