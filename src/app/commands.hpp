@@ -15,8 +15,8 @@ struct RunOptions {
     std::filesystem::path case_file;
     std::filesystem::path folder; // empty: case stem + "-results" in the current folder
     std::vector<std::string> overrides;
-    int threads = 0;              // 0: all
-    std::optional<double> until;  // [s]
+    int threads = 0;             // 0: all
+    std::optional<double> until; // [s]
     bool resume = false;
     bool force = false;
     bool quiet = false;

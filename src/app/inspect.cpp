@@ -60,8 +60,8 @@ std::string histories_line(const fs::path& folder)
 std::string version_text()
 {
     return fmt::format("hyoryu {} (commit {}, {}, {}, native {}, VTK {})", build_info::version,
-                       build_info::commit, build_info::compiler, build_info::type, build_info::native,
-                       build_info::vtk);
+                       build_info::commit, build_info::compiler, build_info::type,
+                       build_info::native, build_info::vtk);
 }
 
 int check_case(const CheckOptions& options)
@@ -91,8 +91,9 @@ int show_info(const InfoOptions& options)
 {
     const fs::path& folder = options.folder;
     if (!fs::exists(folder / "plan.json")) {
-        throw CaseError(fmt::format("{} is not a results folder: it has no plan.json", folder.string()),
-                        "give the folder that `hyoryu run` wrote");
+        throw CaseError(
+            fmt::format("{} is not a results folder: it has no plan.json", folder.string()),
+            "give the folder that `hyoryu run` wrote");
     }
     const json plan = read_json(folder / "plan.json");
     const json summary = read_json(folder / "summary.json");
@@ -107,7 +108,8 @@ int show_info(const InfoOptions& options)
         fmt::print("{:<12} {}: {} steps to t = {} s in {} on {} threads\n", "state",
                    summary.value("exit_reason", ""), summary.value("steps", 0),
                    summary.value("simulated_seconds", 0.0),
-                   readable_seconds(summary.value("wall_seconds", 0.0)), summary.value("threads", 0));
+                   readable_seconds(summary.value("wall_seconds", 0.0)),
+                   summary.value("threads", 0));
         fmt::print("{:<12} {} lost, density error at most {:.2g}\n", "particles",
                    summary.value("particles_lost", 0), summary.value("worst_density_error", 0.0));
     }

@@ -16,7 +16,8 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("CASE", options.case_file, "case file (TOML)")->required();
     run->add_option("-o,--output", options.folder,
                     "results folder (default: the case's name + -results, here)");
-    run->add_option("--set", options.overrides, "change a key of the case: key.path=VALUE; repeatable")
+    run->add_option("--set", options.overrides,
+                    "change a key of the case: key.path=VALUE; repeatable")
         ->allow_extra_args(false);
     run->add_option("--threads", options.threads, "threads to use (default: all)")
         ->check(CLI::Range(1, 4096));
@@ -30,7 +31,9 @@ void add_check(CLI::App& app, CheckOptions& options)
 {
     auto* check = app.add_subcommand("check", "find every mistake of a case and show its plan");
     check->add_option("CASE", options.case_file, "case file (TOML)")->required();
-    check->add_option("--set", options.overrides, "change a key of the case: key.path=VALUE; repeatable")
+    check
+        ->add_option("--set", options.overrides,
+                     "change a key of the case: key.path=VALUE; repeatable")
         ->allow_extra_args(false);
     check->add_flag("--json", options.json, "print the plan as JSON");
 }
@@ -46,7 +49,9 @@ void add_render(CLI::App& app, RenderOptions& options)
 {
     auto* render_ = app.add_subcommand("render", "pictures and an animation of a run, off-screen");
     render_->add_option("RESULTS", options.folder, "results folder")->required();
-    render_->add_option("--times", options.settings.times, "only the frames nearest to these times [s]")
+    render_
+        ->add_option("--times", options.settings.times,
+                     "only the frames nearest to these times [s]")
         ->delimiter(',');
     render_->add_option("--width", options.settings.width, "pixels")->check(CLI::Range(64, 7680));
     render_->add_option("--height", options.settings.height, "pixels")->check(CLI::Range(64, 4320));

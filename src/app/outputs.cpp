@@ -139,9 +139,9 @@ void Outputs::write_energy(const Simulation& sim)
 
 void Outputs::write_contact(const Simulation& sim, const Contact& c)
 {
-    const std::string& other =
-        c.b >= 0 ? sim.rigid.bodies[static_cast<std::size_t>(c.b)].name
-                 : sim.rigid.boundaries[static_cast<std::size_t>(-1 - c.b)].name;
+    const std::string& other = c.b >= 0
+                                   ? sim.rigid.bodies[static_cast<std::size_t>(c.b)].name
+                                   : sim.rigid.boundaries[static_cast<std::size_t>(-1 - c.b)].name;
     std::vector<std::string> row{
         cell(c.time), cell(std::string_view(sim.rigid.bodies[static_cast<std::size_t>(c.a)].name)),
         cell(std::string_view(other))};
@@ -172,7 +172,8 @@ void Outputs::log_contacts(const Simulation& sim)
         if (before > 0 && rest.weight > 0) {
             const double share = contact.normal_impulse / rest.weight;
             sum.point = rest.sum.point + share * (contact.point - rest.sum.point);
-            sum.normal = (rest.sum.normal + share * (contact.normal - rest.sum.normal)).normalized();
+            sum.normal =
+                (rest.sum.normal + share * (contact.normal - rest.sum.normal)).normalized();
             sum.normal_impulse += rest.sum.normal_impulse;
             sum.tangential_impulse += rest.sum.tangential_impulse;
             sum.energy_lost += rest.sum.energy_lost;

@@ -10,8 +10,8 @@ namespace hyoryu {
 
 namespace {
 
-// Fluid particle-steps a second and thread: measured on one 2-core AVX2 machine in a developed 3-D dam
-// break with all default effects. A forecast from it is an order of magnitude, not a promise.
+// Fluid particle-steps a second and thread: measured on one 2-core AVX2 machine in a developed 3-D
+// dam break with all default effects. A forecast from it is an order of magnitude, not a promise.
 constexpr double measured_rate = 0.55e6;
 
 double forecast(const Plan& plan)
@@ -32,12 +32,13 @@ std::string join_effects(const std::vector<Plan::Effect>& effects)
 std::string size_lines(const Scene& scene, const Plan& plan)
 {
     const auto& n = plan.counts;
-    std::string text = fmt::format(
-        "  size\n    particles              {} fluid, {} wall, {} body\n    bodies, walls          {}, {}\n",
-        n.fluid, n.wall, n.body, n.bodies, n.walls);
+    std::string text = fmt::format("  size\n    particles              {} fluid, {} wall, {} "
+                                   "body\n    bodies, walls          {}, {}\n",
+                                   n.fluid, n.wall, n.body, n.bodies, n.walls);
     text += fmt::format("    memory                 about {}\n", readable_bytes(plan.memory));
-    text += fmt::format("    disk                   about {} in {:.0f} frames, before compression\n",
-                        readable_bytes(plan.frames * plan.frame_bytes), plan.frames);
+    text +=
+        fmt::format("    disk                   about {} in {:.0f} frames, before compression\n",
+                    readable_bytes(plan.frames * plan.frame_bytes), plan.frames);
     if (scene.dimensions == 2) {
         text += "    two dimensions         masses, forces and impulses are per metre of width\n";
     }
@@ -48,8 +49,9 @@ std::string time_lines(const Scene& scene, const Plan& plan)
 {
     std::string text = "  time step\n";
     if (plan.fluid) {
-        text += fmt::format("    speed of sound         {:.4g} m/s; largest expected speed {:.4g} m/s\n",
-                            plan.fluid->eos.c0, plan.expected_speed);
+        text += fmt::format(
+            "    speed of sound         {:.4g} m/s; largest expected speed {:.4g} m/s\n",
+            plan.fluid->eos.c0, plan.expected_speed);
     }
     TimeLimit least;
     for (const TimeLimit& limit : plan.limits) {
@@ -62,14 +64,16 @@ std::string time_lines(const Scene& scene, const Plan& plan)
     if (least.dt < infinity) {
         text += fmt::format("    {:<22} {:.3e} s\n", "lightest body", least.dt);
     }
-    text += fmt::format("    first step             {:.3e} s, {}\n", plan.first_step,
-                        scene.time.step ? "fixed by `time.step`"
-                                        : fmt::format("limited by: {}", shortest(plan.limits).name));
+    text +=
+        fmt::format("    first step             {:.3e} s, {}\n", plan.first_step,
+                    scene.time.step ? "fixed by `time.step`"
+                                    : fmt::format("limited by: {}", shortest(plan.limits).name));
     text += fmt::format("    steps                  about {:.0f} to {} s\n", plan.expected_steps,
                         scene.time.end);
     if (plan.fluid) {
-        text += fmt::format("    run time               about {} on {} threads (order of magnitude)\n",
-                            readable_seconds(forecast(plan)), thread_count());
+        text +=
+            fmt::format("    run time               about {} on {} threads (order of magnitude)\n",
+                        readable_seconds(forecast(plan)), thread_count());
     }
     return text;
 }
@@ -137,31 +141,39 @@ std::string plan_json(const Scene& scene, const Plan& plan)
     json["off"] = effects(plan.off);
     json["fields"] = ordered_json::array();
     for (const auto& field : plan.fields) {
-        json["fields"].push_back({{"name", field.name}, {"unit", field.unit},
-                                  {"bytes_per_particle", field.bytes_per_particle},
-                                  {"bytes", field.bytes_per_particle *
-                                                static_cast<std::size_t>(plan.counts.particles())}});
+        json["fields"].push_back(
+            {{"name", field.name},
+             {"unit", field.unit},
+             {"bytes_per_particle", field.bytes_per_particle},
+             {"bytes",
+              field.bytes_per_particle * static_cast<std::size_t>(plan.counts.particles())}});
     }
     json["pair_kinds"] = ordered_json::array();
     for (const auto& kind : plan.pair_kinds) {
         json["pair_kinds"].push_back({{"name", kind.name}, {"why", kind.why}});
     }
     const auto& n = plan.counts;
-    json["counts"] = {{"fluid", n.fluid}, {"wall", n.wall}, {"body", n.body}, {"bodies", n.bodies},
+    json["counts"] = {{"fluid", n.fluid},
+                      {"wall", n.wall},
+                      {"body", n.body},
+                      {"bodies", n.bodies},
                       {"walls", n.walls}};
-    json["time_step"] = {{"first", plan.first_step},
-                         {"limited_by", scene.time.step ? "fixed" : std::string(shortest(plan.limits).name)},
-                         {"steps", plan.expected_steps}};
+    json["time_step"] = {
+        {"first", plan.first_step},
+        {"limited_by", scene.time.step ? "fixed" : std::string(shortest(plan.limits).name)},
+        {"steps", plan.expected_steps}};
     json["time_step"]["limits"] = ordered_json::array();
     for (const TimeLimit& limit : plan.limits) {
         json["time_step"]["limits"].push_back(
-            {{"name", limit.name}, {"dt", limit.dt < infinity ? ordered_json(limit.dt) : ordered_json()}});
+            {{"name", limit.name},
+             {"dt", limit.dt < infinity ? ordered_json(limit.dt) : ordered_json()}});
     }
     if (plan.fluid) {
         json["sound_speed"] = plan.fluid->eos.c0;
         json["expected_speed"] = plan.expected_speed;
     }
-    json["forecast"] = {{"memory_bytes", plan.memory}, {"frames", plan.frames},
+    json["forecast"] = {{"memory_bytes", plan.memory},
+                        {"frames", plan.frames},
                         {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
                         {"wall_seconds", forecast(plan)}};
     json["warnings"] = ordered_json::array();

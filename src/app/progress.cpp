@@ -39,10 +39,11 @@ std::string Progress::status(const Simulation& sim) const
     const double done = end > from_ ? (sim.clock.time - from_) / (end - from_) : 1;
     const double eta = done > 0 ? wall * (1 - done) / done : 0;
     const auto n = static_cast<double>(sim.plan.counts.particles());
-    std::string text = fmt::format("{:3.0f} %  t = {:.4f} / {} s  step {}", 100 * sim.clock.time / end,
-                                   sim.clock.time, end, sim.clock.step);
+    std::string text = fmt::format("{:3.0f} %  t = {:.4f} / {} s  step {}",
+                                   100 * sim.clock.time / end, sim.clock.time, end, sim.clock.step);
     if (n > 0) {
-        text += fmt::format("  {:.0f} particles  {:.2f} M particle-steps/s", n, n * steps / wall / 1e6);
+        text +=
+            fmt::format("  {:.0f} particles  {:.2f} M particle-steps/s", n, n * steps / wall / 1e6);
     }
     return text + fmt::format("  ETA {}", readable_seconds(eta));
 }
@@ -50,7 +51,8 @@ std::string Progress::status(const Simulation& sim) const
 void Progress::show(const Simulation& sim)
 {
     if (terminal_) {
-        const int filled = static_cast<int>(bar_width * std::min(sim.clock.time / sim.scene.time.end, 1.0));
+        const int filled =
+            static_cast<int>(bar_width * std::min(sim.clock.time / sim.scene.time.end, 1.0));
         fmt::print(stderr, "\r\x1b[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
                    std::string(static_cast<std::size_t>(bar_width - filled), '.'), status(sim));
         std::fflush(stderr);
@@ -66,7 +68,8 @@ void Progress::update(const Simulation& sim)
         first_step_ = sim.clock.step;
     }
     const auto now = Clock::now();
-    const auto interval = terminal_ ? Clock::duration(terminal_interval) : Clock::duration(line_interval);
+    const auto interval =
+        terminal_ ? Clock::duration(terminal_interval) : Clock::duration(line_interval);
     if (verbosity_ == Verbosity::normal && now - shown_ >= interval) {
         shown_ = now;
         show(sim);

@@ -35,10 +35,9 @@ void check_disk(const fs::path& folder, const Plan& plan)
     std::error_code error;
     const auto space = fs::space(folder, error);
     if (!error && needed > static_cast<double>(space.available)) {
-        throw IoError(fmt::format("the frames need about {}, but only {} are free at {}",
-                                  readable_bytes(needed),
-                                  readable_bytes(static_cast<double>(space.available)),
-                                  folder.string()));
+        throw IoError(fmt::format(
+            "the frames need about {}, but only {} are free at {}", readable_bytes(needed),
+            readable_bytes(static_cast<double>(space.available)), folder.string()));
     }
 }
 
@@ -51,8 +50,9 @@ void check_same_case(const Scene& scene, const Snapshot& snapshot)
         now.time.end = parse_case(stored->second, "checkpoint").time.end;
     }
     if (stored == snapshot.texts.end() || to_toml(now) != stored->second) {
-        throw CaseError("the checkpoint was written by another case",
-                        "run with the case that is in the results folder, or start anew with --force");
+        throw CaseError(
+            "the checkpoint was written by another case",
+            "run with the case that is in the results folder, or start anew with --force");
     }
 }
 
@@ -106,17 +106,19 @@ void tell_doubts(Job& job)
     constexpr double noteworthy = 0.1; // ten times what the sound speed is chosen for
     const double compression = job.sim.ledger.worst_density_error;
     if (compression > noteworthy) {
-        job.progress.line(fmt::format("note: the density of some fluid was off by up to {:.0f} %, as happens "
-                                      "when it is squeezed between solids",
-                                      100 * compression));
+        job.progress.line(
+            fmt::format("note: the density of some fluid was off by up to {:.0f} %, as happens "
+                        "when it is squeezed between solids",
+                        100 * compression));
     }
     if (job.sim.fluid && job.sim.fluid->lost.count > 0) {
         job.progress.line(fmt::format("note: {} fluid particles left the domain and were taken out",
                                       job.sim.fluid->lost.count));
     }
     if (job.sim.rigid.counters.capped_steps > 0) {
-        job.progress.line(fmt::format("note: in {} steps the contacts were too many to locate each impact",
-                                      job.sim.rigid.counters.capped_steps));
+        job.progress.line(
+            fmt::format("note: in {} steps the contacts were too many to locate each impact",
+                        job.sim.rigid.counters.capped_steps));
     }
 }
 
@@ -137,7 +139,8 @@ int finish(Job& job)
         return exit_code::interrupted;
     }
     job.progress.line(fmt::format("{} after {}; results in {}", done ? "done" : "stopped as asked",
-                                  readable_seconds(job.progress.wall_seconds()), job.folder.string()));
+                                  readable_seconds(job.progress.wall_seconds()),
+                                  job.folder.string()));
     return exit_code::done;
 }
 
@@ -185,7 +188,7 @@ Job resume(const RunOptions& options, const fs::path& folder, const Scene& scene
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, sim.clock.time);
     progress.line(fmt::format("going on from t = {} s, step {}", sim.clock.time, sim.clock.step));
     Outputs outputs(folder, sim, snapshot);
-    return {folder,  to_toml(scene), std::move(sim), std::move(progress), std::move(outputs),
+    return {folder,   to_toml(scene), std::move(sim), std::move(progress), std::move(outputs),
             snapshot, first_step};
 }
 

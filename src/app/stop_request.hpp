@@ -4,8 +4,8 @@
 
 namespace hyoryu {
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP is taken as a request, and the second one ends the
-/// process at once.
+/// From now on the first SIGINT, SIGTERM or SIGHUP is taken as a request, and the second one ends
+/// the process at once.
 void watch_for_stop();
 bool stop_requested();
 

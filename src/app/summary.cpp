@@ -22,8 +22,10 @@ ordered_json array(const Vec3& v)
 
 ordered_json energies(const Totals& t)
 {
-    return {{"fluid_kinetic", t.fluid_kinetic},   {"fluid_potential", t.fluid_potential},
-            {"fluid_internal", t.fluid_internal}, {"body_kinetic", t.body_kinetic},
+    return {{"fluid_kinetic", t.fluid_kinetic},
+            {"fluid_potential", t.fluid_potential},
+            {"fluid_internal", t.fluid_internal},
+            {"body_kinetic", t.body_kinetic},
             {"body_potential", t.body_potential}};
 }
 
@@ -76,11 +78,15 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     }
     json["steps_by_limit"] = ordered_json(sim.steps_by_limit);
     json["neighbour_builds"] = sim.fluid ? sim.fluid->neighbours.builds : 0;
-    json["counts"] = {{"fluid", fluid_now}, {"wall", n.wall}, {"body", n.body}, {"bodies", n.bodies},
+    json["counts"] = {{"fluid", fluid_now},
+                      {"wall", n.wall},
+                      {"body", n.body},
+                      {"bodies", n.bodies},
                       {"walls", n.walls}};
     json["particles_lost"] = sim.fluid ? sim.fluid->lost.count : 0;
     json["worst_density_error"] = sim.ledger.worst_density_error;
-    json["energy"] = {{"start", energies(sim.ledger.start)}, {"end", energies(end)},
+    json["energy"] = {{"start", energies(sim.ledger.start)},
+                      {"end", energies(end)},
                       {"contact_loss", sim.ledger.contact_loss}};
     json["momentum"] = {{"start", array(sim.ledger.start.momentum)},
                         {"end", array(end.momentum)},

@@ -8,8 +8,8 @@
 
 namespace hyoryu {
 
-/// `exit_reason`: "done", "interrupted", "until", "numerical error", "io error". `first_step`: step at
-/// which this process began.
+/// `exit_reason`: "done", "interrupted", "until", "numerical error", "io error". `first_step`: step
+/// at which this process began.
 std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
                          std::int64_t first_step);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `read_mesh` and `render` of the program: found in the VTK module, which stands beside the program or
-// in ../lib/hyoryu.
+// `read_mesh` and `render` of the program: found in the VTK module, which stands beside the program
+// or in ../lib/hyoryu.
 #include "vtk/module.hpp"
 
 #include "hyoryu/core/error.hpp"

@@ -34,8 +34,8 @@ Bounds bounds_of(std::span<const Vec3> points)
 void lay_out(CellGrid& grid, const Bounds& box, real cell)
 {
     const Vec3 extent = box.max - box.min;
-    // Three roundings of half a unit in the last place of the largest coordinate, doubled. The cells grow
-    // by as much, so that a search of the radius they were made for reaches no further.
+    // Three roundings of half a unit in the last place of the largest coordinate, doubled. The
+    // cells grow by as much, so that a search of the radius they were made for reaches no further.
     grid.slack = static_cast<float>(extent.maxCoeff() * 4e-7);
     grid.cell = cell + grid.slack;
     const Vec3 wanted = extent / grid.cell + Vec3::Ones();
@@ -78,8 +78,8 @@ void build(CellGrid& grid, std::span<const Vec3> points, Index first, real cell)
     std::vector<std::int32_t> cell_index(points.size());
     parallel_for(0, n, [&](Index k) {
         const auto at = grid.cell_of(points[static_cast<std::size_t>(k)]);
-        cell_index[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(
-            at[0] + grid.count[0] * (at[1] + grid.count[1] * at[2]));
+        cell_index[static_cast<std::size_t>(k)] =
+            static_cast<std::int32_t>(at[0] + grid.count[0] * (at[1] + grid.count[1] * at[2]));
     });
     grid.start.assign(static_cast<std::size_t>(grid.cells()) + 1, 0);
     for (const std::int32_t c : cell_index) {
@@ -91,7 +91,8 @@ void build(CellGrid& grid, std::span<const Vec3> points, Index first, real cell)
     std::vector<std::int32_t> next(grid.start.begin(), grid.start.end() - 1);
     for (std::size_t k = 0; k < points.size(); ++k) {
         const std::int32_t slot = next[static_cast<std::size_t>(cell_index[k])]++;
-        grid.order[static_cast<std::size_t>(slot)] = static_cast<std::int32_t>(first + static_cast<Index>(k));
+        grid.order[static_cast<std::size_t>(slot)] =
+            static_cast<std::int32_t>(first + static_cast<Index>(k));
     }
     parallel_for(0, n, [&](Index slot) {
         const auto at = static_cast<std::size_t>(slot);

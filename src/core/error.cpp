@@ -68,8 +68,8 @@ CaseError::CaseError(std::vector<Diagnostic> diagnostics)
 }
 
 CaseError::CaseError(std::string what, std::string hint)
-    : CaseError(std::vector<Diagnostic>{
-          Diagnostic{.what = std::move(what), .hint = std::move(hint)}})
+    : CaseError(
+          std::vector<Diagnostic>{Diagnostic{.what = std::move(what), .hint = std::move(hint)}})
 {
 }
 

@@ -10,8 +10,8 @@ namespace hyoryu {
 
 namespace {
 
-// All points that may be near any place of one cell of a grid, side by side, so that the rows of a cell
-// share them and each row is one straight loop.
+// All points that may be near any place of one cell of a grid, side by side, so that the rows of a
+// cell share them and each row is one straight loop.
 class Candidates {
 public:
     explicit Candidates(real radius) : radius_(radius) {}
@@ -67,8 +67,9 @@ void Candidates::add(const CellGrid& grid)
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         lo[a] = std::max<Index>(static_cast<Index>(std::floor((low[axis] - reach) / grid.cell)), 0);
-        hi[a] = std::min<Index>(static_cast<Index>(std::floor((low[axis] + cell_ + reach) / grid.cell)),
-                                grid.count[a] - 1);
+        hi[a] =
+            std::min<Index>(static_cast<Index>(std::floor((low[axis] + cell_ + reach) / grid.cell)),
+                            grid.count[a] - 1);
         if (lo[a] > hi[a]) {
             return;
         }
@@ -83,7 +84,8 @@ void Candidates::add(const CellGrid& grid)
     }
 }
 
-void Candidates::add_run(const CellGrid& grid, std::int32_t begin, std::int32_t end, const Vec3& low)
+void Candidates::add_run(const CellGrid& grid, std::int32_t begin, std::int32_t end,
+                         const Vec3& low)
 {
     const auto n = static_cast<std::size_t>(end - begin);
     if (count_ + n > row_.size()) {
@@ -131,22 +133,24 @@ std::int32_t* Candidates::append_near(const Vec3& point, std::int32_t* out)
     return out;
 }
 
-// Takes the rows of one owner out of the entries from `begin` on; returns the new number of entries.
+// Takes the rows of one owner out of the entries from `begin` on; returns the new number of
+// entries.
 std::size_t without_kin(std::vector<std::int32_t>& entries, std::size_t begin, std::size_t end,
                         std::span<const std::int32_t> owner, Index row)
 {
     const std::int32_t own = owner[static_cast<std::size_t>(row)];
     const auto first = entries.begin();
-    const auto kept = std::remove_if(
-        first + static_cast<Index>(begin), first + static_cast<Index>(end),
-        [&](std::int32_t j) { return owner[static_cast<std::size_t>(j)] == own; });
+    const auto kept =
+        std::remove_if(first + static_cast<Index>(begin), first + static_cast<Index>(end),
+                       [&](std::int32_t j) { return owner[static_cast<std::size_t>(j)] == own; });
     return static_cast<std::size_t>(kept - first);
 }
 
 } // namespace
 
 void PairList::build(std::span<const Vec3> x, Rows destination,
-                     std::span<const CellGrid* const> sources, real radius, const ListChoice& choice)
+                     std::span<const CellGrid* const> sources, real radius,
+                     const ListChoice& choice)
 {
     rows_ = destination;
     const auto void_row = static_cast<std::int32_t>(x.size());
@@ -192,7 +196,8 @@ void PairList::clear()
 
 std::vector<std::uint8_t> PairList::met(Index all_rows) const
 {
-    std::vector<std::uint8_t> marks(static_cast<std::size_t>(all_rows) + 1, 0); // one for the void row
+    std::vector<std::uint8_t> marks(static_cast<std::size_t>(all_rows) + 1,
+                                    0); // one for the void row
     for (const Block& block : blocks_) {
         for (std::int32_t k = 0; k < block.start.back(); ++k) {
             marks[static_cast<std::size_t>(block.entries[static_cast<std::size_t>(k)])] = 1;

@@ -97,7 +97,8 @@ void update_forces(Fluid& fluid, real dt)
     clear(particles, {0, particles.size()}, Fields<Force>{});
     std::visit(
         [&](const auto& diffusion) {
-            clear(particles, particles.fluid(), typename std::remove_cvref_t<decltype(diffusion)>::Writes{});
+            clear(particles, particles.fluid(),
+                  typename std::remove_cvref_t<decltype(diffusion)>::Writes{});
             sweep(particles, pairs.fluid_fluid, fluid.records, fluid.kernel, PressureForce{},
                   diffusion);
         },
@@ -118,8 +119,7 @@ void kick(Fluid& fluid, real dt)
     const real dt_m = dt / f.mass;
     const Vec3 g = dt * f.gravity;
     if (!particles.has(field::viscous_force)) {
-        parallel_for(rows.begin, rows.end,
-                     [&](Index i) { v[at(i)] += dt_m * F[at(i)] + g; });
+        parallel_for(rows.begin, rows.end, [&](Index i) { v[at(i)] += dt_m * F[at(i)] + g; });
         return;
     }
     const auto F_visc = particles[field::viscous_force];
@@ -137,7 +137,8 @@ void update_rates(Fluid& fluid)
     std::visit(
         [&](const auto& viscosity) {
             clear(particles, rows, typename std::remove_cvref_t<decltype(viscosity)>::Writes{});
-            sweep(particles, pairs.fluid_fluid, fluid.records, fluid.kernel, Continuity{}, viscosity);
+            sweep(particles, pairs.fluid_fluid, fluid.records, fluid.kernel, Continuity{},
+                  viscosity);
         },
         fluid.effects.viscosity);
     sweep(particles, pairs.fluid_solid, fluid.records, fluid.kernel, Continuity{});
@@ -149,14 +150,14 @@ void update_rates(Fluid& fluid)
         return;
     }
     const auto diffusion = particles[field::diffusion_rate];
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        rate[at(i)] = rho[at(i)] * rate[at(i)] + diffusion[at(i)];
-    });
+    parallel_for(rows.begin, rows.end,
+                 [&](Index i) { rate[at(i)] = rho[at(i)] * rate[at(i)] + diffusion[at(i)]; });
 }
 
 namespace {
 
-// The largest of f over the fluid rows, NaN if any is NaN: a comparison that fails keeps the culprit.
+// The largest of f over the fluid rows, NaN if any is NaN: a comparison that fails keeps the
+// culprit.
 real worst(const Particles& particles, const auto& f)
 {
     const Rows rows = particles.fluid();
@@ -184,7 +185,8 @@ real top_acceleration(const Fluid& fluid)
 real effective_viscosity(const Fluid& fluid)
 {
     const auto* viscosity = std::get_if<Viscosity>(&fluid.effects.viscosity);
-    return viscosity != nullptr ? viscosity->kappa / laminar_kappa(1, fluid.parameters.dimensions) : 0;
+    return viscosity != nullptr ? viscosity->kappa / laminar_kappa(1, fluid.parameters.dimensions)
+                                : 0;
 }
 
 std::vector<TimeLimit> fluid_limits(const Fluid& fluid)

@@ -13,9 +13,8 @@ std::vector<TimeLimit> fluid_limits(const FluidParameters& fluid, real top_speed
 {
     // The default CFL scales the other limits with it.
     const real scale = fluid.cfl / 0.6;
-    const real force = top_acceleration > 0
-                           ? scale * 0.25 * std::sqrt(fluid.h / top_acceleration)
-                           : infinity;
+    const real force =
+        top_acceleration > 0 ? scale * 0.25 * std::sqrt(fluid.h / top_acceleration) : infinity;
     const real viscous = nu > 0 ? scale * 0.125 * sq(fluid.h) / nu : infinity;
     return {{"acoustic", fluid.cfl * fluid.h / (fluid.eos.c0 + top_speed)},
             {"force", force},

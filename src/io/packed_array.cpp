@@ -109,6 +109,8 @@ hsize_t components_of(const ArrayView& view)
 hdf5::Handle creation_of(const PackedArray& array, const std::string& action)
 {
     hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
+    // Without the hour of writing, equal runs give equal files.
+    hdf5::check(H5Pset_obj_track_times(creation, false), action);
     if (array.rows_per_chunk > 0) {
         std::vector<hsize_t> chunk = array.view.dims;
         chunk[0] = array.rows_per_chunk;

@@ -47,16 +47,20 @@ std::vector<Face> first_tetrahedron(const std::vector<Vec3>& p)
     const Vec3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
     const int d = farthest(p, [&](const Vec3& x) { return std::abs(normal.dot(x - at(a))); });
     if (normal.dot(at(d) - at(a)) > 0) {
-        return {make_face(p, a, c, b), make_face(p, a, b, d), make_face(p, b, c, d), make_face(p, c, a, d)};
+        return {make_face(p, a, c, b), make_face(p, a, b, d), make_face(p, b, c, d),
+                make_face(p, c, a, d)};
     }
-    return {make_face(p, a, b, c), make_face(p, a, d, b), make_face(p, b, d, c), make_face(p, c, d, a)};
+    return {make_face(p, a, b, c), make_face(p, a, d, b), make_face(p, b, d, c),
+            make_face(p, c, d, a)};
 }
 
 // Replaces the faces that see the point by a cone from their horizon to it.
 void add_point(const std::vector<Vec3>& p, int point, double tolerance, std::vector<Face>& faces)
 {
     const Vec3& x = p[static_cast<std::size_t>(point)];
-    const auto sees = [&](const Face& face) { return face.normal.dot(x) > face.offset + tolerance; };
+    const auto sees = [&](const Face& face) {
+        return face.normal.dot(x) > face.offset + tolerance;
+    };
     std::set<std::pair<int, int>> edges;
     for (const Face& face : faces) {
         if (sees(face)) {
@@ -101,7 +105,8 @@ Polytope convex_hull(const std::vector<Vec3>& points)
 {
     const int low = farthest(points, [](const Vec3& x) { return -x.sum(); });
     const int high = farthest(points, [](const Vec3& x) { return x.sum(); });
-    const double size = (points[static_cast<std::size_t>(high)] - points[static_cast<std::size_t>(low)]).norm();
+    const double size =
+        (points[static_cast<std::size_t>(high)] - points[static_cast<std::size_t>(low)]).norm();
     const double tolerance = 1e-9 * size; // rounding of plane offsets, with room
     std::vector<Face> faces = first_tetrahedron(points);
     for (int k = 0; k < static_cast<int>(points.size()); ++k) {
@@ -112,10 +117,11 @@ Polytope convex_hull(const std::vector<Vec3>& points)
     std::map<int, int> number; // of a point among the corners of the hull
     while (!faces.empty()) {
         const Face first = faces.front();
-        const auto coplanar = std::stable_partition(faces.begin(), faces.end(), [&](const Face& face) {
-            return face.normal.dot(first.normal) < 1 - 1e-12 ||
-                   std::abs(face.offset - first.offset) > 1e-7 * size;
-        });
+        const auto coplanar =
+            std::stable_partition(faces.begin(), faces.end(), [&](const Face& face) {
+                return face.normal.dot(first.normal) < 1 - 1e-12 ||
+                       std::abs(face.offset - first.offset) > 1e-7 * size;
+            });
         std::vector<int> face;
         for (const int k : outline({coplanar, faces.end()})) {
             const auto known = number.try_emplace(k, static_cast<int>(number.size())).first;

@@ -44,15 +44,16 @@ void fill_shape(Aggregate& body, const BoxShape& box, double spacing, int dimens
         for (Index j = 0; j < ny; ++j) {
             for (Index i = 0; i < nx; ++i) {
                 const double y = dimensions == 2 ? 0 : middle(j, ny, box.size.y());
-                const bool surface = outermost(i, nx) || outermost(k, nz) ||
-                                     (dimensions == 3 && outermost(j, ny));
+                const bool surface =
+                    outermost(i, nx) || outermost(k, nz) || (dimensions == 3 && outermost(j, ny));
                 place(body, {middle(i, nx, box.size.x()), y, middle(k, nz, box.size.z())}, surface);
             }
         }
     }
 }
 
-// Rings of a disc of radius R about the origin: calls put(u, v, layer) for each point, layer 0 outside.
+// Rings of a disc of radius R about the origin: calls put(u, v, layer) for each point, layer 0
+// outside.
 void rings(double radius, double spacing, const auto& put)
 {
     const Index layers = cells(radius, spacing);
@@ -72,8 +73,9 @@ void rings(double radius, double spacing, const auto& put)
 void fill_shape(Aggregate& body, const SphereShape& sphere, double spacing, int dimensions)
 {
     if (dimensions == 2) {
-        rings(sphere.radius, spacing,
-              [&](double u, double v, Index layer) { place(body, {u, 0, v}, layer == 0); });
+        rings(sphere.radius, spacing, [&](double u, double v, Index layer) {
+            place(body, {u, 0, v}, layer == 0);
+        });
         return;
     }
     const double golden = pi * (3 - std::sqrt(5.0));
@@ -87,7 +89,8 @@ void fill_shape(Aggregate& body, const SphereShape& sphere, double spacing, int 
             const double z = n == 1 ? 0 : middle(k, n, 2.0);
             const double planar = std::sqrt(1 - sq(z));
             const double angle = golden * static_cast<double>(k);
-            place(body, r * Vec3{planar * std::cos(angle), planar * std::sin(angle), z}, layer == 0);
+            place(body, r * Vec3{planar * std::cos(angle), planar * std::sin(angle), z},
+                  layer == 0);
         }
     }
 }

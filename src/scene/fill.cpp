@@ -36,7 +36,7 @@ double height(const Scene& scene, const Vec3& p)
 
 struct BlockPoints {
     std::vector<Vec3> points;
-    double top = -infinity;    // highest height of the block's surface
+    double top = -infinity; // highest height of the block's surface
     double bottom = infinity;
     Bounds box;
 };
@@ -76,7 +76,8 @@ double surface_above(const Scene& scene, const std::vector<BlockPoints>& blocks,
     for (bool higher = true; higher;) {
         higher = false;
         for (const BlockPoints& other : blocks) {
-            const Vec3 lifted = p - scene.gravity.normalized() * (top + scene.spacing / 2 - height(scene, p));
+            const Vec3 lifted =
+                p - scene.gravity.normalized() * (top + scene.spacing / 2 - height(scene, p));
             const bool above = (lifted.array() >= other.box.min.array() - 1e-9).all() &&
                                (lifted.array() <= other.box.max.array() + 1e-9).all();
             if (above && other.top > top) {
@@ -106,8 +107,8 @@ double covered(const Placed& shape, const Vec3& p, double spacing)
     return static_cast<double>(inside) / (n * n * ny);
 }
 
-// Takes out as many particles as the shape displaces, deepest first: an excess of a quarter of a layer
-// would start the water with a jolt.
+// Takes out as many particles as the shape displaces, deepest first: an excess of a quarter of a
+// layer would start the water with a jolt.
 void take_out(const Placed& shape, double spacing, Filling& filling)
 {
     Bounds box = bounds(shape);
@@ -163,11 +164,12 @@ void fill_fluid(const Scene& scene, Filling& filling)
         const FluidBlock& block = scene.fluid->blocks[b];
         Index behind = 0;
         for (const Vec3& p : blocks[b].points) {
-            const bool taken = std::any_of(blocks.begin(), blocks.begin() + static_cast<Index>(b),
-                                           [&](const BlockPoints& earlier) {
-                const auto e = static_cast<std::size_t>(&earlier - blocks.data());
-                return signed_distance(placed(scene, scene.fluid->blocks[e]), p) < 0;
-            });
+            const bool taken = std::any_of(
+                blocks.begin(), blocks.begin() + static_cast<Index>(b),
+                [&](const BlockPoints& earlier) {
+                    const auto e = static_cast<std::size_t>(&earlier - blocks.data());
+                    return signed_distance(placed(scene, scene.fluid->blocks[e]), p) < 0;
+                });
             const bool walled = behind_a_wall(scene, p);
             behind += walled ? 1 : 0;
             if (taken || walled) {
@@ -176,8 +178,8 @@ void fill_fluid(const Scene& scene, Filling& filling)
             const double surface = surface_above(scene, blocks, b, p);
             filling.fluid.push_back(p);
             filling.fluid_velocity.push_back(block.velocity);
-            filling.fluid_depth.push_back(
-                scene.gravity.norm() > 0 ? surface - height(scene, p) : 0);
+            filling.fluid_depth.push_back(scene.gravity.norm() > 0 ? surface - height(scene, p)
+                                                                   : 0);
         }
         if (behind > 0) {
             Diagnostic note = diagnostic_at(
@@ -205,10 +207,11 @@ double estimate(const Scene& scene)
             total += count(volume(block.shape, scene.dimensions), scene.spacing);
         }
         const Vec3 size = domain_of(scene).max - domain_of(scene).min;
-        const double faces = scene.dimensions == 2 ? size.x() + size.z()
-                                                   : size.x() * size.y() + size.y() * size.z() +
-                                                         size.z() * size.x();
-        total += static_cast<double>(scene.walls.size()) * count(faces * scene.spacing, scene.spacing);
+        const double faces = scene.dimensions == 2
+                                 ? size.x() + size.z()
+                                 : size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+        total +=
+            static_cast<double>(scene.walls.size()) * count(faces * scene.spacing, scene.spacing);
     }
     return total;
 }
@@ -265,8 +268,9 @@ Filling fill(const Scene& scene)
     const double asked = estimate(scene);
     if (!(asked < most_particles)) {
         throw CaseError(
-            fmt::format("this scene asks for about {:.2g} particles; at most {:.0g} can be numbered",
-                        asked, most_particles),
+            fmt::format(
+                "this scene asks for about {:.2g} particles; at most {:.0g} can be numbered", asked,
+                most_particles),
             "increase `particles.spacing`");
     }
     Filling filling;

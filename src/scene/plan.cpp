@@ -18,7 +18,8 @@ namespace {
 constexpr double bodies_only_step = 1e-3; // [s]
 // Sound speed over the largest expected speed: Mach 0.1 keeps density within 1 %.
 constexpr double sound_over_speed = 10;
-// Skin of the neighbour lists in spacings: at CFL 0.6 the fastest particles cross it in a few steps.
+// Skin of the neighbour lists in spacings: at CFL 0.6 the fastest particles cross it in a few
+// steps.
 constexpr double skin_spacings = 0.35;
 
 // Lowest height that anything in the scene has, along -g.
@@ -91,7 +92,8 @@ FluidEffects fluid_effects(const Scene& scene, const FluidParameters& f)
         const Vec3 hydrostatic = settings.diffusion == DiffusionModel::fourtakas
                                      ? Vec3(f.eos.rho0 / sq(f.eos.c0) * scene.gravity)
                                      : Vec3(Vec3::Zero());
-        effects.diffusion = DensityDiffusion{2 * settings.delta * f.h * f.eos.c0, f.eos, hydrostatic};
+        effects.diffusion =
+            DensityDiffusion{2 * settings.delta * f.h * f.eos.c0, f.eos, hydrostatic};
     }
     double kappa = 0;
     if (settings.viscosity == ViscosityModel::artificial) {
@@ -142,12 +144,16 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
     const ViscosityModel model = fluid ? scene.fluid->viscosity : ViscosityModel::none;
     census.add("artificial_viscosity",
                when(viscous && model == ViscosityModel::artificial,
-                    fluid ? fmt::format("`fluid.viscosity.model` is \"artificial\", alpha = {}", scene.fluid->alpha) : ""),
+                    fluid ? fmt::format("`fluid.viscosity.model` is \"artificial\", alpha = {}",
+                                        scene.fluid->alpha)
+                          : ""),
                fluid ? "`fluid.viscosity` asks for another model or for none" : none);
     census.add("laminar_viscosity",
                when(viscous && model == ViscosityModel::laminar,
-                    fluid ? fmt::format("`fluid.viscosity.model` is \"laminar\", kinematic = {} m2/s",
-                                scene.fluid->kinematic_viscosity) : ""),
+                    fluid
+                        ? fmt::format("`fluid.viscosity.model` is \"laminar\", kinematic = {} m2/s",
+                                      scene.fluid->kinematic_viscosity)
+                        : ""),
                fluid ? "`fluid.viscosity` asks for another model or for none" : none);
     census.add("density_diffusion",
                when(!std::holds_alternative<Off>(plan.effects.diffusion),
@@ -190,7 +196,8 @@ void list_pairs(Plan& plan)
     plan.pair_kinds.push_back({"fluid<-fluid", "pressure, continuity, viscosity, diffusion"});
     if (plan.counts.wall + plan.counts.body > 0) {
         plan.pair_kinds.push_back({"fluid<-solid", "pressure and continuity at walls and bodies"});
-        plan.pair_kinds.push_back({"solid<-fluid", "pressure at solid particles, loads, wall reaction"});
+        plan.pair_kinds.push_back(
+            {"solid<-fluid", "pressure at solid particles, loads, wall reaction"});
     }
     if (plan.counts.body > 0) {
         plan.pair_kinds.push_back({"body<-solid", "pressure in thin films between solids"});
@@ -221,8 +228,8 @@ void estimate_cost(const Scene& scene, Plan& plan)
     }
     const auto n = static_cast<double>(plan.counts.particles());
     if (plan.fluid) {
-        // Columns, ids and owners, pair records, positions at the last build, cells, lists of the fluid
-        // rows; the lists of solid rows are short.
+        // Columns, ids and owners, pair records, positions at the last build, cells, lists of the
+        // fluid rows; the lists of solid rows are short.
         constexpr double records = 64 + 24 + 16 + 12;
         plan.memory = n * (columns + records) +
                       static_cast<double>(plan.counts.fluid) * list_bytes(*plan.fluid);
@@ -251,7 +258,8 @@ Plan make_plan(const Scene& scene, const Filling& filling)
 {
     Plan plan;
     plan.warnings = filling.warnings;
-    plan.counts = {static_cast<Index>(filling.fluid.size()), static_cast<Index>(filling.wall.size()), 0,
+    plan.counts = {static_cast<Index>(filling.fluid.size()),
+                   static_cast<Index>(filling.wall.size()), 0,
                    static_cast<Index>(scene.bodies.size()), static_cast<Index>(scene.walls.size())};
     plan.rigid = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                              [](const BodySettings& b) { return !b.fixed; });
@@ -264,10 +272,12 @@ Plan make_plan(const Scene& scene, const Filling& filling)
         plan.fluid = fluid_parameters(scene, plan.expected_speed);
         plan.effects = fluid_effects(scene, *plan.fluid);
         Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
-        plan.limits = fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));
+        plan.limits =
+            fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));
         for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
             const BodySettings& body = scene.bodies[b];
-            const double mass = effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
+            const double mass =
+                effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
             plan.limits.push_back(body_limit(*plan.fluid, mass, filling.bodies[b].surface_points));
         }
     } else {

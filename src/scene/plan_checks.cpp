@@ -24,6 +24,44 @@ std::string body_key(std::size_t b)
     return fmt::format("body[{}]", b);
 }
 
+// Depth by which a body stands across a side of a basin: contact looks no deeper than a corner can
+// get in a step, and takes a body beyond that for one outside.
+double depth_in_basin(const BodySettings& body, const Wall& wall, int dimensions)
+{
+    const auto* basin = std::get_if<BasinWall>(&wall.geometry);
+    if (basin == nullptr) {
+        return 0;
+    }
+    const Bounds box = bounds({&body.shape, body.position, body.rotation, dimensions});
+    double depth = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (dimensions == 2 && axis == 1) {
+            continue;
+        }
+        const auto k = static_cast<std::size_t>(axis);
+        const bool beside = [&] {
+            bool apart = false;
+            for (int other = 0; other < 3; ++other) {
+                apart =
+                    apart ||
+                    (other != axis && !(dimensions == 2 && other == 1) &&
+                     (box.max[other] <= basin->min[other] || box.min[other] >= basin->max[other]));
+            }
+            return apart;
+        }();
+        if (beside) {
+            continue;
+        }
+        if (!basin->open[2 * k] && box.max[axis] > basin->min[axis]) {
+            depth = std::max(depth, basin->min[axis] - box.min[axis]);
+        }
+        if (!basin->open[2 * k + 1] && box.min[axis] < basin->max[axis]) {
+            depth = std::max(depth, box.max[axis] - basin->max[axis]);
+        }
+    }
+    return depth;
+}
+
 void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
 {
     const Rigid rigid = make_rigid(scene);
@@ -41,13 +79,19 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
         for (int b = a + 1; b < bodies; ++b) {
             const double depth = overlap(rigid, a, b, 0);
             if (depth > allowed) {
-                report(b, fmt::format("body \"{}\"", scene.bodies[static_cast<std::size_t>(a)].name), depth);
+                report(b,
+                       fmt::format("body \"{}\"", scene.bodies[static_cast<std::size_t>(a)].name),
+                       depth);
             }
         }
         for (int w = 0; w < walls; ++w) {
-            const double depth = overlap(rigid, a, -1 - w, 0);
+            const double depth = std::max(overlap(rigid, a, -1 - w, 0),
+                                          depth_in_basin(scene.bodies[static_cast<std::size_t>(a)],
+                                                         scene.walls[static_cast<std::size_t>(w)],
+                                                         scene.dimensions));
             if (depth > allowed) {
-                report(a, fmt::format("wall \"{}\"", scene.walls[static_cast<std::size_t>(w)].name), depth);
+                report(a, fmt::format("wall \"{}\"", scene.walls[static_cast<std::size_t>(w)].name),
+                       depth);
             }
         }
     }
@@ -91,7 +135,8 @@ double thinnest(const Shape& shape, int dimensions)
     return (box.max - box.min).minCoeff();
 }
 
-// Metacentric height of an upright floating box: B^2/(12 d) - (H - d)/2, B the smaller horizontal edge.
+// Metacentric height of an upright floating box: B^2/(12 d) - (H - d)/2, B the smaller horizontal
+// edge.
 void warn_if_it_tips(const Scene& scene, std::size_t b, Plan& plan)
 {
     const BodySettings& body = scene.bodies[b];
@@ -101,7 +146,8 @@ void warn_if_it_tips(const Scene& scene, std::size_t b, Plan& plan)
     if (box == nullptr || ratio >= 1 || !upright || body.fixed) {
         return;
     }
-    const double breadth = scene.dimensions == 2 ? box->size.x() : std::min(box->size.x(), box->size.y());
+    const double breadth =
+        scene.dimensions == 2 ? box->size.x() : std::min(box->size.x(), box->size.y());
     const double draft = ratio * box->size.z();
     const double gm = sq(breadth) / (12 * draft) - (box->size.z() - draft) / 2;
     if (gm < 0) {
@@ -165,10 +211,11 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
         open += below == floor.end() || below->second > p.z() ? 1 : 0;
     }
     if (open > 0) {
-        warn(scene, {}, "wall",
-             fmt::format("{} fluid particles have no wall below them and will fall out of the domain",
-                         open),
-             "add a floor: a wall of shape \"plane\" or \"basin\"", plan);
+        warn(
+            scene, {}, "wall",
+            fmt::format(
+                "{} fluid particles have no wall below them and will fall out of the domain", open),
+            "add a floor: a wall of shape \"plane\" or \"basin\"", plan);
     }
 }
 
@@ -180,8 +227,9 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     check_overlaps(scene, errors);
     check_step(scene, plan, errors);
     if (scene.fluid && filling.fluid.empty()) {
-        errors.push_back(diagnostic_at(scene, {}, "fluid", "no fluid particle fits into the blocks",
-                                       "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
+        errors.push_back(diagnostic_at(
+            scene, {}, "fluid", "no fluid particle fits into the blocks",
+            "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
     }
     if (!errors.empty()) {
         throw CaseError(errors);

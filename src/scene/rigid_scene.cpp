@@ -15,7 +15,9 @@ class Materials {
 public:
     int index(const std::string& name)
     {
-        return name.empty() ? 0 : known_.try_emplace(name, static_cast<int>(known_.size()) + 1).first->second;
+        return name.empty()
+                   ? 0
+                   : known_.try_emplace(name, static_cast<int>(known_.size()) + 1).first->second;
     }
 
 private:
@@ -96,7 +98,8 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
         boundary.surface = inside;
     } else {
         const auto& solid = std::get<SolidWall>(wall.geometry);
-        boundary.surface = Obstacle{contact_shape(solid.shape, dimensions), solid.centre, solid.rotation};
+        boundary.surface =
+            Obstacle{contact_shape(solid.shape, dimensions), solid.centre, solid.rotation};
     }
     return boundary;
 }
@@ -122,8 +125,9 @@ Rigid make_rigid(const Scene& scene)
     }
     rigid.laws.otherwise = {scene.contact.restitution, scene.contact.friction};
     for (const MaterialPair& pair : scene.contact.pairs) {
-        rigid.laws.pairs.push_back({{materials.index(pair.materials[0]), materials.index(pair.materials[1])},
-                                    {pair.restitution, pair.friction}});
+        rigid.laws.pairs.push_back(
+            {{materials.index(pair.materials[0]), materials.index(pair.materials[1])},
+             {pair.restitution, pair.friction}});
     }
     return rigid;
 }

@@ -79,8 +79,8 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
     return a + ab * (vb * scale) + ac * (vc * scale);
 }
 
-// Solid angle of a triangle seen from p over 4 pi (van Oosterom & Strackee 1983): sums to the winding
-// number, 1 inside and 0 outside of a closed surface.
+// Solid angle of a triangle seen from p over 4 pi (van Oosterom & Strackee 1983): sums to the
+// winding number, 1 inside and 0 outside of a closed surface.
 double winding(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
     const Vec3 ra = a - p;
@@ -138,8 +138,7 @@ double volume_of(const SphereShape& s, int dimensions)
 }
 double volume_of(const CylinderShape& c, int dimensions)
 {
-    return dimensions == 2 ? 2 * c.radius * c.length
-                           : std::numbers::pi * sq(c.radius) * c.length;
+    return dimensions == 2 ? 2 * c.radius * c.length : std::numbers::pi * sq(c.radius) * c.length;
 }
 double volume_of(const MeshShape& mesh, int)
 {

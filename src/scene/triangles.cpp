@@ -31,8 +31,8 @@ std::vector<Vec3> circle_points(double radius, const Vec3& centre, const Vec3& u
     return points;
 }
 
-// The face of the box [min, max] across `axis` at its lower (side 0) or upper (side 1) end, seen from
-// outside the box.
+// The face of the box [min, max] across `axis` at its lower (side 0) or upper (side 1) end, seen
+// from outside the box.
 std::vector<Vec3> face(const Vec3& min, const Vec3& max, int axis, int side)
 {
     const int u = (axis + 1) % 3;
@@ -54,8 +54,10 @@ void add(TriangleSurface& surface, const BoxShape& box, int dimensions)
 {
     const Vec3 half = box.size / 2;
     if (dimensions == 2) {
-        add_polygon(surface, {{-half.x(), 0, -half.z()}, {half.x(), 0, -half.z()},
-                              {half.x(), 0, half.z()}, {-half.x(), 0, half.z()}});
+        add_polygon(surface, {{-half.x(), 0, -half.z()},
+                              {half.x(), 0, -half.z()},
+                              {half.x(), 0, half.z()},
+                              {-half.x(), 0, half.z()}});
         return;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -67,14 +69,16 @@ void add(TriangleSurface& surface, const BoxShape& box, int dimensions)
 void add(TriangleSurface& surface, const SphereShape& sphere, int dimensions)
 {
     if (dimensions == 2) {
-        add_polygon(surface, circle_points(sphere.radius, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()));
+        add_polygon(surface,
+                    circle_points(sphere.radius, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitZ()));
         return;
     }
     constexpr int bands = circle / 2;
     const auto ring = [&](int band) {
         const double polar = std::numbers::pi * band / bands;
         return circle_points(sphere.radius * std::sin(polar),
-                             {0, 0, -sphere.radius * std::cos(polar)}, Vec3::UnitX(), Vec3::UnitY());
+                             {0, 0, -sphere.radius * std::cos(polar)}, Vec3::UnitX(),
+                             Vec3::UnitY());
     };
     for (int band = 0; band < bands; ++band) {
         const auto low = ring(band);
@@ -109,7 +113,8 @@ void add(TriangleSurface& surface, const MeshShape& mesh, int)
     surface.triangles = mesh.triangles;
 }
 
-void add_wall(TriangleSurface& surface, const PlaneWall& plane, const Bounds& domain, int dimensions)
+void add_wall(TriangleSurface& surface, const PlaneWall& plane, const Bounds& domain,
+              int dimensions)
 {
     const Vec3 centre = (domain.min + domain.max) / 2;
     const Vec3 foot = centre - plane.normal.dot(centre - plane.point) * plane.normal;
@@ -121,7 +126,8 @@ void add_wall(TriangleSurface& surface, const PlaneWall& plane, const Bounds& do
                               foot - reach * t + back});
         return;
     }
-    // The rectangle that covers the domain's shadow on the plane, along the coordinate axes if it can.
+    // The rectangle that covers the domain's shadow on the plane, along the coordinate axes if it
+    // can.
     const Vec3 helper = std::abs(plane.normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
     const Vec3 t = (helper - helper.dot(plane.normal) * plane.normal).normalized();
     const Vec3 s = plane.normal.cross(t);
@@ -136,7 +142,8 @@ void add_wall(TriangleSurface& surface, const BasinWall& basin, const Bounds&, i
 {
     for (int axis = 0; axis < 3; ++axis) {
         for (int side = 0; side < 2; ++side) {
-            if (basin.open[static_cast<std::size_t>(2 * axis + side)] || (dimensions == 2 && axis == 1)) {
+            if (basin.open[static_cast<std::size_t>(2 * axis + side)] ||
+                (dimensions == 2 && axis == 1)) {
                 continue;
             }
             auto polygon = face(basin.min, basin.max, axis, side);
@@ -147,7 +154,9 @@ void add_wall(TriangleSurface& surface, const BasinWall& basin, const Bounds&, i
                 Vec3 max = basin.max;
                 (side == 0 ? max : min)[axis] = (side == 0 ? min : max)[axis];
                 (side == 0 ? min : max)[axis] += side == 0 ? -thickness : thickness;
-                polygon = {{min.x(), 0, min.z()}, {max.x(), 0, min.z()}, {max.x(), 0, max.z()},
+                polygon = {{min.x(), 0, min.z()},
+                           {max.x(), 0, min.z()},
+                           {max.x(), 0, max.z()},
                            {min.x(), 0, max.z()}};
             } else {
                 std::swap(polygon[1], polygon[3]); // seen from inside

@@ -18,7 +18,8 @@ struct Lattice {
 };
 
 // Calls put(point) for the cells [first, last) along each axis of a lattice.
-void over_cells(const std::array<Index, 3>& first, const std::array<Index, 3>& last, const auto& put)
+void over_cells(const std::array<Index, 3>& first, const std::array<Index, 3>& last,
+                const auto& put)
 {
     for (Index k = first[2]; k < last[2]; ++k) {
         for (Index j = first[1]; j < last[1]; ++j) {
@@ -33,7 +34,8 @@ void over_cells(const std::array<Index, 3>& first, const std::array<Index, 3>& l
 void add_points(const PlaneWall& plane, const Lattice& lattice, std::vector<Vec3>& points)
 {
     const Vec3 n = plane.normal;
-    // Tangents: in two dimensions along the section, else along the coordinate axes as far as possible.
+    // Tangents: in two dimensions along the section, else along the coordinate axes as far as
+    // possible.
     const Vec3 helper = std::abs(n.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
     const Vec3 t = lattice.dimensions == 2 ? Vec3(Vec3::UnitY().cross(n))
                                            : Vec3((helper - helper.dot(n) * n).normalized());
@@ -44,7 +46,9 @@ void add_points(const PlaneWall& plane, const Lattice& lattice, std::vector<Vec3
     const Vec3 centre = (box.min + box.max) / 2;
     const double reach = (box.max - box.min).norm() / 2;
     // Lattice indices count from the origin, so that parallel walls share one lattice.
-    const auto index = [&](double x) { return static_cast<Index>(std::floor(x / lattice.spacing)); };
+    const auto index = [&](double x) {
+        return static_cast<Index>(std::floor(x / lattice.spacing));
+    };
     const double ct = t.dot(centre);
     const double cs = s.dot(centre);
     const Index s_first = lattice.dimensions == 2 ? 0 : index(cs - reach);

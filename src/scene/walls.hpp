@@ -6,7 +6,8 @@
 
 namespace hyoryu {
 
-/// Appends the particles of every wall; where two walls overlap, the earlier one keeps its particles.
+/// Appends the particles of every wall; where two walls overlap, the earlier one keeps its
+/// particles.
 void fill_walls(const Scene& scene, Filling& filling);
 
 /// Depth of a point behind the surface of a wall, negative in the free space [m].

@@ -32,15 +32,16 @@ public:
         const auto* numbers =
             found == snapshot.arrays.end() ? nullptr : std::get_if<Numbers>(&found->second.values);
         if (numbers == nullptr) {
-            throw IoError(fmt::format("the checkpoint has no `{}`: it belongs to another case", name));
+            throw IoError(
+                fmt::format("the checkpoint has no `{}`: it belongs to another case", name));
         }
         numbers_ = numbers;
     }
     double number()
     {
         if (next_ >= numbers_->size()) {
-            throw IoError(fmt::format("`{}` of the checkpoint is too short: it belongs to another case",
-                                      name_));
+            throw IoError(fmt::format(
+                "`{}` of the checkpoint is too short: it belongs to another case", name_));
         }
         return (*numbers_)[next_++];
     }
@@ -137,9 +138,11 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     Reader numbers(snapshot, "fluid/numbers");
     const auto kept = static_cast<Index>(numbers.number());
     if (kept > particles.fluid().size()) {
-        throw IoError("the checkpoint has more fluid particles than the case: it belongs to another case");
+        throw IoError(
+            "the checkpoint has more fluid particles than the case: it belongs to another case");
     }
-    // Particles that were lost before the checkpoint leave the store; which rows go does not matter.
+    // Particles that were lost before the checkpoint leave the store; which rows go does not
+    // matter.
     std::vector<std::int32_t> order(static_cast<std::size_t>(kept));
     for (std::size_t k = 0; k < order.size(); ++k) {
         order[k] = static_cast<std::int32_t>(k);
@@ -184,9 +187,9 @@ void save_rigid(const Rigid& rigid, Snapshot& snapshot)
     add(snapshot, "rigid/memory", save_memory(rigid));
     const RigidCounters& c = rigid.counters;
     add(snapshot, "rigid/counters",
-        {static_cast<double>(c.impacts), static_cast<double>(c.rounds), static_cast<double>(c.events),
-         static_cast<double>(c.tangential_impacts), static_cast<double>(c.capped_steps),
-         c.worst_residual, c.worst_penetration});
+        {static_cast<double>(c.impacts), static_cast<double>(c.rounds),
+         static_cast<double>(c.events), static_cast<double>(c.tangential_impacts),
+         static_cast<double>(c.capped_steps), c.worst_residual, c.worst_penetration});
 }
 
 void restore_rigid(Rigid& rigid, const Snapshot& snapshot)
@@ -204,7 +207,8 @@ void restore_rigid(Rigid& rigid, const Snapshot& snapshot)
     load_memory(rigid, memory.all());
     Reader counters(snapshot, "rigid/counters");
     RigidCounters& c = rigid.counters;
-    for (long long* count : {&c.impacts, &c.rounds, &c.events, &c.tangential_impacts, &c.capped_steps}) {
+    for (long long* count :
+         {&c.impacts, &c.rounds, &c.events, &c.tangential_impacts, &c.capped_steps}) {
         *count = static_cast<long long>(counters.number());
     }
     c.worst_residual = counters.number();
@@ -214,7 +218,8 @@ void restore_rigid(Rigid& rigid, const Snapshot& snapshot)
 Numbers numbers_of(const Ledger& ledger)
 {
     const Totals& t = ledger.start;
-    Numbers n{t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic, t.body_potential};
+    Numbers n{t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic,
+              t.body_potential};
     put(n, t.momentum);
     put(n, t.momentum_scale);
     put(n, ledger.contact_loss);

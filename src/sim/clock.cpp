@@ -31,7 +31,8 @@ bool frame_due(const Clock& clock, const Scene& scene)
 bool history_due(const Clock& clock, const Scene& scene)
 {
     const double every = scene.output.history_every;
-    return every <= 0 || clock.time >= static_cast<double>(clock.history) * every - rounding * every;
+    return every <= 0 ||
+           clock.time >= static_cast<double>(clock.history) * every - rounding * every;
 }
 
 NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limit)

@@ -74,7 +74,8 @@ Cloud cloud_of(const Simulation& sim, std::string name, Rows rows, Kind kind)
     cloud.columns.push_back(column_of(particles, field::pressure, rows));
     cloud.columns.push_back(column_of(particles, field::density, rows));
     cloud.columns.push_back(
-        {"Kind", "", 1, std::vector<std::uint8_t>(at(rows.size()), static_cast<std::uint8_t>(kind))});
+        {"Kind", "", 1,
+         std::vector<std::uint8_t>(at(rows.size()), static_cast<std::uint8_t>(kind))});
     cloud.columns.push_back({"Body", "", 1, body_index(particles, rows)});
     const auto& wanted = sim.scene.output.fields;
     if (std::find(wanted.begin(), wanted.end(), "volume") != wanted.end()) {
@@ -138,11 +139,11 @@ Cloud body_cloud(const Simulation& sim)
     for (std::size_t k = 0; k < count; ++k) {
         ids[k] = static_cast<std::int64_t>(k);
     }
-    cloud.columns = {{"Id", "", 1, std::move(ids)},
-                     {"Velocity", "m/s", 3, std::move(velocities)},
-                     {"Kind", "", 1,
-                      std::vector<std::uint8_t>(count, static_cast<std::uint8_t>(Kind::body))},
-                     {"Body", "", 1, std::move(bodies)}};
+    cloud.columns = {
+        {"Id", "", 1, std::move(ids)},
+        {"Velocity", "m/s", 3, std::move(velocities)},
+        {"Kind", "", 1, std::vector<std::uint8_t>(count, static_cast<std::uint8_t>(Kind::body))},
+        {"Body", "", 1, std::move(bodies)}};
     return cloud;
 }
 
@@ -161,7 +162,8 @@ Surface body_surface(const Simulation& sim)
             push(velocities, body.velocity + omega.cross(body.orientation * corner));
         }
     }
-    all.columns = {{"Body", "", 1, std::move(bodies)}, {"Velocity", "m/s", 3, std::move(velocities)}};
+    all.columns = {{"Body", "", 1, std::move(bodies)},
+                   {"Velocity", "m/s", 3, std::move(velocities)}};
     return all;
 }
 

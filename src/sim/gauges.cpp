@@ -32,8 +32,8 @@ double filled(const Fluid& fluid, const std::vector<Index>& near, const Vec3& po
     return sum_;
 }
 
-// Highest place of the vertical through (x, y) that is half filled, from above in steps of a quarter
-// spacing, then by the line between two of them.
+// Highest place of the vertical through (x, y) that is half filled, from above in steps of a
+// quarter spacing, then by the line between two of them.
 double elevation(const Fluid& fluid, const Vec3& place)
 {
     const auto x = fluid.particles[field::position];

@@ -35,7 +35,9 @@ Motion motion(const Simulation& sim)
         const auto v = sim.fluid->particles[field::velocity];
         all = reduce(
             rows.begin, rows.end, Motion{},
-            [&](Index i) { return Motion{v[at(i)], v[at(i)].norm()}; },
+            [&](Index i) {
+                return Motion{v[at(i)], v[at(i)].norm()};
+            },
             [](const Motion& a, const Motion& b) {
                 return Motion{a.momentum + b.momentum, a.scale + b.scale};
             });
@@ -49,8 +51,8 @@ Motion motion(const Simulation& sim)
     return all;
 }
 
-// Impulse of contacts with walls, and what holds the locked axes of bodies: whatever they would have
-// gained.
+// Impulse of contacts with walls, and what holds the locked axes of bodies: whatever they would
+// have gained.
 Vec3 outside_impulse(const Simulation& sim, double dt)
 {
     Vec3 impulse = Vec3::Zero();
@@ -154,7 +156,8 @@ void close_books(Simulation& sim, const OpenBooks& before, double dt)
     const Vec3 gravity = dt * weight(sim);
     const Vec3 lost = sim.fluid ? Vec3(sim.fluid->lost.momentum - before.lost) : Vec3(Vec3::Zero());
     const Vec3 residual = after.momentum - before.momentum + lost - walls - gravity;
-    // Momentum that passes through in one step counts for the scale: a fluid at rest carries its weight.
+    // Momentum that passes through in one step counts for the scale: a fluid at rest carries its
+    // weight.
     const double scale = std::max({before.scale, after.scale, gravity.norm()});
     sim.ledger.wall_impulse += walls;
     sim.ledger.gravity_impulse += gravity;

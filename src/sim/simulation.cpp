@@ -15,8 +15,8 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// The compressible hydrostatic density at a depth: rho0 exp(g d / c0^2). Starting from rest pressure
-// instead would ring for seconds.
+// The compressible hydrostatic density at a depth: rho0 exp(g d / c0^2). Starting from rest
+// pressure instead would ring for seconds.
 double hydrostatic_density(const FluidParameters& f, double depth)
 {
     return f.eos.rho0 * std::exp(f.gravity.norm() * depth / sq(f.eos.c0));
@@ -67,12 +67,14 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
     Fluid fluid;
     fluid.parameters = *sim.plan.fluid;
     fluid.effects = sim.plan.effects;
-    fluid.kernel = make_kernel(fluid.parameters.h, fluid.parameters.spacing, fluid.parameters.dimensions);
+    fluid.kernel =
+        make_kernel(fluid.parameters.h, fluid.parameters.spacing, fluid.parameters.dimensions);
     // A particle may graze the edge of the domain; two spacings beyond it is gone for good.
     const Vec3 margin = Vec3::Constant(2 * fluid.parameters.spacing);
     fluid.domain_min = filling.domain.min - margin;
     fluid.domain_max = filling.domain.max + margin;
-    allocate(fluid, static_cast<Index>(filling.fluid.size()), static_cast<Index>(filling.wall.size()),
+    allocate(fluid, static_cast<Index>(filling.fluid.size()),
+             static_cast<Index>(filling.wall.size()),
              static_cast<Index>(sim.body_particles.points.size()));
     for (std::size_t k = 0; k < fluid.particles.id().size(); ++k) {
         fluid.particles.id()[k] = static_cast<std::int64_t>(k);
@@ -93,7 +95,8 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         const auto begin = static_cast<Index>(sim.body_particles.points.size());
         sim.body_particles.points.insert(sim.body_particles.points.end(), body.points.begin(),
                                          body.points.end());
-        sim.body_particles.of.push_back({begin, static_cast<Index>(sim.body_particles.points.size())});
+        sim.body_particles.of.push_back(
+            {begin, static_cast<Index>(sim.body_particles.points.size())});
     }
     sim.loads.bodies.resize(scene.bodies.size());
     if (plan.fluid) {

@@ -13,8 +13,8 @@ namespace hyoryu {
 
 namespace {
 
-// A weakly compressible fluid is designed for 1 %. A few particles squeezed between bodies in a jam reach
-// tens of percent and recover; at twice the density the run is lost.
+// A weakly compressible fluid is designed for 1 %. A few particles squeezed between bodies in a jam
+// reach tens of percent and recover; at twice the density the run is lost.
 constexpr double worst_compression = 1.0;
 // Nothing in the flow can be faster than its sound without the run being lost.
 constexpr double fastest_over_sound = 2;
@@ -30,7 +30,8 @@ std::string probable_cause(const Simulation& sim)
         return "probably the fixed `time.step` is too long";
     }
     if (sim.scene.time.cfl > 0.6) {
-        return fmt::format("probably `time.cfl` = {} is too large; 0.6 is the default", sim.scene.time.cfl);
+        return fmt::format("probably `time.cfl` = {} is too large; 0.6 is the default",
+                           sim.scene.time.cfl);
     }
     if (sim.plan.expected_speed > 0.2 * sim.plan.fluid->eos.c0) {
         return "probably `fluid.sound_speed` is too low for the speeds of this flow";
@@ -42,8 +43,8 @@ std::string probable_cause(const Simulation& sim)
 [[noreturn]] void report(const Simulation& sim, std::string who, std::string field_name,
                          std::string cause)
 {
-    throw NumericalError({sim.clock.step, sim.clock.time, std::move(who), std::move(field_name),
-                          std::move(cause)});
+    throw NumericalError(
+        {sim.clock.step, sim.clock.time, std::move(who), std::move(field_name), std::move(cause)});
 }
 
 void watch_fluid(Simulation& sim)
@@ -67,11 +68,12 @@ void watch_fluid(Simulation& sim)
             ++bad;
         }
         const Vec3& x = fluid.particles[field::position][at(bad)];
-        report(sim,
-               fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m",
-                           fluid.particles.id()[at(bad)], x.x(), x.y(), x.z()),
-               fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", rho[at(bad)], v[at(bad)].norm()),
-               probable_cause(sim));
+        report(
+            sim,
+            fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m",
+                        fluid.particles.id()[at(bad)], x.x(), x.y(), x.z()),
+            fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", rho[at(bad)], v[at(bad)].norm()),
+            probable_cause(sim));
     }
     sim.ledger.worst_density_error = std::max(sim.ledger.worst_density_error, worst);
 }
@@ -85,7 +87,8 @@ void watch(Simulation& sim)
     }
     for (const Body& body : sim.rigid.bodies) {
         const bool finite = body.position.allFinite() && body.velocity.allFinite() &&
-                            body.angular_momentum.allFinite() && body.orientation.coeffs().allFinite();
+                            body.angular_momentum.allFinite() &&
+                            body.orientation.coeffs().allFinite();
         if (!finite) {
             report(sim, fmt::format("body \"{}\"", body.name), "pose or velocity is not finite",
                    "probably its mass or a load on it is extreme; compare it with its neighbours");

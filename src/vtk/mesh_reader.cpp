@@ -2,8 +2,8 @@
 // Reading with VTK.
 #include "hyoryu/geometry/mesh.hpp"
 
-#include "hyoryu/core/error.hpp"
 #include "geometry/mesh_file.hpp"
+#include "hyoryu/core/error.hpp"
 
 #include <fmt/format.h>
 

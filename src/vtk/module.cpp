@@ -4,8 +4,8 @@
 
 extern "C" {
 
-[[gnu::visibility("default")]] void
-hyoryu_module_read_mesh(const std::filesystem::path& file, double scale, hyoryu::Mesh& mesh)
+[[gnu::visibility("default")]] void hyoryu_module_read_mesh(const std::filesystem::path& file,
+                                                            double scale, hyoryu::Mesh& mesh)
 {
     mesh = hyoryu::read_mesh(file, scale);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fused sweep against hand-made numbers, its scalar reference, and the promise of the absent effect.
+// The fused sweep against hand-made numbers, its scalar reference, and the promise of the absent
+// effect.
 #include "hyoryu/core/sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +75,8 @@ TEST(Sweep, MatchesTheScalarReference)
     Cloud fast(random_points(900, 1.0), 0.1, 3);
     Cloud clear_ = Cloud(random_points(900, 1.0), 0.1, 3);
     sweep(fast.particles, fast.pairs, fast.records, fast.kernel, Spring{}, Count{});
-    sweep_reference(clear_.particles, clear_.pairs, clear_.records, clear_.kernel, Spring{}, Count{});
+    sweep_reference(clear_.particles, clear_.pairs, clear_.records, clear_.kernel, Spring{},
+                    Count{});
     for (std::size_t k = 0; k < 900; ++k) {
         const Vec3 a = fast.particles[field::force][k];
         const Vec3 b = clear_.particles[field::force][k];
@@ -132,7 +134,8 @@ TEST(Sweep, TheSameBitsForAnyNumberOfThreads)
         if (first.empty()) {
             first.assign(forces.begin(), forces.end());
         }
-        EXPECT_TRUE(std::equal(first.begin(), first.end(), forces.begin())) << threads << " threads";
+        EXPECT_TRUE(std::equal(first.begin(), first.end(), forces.begin()))
+            << threads << " threads";
     }
     set_threads(0);
 }
@@ -172,7 +175,8 @@ TEST(Kernel, FIsTheDerivativeOfWOverR)
     const Kernel kernel = make_kernel(0.15, 0.1, 3);
     const real r = 0.12;
     const real e = 1e-6;
-    const real slope = (kernel(Vec<real>{r + e, 0, 0}).w - kernel(Vec<real>{r - e, 0, 0}).w) / (2 * e);
+    const real slope =
+        (kernel(Vec<real>{r + e, 0, 0}).w - kernel(Vec<real>{r - e, 0, 0}).w) / (2 * e);
     // W and F are calibrated apart, by less than 1 % on this lattice (0.06 % and the sum of W).
     EXPECT_NEAR(kernel(Vec<real>{r, 0, 0}).f * r / slope, 1, 0.01);
 }

@@ -79,7 +79,8 @@ TEST(Terms, WallTakesTheHydrostaticPressureOfItsDepth)
 {
     const EquationOfState eos{1000, 1e6}; // so stiff that rho = rho0
     const WallExtrapolation wall{eos, {0, 0, -9.81}};
-    const Pair<real> below{{0, 0, -0.2}, 0.2, 0.04, 3.0, -2.0}; // wall particle 0.2 m under the fluid
+    const Pair<real> below{
+        {0, 0, -0.2}, 0.2, 0.04, 3.0, -2.0}; // wall particle 0.2 m under the fluid
     Record<WallExtrapolation::Writes, real> sum;
     wall(below, particle(0, 0, 1, 0), particle(0, 0, 1, 500), sum);
     EXPECT_DOUBLE_EQ(sum[field::shepard_sum], 3);
@@ -95,12 +96,13 @@ TEST(Terms, BackstopStopsOnlyWhatApproaches)
     stop(hand, particle(0.5, -4, 1, 0), particle(0, 0, 1, 0), sum);
     EXPECT_NEAR(sum[field::force].x, 4, 1e-9); // -1 * (-2)/0.25 * 0.5
     Record<Fields<Force>, real> far;
-    stop(Pair<real>{{1.5, 0, 0}, 1.5, 2.25, 3, -2}, particle(1.5, -4, 1, 0), particle(0, 0, 1, 0), far);
+    stop(Pair<real>{{1.5, 0, 0}, 1.5, 2.25, 3, -2}, particle(1.5, -4, 1, 0), particle(0, 0, 1, 0),
+         far);
     EXPECT_EQ(far[field::force].x, 0);
 }
 
-// Every term that ships: what i feels from j is the negative of what j feels from i, bit for bit, and a
-// pack gives what its lanes give one by one.
+// Every term that ships: what i feels from j is the negative of what j feels from i, bit for bit,
+// and a pack gives what its lanes give one by one.
 template <class Term>
 void expect_pairwise(const Term& term, auto written)
 {

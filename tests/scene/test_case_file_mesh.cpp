@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <fstream>
 
 #ifdef HYORYU_HAS_VTK
@@ -47,7 +49,8 @@ protected:
             return error.diagnostics();
         }
     }
-    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "hyoryu_case_mesh";
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
+                                    ("hyoryu_case_mesh_" + std::to_string(getpid()));
 };
 
 std::string body_of(const std::string& file)

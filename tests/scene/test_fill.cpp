@@ -115,10 +115,12 @@ TEST(Plan, NamesWhatRunsAndWhatDoesNot)
 {
     const Scene scene = parse_case(tank, "t.toml");
     const Plan plan = make_plan(scene, fill(scene));
-    for (const char* effect : {"gravity", "pressure", "artificial_viscosity", "density_diffusion"}) {
+    for (const char* effect :
+         {"gravity", "pressure", "artificial_viscosity", "density_diffusion"}) {
         EXPECT_TRUE(plan.runs(effect)) << effect;
     }
-    for (const char* effect : {"contact", "body_load", "rigid_motion", "laminar_viscosity", "shifting"}) {
+    for (const char* effect :
+         {"contact", "body_load", "rigid_motion", "laminar_viscosity", "shifting"}) {
         EXPECT_FALSE(plan.runs(effect)) << effect;
     }
     // c0 = 10 x 2 sqrt(g H)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Same bits for any thread count and across a restart; absent effects cost nothing; momentum closes.
+// Same bits for any thread count and across a restart; absent effects cost nothing; momentum
+// closes.
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 
@@ -143,8 +144,8 @@ TEST(Promises, AnAbsentEffectHasNoFieldAndNoLineOfTheStep)
 {
     Simulation bare = make(std::string(flood) + R"(
 )");
-    const Scene plain = parse_case(flood, "test.toml",
-                                   {"fluid.viscosity.model=none", "fluid.density_diffusion.model=none"});
+    const Scene plain = parse_case(
+        flood, "test.toml", {"fluid.viscosity.model=none", "fluid.density_diffusion.model=none"});
     const Filling filling = fill(plain);
     Simulation without = make_simulation(plain, make_plan(plain, filling), filling);
     EXPECT_TRUE(bare.fluid->particles.has(field::viscous_force));

@@ -12,11 +12,11 @@ namespace hyoryu {
 
 /// The grid: x runs fastest, so cells that are neighbours in x hold consecutive points.
 struct CellGrid {
-    Vec3 origin{0, 0, 0};                  // lower corner [m]
-    real cell = 1;                         // edge length [m]
-    std::array<Index, 3> count{0, 0, 0};   // cells along x, y, z
-    std::vector<std::int32_t> start;       // first point of each cell; one entry more than cells
-    std::vector<std::int32_t> order;       // rows in the order of the cells
+    Vec3 origin{0, 0, 0};                // lower corner [m]
+    real cell = 1;                       // edge length [m]
+    std::array<Index, 3> count{0, 0, 0}; // cells along x, y, z
+    std::vector<std::int32_t> start;     // first point of each cell; one entry more than cells
+    std::vector<std::int32_t> order;     // rows in the order of the cells
     // Points in the order of the cells, relative to the origin: what the search streams through.
     // Single precision finds candidates; `slack` covers its rounding.
     std::vector<float> x, y, z;

@@ -16,13 +16,13 @@ namespace hyoryu {
 struct Diagnostic {
     enum class Severity { error, warning };
     Severity severity = Severity::error;
-    std::string file;  // as the user named it; empty for the command line
-    int line = 0;      // from 1; 0 when no place can be named
-    int column = 0;    // from 1
-    int length = 1;    // columns that the caret underlines
-    std::string key;   // full path, for instance "fluid.density" or "body[2].size"
-    std::string what;  // what is wrong and what was expected
-    std::string hint;  // how to mend it; may be empty
+    std::string file;   // as the user named it; empty for the command line
+    int line = 0;       // from 1; 0 when no place can be named
+    int column = 0;     // from 1
+    int length = 1;     // columns that the caret underlines
+    std::string key;    // full path, for instance "fluid.density" or "body[2].size"
+    std::string what;   // what is wrong and what was expected
+    std::string hint;   // how to mend it; may be empty
     std::string source; // the text of the line, for the caret; may be empty
 };
 
@@ -41,7 +41,8 @@ private:
     std::vector<Diagnostic> diagnostics_;
 };
 
-/// The numbers went wrong. Exit code 3; the last good state is on disk by the time the user reads it.
+/// The numbers went wrong. Exit code 3; the last good state is on disk by the time the user reads
+/// it.
 struct NumericalError : std::runtime_error {
     struct Where {
         std::int64_t step = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Fields of a particle as tag types, lists of them, and records that hold exactly the listed ones.
 //
-// One bracket everywhere: `particles[field::velocity]` is a column, `i[field::velocity]` the value of one
-// particle, `sum[field::force]` an accumulator. A record knows only the fields it was made for, so a term
-// that touches an undeclared field does not compile.
+// One bracket everywhere: `particles[field::velocity]` is a column, `i[field::velocity]` the value
+// of one particle, `sum[field::force]` an accumulator. A record knows only the fields it was made
+// for, so a term that touches an undeclared field does not compile.
 #pragma once
 
 #include "hyoryu/core/vec.hpp"
@@ -21,9 +21,12 @@ struct FieldInfo {
 };
 
 template <class F>
-concept Field = requires {
+concept Field = requires
+{
     typename F::type;
-    { F::info } -> std::convertible_to<FieldInfo>;
+    {
+        F::info
+        } -> std::convertible_to<FieldInfo>;
 };
 
 // The number of scalars in a field: 1 or 3.
@@ -85,11 +88,13 @@ struct UnionOf<Fields<F...>> {
     using type = Fields<F...>;
 };
 template <class... F, class... Rest>
-struct UnionOf<Fields<F...>, Fields<>, Rest...> : UnionOf<Fields<F...>, Rest...> {};
+struct UnionOf<Fields<F...>, Fields<>, Rest...> : UnionOf<Fields<F...>, Rest...> {
+};
 template <class... F, class G, class... H, class... Rest>
 struct UnionOf<Fields<F...>, Fields<G, H...>, Rest...>
     : std::conditional_t<contains<G, Fields<F...>>, UnionOf<Fields<F...>, Fields<H...>, Rest...>,
-                         UnionOf<Fields<F..., G>, Fields<H...>, Rest...>> {};
+                         UnionOf<Fields<F..., G>, Fields<H...>, Rest...>> {
+};
 } // namespace detail
 
 /// All fields of the lists, each once, in the order of first appearance.
@@ -120,10 +125,10 @@ struct Slot {
 template <class List, class N>
 struct Record;
 template <class N>
-struct Record<Fields<>, N> {};
+struct Record<Fields<>, N> {
+};
 template <class... F, class N>
-    requires(sizeof...(F) > 0)
-struct Record<Fields<F...>, N> : Slot<F, N>... {
+requires(sizeof...(F) > 0) struct Record<Fields<F...>, N> : Slot<F, N>... {
     using Slot<F, N>::operator[]...;
 };
 

@@ -19,14 +19,15 @@ struct ListChoice {
 };
 
 /// Lists of one pair kind (destination <- source). Rows are kept in blocks, each with its own
-/// storage, so that blocks are built in parallel and no entry is ever moved. Every list is filled up
-/// to whole packs with the void row, which is far from everything.
+/// storage, so that blocks are built in parallel and no entry is ever moved. Every list is filled
+/// up to whole packs with the void row, which is far from everything.
 class PairList {
 public:
     static constexpr Index block_rows = 128;
 
-    /// `x`: positions of all rows. Neighbours of a row are listed grid by grid in the order of the cells;
-    /// a row of the source is its own neighbour, as kernel sums want it and differences do not mind.
+    /// `x`: positions of all rows. Neighbours of a row are listed grid by grid in the order of the
+    /// cells; a row of the source is its own neighbour, as kernel sums want it and differences do
+    /// not mind.
     void build(std::span<const Vec3> x, Rows destination, std::span<const CellGrid* const> sources,
                real radius, const ListChoice& choice = {});
     /// Which rows stand in any list, by row; what has met nothing needs no list of its own.
@@ -41,9 +42,9 @@ public:
         const Index local = row - rows_.begin;
         const Block& block = blocks_[static_cast<std::size_t>(local / block_rows)];
         const auto k = static_cast<std::size_t>(local % block_rows);
-        return std::span(block.entries).subspan(static_cast<std::size_t>(block.start[k]),
-                                                static_cast<std::size_t>(block.start[k + 1] -
-                                                                         block.start[k]));
+        return std::span(block.entries)
+            .subspan(static_cast<std::size_t>(block.start[k]),
+                     static_cast<std::size_t>(block.start[k + 1] - block.start[k]));
     }
     /// Entries including padding, and bytes held.
     Index entries() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parallel loops and sums that give the same bits for any number of threads: a loop body writes only
-// its own row, and sums are taken over fixed chunks in a fixed order.
+// Parallel loops and sums that give the same bits for any number of threads: a loop body writes
+// only its own row, and sums are taken over fixed chunks in a fixed order.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -28,7 +28,8 @@ void parallel_for(Index begin, Index end, const F& f)
     }
 }
 
-/// Calls f(k) for k in [begin, end), each a block of much and uneven work: blocks are dealt out in turn.
+/// Calls f(k) for k in [begin, end), each a block of much and uneven work: blocks are dealt out in
+/// turn.
 template <class F>
 void parallel_blocks(Index begin, Index end, const F& f)
 {

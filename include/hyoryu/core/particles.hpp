@@ -57,7 +57,8 @@ inline constexpr std::size_t index_in<F, Fields<G...>> = [] {
 
 class Particles {
 public:
-    /// Makes columns for the listed fields, zeroed, and rows of each kind. Any other field stays absent.
+    /// Makes columns for the listed fields, zeroed, and rows of each kind. Any other field stays
+    /// absent.
     template <class... F>
     void allocate(Fields<F...>, Index fluid, Index wall, Index body)
     {

@@ -23,11 +23,11 @@ struct Column {
 
 /// A cloud of points at one moment: what one frame file holds.
 struct Cloud {
-    std::string name;                // "fluid", "bodies", "walls"
-    double time = 0;                 // [s]
-    std::int64_t index = 0;          // number of the frame
-    std::vector<float> points;       // x, y, z of each point [m]
-    std::vector<Column> columns;     // one value (or vector) a point
+    std::string name;            // "fluid", "bodies", "walls"
+    double time = 0;             // [s]
+    std::int64_t index = 0;      // number of the frame
+    std::vector<float> points;   // x, y, z of each point [m]
+    std::vector<Column> columns; // one value (or vector) a point
 };
 
 /// Triangles at one moment: the surfaces of the bodies.
@@ -35,9 +35,9 @@ struct Surface {
     std::string name = "surfaces";
     double time = 0;
     std::int64_t index = 0;
-    std::vector<float> points;            // x, y, z of each corner [m]
-    std::vector<std::int32_t> triangles;  // three corner numbers each
-    std::vector<Column> columns;          // one value a corner
+    std::vector<float> points;           // x, y, z of each corner [m]
+    std::vector<std::int32_t> triangles; // three corner numbers each
+    std::vector<Column> columns;         // one value a corner
 };
 
 /// A table of numbers with a header: a history.

@@ -2,9 +2,10 @@
 // The fused pair sweep: the terms of all active effects in one loop over the neighbours.
 //
 // A term is a small value with a name, the fields it reads and writes, and one call per pair. Its
-// formula is written once, for a number N that is one real or a pack of them. The sweep gathers: row i
-// has one writer, so the sums do not depend on the number of threads, and a pair force is computed on
-// both sides by the same expression, so action equals reaction bit for bit before summation.
+// formula is written once, for a number N that is one real or a pack of them. The sweep gathers:
+// row i has one writer, so the sums do not depend on the number of threads, and a pair force is
+// computed on both sides by the same expression, so action equals reaction bit for bit before
+// summation.
 #pragma once
 
 #include "hyoryu/core/kernel.hpp"
@@ -30,21 +31,23 @@ struct Off {
 
 /// A term can be called with records of exactly the fields it declares: a declaration cannot lie.
 template <class T>
-concept PairTerm =
-    std::copyable<T> &&
+concept PairTerm = std::copyable<T> &&
     requires(const T term, const Pair<Pack>& ij, const Record<typename T::Reads, Pack>& i,
-             Record<typename T::Writes, Pack>& sum) {
-        { T::name } -> std::convertible_to<std::string_view>;
-        term(ij, i, i, sum);
-    };
+             Record<typename T::Writes, Pack>& sum)
+{
+    {
+        T::name
+        } -> std::convertible_to<std::string_view>;
+    term(ij, i, i, sum);
+};
 
 /// One row of a record store: whole packs, so that a neighbour is a few aligned loads.
 struct alignas(lanes * sizeof(real)) Quad {
     real value[lanes];
 };
 
-/// The fields of List of all rows side by side, plus the void row at the end: far from everything and
-/// otherwise zero.
+/// The fields of List of all rows side by side, plus the void row at the end: far from everything
+/// and otherwise zero.
 template <class List>
 class Records {
 public:
@@ -107,7 +110,8 @@ private:
     Pack load_pack(std::int32_t row, int q) const
     {
         Pack pack;
-        std::memcpy(&pack, &quads_[static_cast<std::size_t>(row) * quads + static_cast<std::size_t>(q)],
+        std::memcpy(&pack,
+                    &quads_[static_cast<std::size_t>(row) * quads + static_cast<std::size_t>(q)],
                     sizeof pack);
         return pack;
     }
@@ -154,8 +158,8 @@ void accumulate(Particles& particles, Index i, const auto& sum)
 
 } // namespace detail
 
-/// particles[Writes]_i += sum over the neighbours j of row i of all terms, for every row of the list.
-/// Outputs add up over the pair kinds of a stage; `clear` them first.
+/// particles[Writes]_i += sum over the neighbours j of row i of all terms, for every row of the
+/// list. Outputs add up over the pair kinds of a stage; `clear` them first.
 template <class In, class K, PairTerm... Terms>
 void sweep(Particles& particles, const PairList& pairs, const Records<In>& records, const K& kernel,
            const Terms&... terms)

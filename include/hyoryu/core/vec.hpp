@@ -59,6 +59,16 @@ inline Pack negative(const Pack& x)
     return x < 0 ? x : Pack{};
 }
 
+/// `value` where `test` is positive and 0 elsewhere, lane by lane.
+inline real where_positive(real test, real value)
+{
+    return test > 0 ? value : 0;
+}
+inline Pack where_positive(const Pack& test, const Pack& value)
+{
+    return test > 0 ? value : Pack{};
+}
+
 /// Sum over the lanes in a fixed order.
 inline real lane_sum(real x)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fluid and bodies: the pose of a body places its particles, the forces on its particles load the body.
-// The only place that knows both.
+// Fluid and bodies: the pose of a body places its particles, the forces on its particles load the
+// body. The only place that knows both.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
@@ -18,7 +18,7 @@ struct BodyParticles {
 
 /// Position and orientation.
 struct Pose {
-    Vec3 position{0, 0, 0};             // [m]
+    Vec3 position{0, 0, 0}; // [m]
     Quat orientation = Quat::Identity();
 };
 
@@ -29,8 +29,8 @@ std::vector<Pose> free_flight(const Rigid& rigid, double ahead);
 void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const BodyParticles& bodies,
                   Fluid& fluid);
 
-/// Force and torque (about the centre of mass of the pose) on each body: sums of the particle forces in
-/// the order of the rows, equal and opposite to what the fluid felt.
+/// Force and torque (about the centre of mass of the pose) on each body: sums of the particle
+/// forces in the order of the rows, equal and opposite to what the fluid felt.
 void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const BodyParticles& bodies,
                    std::vector<Wrench>& loads);
 

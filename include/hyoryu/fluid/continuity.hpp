@@ -6,8 +6,8 @@
 
 namespace hyoryu {
 
-/// sum_j V_j (v_i - v_j) . r F(r); times rho_i it is d(rho_i)/dt. Source: Monaghan (2005), eq. 2.18 in
-/// the volume form of Colagrossi & Landrini (2003).
+/// sum_j V_j (v_i - v_j) . r F(r); times rho_i it is d(rho_i)/dt. Source: Monaghan (2005), eq. 2.18
+/// in the volume form of Colagrossi & Landrini (2003).
 struct Continuity {
     static constexpr std::string_view name = "continuity";
     using Reads = Fields<Velocity, Volume>;
@@ -16,7 +16,8 @@ struct Continuity {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        sum[field::density_rate] += j[field::volume] * dot(i[field::velocity] - j[field::velocity], ij.r) * ij.f;
+        sum[field::density_rate] +=
+            j[field::volume] * dot(i[field::velocity] - j[field::velocity], ij.r) * ij.f;
     }
 };
 

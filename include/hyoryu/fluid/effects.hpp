@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The slots: which families of effects exist and which alternatives each has. A new effect is one file
-// with its term and one line here.
+// The slots: which families of effects exist and which alternatives each has. A new effect is one
+// file with its term and one line here.
 #pragma once
 
 #include "hyoryu/fluid/continuity.hpp"
@@ -13,8 +13,8 @@
 
 namespace hyoryu {
 
-/// One slot for each family of exclusive effects; `Off` first. What a slot holds decides the columns,
-/// the terms of the fused sweeps and what the plan says.
+/// One slot for each family of exclusive effects; `Off` first. What a slot holds decides the
+/// columns, the terms of the fused sweeps and what the plan says.
 struct FluidEffects {
     std::variant<Off, DensityDiffusion> diffusion; // with the pressure force
     std::variant<Off, Viscosity> viscosity;        // with continuity

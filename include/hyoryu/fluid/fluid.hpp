@@ -19,10 +19,10 @@ struct FluidNeighbours {
     PairList body_solid; // particles of different solids, for the pressure in thin films
     PairList wall_body;
     CellGrid fluid_grid, wall_grid, body_grid;
-    Rows walls_in_grid;          // the wall rows that `wall_grid` knows; fixed walls are sorted once
+    Rows walls_in_grid;         // the wall rows that `wall_grid` knows; fixed walls are sorted once
     std::vector<Vec3> built_at; // positions of all rows when the lists were made [m]
     long long builds = 0;
-    Index visits = 0;            // list entries that the sweeps of one step go over
+    Index visits = 0; // list entries that the sweeps of one step go over
 };
 
 /// What left the domain and was taken out of the run.
@@ -48,17 +48,18 @@ struct Fluid {
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
 };
 
-/// Makes the columns that the active effects need, and no others, for so many particles of each kind.
+/// Makes the columns that the active effects need, and no others, for so many particles of each
+/// kind.
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count);
 
-// The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves the
-// pressure loop and the velocity loop (Zhang, Rezavand & Hu 2020, without the dual time step).
+// The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves
+// the pressure loop and the velocity loop (Zhang, Rezavand & Hu 2020, without the dual time step).
 
 /// rho += dt R, x += dt v of the fluid; x += dt v of moving walls.
 void drift(Fluid& fluid, real dt);
 
-/// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and drops
-/// those outside the domain when it does. Positions must be finite.
+/// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and
+/// drops those outside the domain when it does. Positions must be finite.
 void update_neighbours(Fluid& fluid);
 /// Makes the lists again from the recorded positions, as a restart needs.
 void rebuild_neighbours(Fluid& fluid);

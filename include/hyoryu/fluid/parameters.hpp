@@ -6,11 +6,11 @@
 
 namespace hyoryu {
 
-/// Linear equation of state p = c0^2 (rho - rho0). At Mach 0.1 it equals Tait's law to the accuracy of
-/// weak compressibility, and it is invertible, which walls need.
+/// Linear equation of state p = c0^2 (rho - rho0). At Mach 0.1 it equals Tait's law to the accuracy
+/// of weak compressibility, and it is invertible, which walls need.
 struct EquationOfState {
-    real rho0 = 1000;  // reference density [kg/m3]
-    real c0 = 1;       // speed of sound [m/s]
+    real rho0 = 1000; // reference density [kg/m3]
+    real c0 = 1;      // speed of sound [m/s]
 
     template <class N>
     N pressure(const N& rho) const // [Pa]

@@ -16,13 +16,15 @@ struct PressureForce {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        sum[field::force] += -(i[field::volume] * j[field::volume]) * (i[field::pressure] + j[field::pressure]) * ij.f * ij.r;
+        sum[field::force] += -(i[field::volume] * j[field::volume]) *
+                             (i[field::pressure] + j[field::pressure]) * ij.f * ij.r;
     }
 };
 
-/// The same between a fluid and a solid particle or between particles of two solids, with pushing only:
-/// p+ = max(p, 0) on both sides. An isolated droplet of rho < rho0 would otherwise be drawn into the
-/// wall through the pair average, the measured cause of leaks.
+/// The same between a fluid and a solid particle or between particles of two solids, only where
+/// both are under pressure. Pulling would draw isolated droplets of rho < rho0 into the wall, the
+/// measured cause of leaks; and wall particles above a free surface, to which the extrapolation
+/// gives no pressure, would push the fluid beside the wall down and set still water into motion.
 struct WallPressureForce {
     static constexpr std::string_view name = "wall_pressure";
     using Reads = Fields<Volume, Pressure>;
@@ -31,7 +33,9 @@ struct WallPressureForce {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        const N push = positive(i[field::pressure]) + positive(j[field::pressure]);
+        const N p_i = positive(i[field::pressure]);
+        const N p_j = positive(j[field::pressure]);
+        const N push = where_positive(N(p_i * p_j), N(p_i + p_j));
         sum[field::force] += -(i[field::volume] * j[field::volume]) * push * ij.f * ij.r;
     }
 };

@@ -7,10 +7,10 @@
 namespace hyoryu {
 
 /// F_i = sum_j V_i V_j rho0 kappa (v_i - v_j).r / (r^2 + 0.01 h^2) F(r) r,
-/// kappa = alpha h c0 + 2 (d + 2) nu [m2/s]: acts along the line of centres, so it conserves angular
-/// momentum, and it is consistent at a free surface, where the Morris form loses half the dissipation
-/// (Colagrossi, Antuono, Souto-Iglesias & Le Touze 2011). Source: Monaghan & Gingold (1983);
-/// equivalence nu = alpha h c0 / (2 (d + 2)): Monaghan (2005), sec. 8.
+/// kappa = alpha h c0 + 2 (d + 2) nu [m2/s]: acts along the line of centres, so it conserves
+/// angular momentum, and it is consistent at a free surface, where the Morris form loses half the
+/// dissipation (Colagrossi, Antuono, Souto-Iglesias & Le Touze 2011). Source: Monaghan & Gingold
+/// (1983); equivalence nu = alpha h c0 / (2 (d + 2)): Monaghan (2005), sec. 8.
 struct Viscosity {
     static constexpr std::string_view name = "viscosity";
     using Reads = Fields<Velocity, Volume>;

@@ -8,8 +8,8 @@
 namespace hyoryu {
 
 /// Sums of p_w = sum_f [p_f + rho_f g . (r_w - r_f)] W / sum_f W.
-/// Source: Adami, Hu & Adams (2012), eq. 27. The acceleration of the wall is left out: for free bodies
-/// that feedback is unstable at any time step.
+/// Source: Adami, Hu & Adams (2012), eq. 27. The acceleration of the wall is left out: for free
+/// bodies that feedback is unstable at any time step.
 struct WallExtrapolation {
     static constexpr std::string_view name = "wall_extrapolation";
     using Reads = Fields<Pressure>;
@@ -35,7 +35,7 @@ struct SolidBackstop {
     static constexpr std::string_view name = "solid_backstop";
     using Reads = Fields<Velocity>;
     using Writes = Fields<Force>;
-    real spacing = 0;      // dp [m]
+    real spacing = 0;       // dp [m]
     real mass_per_step = 0; // m / (2 dt) [kg/s]
 
     template <class N>
@@ -47,8 +47,10 @@ struct SolidBackstop {
         const N chi = sq(gap) * square_root(N((4 * s + 1) * (16.0 / 3.0)));
         const N kappa = 1 - positive(N(1 - chi));
         const N approach = negative(dot(i[field::velocity] - j[field::velocity], ij.r));
-        const N tiny = broadcast<N>(1e-12 * sq(spacing)); // coincident centres: no direction, no force
-        sum[field::force] += -mass_per_step * kappa * approach / (ij.distance_squared + tiny) * ij.r;
+        const N tiny =
+            broadcast<N>(1e-12 * sq(spacing)); // coincident centres: no direction, no force
+        sum[field::force] +=
+            -mass_per_step * kappa * approach / (ij.distance_squared + tiny) * ij.r;
     }
 };
 

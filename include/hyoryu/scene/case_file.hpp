@@ -11,10 +11,10 @@
 
 namespace hyoryu {
 
-/// Reads a case file. `overrides` are texts `key.path=VALUE` (VALUE in TOML; a bare word is taken as
-/// a string) that replace or add keys before anything is checked.
-/// Throws CaseError with every mistake of the file: syntax, unknown keys (nearest known one as a
-/// hint), wrong types, units and bounds, keys without meaning in this scene, unreadable meshes.
+/// Reads a case file. `overrides` are texts `key.path=VALUE` (VALUE in TOML; a bare word is taken
+/// as a string) that replace or add keys before anything is checked. Throws CaseError with every
+/// mistake of the file: syntax, unknown keys (nearest known one as a hint), wrong types, units and
+/// bounds, keys without meaning in this scene, unreadable meshes.
 Scene read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `file` is only named in messages and resolves relative mesh paths.
@@ -24,8 +24,8 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
 /// The case with every default written out. Reading it back gives an equal Scene, bit for bit.
 std::string to_toml(const Scene& scene);
 
-/// A diagnostic at the place of `place` in the case file of `scene`, with the source line if the file
-/// can still be read.
+/// A diagnostic at the place of `place` in the case file of `scene`, with the source line if the
+/// file can still be read.
 Diagnostic diagnostic_at(const Scene& scene, const Place& place, std::string key, std::string what,
                          std::string hint = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes to particles: fluid on a lattice, walls as layers behind their surface, bodies as layers that
-// conform to theirs.
+// Shapes to particles: fluid on a lattice, walls as layers behind their surface, bodies as layers
+// that conform to theirs.
 #pragma once
 
 #include "hyoryu/core/error.hpp"
@@ -17,29 +17,30 @@ struct Aggregate {
 
 /// All particles of a scene at the start.
 struct Filling {
-    std::vector<Vec3> fluid;          // [m]
-    std::vector<Vec3> fluid_velocity; // [m/s]
-    std::vector<double> fluid_depth;  // below the free surface above it, along gravity [m]
-    std::vector<Vec3> wall;           // [m]; empty without fluid
+    std::vector<Vec3> fluid;              // [m]
+    std::vector<Vec3> fluid_velocity;     // [m/s]
+    std::vector<double> fluid_depth;      // below the free surface above it, along gravity [m]
+    std::vector<Vec3> wall;               // [m]; empty without fluid
     std::vector<std::int32_t> wall_owner; // index of the wall
     std::vector<Aggregate> bodies;
-    Bounds domain;                    // what lies outside leaves the run
+    Bounds domain; // what lies outside leaves the run
     std::vector<Diagnostic> warnings;
 };
 
 /// Layers of solid particles that hide the void behind a wall from every fluid particle.
 int wall_layers(double smoothing_ratio);
 
-/// Particles of one shape at the given spacing, in layers at half a spacing, one and a half, ... below
-/// the surface: planes for boxes, rings and shells for cylinders and spheres, a lattice for meshes.
+/// Particles of one shape at the given spacing, in layers at half a spacing, one and a half, ...
+/// below the surface: planes for boxes, rings and shells for cylinders and spheres, a lattice for
+/// meshes.
 Aggregate aggregate(const Shape& shape, double spacing, int dimensions);
 
 /// Fills the scene. Where a body stands in the fluid, exactly its volume is taken out.
 /// Throws CaseError if more particles were asked for than can be numbered, naming the estimate.
 Filling fill(const Scene& scene);
 
-/// The region of the run: what the user said, or the bounds of everything in the scene with headroom of
-/// its height above it for what splashes.
+/// The region of the run: what the user said, or the bounds of everything in the scene with
+/// headroom of its height above it for what splashes.
 Bounds domain_of(const Scene& scene);
 
 } // namespace hyoryu

@@ -11,20 +11,33 @@
 
 namespace hyoryu {
 
-/// `vector` is a list of numbers, `integers` of whole numbers, `texts` of texts; `tables` is written
+/// `vector` is a list of numbers, `integers` of whole numbers, `texts` of texts; `tables` is
+/// written
 /// [[so]].
-enum class ValueKind { number, integer, boolean, text, choice, vector, integers, texts, table, tables };
+enum class ValueKind {
+    number,
+    integer,
+    boolean,
+    text,
+    choice,
+    vector,
+    integers,
+    texts,
+    table,
+    tables
+};
 
 /// One key of the case file.
 struct Parameter {
-    std::string_view key;       // full path; arrays of tables as "body[]", for instance "body[].size"
+    std::string_view key; // full path; arrays of tables as "body[]", for instance "body[].size"
     ValueKind kind;
-    std::string_view unit;      // SI unit of a dimensional number, "" if it has none
-    std::string_view bounds;    // in words a user reads: "> 0", "0 .. 1", "2 or 3"
-    std::string_view fallback;  // the default, as it would be typed; "" if none, "required" if it must be there
-    std::string_view meaning;   // one sentence
+    std::string_view unit;   // SI unit of a dimensional number, "" if it has none
+    std::string_view bounds; // in words a user reads: "> 0", "0 .. 1", "2 or 3"
+    std::string_view
+        fallback; // the default, as it would be typed; "" if none, "required" if it must be there
+    std::string_view meaning;                   // one sentence
     std::vector<std::string_view> choices = {}; // of a choice or of the elements of `texts`
-    double minimum = -1e300;    // of each number
+    double minimum = -1e300;                    // of each number
     double maximum = 1e300;
     bool minimum_excluded = false;
     int shortest = 0; // elements of a list
@@ -41,7 +54,8 @@ const Parameter* find_parameter(std::string_view key);
 /// Throws CaseError with the nearest key when KEY is not known.
 std::string describe(std::string_view key);
 
-/// A JSON Schema (draft-04 subset) that editors such as Taplo use to check a case while it is typed.
+/// A JSON Schema (draft-04 subset) that editors such as Taplo use to check a case while it is
+/// typed.
 std::string json_schema();
 
 } // namespace hyoryu

@@ -38,12 +38,12 @@ struct Plan {
     std::vector<FieldUse> fields;
     std::vector<PairKind> pair_kinds;
     Counts counts;
-    std::vector<TimeLimit> limits;  // of the first step
-    double first_step = 0;          // [s]
+    std::vector<TimeLimit> limits; // of the first step
+    double first_step = 0;         // [s]
     double expected_steps = 0;
-    double expected_speed = 0;      // largest, without bodies [m/s]; 0 without fluid
-    double memory = 0;              // [B]
-    double frame_bytes = 0;         // of all files of one frame, before compression [B]
+    double expected_speed = 0; // largest, without bodies [m/s]; 0 without fluid
+    double memory = 0;         // [B]
+    double frame_bytes = 0;    // of all files of one frame, before compression [B]
     double frames = 0;
     std::vector<Diagnostic> warnings;
 
@@ -60,7 +60,8 @@ struct Plan {
 /// other or a wall, a fixed time step beyond the stability limit, a fluid without particles.
 Plan make_plan(const Scene& scene, const Filling& filling);
 
-/// Bytes of neighbour lists a particle of full support, measured on the lattice (list, padding, skin).
+/// Bytes of neighbour lists a particle of full support, measured on the lattice (list, padding,
+/// skin).
 double list_bytes(const FluidParameters& fluid);
 
 } // namespace hyoryu

@@ -37,8 +37,8 @@ struct CylinderShape {
 struct MeshShape {
     std::string file;
     double scale = 1;
-    std::vector<Vec3> corners;                  // [m], scaled
-    std::vector<std::array<int, 3>> triangles;  // outward orientation
+    std::vector<Vec3> corners;                 // [m], scaled
+    std::vector<std::array<int, 3>> triangles; // outward orientation
 };
 using Shape = std::variant<BoxShape, SphereShape, CylinderShape, MeshShape>;
 
@@ -59,7 +59,7 @@ enum class DiffusionModel { none, fourtakas, molteni };
 /// A region that is filled with fluid particles at the start.
 struct FluidBlock {
     Shape shape;
-    Vec3 centre{0, 0, 0};   // of the shape [m]
+    Vec3 centre{0, 0, 0}; // of the shape [m]
     Quat rotation = Quat::Identity();
     Vec3 velocity{0, 0, 0}; // [m/s]
     Place place;
@@ -72,8 +72,8 @@ struct FluidSettings {
     double alpha = 0.02;               // of the artificial viscosity [1]
     double kinematic_viscosity = 1e-6; // of the laminar viscosity [m2/s]
     DiffusionModel diffusion = DiffusionModel::fourtakas;
-    double delta = 0.1;                // of the density diffusion [1]
-    double smoothing_ratio = 1.5;      // h / spacing [1]
+    double delta = 0.1;           // of the density diffusion [1]
+    double smoothing_ratio = 1.5; // h / spacing [1]
     std::vector<FluidBlock> blocks;
 };
 
@@ -84,9 +84,9 @@ struct PlaneWall {
 };
 /// The inside of a box; the sides named open have no wall.
 struct BasinWall {
-    Vec3 min{0, 0, 0};                                // [m]
-    Vec3 max{0, 0, 0};                                // [m]
-    std::array<bool, 6> open{};                       // -x +x -y +y -z +z
+    Vec3 min{0, 0, 0};          // [m]
+    Vec3 max{0, 0, 0};          // [m]
+    std::array<bool, 6> open{}; // -x +x -y +y -z +z
 };
 /// A solid obstacle.
 struct SolidWall {
@@ -106,13 +106,13 @@ struct Wall {
 struct BodySettings {
     std::string name;
     Shape shape;
-    double density = 0;        // [kg/m3]; derived when a mass is given
-    double mass = 0;           // [kg], kg/m in two dimensions; derived when a density is given
-    Vec3 position{0, 0, 0};    // of the centre of mass [m]
+    double density = 0;     // [kg/m3]; derived when a mass is given
+    double mass = 0;        // [kg], kg/m in two dimensions; derived when a density is given
+    Vec3 position{0, 0, 0}; // of the centre of mass [m]
     Quat rotation = Quat::Identity(); // body to world
     Vec3 velocity{0, 0, 0};           // [m/s]
     Vec3 angular_velocity{0, 0, 0};   // world axes [rad/s]
-    double spacing = 0;        // of its particles [m]; the scene's unless the user set one
+    double spacing = 0;               // of its particles [m]; the scene's unless the user set one
     std::string material;
     bool fixed = false;
     std::array<bool, 6> locks{}; // x y z rx ry rz, in world axes
@@ -121,8 +121,8 @@ struct BodySettings {
 
 struct MaterialPair {
     std::array<std::string, 2> materials;
-    double restitution = 0; // [1]
-    double friction = 0;    // [1]
+    double restitution = 0;          // [1]
+    double friction = 0;             // [1]
     std::optional<double> stiffness; // [N/m], for the force formulae of reports only
 };
 
@@ -137,15 +137,15 @@ enum class GaugeType { elevation, pressure, velocity, force, front };
 struct Gauge {
     std::string name;
     GaugeType type = GaugeType::elevation;
-    Vec3 at{0, 0, 0};  // [m]; elevation uses x, y
-    std::string on;    // force: the name of a wall or body
-    int axis = 0;      // front: 0 x, 1 y, 2 z
+    Vec3 at{0, 0, 0}; // [m]; elevation uses x, y
+    std::string on;   // force: the name of a wall or body
+    int axis = 0;     // front: 0 x, 1 y, 2 z
     Place place;
 };
 
 struct OutputSettings {
-    double every = 0;         // s between frames; 0: end / 100
-    double history_every = 0; // s between rows of the histories; 0: every step
+    double every = 0;                // s between frames; 0: end / 100
+    double history_every = 0;        // s between rows of the histories; 0: every step
     std::vector<std::string> fields; // of the frames; empty: the default set
     double checkpoint_every = 600;   // s of wall time
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes as sets of points: volume, bounds, signed distance. In two dimensions a shape is its section
-// with the x-z plane, a volume is an area and y is ignored.
+// Shapes as sets of points: volume, bounds, signed distance. In two dimensions a shape is its
+// section with the x-z plane, a volume is an area and y is ignored.
 #pragma once
 
 #include "hyoryu/scene/scene.hpp"
@@ -35,8 +35,8 @@ struct Placed {
 /// Volume [m3], or area [m2] in two dimensions.
 double volume(const Shape& shape, int dimensions);
 
-/// Distance to the surface [m], negative inside. Exact outside the edges of a box or cylinder only up
-/// to the usual Euclidean corner distance, which is what the callers need.
+/// Distance to the surface [m], negative inside. Exact outside the edges of a box or cylinder only
+/// up to the usual Euclidean corner distance, which is what the callers need.
 double signed_distance(const Placed& placed, const Vec3& point);
 
 /// Bounds in space.

@@ -10,8 +10,8 @@ namespace hyoryu {
 /// The whole mutable state between two steps.
 Snapshot save(const Simulation& sim);
 
-/// Puts the state into a simulation that was made from the same case. Throws IoError if the snapshot does
-/// not fit it.
+/// Puts the state into a simulation that was made from the same case. Throws IoError if the
+/// snapshot does not fit it.
 void restore(Simulation& sim, const Snapshot& snapshot);
 
 } // namespace hyoryu

@@ -10,29 +10,30 @@
 namespace hyoryu {
 
 struct Clock {
-    double time = 0;           // [s]
+    double time = 0; // [s]
     std::int64_t step = 0;
-    double dt = 0;             // of the last step [s]
-    std::int64_t frame = 0;    // number of the next frame
-    std::int64_t history = 0;  // number of the next history row, if they are spaced in time
+    double dt = 0;            // of the last step [s]
+    std::int64_t frame = 0;   // number of the next frame
+    std::int64_t history = 0; // number of the next history row, if they are spaced in time
 };
 
 /// What the next step is to be.
 struct NextStep {
-    double dt = 0;        // [s]
-    double end = 0;       // time after it, exactly a frame time if it reaches one [s]
-    std::string limit;    // the limit that set dt: "acoustic", "frame", "fixed" ...
+    double dt = 0;     // [s]
+    double end = 0;    // time after it, exactly a frame time if it reaches one [s]
+    std::string limit; // the limit that set dt: "acoustic", "frame", "fixed" ...
 };
 
-/// A fixed step counts time as a multiple of itself; an adaptive one is the shortest limit, shortened to
-/// meet the next frame or the end exactly, and halved before a remainder would become tiny.
+/// A fixed step counts time as a multiple of itself; an adaptive one is the shortest limit,
+/// shortened to meet the next frame or the end exactly, and halved before a remainder would become
+/// tiny.
 NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limit);
 
 /// Whether the run is over.
 bool finished(const Clock& clock, const Scene& scene);
 
-/// Whether a frame, or a row of the histories, is due at the present time. Asking does not change that;
-/// `frame` and `history` count on when it has been written.
+/// Whether a frame, or a row of the histories, is due at the present time. Asking does not change
+/// that; `frame` and `history` count on when it has been written.
 bool frame_due(const Clock& clock, const Scene& scene);
 bool history_due(const Clock& clock, const Scene& scene);
 

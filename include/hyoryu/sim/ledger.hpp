@@ -11,12 +11,12 @@ struct Simulation;
 /// Energies [J] and momentum [kg m/s] at one moment; per metre of width in two dimensions.
 struct Totals {
     double fluid_kinetic = 0;
-    double fluid_potential = 0;  // -m g . x, zero at the origin
-    double fluid_internal = 0;   // of compression: m c0^2 (ln(rho/rho0) + rho0/rho - 1)
+    double fluid_potential = 0; // -m g . x, zero at the origin
+    double fluid_internal = 0;  // of compression: m c0^2 (ln(rho/rho0) + rho0/rho - 1)
     double body_kinetic = 0;
     double body_potential = 0;
-    Vec3 momentum{0, 0, 0};      // of fluid and bodies
-    double momentum_scale = 0;   // sum of |m v|: what the momentum is compared with
+    Vec3 momentum{0, 0, 0};    // of fluid and bodies
+    double momentum_scale = 0; // sum of |m v|: what the momentum is compared with
 };
 
 /// What has come and gone since the start.

@@ -22,24 +22,24 @@ struct Loads {
 struct Simulation {
     Scene scene;
     Plan plan;
-    std::optional<Fluid> fluid;  // none without `[fluid]`: no particles, grids or lists
+    std::optional<Fluid> fluid; // none without `[fluid]`: no particles, grids or lists
     Rigid rigid;
     BodyParticles body_particles;
-    std::vector<Pose> poses;     // of the bodies when the loads were taken
+    std::vector<Pose> poses; // of the bodies when the loads were taken
     Loads loads;
     Clock clock;
     Ledger ledger;
     std::vector<Contact> contacts; // of the last step
     StageTimer timer;
     std::map<std::string, long long, std::less<>> steps_by_limit;
-    double pair_visits = 0;        // list entries gone over so far
+    double pair_visits = 0; // list entries gone over so far
 };
 
 /// The scene at time 0. The particles of `filling` go into the store.
 Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling);
 
-/// Advances by one step, limited as the clock says. Throws NumericalError when the state after it is not
-/// finite or out of bounds.
+/// Advances by one step, limited as the clock says. Throws NumericalError when the state after it
+/// is not finite or out of bounds.
 void step(Simulation& sim);
 
 /// Shortest limit of the next step.
