@@ -229,12 +229,9 @@ void Outputs::write_checkpoint(const Snapshot& snapshot)
     hyoryu::write_checkpoint(folder_, snapshot);
 }
 
-void Outputs::finish(const Simulation& sim)
+void Outputs::close_interval(const Simulation& sim)
 {
-    if (finished(sim.clock, sim.scene)) {
-        write_resting(sim);
-    }
-    write_checkpoint(snapshot(sim));
+    write_resting(sim);
 }
 
 } // namespace hyoryu

@@ -22,8 +22,8 @@ public:
     /// The state for a restart: of the simulation and of the sums below.
     Snapshot snapshot(const Simulation& sim) const;
     void write_checkpoint(const Snapshot& snapshot);
-    /// Resting contacts of the interval that ends now are written, and everything reaches the disk.
-    void finish(const Simulation& sim);
+    /// At the end of a run: writes the resting contacts since the last frame.
+    void close_interval(const Simulation& sim);
 
 private:
     // Sum of the resting contacts of one pair over the present output interval.

@@ -127,7 +127,9 @@ int finish(Job& job)
     const bool done = finished(job.sim.clock, job.sim.scene);
     const bool stopped = !done && stop_requested();
     const std::string reason = done ? "done" : (stopped ? "interrupted" : "until");
-    job.outputs.finish(job.sim);
+    if (done) {
+        job.outputs.close_interval(job.sim);
+    }
     job.outputs.write_checkpoint(good_state(job));
     write_closing(job, reason);
     job.progress.end(job.sim);
