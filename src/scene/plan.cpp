@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hyoryu {
 
@@ -250,7 +251,8 @@ bool Plan::runs(std::string_view effect) const
 double list_bytes(const FluidParameters& fluid)
 {
     const double radius = (2 * fluid.h + fluid.skin) / fluid.spacing;
-    const double near = fluid.dimensions == 2 ? 3.1416 * sq(radius) : 4.1888 * radius * sq(radius);
+    const double near = fluid.dimensions == 2 ? std::numbers::pi * sq(radius)
+                                              : 4.0 / 3.0 * std::numbers::pi * radius * sq(radius);
     return sizeof(std::int32_t) * (near + lanes / 2.0);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/shapes.hpp"
 
+#include "hyoryu/geometry/mesh.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -142,14 +144,7 @@ double volume_of(const CylinderShape& c, int dimensions)
 }
 double volume_of(const MeshShape& mesh, int)
 {
-    double six = 0;
-    for (const auto& t : mesh.triangles) {
-        const Vec3& a = mesh.corners[static_cast<std::size_t>(t[0])];
-        const Vec3& b = mesh.corners[static_cast<std::size_t>(t[1])];
-        const Vec3& c = mesh.corners[static_cast<std::size_t>(t[2])];
-        six += a.dot(b.cross(c));
-    }
-    return six / 6;
+    return solid_properties({mesh.corners, mesh.triangles}).volume;
 }
 
 } // namespace

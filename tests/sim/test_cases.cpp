@@ -154,7 +154,8 @@ TEST(Cases, DamBreakRunsAsInviscidCodesDo)
         }
     });
     // Experiments: 3.47 to 3.79; inviscid particle codes lead them, 4.00 at a/dp = 20 and 4.12 for
-    // dp -> 0. The band is +-10 % about the middle of the two.
+    // dp -> 0. The band runs from the slowest experiment to 4 % beyond the extrapolated front, the spread
+    // between sources.
     EXPECT_GE(front, 3.5);
     EXPECT_LE(front, 4.3);
     EXPECT_EQ(sim.fluid->lost.count, 0);
@@ -168,6 +169,7 @@ TEST(Cases, DebrisFloodStartsSoundly)
     run(sim, [] {});
     EXPECT_EQ(sim.fluid->lost.count, 0);
     EXPECT_LE(sim.ledger.worst_closure, 1e-10);
+    // Films squeezed by bodies reach some percent at this coarse spacing; a run that is lost, 100 %.
     EXPECT_LE(sim.ledger.worst_density_error, 0.2);
     EXPECT_GE(sim.scene.bodies.size(), 8u);
 }

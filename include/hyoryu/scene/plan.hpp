@@ -60,8 +60,8 @@ struct Plan {
 /// other or a wall, a fixed time step beyond the stability limit, a fluid without particles.
 Plan make_plan(const Scene& scene, const Filling& filling);
 
-/// Bytes of neighbour lists a particle of full support, measured on the lattice (list, padding,
-/// skin).
+/// Bytes of neighbour lists a particle of full support: the lattice points within the list radius
+/// (support and skin), and padding.
 double list_bytes(const FluidParameters& fluid);
 
 } // namespace hyoryu
