@@ -78,8 +78,10 @@ bool may_touch(const StepContext& context, int body, const Wall& wall, double ma
 {
     const Solid& solid = context.memory.geometry.solids[body];
     const Pose& pose = context.memory.poses[body];
-    const double room = margin + skin + context.dt * wall.velocity.norm();
-    const Vec3 shift = wall.velocity * context.start;
+    const double room =
+        margin + skin +
+        context.dt * speed_bound(wall.motion, context.start, context.start + context.dt);
+    const Vec3 shift = displacement(wall.motion, context.start);
     for (const HalfSpace& plane : wall.half_spaces) {
         if (plane.normal.dot(pose.x - plane.point - shift) < solid.reach + room) {
             return true;
@@ -144,7 +146,9 @@ std::vector<double> widened(const StepContext& context, const std::vector<double
     }
     for (const Pair& pair : walls) {
         double& most = largest[cluster[pair.a]];
-        most = std::max(most, context.dt * wall_velocity(context.memory, pair.b).norm());
+        most = std::max(most,
+                        context.dt * speed_bound(context.memory.geometry.walls[-1 - pair.b].motion,
+                                                 context.start, context.start + context.dt));
     }
     std::vector<double> margins(own.size());
     for (std::size_t k = 0; k < own.size(); ++k) {

@@ -171,7 +171,7 @@ private:
     double relative_travel(const Pair& pair) const
     {
         const auto velocity = [&](int k) {
-            return k < 0 ? wall_velocity(memory_, k)
+            return k < 0 ? wall_velocity(memory_, k, sub_.time)
                          : (memory_.rotors[k].movable ? memory_.paths[k].v1 : Vec3::Zero());
         };
         return sub_.h * (velocity(pair.a) - velocity(pair.b)).norm();

@@ -38,7 +38,7 @@ struct Wall {
     std::vector<HalfSpace> half_spaces;
     Solid solid;
     Pose pose; // of the solid at time 0
-    Vec3 velocity{0, 0, 0};
+    Motion motion;
 };
 Wall wall_of(const Boundary& boundary, int dimensions);
 

@@ -50,7 +50,7 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
     } else {
         touch.point = rim_point(feature, body, plane.normal);
     }
-    touch.gap = plane.normal.dot(touch.point - plane.point - wall.velocity * at.time);
+    touch.gap = plane.normal.dot(touch.point - plane.point - displacement(wall.motion, at.time));
     return touch;
 }
 
@@ -132,7 +132,7 @@ Placed placed(const Configuration& at, int index)
     }
     const Wall& wall = at.geometry.walls[-1 - index];
     Pose pose = wall.pose;
-    pose.x += wall.velocity * at.time;
+    pose.x += displacement(wall.motion, at.time);
     return {wall.solid, pose};
 }
 

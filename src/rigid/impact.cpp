@@ -15,7 +15,7 @@ constexpr int most_rounds = 50;
 constexpr double no_gain = 1e-14;
 
 // All touching contacts that approach faster than the resting speed.
-void collect(const StepContext& context, std::vector<Row>& rows)
+void collect(const StepContext& context, double time, std::vector<Row>& rows)
 {
     ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
@@ -23,7 +23,7 @@ void collect(const StepContext& context, std::vector<Row>& rows)
     for (std::size_t k = 0; k < memory.candidates.size(); ++k) {
         const Candidate& c = memory.candidates[k];
         if (c.beyond || c.touch.gap > settings.contact_tolerance ||
-            separation_speed(memory, c.feature, c.touch) >= -settings.resting_speed) {
+            separation_speed(memory, c, time) >= -settings.resting_speed) {
             continue;
         }
         Row row;
@@ -32,7 +32,7 @@ void collect(const StepContext& context, std::vector<Row>& rows)
         row.contact = static_cast<int>(k);
         const ContactLaws::Law& law = law_of(context.rigid, c.feature.a, c.feature.b);
         row.cone.mu = law.friction;
-        row.wall_velocity = wall_velocity(memory, c.feature.b);
+        row.wall_velocity = wall_velocity(memory, c.feature.b, time);
         const Vec3 xa = memory.poses[row.a].x;
         const Vec3 xb = row.b >= 0 ? memory.poses[row.b].x : xa;
         complete(row, {c.touch, c.touch}, {xa, xb, xa, xb}, memory.responses, settings.dimensions);
@@ -182,7 +182,7 @@ void solve_impacts(const StepContext& context, const Cluster& cluster, double ti
     const std::size_t first = context.log.size();
     set_responses(context, cluster);
     for (int round = 0; round < most_rounds; ++round) {
-        collect(context, memory.rows);
+        collect(context, time, memory.rows);
         if (memory.rows.empty()) {
             break;
         }

@@ -66,9 +66,9 @@ Configuration configuration(const ContactMemory& memory, const std::vector<Pose>
     return {memory.geometry, poses, time};
 }
 
-Vec3 wall_velocity(const ContactMemory& memory, int b)
+Vec3 wall_velocity(const ContactMemory& memory, int b, double time)
 {
-    return b < 0 ? memory.geometry.walls[-1 - b].velocity : Vec3::Zero();
+    return b < 0 ? velocity(memory.geometry.walls[-1 - b].motion, time) : Vec3::Zero();
 }
 
 const ContactLaws::Law& law_of(const Rigid& rigid, int a, int b)
@@ -97,13 +97,15 @@ void set_responses(const StepContext& context, const Cluster& cluster)
     }
 }
 
-double separation_speed(const ContactMemory& memory, const Feature& feature, const Touch& touch)
+double separation_speed(const ContactMemory& memory, const Candidate& contact, double time)
 {
+    const auto& [feature, touch, beyond] = contact;
     const auto at_point = [&](int k) {
         const Response& body = memory.responses[k];
         return Vec3(body.v + body.omega.cross(touch.point - memory.poses[k].x));
     };
-    const Vec3 other = feature.b >= 0 ? at_point(feature.b) : wall_velocity(memory, feature.b);
+    const Vec3 other =
+        feature.b >= 0 ? at_point(feature.b) : wall_velocity(memory, feature.b, time);
     return touch.normal.dot(at_point(feature.a) - other);
 }
 

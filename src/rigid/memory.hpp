@@ -80,8 +80,8 @@ void prepare(Rigid& rigid);
 Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses,
                             double time);
 
-/// Velocity of a boundary, zero for a body.
-Vec3 wall_velocity(const ContactMemory& memory, int b);
+/// Velocity of a boundary at a time, zero for a body.
+Vec3 wall_velocity(const ContactMemory& memory, int b, double time);
 /// Restitution and friction of a pair.
 const ContactLaws::Law& law_of(const Rigid& rigid, int a, int b);
 /// Acceleration of a body under gravity and its load, without locked axes.
@@ -90,7 +90,7 @@ Vec3 acceleration(const StepContext& context, int body);
 /// Sets V, omega and the inverse inertia of the bodies of a cluster as they are now.
 void set_responses(const StepContext& context, const Cluster& cluster);
 
-/// Normal velocity of separation of a contact, from the responses and poses of now [m/s].
-double separation_speed(const ContactMemory& memory, const Feature& feature, const Touch& touch);
+/// Normal velocity of separation of a contact, from the responses and poses of `time` [m/s].
+double separation_speed(const ContactMemory& memory, const Candidate& contact, double time);
 
 } // namespace hyoryu

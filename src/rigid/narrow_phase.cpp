@@ -23,7 +23,7 @@ void add(const Feature& feature, const Configuration& at, std::vector<Candidate>
 // A point that a thin side does not hold: past its extent, or so far behind that it is outside.
 bool past(const HalfSpace& plane, const Wall& wall, const Vec3& point, double time)
 {
-    const Vec3 p = point - wall.velocity * time;
+    const Vec3 p = point - displacement(wall.motion, time);
     return ((p - plane.lower).array() < 0).any() || ((p - plane.upper).array() > 0).any();
 }
 

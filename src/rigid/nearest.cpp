@@ -138,7 +138,7 @@ Touch nearest(const Solid& solid, const Vec3& p)
 Wall wall_of(const Boundary& boundary, int dimensions)
 {
     Wall wall;
-    wall.velocity = boundary.velocity;
+    wall.motion = boundary.motion;
     if (const auto* plane = std::get_if<Plane>(&boundary.surface)) {
         HalfSpace half;
         half.normal = plane->normal.normalized();

@@ -53,7 +53,7 @@ void thin_out(std::vector<Persistent>& found, std::size_t first)
 
 // Touching contacts that do not fly apart; everything that the event search must not look for is
 // held.
-void choose_persistent(const StepContext& context, double h)
+void choose_persistent(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
@@ -72,14 +72,14 @@ void choose_persistent(const StepContext& context, double h)
         }
         const bool touches = !c.beyond && c.touch.gap <= settings.contact_tolerance;
         const bool rests =
-            touches && (separation_speed(memory, f, c.touch) <= settings.resting_speed);
+            touches && (separation_speed(memory, c, sub.time) <= settings.resting_speed);
         if (rests) {
             Persistent p{c};
             const auto known = std::lower_bound(
                 memory.known.begin(), memory.known.end(), f,
                 [](const Remembered& r, const Feature& feature) { return r.feature < feature; });
             if (known != memory.known.end() && known->feature == f) {
-                p.impulse = h * known->force;
+                p.impulse = sub.h * known->force;
             }
             memory.persistent.push_back(p);
         }
@@ -151,7 +151,7 @@ void build_rows(const StepContext& context, const SubStep& sub)
         row.b = std::max(f.b, -1);
         row.contact = static_cast<int>(k);
         row.cone.mu = law_of(context.rigid, f.a, f.b).friction;
-        row.wall_velocity = wall_velocity(memory, f.b);
+        row.wall_velocity = wall_velocity(memory, f.b, sub.time + sub.h);
         const int b = std::max(row.b, 0);
         const Centres centres{memory.middle[f.a].x, memory.middle[b].x, memory.end[f.a].x,
                               memory.end[b].x};
@@ -214,7 +214,7 @@ void book_dissipation(const StepContext& context, const std::vector<Vec3>& befor
 }
 
 // Relative velocities of the persistent contacts at the start, in world axes.
-std::vector<Vec3> contact_velocities(const ContactMemory& memory)
+std::vector<Vec3> contact_velocities(const ContactMemory& memory, double time)
 {
     std::vector<Vec3> velocities;
     for (const Persistent& p : memory.persistent) {
@@ -224,7 +224,7 @@ std::vector<Vec3> contact_velocities(const ContactMemory& memory)
             return Vec3(body.v + body.omega.cross(p.candidate.touch.point - memory.poses[k].x));
         };
         velocities.emplace_back(at_point(f.a) -
-                                (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b)));
+                                (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b, time)));
     }
     return velocities;
 }
@@ -235,11 +235,11 @@ void plan_motion(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
     plan_free_motion(context, sub);
-    choose_persistent(context, sub.h);
+    choose_persistent(context, sub);
     if (memory.persistent.empty()) {
         return;
     }
-    const std::vector<Vec3> before = contact_velocities(memory);
+    const std::vector<Vec3> before = contact_velocities(memory, sub.time);
     add_known_impulses(memory);
     for (int pass = 0; pass < passes; ++pass) {
         solve_pass(context, sub);

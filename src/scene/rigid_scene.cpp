@@ -86,7 +86,7 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
 {
     Boundary boundary;
     boundary.name = wall.name;
-    boundary.velocity = wall.velocity;
+    boundary.motion.velocity = wall.velocity;
     boundary.material = materials.index(wall.material);
     if (const auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
         boundary.surface = Plane{plane->point, plane->normal};

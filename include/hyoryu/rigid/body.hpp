@@ -2,6 +2,7 @@
 // Rigid bodies and the surfaces they meet, as plain data. All in double, SI.
 #pragma once
 
+#include "hyoryu/core/motion.hpp"
 #include "hyoryu/core/types.hpp"
 
 #include <array>
@@ -102,8 +103,8 @@ struct Obstacle {
 struct Boundary {
     std::string name;
     std::variant<Plane, Basin, Obstacle> surface; // where it is at time 0
-    Vec3 velocity{0, 0, 0};                       // constant [m/s]
     int material = 0;
+    Motion motion;
 };
 
 /// Restitution and friction of every pair of materials.
