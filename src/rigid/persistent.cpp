@@ -88,6 +88,7 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
         }
     }
     thin_out(memory.persistent, first);
+    std::sort(memory.held.begin(), memory.held.end());
 }
 
 void plan_free_motion(const StepContext& context, const SubStep& sub)

@@ -70,13 +70,32 @@ void remember(ContactMemory& memory, double h)
     memory.known = memory.recent;
 }
 
+// Adds up what each persistent contact did in all sub-steps, by the normal of the first.
+void log_resting(const StepContext& context)
+{
+    std::vector<Resting>& resting = context.memory.resting;
+    std::stable_sort(resting.begin(), resting.end(),
+                     [](const Resting& a, const Resting& b) { return a.feature < b.feature; });
+    for (std::size_t k = 0; k < resting.size(); ++k) {
+        const Contact& contact = resting[k].contact;
+        if (k == 0 || resting[k].feature != resting[k - 1].feature) {
+            context.log.push_back(contact);
+            continue;
+        }
+        Contact& sum = context.log.back();
+        const Vec3 impulse = contact.normal_impulse * contact.normal + contact.tangential_impulse;
+        sum.normal_impulse += impulse.dot(sum.normal);
+        sum.tangential_impulse += impulse - impulse.dot(sum.normal) * sum.normal;
+        sum.energy_lost += contact.energy_lost;
+    }
+    resting.clear();
+}
+
 // Hands the cluster's results over: resting contacts to the log, forces to the next step.
 void close_cluster(const StepContext& context)
 {
     ContactMemory& memory = context.memory;
-    context.log.insert(context.log.end(), memory.resting.begin(), memory.resting.end());
-    memory.resting.clear();
-    memory.resting_features.clear();
+    log_resting(context);
     memory.fresh.insert(memory.fresh.end(), memory.recent.begin(), memory.recent.end());
     memory.recent.clear();
 }
