@@ -85,7 +85,7 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
     memory.candidates.clear();
     const Configuration now = configuration(memory, memory.poses, time);
     for (const Pair& pair : cluster.pairs) {
-        find_candidates(pair, now, memory.candidates);
+        find_candidates(pair, now, clearly_apart, memory.candidates);
     }
     double& worst = context.rigid.counters.worst_penetration;
     for (const Candidate& candidate : memory.candidates) {

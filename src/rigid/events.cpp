@@ -96,7 +96,7 @@ private:
             return axis_distance(pair, at);
         }
         memory_.looked_at.clear();
-        find_candidates(pair, at, memory_.looked_at);
+        find_candidates(pair, at, clearly_apart, memory_.looked_at);
         double smallest = infinity;
         for (const Candidate& c : memory_.looked_at) {
             if (c.touch.gap < smallest && !held(c.feature)) {

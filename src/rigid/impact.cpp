@@ -15,15 +15,15 @@ constexpr int most_rounds = 50;
 constexpr double no_gain = 1e-14;
 
 // All touching contacts that approach faster than the resting speed.
-void collect(const StepContext& context, double time, std::vector<Row>& rows)
+void collect(const StepContext& context, const SubStep& sub, double time, std::vector<Row>& rows)
 {
     ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
     rows.clear();
     for (std::size_t k = 0; k < memory.candidates.size(); ++k) {
         const Candidate& c = memory.candidates[k];
-        if (c.beyond || c.touch.gap > settings.contact_tolerance ||
-            separation_speed(memory, c, time) >= -settings.resting_speed) {
+        if (c.beyond || (c.touch.gap > settings.contact_tolerance && !c.closing) ||
+            separation_speed(memory, c, time) >= -sub.slow) {
             continue;
         }
         Row row;
@@ -196,15 +196,15 @@ void book(const std::vector<Row>& rows, const StepContext& context, double time)
 
 } // namespace
 
-void solve_impacts(const StepContext& context, const Cluster& cluster, double time)
+void solve_impacts(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
     RigidCounters& counters = context.rigid.counters;
     const std::size_t first = context.log.size();
     memory.entries.assign(memory.candidates.size(), -1);
-    set_responses(context, cluster);
+    set_responses(context, sub.cluster);
     for (int round = 0; round < most_rounds; ++round) {
-        collect(context, time, memory.rows);
+        collect(context, sub, time, memory.rows);
         if (memory.rows.empty()) {
             break;
         }
@@ -213,7 +213,7 @@ void solve_impacts(const StepContext& context, const Cluster& cluster, double ti
         clamp_energy(memory.rows, memory);
         apply_round(memory.rows, context);
         book(memory.rows, context, time);
-        set_responses(context, cluster);
+        set_responses(context, sub.cluster);
         ++counters.rounds;
         for (const Row& row : memory.rows) {
             counters.tangential_impacts += row.tangential ? 1 : 0;

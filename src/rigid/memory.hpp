@@ -60,6 +60,7 @@ struct ContactMemory {
     // Scratch of the cluster in hand.
     std::vector<Cluster> clusters;
     std::vector<Candidate> candidates, looked_at;
+    std::vector<std::vector<Candidate>> found; // of each block of pairs
     std::vector<Persistent> persistent;
     std::vector<Feature> held;         // sorted; not looked for by the event search
     std::span<const Remembered> known; // forces of the last sub-step
