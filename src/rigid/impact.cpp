@@ -11,18 +11,29 @@ namespace {
 
 // A cluster of n contacts settles in a few times n rounds; more means that they feed one another.
 constexpr int most_rounds = 50;
+// Approaches that are left below this part of the first are rattle: 1e-4 of its energy.
+constexpr double rattle = 0.01;
 
-double solve_round(const StepContext& context, double time)
+double solve_round(const StepContext& context, Round& round)
 {
     switch (context.rigid.settings.law) {
     case ImpactLaw::coupled:
-        return coupled_round(context, time);
+        return coupled_round(context, round);
     case ImpactLaw::paper:
-        return paper_round(context, time);
+        return paper_round(context, round);
     case ImpactLaw::simultaneous:
-        return simultaneous_round(context, time);
+        return simultaneous_round(context, round);
     }
     return 0;
+}
+
+double fastest(const std::vector<Row>& rows)
+{
+    double most = 0;
+    for (const Row& row : rows) {
+        most = std::max(most, -row.before[0]);
+    }
+    return most;
 }
 
 // Velocities and momenta of the bodies after the round.
@@ -45,11 +56,35 @@ void apply_round(const std::vector<Row>& rows, const StepContext& context)
     }
 }
 
+// The log entry of another candidate of the same pair at the same place; -1 if there is none.
+int entry_at_same_point(const ContactMemory& memory, int contact)
+{
+    const Candidate& c = memory.candidates[contact];
+    const auto same = [&](int k) {
+        const Candidate& other = memory.candidates[k];
+        return memory.entries[k] >= 0 && other.touch.point == c.touch.point &&
+               other.touch.normal == c.touch.normal;
+    };
+    const auto of_pair = [&](int k) {
+        return k >= 0 && k < static_cast<int>(memory.candidates.size()) &&
+               memory.candidates[k].feature.a == c.feature.a &&
+               memory.candidates[k].feature.b == c.feature.b;
+    };
+    for (const int way : {-1, 1}) {
+        for (int k = contact + way; of_pair(k); k += way) {
+            if (same(k)) {
+                return memory.entries[k];
+            }
+        }
+    }
+    return -1;
+}
+
 // Books a round; the energy of the round is shared in proportion to what each contact lost, or, if
 // the law may gain energy, as it is.
-void book(const std::vector<Row>& rows, const StepContext& context, std::size_t first, double time)
+void book(const std::vector<Row>& rows, const StepContext& context, double time)
 {
-    const ContactMemory& memory = context.memory;
+    ContactMemory& memory = context.memory;
     const bool may_gain = context.rigid.settings.law == ImpactLaw::paper;
     double total = 0;
     double positive = 0;
@@ -65,47 +100,48 @@ void book(const std::vector<Row>& rows, const StepContext& context, std::size_t 
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const Row& row = rows[k];
         const Candidate& c = memory.candidates[row.contact];
-        auto entry = std::find_if(context.log.begin() + static_cast<std::ptrdiff_t>(first),
-                                  context.log.end(), [&](const Contact& known) {
-                                      return known.a == c.feature.a && known.b == c.feature.b &&
-                                             known.point == c.touch.point &&
-                                             known.normal == c.touch.normal;
-                                  });
-        if (entry == context.log.end()) {
+        int& index = memory.entries[row.contact];
+        index = index < 0 ? entry_at_same_point(memory, row.contact) : index;
+        if (index < 0) {
             Contact contact{Contact::Kind::impact, time,          c.feature.a,
                             c.feature.b,           c.touch.point, c.touch.normal};
             contact.approach_speed = std::max(0.0, -row.before[0]);
             contact.effective_mass = 1 / row.cone.K(0, 0);
+            index = static_cast<int>(context.log.size());
             context.log.push_back(contact);
-            entry = context.log.end() - 1;
         }
-        entry->normal_impulse += row.p[0];
-        entry->tangential_impulse += row.impulse() - row.p[0] * c.touch.normal;
-        entry->energy_lost += share * losses[k];
+        Contact& entry = context.log[index];
+        entry.normal_impulse += row.p[0];
+        entry.tangential_impulse += row.impulse() - row.p[0] * c.touch.normal;
+        entry.energy_lost += share * losses[k];
     }
 }
 
 } // namespace
 
-void solve_impacts(const StepContext& context, const Cluster& cluster, double time)
+void solve_impacts(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
     RigidCounters& counters = context.rigid.counters;
     const std::size_t first = context.log.size();
-    set_responses(context, cluster);
-    for (int round = 0; round < most_rounds; ++round) {
-        const double left = solve_round(context, time);
+    memory.entries.assign(memory.candidates.size(), -1);
+    set_responses(context, sub.cluster);
+    Round round{time, sub.slow};
+    for (int count = 1; !round.closing; ++count) {
+        const double left = solve_round(context, round);
         if (memory.rows.empty()) {
             break;
         }
         counters.worst_residual = std::max(counters.worst_residual, left);
         apply_round(memory.rows, context);
-        book(memory.rows, context, first, time);
-        set_responses(context, cluster);
+        book(memory.rows, context, time);
+        set_responses(context, sub.cluster);
         ++counters.rounds;
         for (const Row& row : memory.rows) {
             counters.tangential_impacts += row.tangential ? 1 : 0;
         }
+        round.least =
+            count < most_rounds ? std::max(round.least, rattle * fastest(memory.rows)) : infinity;
     }
     counters.impacts += static_cast<long long>(context.log.size() - first);
 }

@@ -51,15 +51,15 @@ void set_impulses(std::vector<Row>& rows, const std::vector<Vec3>& p, std::vecto
 
 } // namespace
 
-void collect(const StepContext& context, double time, double slower, std::vector<Row>& rows)
+void collect(const StepContext& context, const Round& round, double slower, std::vector<Row>& rows)
 {
     ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
     rows.clear();
     for (std::size_t k = 0; k < memory.candidates.size(); ++k) {
         const Candidate& c = memory.candidates[k];
-        if (c.beyond || c.touch.gap > settings.contact_tolerance ||
-            separation_speed(memory, c, time) >= slower) {
+        if (c.beyond || (c.touch.gap > settings.contact_tolerance && !c.closing) ||
+            separation_speed(memory, c, round.time) >= slower) {
             continue;
         }
         Row row;
@@ -68,7 +68,7 @@ void collect(const StepContext& context, double time, double slower, std::vector
         row.contact = static_cast<int>(k);
         const ContactLaws::Law& law = law_of(context.rigid, c.feature.a, c.feature.b);
         row.cone.mu = law.friction;
-        row.wall_velocity = wall_velocity(memory, c.feature.b, time);
+        row.wall_velocity = wall_velocity(memory, c.feature.b, round.time);
         const Vec3 xa = memory.poses[row.a].x;
         const Vec3 xb = row.b >= 0 ? memory.poses[row.b].x : xa;
         complete(row, {c.touch, c.touch}, {xa, xb, xa, xb}, memory.responses, settings.dimensions);
@@ -77,7 +77,7 @@ void collect(const StepContext& context, double time, double slower, std::vector
         }
         row.before = velocity(row, memory.responses);
         const bool bounces =
-            row.before[0] < -settings.resting_speed && !tired(memory, c.feature.a, c.feature.b);
+            row.before[0] < -round.slow && !tired(memory, c.feature.a, c.feature.b);
         row.target = bounces ? -law.restitution * row.before[0] : 0;
         rows.push_back(row);
     }
@@ -115,12 +115,20 @@ void clamp_energy(std::vector<Row>& rows, ContactMemory& memory)
     set_impulses(rows, p, memory.responses);
 }
 
-double coupled_round(const StepContext& context, double time)
+double coupled_round(const StepContext& context, Round& round)
 {
     ContactMemory& memory = context.memory;
-    collect(context, time, -context.rigid.settings.resting_speed, memory.rows);
+    collect(context, round, -round.slow, memory.rows);
+    round.closing = std::all_of(memory.rows.begin(), memory.rows.end(),
+                                [&](const Row& row) { return -row.before[0] < round.least; });
     if (memory.rows.empty()) {
         return 0;
+    }
+    if (round.closing) {
+        collect(context, round, round.slow, memory.rows);
+        for (Row& row : memory.rows) {
+            row.target = 0;
+        }
     }
     const double left = solve_islands(memory.rows, memory);
     clamp_energy(memory.rows, memory);

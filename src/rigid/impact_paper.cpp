@@ -60,12 +60,12 @@ Vec3 paper_impulse(const Row& row, const Vec3& u, double restitution)
 
 // Strikes the rows of one face that still approach, at their mean point; each takes the same share,
 // which is the same force and torque.
-void strike(const std::vector<Row*>& face, const StepContext& context)
+void strike(const std::vector<Row*>& face, const Round& round, const StepContext& context)
 {
     std::vector<Response>& bodies = context.memory.responses;
     std::vector<Row*> approaching;
     for (Row* row : face) {
-        if (velocity(*row, bodies)[0] < -context.rigid.settings.resting_speed) {
+        if (velocity(*row, bodies)[0] < -round.slow) {
             approaching.push_back(row);
         }
     }
@@ -83,10 +83,11 @@ void strike(const std::vector<Row*>& face, const StepContext& context)
 
 } // namespace
 
-double paper_round(const StepContext& context, double time)
+double paper_round(const StepContext& context, Round& round)
 {
     std::vector<Row>& rows = context.memory.rows;
-    collect(context, time, -context.rigid.settings.resting_speed, rows);
+    collect(context, round, -round.slow, rows);
+    round.closing = rows.empty() || round.least == infinity;
     std::vector<bool> done(rows.size(), false);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         std::vector<Row*> face;
@@ -98,7 +99,7 @@ double paper_round(const StepContext& context, double time)
         for (const Row* row : face) {
             done[static_cast<std::size_t>(row - rows.data())] = true;
         }
-        strike(face, context);
+        strike(face, round, context);
     }
     std::erase_if(rows, [](const Row& row) { return row.p.isZero(0); });
     return 0;

@@ -9,14 +9,14 @@ namespace hyoryu {
 namespace {
 
 // Leaves the rows of islands in which a contact approaches faster than the resting speed.
-void keep_struck(const StepContext& context, std::vector<Row>& rows)
+void keep_struck(const StepContext& context, const Round& round, std::vector<Row>& rows)
 {
     const ContactMemory& memory = context.memory;
     std::vector<bool> struck(context.rigid.bodies.size(), false);
     const auto movable = [&](int k) { return k >= 0 && memory.rotors[k].movable; };
     const auto is_struck = [&](const Row& row) {
-        return row.before[0] < -context.rigid.settings.resting_speed ||
-               (movable(row.a) && struck[row.a]) || (movable(row.b) && struck[row.b]);
+        return row.before[0] < -round.slow || (movable(row.a) && struck[row.a]) ||
+               (movable(row.b) && struck[row.b]);
     };
     for (bool spreads = true; spreads;) {
         spreads = false;
@@ -37,11 +37,12 @@ void keep_struck(const StepContext& context, std::vector<Row>& rows)
 
 } // namespace
 
-double simultaneous_round(const StepContext& context, double time)
+double simultaneous_round(const StepContext& context, Round& round)
 {
     ContactMemory& memory = context.memory;
-    collect(context, time, infinity, memory.rows);
-    keep_struck(context, memory.rows);
+    collect(context, round, infinity, memory.rows);
+    keep_struck(context, round, memory.rows);
+    round.closing = memory.rows.empty() || round.least == infinity;
     if (memory.rows.empty()) {
         return 0;
     }
