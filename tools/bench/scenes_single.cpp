@@ -278,8 +278,8 @@ Scene timber(const std::string& name, double mu, const TimberAnswer& answer)
 std::vector<Scene> drop_scenes()
 {
     return {flat_drop(), tilted_drop(0, 0.2), tilted_drop(0.3, 0.29),
-            corner_drop(0, {0, 0, 0.0559084582175}),
-            corner_drop(0.3, {-0.0777691218022, 0.0994209264279, 0.0392262388974})};
+            corner_drop(0, {0, 0, 0.0490477450938}),
+            corner_drop(0.3, {-0.0731487496276, 0.0929944809165, 0.0493061512961})};
 }
 
 std::vector<Scene> sliding_scenes()
@@ -295,7 +295,9 @@ std::vector<Scene> sliding_scenes()
 
 std::vector<Scene> timber_scenes()
 {
-    return {timber("c_mu0", 0, {0.172488820942, 4.11630209578, 0.03810, 0.181801951429}),
+    return {timber("c_mu0", 0,
+                   {0.172488820942, 4.11630209578, 0.03810,
+                    0.5 * (1 - std::sqrt(0.5)) + 0.05 * std::sqrt(0.5)}),
             timber("c_mu3", 0.3, {0.0988547942813, 3.70306904068, 0.03728, 0.100584543319}),
             timber("c_mu6", 0.6, {-2.81348373757e-05, 3.21288150537, 0.03754, -0.0122866878946})};
 }
