@@ -4,6 +4,7 @@
 
 #include "scene.hpp"
 
+#include <limits>
 #include <memory>
 
 namespace hyoryu::bench {
@@ -25,6 +26,7 @@ struct Engine {
     std::vector<double>
         steps; // time steps to run at; the first is the one that costs are given at [s]
     std::function<std::unique_ptr<World>(const Scene&, double dt)> make;
+    std::size_t most_bodies = std::numeric_limits<std::size_t>::max(); // that it has room for
 };
 
 /// Hyoryu first, then what was found when this program was configured.

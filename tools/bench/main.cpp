@@ -18,7 +18,7 @@ using namespace hyoryu::bench;
 constexpr const char* usage =
     "usage: bench_contact [--full] [--scenes NAME,...] [--engines NAME,...] [--budget SECONDS]\n"
     "                     [--json FILE] [--list]\n"
-    "  --full     long stacks, a heap of 1,000, and the peers at a tenth of the step everywhere\n"
+    "  --full     stacks watched for longer, and a heap of 1,000 boxes\n"
     "  --budget   CPU time after which a run is stopped (default 60 s)\n"
     "  --list     names the scenes and engines\n";
 

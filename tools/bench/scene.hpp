@@ -65,9 +65,8 @@ struct Scene {
     Vec3 gravity{0, 0, -g};
     double restitution = 0;
     double friction = 0;
-    double duration = 1;               // [s]
-    Extent least = Extent::quick;      // the shortest benchmark that runs it unasked
-    Extent least_fine = Extent::quick; // the same for the peers at a tenth of their step
+    double duration = 1;          // [s]
+    Extent least = Extent::quick; // the shortest benchmark that runs it unasked
     // A heap is judged by its end alone, and its cost is told apart into falling and resting.
     enum class Kind { exact, heap } kind = Kind::exact;
     std::vector<Metric> metrics;

@@ -23,7 +23,6 @@ Scene stack(const std::string& name, const std::vector<double>& masses, double d
     scene.ground.form = Ground::Form::floor;
     scene.friction = 0.5;
     scene.duration = duration;
-    scene.least_fine = Extent::full;
     scene.metrics = {top_drift(), top_sink(), late_energy()};
     return scene;
 }
@@ -110,7 +109,7 @@ Scene dzhanibekov()
 std::vector<Scene> stack_scenes(Extent extent)
 {
     std::vector<Scene> list = {
-        stack("d_stack10", std::vector<double>(10, 8.0), extent == Extent::full ? 20 : 2),
+        stack("d_stack10", std::vector<double>(10, 8.0), extent == Extent::full ? 10 : 2),
         stack("e2_ratio", {1, 100}, extent == Extent::full ? 5 : 2),
         stack("e5_ratio", {1, 1, 1, 1, 100}, extent == Extent::full ? 5 : 2)};
     list[0].what = "stack of 10 boxes, 8 kg each";
