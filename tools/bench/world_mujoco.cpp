@@ -182,7 +182,9 @@ std::vector<Engine> mujoco_engines()
     };
     // It keeps the square of the rows in one buffer of at most 2 GB: too little for 1,000 boxes.
     constexpr std::size_t most = 300;
-    const std::string common = " cone, Newton solver, solref for e over 10 steps or for rest 5";
+    const std::string common =
+        " cone, Newton solver, solref for e over 10 steps and solimp 0.99, or "
+        "for rest solref 5 steps and solimp 0.9999";
     return {{"mujoco", "pyramidal" + common, {1e-3, 1e-4}, make(Cone::pyramidal), most},
             {"mujoco_elliptic", "elliptic" + common, {1e-3, 1e-4}, make(Cone::elliptic), most}};
 }
