@@ -66,7 +66,7 @@ def error_ratio(peer, ours):
     theirs, mine = abs(peer["error"]), abs(ours["error"])
     if max(theirs, mine) < EXACT:
         return "both exact"
-    return figure(max(theirs, EXACT) / max(mine, EXACT))
+    return ("> " if mine < EXACT else "") + figure(max(theirs, EXACT) / max(mine, EXACT))
 
 
 def print_ratios(document):
