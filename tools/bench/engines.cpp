@@ -5,19 +5,21 @@ namespace hyoryu::bench {
 
 std::vector<Engine> engines()
 {
-    std::vector<Engine> all = hyoryu_engines();
-    const auto add = [&all](const std::vector<Engine>& more) {
-        all.insert(all.end(), more.begin(), more.end());
-    };
+    std::vector<Engine> all;
+    for (const auto& some : {
+             hyoryu_engines(),
 #ifdef HYORYU_BENCH_BULLET
-    add(bullet_engines());
+             bullet_engines(),
 #endif
 #ifdef HYORYU_BENCH_ODE
-    add(ode_engines());
+             ode_engines(),
 #endif
 #ifdef HYORYU_BENCH_MUJOCO
-    add(mujoco_engines());
+             mujoco_engines(),
 #endif
+         }) {
+        all.insert(all.end(), some.begin(), some.end());
+    }
     return all;
 }
 
