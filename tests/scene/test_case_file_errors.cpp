@@ -78,8 +78,21 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "no direction", ""},
         {"[[wall]]\nshape = \"terrain\"\n", 2, 9, 9, "wall[0].shape",
          "does not have \"terrain\" yet", ""},
-        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = \"x.csv\"\n", 4, 1, 5,
-         "wall[0].motion.table", "does not have this key yet", "velocity"},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = \"x.csv\"\n", 4, 9, 7,
+         "wall[0].motion.table", "x.csv: cannot be read", "time, x, y, z"},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntimes = [0, 1, 1]\n"
+         "places = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\n",
+         4, 16, 1, "wall[0].motion.times[2]", "must ascend", ""},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntimes = [0, 1]\nplaces = [[0, 0, 0], 1]\n", 5,
+         23, 1, "wall[0].motion.places[1]", "expected a list of 3 numbers", ""},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntimes = [0, 1]\n"
+         "places = [[1, 0, 0], [1, 0, 0]]\n",
+         5, 10, 22, "wall[0].motion.places", "not at [0, 0, 0] at time 0", ""},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\nvelocity = [1, 0, 0]\n"
+         "table = \"x.csv\"\n",
+         4, 12, 9, "wall[0].motion.velocity", "give one of", ""},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\npiston = { depth = 1 }\n", 4, 10, 13,
+         "wall[0].motion.piston.solitary_height", "is missing", "Height"},
         {"[[wall]]\nshape = \"basin\"\nmin=[0,0,0]\nmax=[1,1,1]\nopen = [\"up\"]\n", 5, 9, 4,
          "wall[0].open[0]", "expected one of \"-x\"", ""},
         {"[[wall]]\nshape = \"box\"\nmin=[0,0,0]\nmax=[1,1,1]\nradius = 3\n", 5, 1, 6,
