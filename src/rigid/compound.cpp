@@ -135,25 +135,25 @@ bool edge_is_open(const Solid& whole, const Solid& part, const Edge& edge, const
            face_is_open(whole, part, edge.right, point);
 }
 
-bool nearest_is_open(const Solid& whole, const Solid& part, const Vec3& point, const Vec3& n)
+int face_at(const Solid& whole, const Solid& part, const Vec3& point, const Vec3& n)
 {
-    if (whole.form != Form::compound) {
-        return true;
-    }
-    const double on = touching * whole.reach;
-    bool all = true;
+    const auto found = std::find_if(part.faces.begin(), part.faces.end(), [&](const Face& face) {
+        return face.normal.dot(point) - face.offset > -touching * whole.reach &&
+               face.normal.dot(n) > 1 - same_direction;
+    });
+    return found == part.faces.end() ? -1 : static_cast<int>(found - part.faces.begin());
+}
+
+bool rim_is_open(const Solid& whole, const Solid& part, const Vec3& point)
+{
     for (std::size_t f = 0; f < part.faces.size(); ++f) {
         const Face& face = part.faces[f];
-        if (face.normal.dot(point) - face.offset <= -on) {
-            continue;
+        if (face.normal.dot(point) - face.offset > -touching * whole.reach &&
+            !face_is_open(whole, part, static_cast<int>(f), point)) {
+            return false;
         }
-        const bool open = face_is_open(whole, part, static_cast<int>(f), point);
-        if (face.normal.dot(n) > 1 - same_direction) {
-            return open;
-        }
-        all = all && open;
     }
-    return all;
+    return true;
 }
 
 } // namespace hyoryu

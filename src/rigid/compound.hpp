@@ -26,8 +26,11 @@ bool face_is_open(const Solid& whole, const Solid& part, int f, const Vec3& poin
 /// corner that looks inwards, has no normal of its own.
 bool edge_is_open(const Solid& whole, const Solid& part, const Edge& edge, const Vec3& point);
 
-/// Whether the point of a part that is nearest to something outside, in a direction n, can be
-/// touched: its face is open there or, at an edge or corner, all faces are.
-bool nearest_is_open(const Solid& whole, const Solid& part, const Vec3& point, const Vec3& n);
+/// The face of a part that has the point, with the direction n as its normal; -1 if there is none:
+/// the point is on an edge or a corner.
+int face_at(const Solid& whole, const Solid& part, const Vec3& point, const Vec3& n);
+
+/// Whether all faces of a part at a point of an edge or corner are open there.
+bool rim_is_open(const Solid& whole, const Solid& part, const Vec3& point);
 
 } // namespace hyoryu

@@ -49,7 +49,7 @@ enum class FeatureKind {
     ball_plane,   // ball a, half-space or patch f
     rim_low,      // the point of rim i of rod a nearest to half-space or patch f
     rim_fixed,    // point j of rim i of rod a, half-space or patch f
-    round,        // a ball and its nearest point on part f of the partner
+    round,        // a ball and its nearest point on part f of the partner; on face k - 1 if k > 0
     corner_face,  // corner i of the owner, face f of the other
     crossing,     // edge i-j of the owner over the side k-l of face f of the other
     edge_edge,    // edge i-j of a, edge k-l of b

@@ -62,6 +62,13 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
     return touch;
 }
 
+// The plane of a face, also where the next part of a compound takes over.
+Touch over_face(const Face& face, const Vec3& p)
+{
+    const double gap = face.normal.dot(p) - face.offset;
+    return {p - gap * face.normal, face.normal, gap};
+}
+
 Touch round_touch(const Feature& feature, const Configuration& at)
 {
     const bool ball_is_a = feature.owner == 0;
@@ -69,7 +76,9 @@ Touch round_touch(const Feature& feature, const Configuration& at)
     const Placed other = placed(at, ball_is_a ? feature.b : feature.a);
     const Mat3& R = other.pose.R;
     const Solid& part = convex_parts(other.solid)[static_cast<std::size_t>(feature.f)];
-    const Touch local = nearest(part, R.transpose() * (ball.pose.x - other.pose.x));
+    const Vec3 centre = R.transpose() * (ball.pose.x - other.pose.x);
+    const Touch local =
+        feature.k > 0 ? over_face(part.faces[feature.k - 1], centre) : nearest(part, centre);
     const Vec3 out = R * local.normal;
     return {other.pose.x + R * local.point, ball_is_a ? out : Vec3(-out),
             local.gap - ball.solid.radius};

@@ -153,11 +153,20 @@ void of_ball(const Pair& pair, const Configuration& at, std::vector<Candidate>& 
     feature.owner = form_of(pair.a, at.geometry) == Form::ball ? 0 : 1;
     const Placed other = placed(at, feature.owner == 0 ? pair.b : pair.a);
     const auto parts = convex_parts(other.solid);
+    if (other.solid.form != Form::compound) {
+        found.push_back({feature, touch_of(feature, at)});
+        return;
+    }
     for (const Solid& part : parts) {
+        feature.k = 0;
         const Touch touch = touch_of(feature, at);
         const Vec3 out =
             other.pose.R.transpose() * (feature.owner == 0 ? touch.normal : Vec3(-touch.normal));
-        if (nearest_is_open(other.solid, part, in_frame(other.pose, touch.point), out)) {
+        const Vec3 point = in_frame(other.pose, touch.point);
+        const int face = face_at(other.solid, part, point, out);
+        feature.k = face + 1;
+        if (face < 0 ? rim_is_open(other.solid, part, point)
+                     : face_is_open(other.solid, part, face, point)) {
             found.push_back({feature, touch});
         }
         ++feature.f;

@@ -134,8 +134,8 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "body[0].copies.pitch", "is missing", ""},
         {"[[body]]\nshape = \"cilinder\"\n", 2, 9, 10, "body[0].shape", "unknown \"cilinder\"",
          "did you mean \"cylinder\"?"},
-        {"[[body]]\nshape = \"particles\"\n", 2, 9, 11, "body[0].shape",
-         "does not have \"particles\" yet", ""},
+        {"[[body]]\nshape = \"particles\"\nfile = \"none.csv\"\ndensity = 1\nposition = [0,0,0]\n",
+         3, 8, 10, "body[0].file", "none.csv: cannot be read", "x, y, z"},
         {"[[body]]\nshape = \"box\"\nsize=[1,0,1]\nmass=1\nposition=[0,0,0]\n", 3, 6, 7,
          "body[0].size", "must be > 0", ""},
         {"[[contact.pair]]\nmaterials = [\"pin\", \"oak\"]\n" + sphere +
