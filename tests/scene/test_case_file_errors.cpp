@@ -84,7 +84,7 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "places = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\n",
          4, 16, 1, "wall[0].motion.times[2]", "must ascend", ""},
         {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntimes = [0, 1]\nplaces = [[0, 0, 0], 1]\n", 5,
-         23, 1, "wall[0].motion.places[1]", "expected a list of 3 numbers", ""},
+         22, 1, "wall[0].motion.places[1]", "expected a list of 3 numbers", ""},
         {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntimes = [0, 1]\n"
          "places = [[1, 0, 0], [1, 0, 0]]\n",
          5, 10, 22, "wall[0].motion.places", "not at [0, 0, 0] at time 0", ""},

@@ -90,7 +90,7 @@ void expect_same_motion(Rigid one, Rigid other, int steps)
     EXPECT_FALSE(log.empty());
     EXPECT_LE(place, 1e-9);
     EXPECT_LE(spin, 1e-8 * 100); // of up to 100 rad/s
-    EXPECT_LE(gained, 1e-9);
+    EXPECT_LE(gained, 1e-8);     // gaps of 1e-9 m put right by position, at a height of 0.1 m
 }
 
 TEST_F(ParticleBody, DegenerateAggregatesAreSolids)
