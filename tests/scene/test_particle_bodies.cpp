@@ -119,6 +119,48 @@ TEST_F(ParticleBody, TheCubeOfTheDropsIsTheBox)
     expect_same_motion(particles(lattice(6, 6, 5, 0.01), 0.01), box({0.06, 0.06, 0.05}, 0.01), 300);
 }
 
+TEST_F(ParticleBody, TheHullOfAMeshIsTheBox)
+{
+    // a mesh of the cube with corners in the middle of its faces and edges too
+    const Vec3 size(0.06, 0.06, 0.05);
+    std::vector<Vec3> corners;
+    for (const Vec3& p : lattice(3, 3, 3, 1)) {
+        corners.emplace_back((p - Vec3(4, 0, 1)).cwiseProduct(size / 2));
+    }
+    Rigid hull = box(size, 0.01);
+    hull.bodies[0].shape = convex_hull(corners);
+    expect_same_motion(std::move(hull), box(size, 0.01), 300);
+}
+
+TEST(MeshBody, IsTheBoxesOfItsCellsWhereItIsNotConvex)
+{
+    // an L of 0.4 x 0.2 x 0.4 m, 0.1 m thick
+    MeshShape mesh;
+    for (const double y : {0.0, 0.2}) {
+        for (const auto& [x, z] :
+             {std::pair(0.0, 0.0), {0.4, 0.0}, {0.4, 0.1}, {0.1, 0.1}, {0.1, 0.4}, {0.0, 0.4}}) {
+            mesh.corners.emplace_back(x, y, z);
+        }
+    }
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4},  {0, 4, 5},
+                      {8, 7, 6}, {9, 8, 6}, {10, 9, 6}, {11, 10, 6}};
+    for (int k = 0; k < 6; ++k) {
+        const int next = (k + 1) % 6;
+        mesh.triangles.push_back({k, k + 6, next + 6});
+        mesh.triangles.push_back({k, next + 6, next});
+    }
+    BodySettings body;
+    body.shape = mesh;
+    body.spacing = 0.05;
+    const ContactShape shape = contact_shape(body, 3);
+    const auto* compound = std::get_if<Compound>(&shape);
+    ASSERT_NE(compound, nullptr);
+    EXPECT_EQ(compound->parts.size(), 2U);
+    // the lattice fits the mesh here, so that the staircase is the mesh
+    const double volume_of_l = 0.2 * (0.4 * 0.1 + 0.1 * 0.3);
+    EXPECT_NEAR(mass_properties(shape, 1, 3).mass, volume_of_l, 1e-12);
+}
+
 TEST_F(ParticleBody, IsACompoundWhereItIsNotConvex)
 {
     Points l = lattice(4, 2, 1, 0.02);
