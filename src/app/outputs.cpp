@@ -6,6 +6,7 @@
 #include "hyoryu/sim/gauges.hpp"
 #include "tables.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace hyoryu {
@@ -50,7 +51,7 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Boun
         frames_->write_static(wall_cloud(sim));
     }
     if (!sim.scene.walls.empty()) {
-        frames_->write_static(wall_surface(sim.scene, domain));
+        frames_->write_static(wall_surface(sim.scene, domain, {}));
     }
 }
 
@@ -202,6 +203,13 @@ void Outputs::write_frame(const Simulation& sim)
     if (!sim.scene.bodies.empty()) {
         frames_->write(body_cloud(sim));
         frames_->write(body_surface(sim));
+    }
+    const auto& walls = sim.scene.walls;
+    if (std::any_of(walls.begin(), walls.end(), [](const Wall& w) { return moves(w.motion); })) {
+        if (sim.fluid) {
+            frames_->write(wall_cloud(sim));
+        }
+        frames_->write(wall_surface(sim.scene, domain_of(sim.scene), sim.clock));
     }
 }
 

@@ -86,6 +86,14 @@ Vec3 velocity(const Motion& motion, double t)
     return v;
 }
 
+bool moves(const Motion& motion)
+{
+    return motion.times.empty()
+               ? motion.velocity.norm() > 0
+               : std::any_of(motion.places.begin(), motion.places.end(),
+                             [&](const Vec3& place) { return place != motion.places.front(); });
+}
+
 double speed_bound(const Motion& motion, double from, double to)
 {
     if (motion.times.size() < 2) {

@@ -49,10 +49,6 @@ void drift(Fluid& fluid, real dt)
         rho[at(i)] += dt * rate[at(i)];
         x[at(i)] += dt * v[at(i)];
     });
-    if (fluid.moving_walls) {
-        const Rows walls = particles.wall();
-        parallel_for(walls.begin, walls.end, [&](Index i) { x[at(i)] += dt * v[at(i)]; });
-    }
 }
 
 void update_pressure(Fluid& fluid)

@@ -90,6 +90,10 @@ bool may_touch(const StepContext& context, int body, const Wall& wall, double ma
     if (!wall.half_spaces.empty()) {
         return false;
     }
+    if (!wall.mesh.triangles.empty()) {
+        const Box box = box_of(solid, pose, room);
+        return any_near(wall.mesh.tree, {box.low - shift, box.high - shift});
+    }
     const Pose there = pose_of(wall.pose.x + shift, wall.pose.q);
     return box_of(solid, pose, room).meets(box_of(wall.solid, there, 0));
 }

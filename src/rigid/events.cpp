@@ -20,7 +20,7 @@ constexpr int root_steps = 60;
 constexpr int halvings = 40;
 // Rotation above which the middle of the sub-step is looked at as well [rad].
 constexpr double half_look = 0.1;
-constexpr int most_looks = 32;
+constexpr int most_looks = 1024;
 
 class EventSearch {
 public:
@@ -177,7 +177,16 @@ private:
             return k < 0 ? wall_velocity(memory_, k, sub_.time)
                          : (memory_.rotors[k].movable ? memory_.paths[k].v1 : Vec3::Zero());
         };
-        return sub_.h * (velocity(pair.a) - velocity(pair.b)).norm();
+        const double speed = (velocity(pair.a) - velocity(pair.b)).norm();
+        // A triangle may be smaller than what a turning end sweeps.
+        const bool mesh = pair.b < 0 && !memory_.geometry.walls[-1 - pair.b].mesh.triangles.empty();
+        return sub_.h * (speed + (mesh ? tip_speed(pair.a) : 0));
+    }
+
+    double tip_speed(int k) const
+    {
+        return memory_.rotors[k].inverse_moments.maxCoeff() * memory_.paths[k].L1.norm() *
+               memory_.geometry.solids[k].reach;
     }
 
     double thickness(const Pair& pair) const

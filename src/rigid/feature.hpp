@@ -3,6 +3,7 @@
 // pose.
 #pragma once
 
+#include "mesh_table.hpp"
 #include "rotor.hpp"
 #include "solid.hpp"
 
@@ -33,9 +34,10 @@ struct HalfSpace {
     double slack = infinity;
 };
 
-/// A boundary as the contact search sees it: half-spaces, or a convex solid.
+/// A boundary as the contact search sees it: half-spaces, a mesh, or a solid.
 struct Wall {
     std::vector<HalfSpace> half_spaces;
+    MeshTable mesh;
     Solid solid;
     Pose pose; // of the solid at time 0
     Motion motion;
@@ -43,17 +45,22 @@ struct Wall {
 Wall wall_of(const Boundary& boundary, int dimensions);
 
 enum class FeatureKind {
-    corner_plane, // corner i of a, half-space f
-    ball_plane,   // ball a, half-space f
-    rim_low,      // the point of rim i of rod a nearest to half-space f
-    rim_fixed,    // point j of rim i of rod a, half-space f
-    round,        // a ball and its nearest point on the partner
+    corner_plane, // corner i of a, half-space or patch f
+    ball_plane,   // ball a, half-space or patch f
+    rim_low,      // the point of rim i of rod a nearest to half-space or patch f
+    rim_fixed,    // point j of rim i of rod a, half-space or patch f
+    round,        // a ball and its nearest point on part f of the partner; on face k - 1 if k > 0
     corner_face,  // corner i of the owner, face f of the other
     crossing,     // edge i-j of the owner over the side k-l of face f of the other
-    edge_edge     // edge i-j of a, edge k-l of b
+    edge_edge,    // edge i-j of a, edge k-l of b
+    edge_crease,  // edge i-j of a, crease k of a mesh
+    face_corner,  // face f of a, corner i of a mesh
+    round_crease, // ball or rod a, the nearest point of crease k of a mesh
+    round_corner  // ball a, corner i of a mesh
 };
 
-/// Bodies a and b (b as in Contact) and what touches. `owner` 0: i, j belong to a; 1: to b.
+/// Bodies a and b (b as in Contact) and what touches. `owner` 0: i, j belong to a; 1: to b. Corners
+/// and faces of a compound are numbered through all parts.
 struct Feature {
     int a = 0, b = 0;
     FeatureKind kind = FeatureKind::corner_plane;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Gap functions: where a pair of features touches, at any pose.
+#include "compound.hpp"
 #include "feature.hpp"
+#include "mesh_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +16,16 @@ constexpr int rim_points = 8;
 // Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
 constexpr double no_direction = 1e-9;
 
-const HalfSpace& half_space(const Wall& wall, int side)
+// A half-space of a boundary or the plane of a patch of its mesh, at time 0.
+Plane plane_of(const Wall& wall, int side)
 {
-    return *std::find_if(wall.half_spaces.begin(), wall.half_spaces.end(),
-                         [&](const HalfSpace& h) { return h.side == side; });
+    if (!wall.mesh.patches.empty()) {
+        const Patch& patch = wall.mesh.patches[side];
+        return {patch.offset * patch.normal, patch.normal};
+    }
+    const auto found = std::find_if(wall.half_spaces.begin(), wall.half_spaces.end(),
+                                    [&](const HalfSpace& h) { return h.side == side; });
+    return {found->point, found->normal};
 }
 
 Vec3 rim_point(const Feature& feature, const Placed& rod, const Vec3& normal)
@@ -39,7 +47,7 @@ Vec3 rim_point(const Feature& feature, const Placed& rod, const Vec3& normal)
 Touch plane_touch(const Feature& feature, const Configuration& at)
 {
     const Wall& wall = at.geometry.walls[-1 - feature.b];
-    const HalfSpace& plane = half_space(wall, feature.f);
+    const Plane plane = plane_of(wall, feature.f);
     const Placed body{at.geometry.solids[feature.a], at.poses[feature.a]};
     Touch touch;
     touch.normal = plane.normal;
@@ -54,13 +62,23 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
     return touch;
 }
 
+// The plane of a face, also where the next part of a compound takes over.
+Touch over_face(const Face& face, const Vec3& p)
+{
+    const double gap = face.normal.dot(p) - face.offset;
+    return {p - gap * face.normal, face.normal, gap};
+}
+
 Touch round_touch(const Feature& feature, const Configuration& at)
 {
     const bool ball_is_a = feature.owner == 0;
     const Placed ball = placed(at, ball_is_a ? feature.a : feature.b);
     const Placed other = placed(at, ball_is_a ? feature.b : feature.a);
     const Mat3& R = other.pose.R;
-    const Touch local = nearest(other.solid, R.transpose() * (ball.pose.x - other.pose.x));
+    const Solid& part = convex_parts(other.solid)[static_cast<std::size_t>(feature.f)];
+    const Vec3 centre = R.transpose() * (ball.pose.x - other.pose.x);
+    const Touch local =
+        feature.k > 0 ? over_face(part.faces[feature.k - 1], centre) : nearest(part, centre);
     const Vec3 out = R * local.normal;
     return {other.pose.x + R * local.point, ball_is_a ? out : Vec3(-out),
             local.gap - ball.solid.radius};
@@ -91,6 +109,12 @@ Touch face_touch(const Feature& feature, const Configuration& at)
     return {point, owner_is_a ? n : Vec3(-n), gap};
 }
 
+// The middle of the part that has a corner.
+Vec3 middle_at(const Placed& body, int corner)
+{
+    return body.pose.x + body.pose.R * part_of_corner(body.solid, corner).inside;
+}
+
 // Nearest points of two lines, kept on the edges.
 Touch edge_touch(const Feature& feature, const Configuration& at)
 {
@@ -103,11 +127,11 @@ Touch edge_touch(const Feature& feature, const Configuration& at)
     const Vec3 cross = u.cross(w);
     const double length = cross.norm();
     if (length <= no_direction * u.norm() * w.norm()) {
-        const Vec3 away = (a.pose.x - b.pose.x).normalized();
+        const Vec3 away = (middle_at(a, feature.i) - middle_at(b, feature.k)).normalized();
         return {p, away, away.dot(p - q)};
     }
     Vec3 n = cross / length;
-    if (n.dot(a.pose.x - b.pose.x) < 0) {
+    if (n.dot(middle_at(a, feature.i) - middle_at(b, feature.k)) < 0) {
         n = -n;
     }
     const Vec3 r = q - p;
@@ -151,6 +175,11 @@ Touch touch_of(const Feature& feature, const Configuration& at)
         return face_touch(feature, at);
     case FeatureKind::edge_edge:
         return edge_touch(feature, at);
+    case FeatureKind::edge_crease:
+    case FeatureKind::face_corner:
+    case FeatureKind::round_crease:
+    case FeatureKind::round_corner:
+        return mesh_touch(feature, at);
     }
     return {};
 }

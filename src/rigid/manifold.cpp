@@ -85,8 +85,9 @@ void add_once(const Meeting& m, const Feature& feature, std::size_t first,
 Feature corner_feature(const Meeting& m, int owner, int corner, int face)
 {
     Feature feature{m.pair.a, m.pair.b, FeatureKind::corner_face, owner};
-    feature.i = corner;
-    feature.f = face;
+    const bool of_incident = owner == m.owner;
+    feature.i = corner + (of_incident ? m.i : m.r).solid.first_corner;
+    feature.f = face + (of_incident ? m.r : m.i).solid.first_face;
     return feature;
 }
 
@@ -125,11 +126,11 @@ void add_crossings(const Meeting& m, std::size_t first, std::vector<Candidate>& 
             const Vec3 c = p + dp / (dp - dq) * (q - p);
             if (past_sides(reference, c) <= m.tolerance) {
                 Feature feature{m.pair.a, m.pair.b, FeatureKind::crossing, m.owner};
-                feature.i = std::min(edge.i, edge.j);
-                feature.j = std::max(edge.i, edge.j);
-                feature.k = side.i;
-                feature.l = side.j;
-                feature.f = m.reference;
+                feature.i = m.i.solid.first_corner + std::min(edge.i, edge.j);
+                feature.j = m.i.solid.first_corner + std::max(edge.i, edge.j);
+                feature.k = m.r.solid.first_corner + side.i;
+                feature.l = m.r.solid.first_corner + side.j;
+                feature.f = m.r.solid.first_face + m.reference;
                 add_once(m, feature, first, found);
             }
         }
@@ -153,11 +154,11 @@ void add_faces(const Meeting& m, double distance, std::vector<Candidate>& found)
     }
 }
 
-Meeting meeting(const Pair& pair, const Separation& axis, const Configuration& at)
+Meeting meeting(const Pair& pair, const PartPair& parts, const Separation& axis,
+                const Configuration& at)
 {
     const bool a_refers = axis.kind == AxisKind::face_of_a;
-    Meeting m{pair, at, placed(at, a_refers ? pair.a : pair.b),
-              placed(at, a_refers ? pair.b : pair.a)};
+    Meeting m{pair, at, a_refers ? parts.a : parts.b, a_refers ? parts.b : parts.a};
     m.reference = a_refers ? axis.a : axis.b;
     m.owner = a_refers ? 1 : 0;
     m.normal = m.r.pose.R * m.r.solid.faces[m.reference].normal;
@@ -170,16 +171,19 @@ Meeting meeting(const Pair& pair, const Separation& axis, const Configuration& a
 
 } // namespace
 
-void add_manifold(const Pair& pair, const Separation& axis, const Configuration& at,
-                  std::vector<Candidate>& found)
+void add_manifold(const Pair& pair, const PartPair& parts, const Separation& axis,
+                  const Configuration& at, std::vector<Candidate>& found)
 {
     if (axis.kind != AxisKind::edges) {
-        add_faces(meeting(pair, axis, at), axis.distance, found);
+        add_faces(meeting(pair, parts, axis, at), axis.distance, found);
         return;
     }
-    const Edge& ea = placed(at, pair.a).solid.edges[axis.a];
-    const Edge& eb = placed(at, pair.b).solid.edges[axis.b];
-    const Feature feature{pair.a, pair.b, FeatureKind::edge_edge, 0, ea.i, ea.j, eb.i, eb.j, 0};
+    const Edge& ea = parts.a.solid.edges[axis.a];
+    const Edge& eb = parts.b.solid.edges[axis.b];
+    const int a = parts.a.solid.first_corner;
+    const int b = parts.b.solid.first_corner;
+    const Feature feature{pair.a,   pair.b, FeatureKind::edge_edge, 0, a + ea.i, a + ea.j, b + eb.i,
+                          b + eb.j, 0};
     found.push_back({feature, touch_of(feature, at)});
 }
 

@@ -24,6 +24,14 @@ struct Moments {
     Vec3 first = Vec3::Zero();
     Mat3 second = Mat3::Zero();
 
+    // The same of a solid whose origin was at d: integral of (x + d)(x + d)^T.
+    Moments moved(const Vec3& d) const
+    {
+        const Mat3 mixed = first * d.transpose();
+        return {mass, first + mass * d,
+                second + mixed + mixed.transpose() + mass * d * d.transpose()};
+    }
+
     MassProperties about_centre() const
     {
         const Vec3 centre = first / mass;
@@ -77,26 +85,51 @@ MassProperties of(const Rod& rod, double density, int dimensions)
     return {mass, Vec3(mass * r2 / 2, across, across).asDiagonal()};
 }
 
-// Simplices from a point inside to every face: exact, and blind to the orientation of the faces.
-MassProperties of(const Polytope& polytope, double density, int dimensions)
+Vec3 middle(const Polytope& polytope)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& corner : polytope.corners) {
+        sum += corner / static_cast<double>(polytope.corners.size());
+    }
+    return sum;
+}
+
+// Simplices from a point inside to every face, about that point: exact, and blind to the
+// orientation of the faces.
+Moments moments_about(const Vec3& inside, const Polytope& polytope, double density, int dimensions)
 {
     const auto& c = polytope.corners;
-    Vec3 inside = Vec3::Zero();
-    for (const Vec3& corner : c) {
-        inside += corner / static_cast<double>(c.size());
-    }
     Moments sums;
     if (dimensions == 2) {
         for (const auto& edge : polygon_edges(polytope)) {
             add_triangle(sums, c[edge[0]] - inside, c[edge[1]] - inside, density);
         }
-    } else {
-        for (const auto& face : polytope.faces) {
-            for (std::size_t k = 1; k + 1 < face.size(); ++k) {
-                add_tetrahedron(sums, c[face[0]] - inside, c[face[k]] - inside,
-                                c[face[k + 1]] - inside, density);
-            }
+        return sums;
+    }
+    for (const auto& face : polytope.faces) {
+        for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+            add_tetrahedron(sums, c[face[0]] - inside, c[face[k]] - inside, c[face[k + 1]] - inside,
+                            density);
         }
+    }
+    return sums;
+}
+
+MassProperties of(const Polytope& polytope, double density, int dimensions)
+{
+    return moments_about(middle(polytope), polytope, density, dimensions).about_centre();
+}
+
+// The parts about the common centre (Steiner).
+MassProperties of(const Compound& compound, double density, int dimensions)
+{
+    Moments sums;
+    for (const Polytope& part : compound.parts) {
+        const Vec3 inside = middle(part);
+        const Moments own = moments_about(inside, part, density, dimensions).moved(inside);
+        sums.mass += own.mass;
+        sums.first += own.first;
+        sums.second += own.second;
     }
     return sums.about_centre();
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "narrow_phase.hpp"
+#include "compound.hpp"
 #include "manifold.hpp"
+#include "mesh_contact.hpp"
 #include "separation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hyoryu {
@@ -12,11 +15,6 @@ namespace {
 // A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
 constexpr double standing = 0.995;
 constexpr int rim_points = 8; // as in gap.cpp
-
-void add(const Feature& feature, const Configuration& at, std::vector<Candidate>& found)
-{
-    found.push_back({feature, touch_of(feature, at)});
-}
 
 // A point that a thin side does not hold: past its extent, or so far behind that it is outside.
 bool past(const HalfSpace& plane, const Wall& wall, const Vec3& point, double time)
@@ -65,7 +63,8 @@ void on_half_spaces(const Pair& pair, const Configuration& at, std::vector<Candi
         } else if (solid.form == Form::rod) {
             rod_on_plane(feature, plane, at, found);
         } else {
-            for (feature.i = 0; feature.i < static_cast<int>(solid.corners.size()); ++feature.i) {
+            for (const int corner : solid.extremes) {
+                feature.i = corner;
                 add_to_plane(feature, plane, at, found);
             }
         }
@@ -77,25 +76,130 @@ bool on_planes(const Pair& pair, const Geometry& geometry)
     return pair.b < 0 && !geometry.walls[-1 - pair.b].half_spaces.empty();
 }
 
+bool on_mesh(const Pair& pair, const Geometry& geometry)
+{
+    return pair.b < 0 && !geometry.walls[-1 - pair.b].mesh.triangles.empty();
+}
+
 Form form_of(int index, const Geometry& geometry)
 {
     return index >= 0 ? geometry.solids[index].form : geometry.walls[-1 - index].solid.form;
+}
+
+// Calls visit(a, b) for all convex parts whose bounding spheres are nearer than that.
+void for_each_part_pair(const Pair& pair, const Configuration& at, double near, const auto& visit)
+{
+    const Placed a = placed(at, pair.a);
+    const Placed b = placed(at, pair.b);
+    if ((a.pose.x - b.pose.x).norm() > a.solid.reach + b.solid.reach + near) {
+        return;
+    }
+    const auto parts_of_b = convex_parts(b.solid);
+    for (const Solid& part_a : convex_parts(a.solid)) {
+        const Vec3 centre = a.pose.x + a.pose.R * part_a.box_centre - b.pose.x;
+        for (const Solid& part_b : parts_of_b) {
+            const double apart = (centre - b.pose.R * part_b.box_centre).norm();
+            if (apart <= part_a.box_half.norm() + part_b.box_half.norm() + near) {
+                visit(PartPair{{part_a, a.pose}, {part_b, b.pose}});
+            }
+        }
+    }
+}
+
+Vec3 in_frame(const Pose& pose, const Vec3& p)
+{
+    return pose.R.transpose() * (p - pose.x);
+}
+
+// Whether the surfaces go through the faces or edges that give the contact its normal.
+bool is_open(const Candidate& c, const Separation& axis, const PartPair& parts,
+             const Configuration& at)
+{
+    const Feature& f = c.feature;
+    const auto whole = [&](int k) -> const Solid& { return placed(at, k).solid; };
+    if (f.kind == FeatureKind::edge_edge) {
+        return edge_is_open(whole(f.a), parts.a.solid, parts.a.solid.edges[axis.a],
+                            in_frame(parts.a.pose, c.touch.point)) &&
+               edge_is_open(whole(f.b), parts.b.solid, parts.b.solid.edges[axis.b],
+                            in_frame(parts.b.pose, c.touch.point));
+    }
+    const Placed& face = f.owner == 0 ? parts.b : parts.a;
+    return face_is_open(whole(f.owner == 0 ? f.b : f.a), face.solid, f.f - face.solid.first_face,
+                        in_frame(face.pose, c.touch.point));
+}
+
+void between_parts(const Pair& pair, const Configuration& at, double near,
+                   std::vector<Candidate>& found)
+{
+    for_each_part_pair(pair, at, near, [&](const PartPair& parts) {
+        const Separation axis = separation(parts.a, parts.b, near);
+        if (axis.distance > near) {
+            return;
+        }
+        const auto first = static_cast<std::ptrdiff_t>(found.size());
+        add_manifold(pair, parts, axis, at, found);
+        found.erase(
+            std::remove_if(found.begin() + first, found.end(),
+                           [&](const Candidate& c) { return !is_open(c, axis, parts, at); }),
+            found.end());
+    });
+}
+
+// A ball and every convex part of the other.
+void of_ball(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+{
+    Feature feature{pair.a, pair.b, FeatureKind::round};
+    feature.owner = form_of(pair.a, at.geometry) == Form::ball ? 0 : 1;
+    const Placed other = placed(at, feature.owner == 0 ? pair.b : pair.a);
+    const auto parts = convex_parts(other.solid);
+    if (other.solid.form != Form::compound) {
+        found.push_back({feature, touch_of(feature, at)});
+        return;
+    }
+    for (const Solid& part : parts) {
+        feature.k = 0;
+        const Touch touch = touch_of(feature, at);
+        const Vec3 out =
+            other.pose.R.transpose() * (feature.owner == 0 ? touch.normal : Vec3(-touch.normal));
+        const Vec3 point = in_frame(other.pose, touch.point);
+        const int face = face_at(other.solid, part, point, out);
+        feature.k = face + 1;
+        if (face < 0 ? rim_is_open(other.solid, part, point)
+                     : face_is_open(other.solid, part, face, point)) {
+            found.push_back({feature, touch});
+        }
+        ++feature.f;
+    }
 }
 
 } // namespace
 
 bool has_axis(const Pair& pair, const Geometry& geometry)
 {
+    if (on_mesh(pair, geometry)) {
+        const Form form = form_of(pair.a, geometry);
+        return form == Form::polytope || form == Form::compound;
+    }
     return !on_planes(pair, geometry) && form_of(pair.a, geometry) != Form::ball &&
            form_of(pair.b, geometry) != Form::ball;
 }
 
 double axis_distance(const Pair& pair, const Configuration& at)
 {
+    if (on_mesh(pair, at.geometry)) {
+        return mesh_distance(pair, at);
+    }
     const Placed a = placed(at, pair.a);
     const Placed b = placed(at, pair.b);
     const double apart = (a.pose.x - b.pose.x).norm() - a.solid.reach - b.solid.reach;
-    return apart > 0 ? apart : separation(a, b, clearly_apart).distance;
+    if (apart > 0) {
+        return apart;
+    }
+    double smallest = infinity;
+    for_each_part_pair(pair, at, clearly_apart, [&](const PartPair& parts) {
+        smallest = std::min(smallest, separation(parts.a, parts.b, clearly_apart).distance);
+    });
+    return smallest;
 }
 
 void find_candidates(const Pair& pair, const Configuration& at, double near,
@@ -103,20 +207,12 @@ void find_candidates(const Pair& pair, const Configuration& at, double near,
 {
     if (on_planes(pair, at.geometry)) {
         on_half_spaces(pair, at, found);
+    } else if (on_mesh(pair, at.geometry)) {
+        find_mesh_candidates(pair, at, found);
     } else if (has_axis(pair, at.geometry)) {
-        const Placed a = placed(at, pair.a);
-        const Placed b = placed(at, pair.b);
-        if ((a.pose.x - b.pose.x).norm() > a.solid.reach + b.solid.reach + near) {
-            return;
-        }
-        const Separation axis = separation(a, b, near);
-        if (axis.distance <= near) {
-            add_manifold(pair, axis, at, found);
-        }
+        between_parts(pair, at, near, found);
     } else {
-        Feature feature{pair.a, pair.b, FeatureKind::round};
-        feature.owner = form_of(pair.a, at.geometry) == Form::ball ? 0 : 1;
-        add(feature, at, found);
+        of_ball(pair, at, found);
     }
 }
 

@@ -22,10 +22,11 @@ inline constexpr double clearly_apart = 1e-5;
 void find_candidates(const Pair& pair, const Configuration& at, double near,
                      std::vector<Candidate>& found);
 
-/// Whether the pair is made of two polytopes (rods as prisms), which have a separating axis.
+/// Whether the pair is made of polytopes (rods as prisms) or of polytopes and a mesh, which have
+/// separating axes.
 bool has_axis(const Pair& pair, const Geometry& geometry);
 
-/// The signed distance of a pair of polytopes [m].
+/// The signed distance of such a pair [m].
 double axis_distance(const Pair& pair, const Configuration& at);
 
 } // namespace hyoryu

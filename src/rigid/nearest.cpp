@@ -131,6 +131,14 @@ Touch nearest(const Solid& solid, const Vec3& p)
         return nearest_on_rod(solid, p);
     case Form::polytope:
         return nearest_on_polytope(solid, p);
+    case Form::compound: {
+        Touch best{p, Vec3::UnitZ(), infinity};
+        for (const Solid& part : solid.parts) {
+            const Touch touch = nearest_on_polytope(part, p);
+            best = touch.gap < best.gap ? touch : best;
+        }
+        return best;
+    }
     }
     return {};
 }
@@ -146,6 +154,8 @@ Wall wall_of(const Boundary& boundary, int dimensions)
         wall.half_spaces.push_back(half);
     } else if (const auto* basin = std::get_if<Basin>(&boundary.surface)) {
         wall.half_spaces = sides_of(*basin, dimensions);
+    } else if (const auto* mesh = std::get_if<MeshSurface>(&boundary.surface)) {
+        wall.mesh = mesh_table(*mesh);
     } else {
         const auto& obstacle = std::get<Obstacle>(boundary.surface);
         wall.solid = solid_of(obstacle.shape, dimensions);

@@ -162,12 +162,19 @@ double overlap(const Rigid& rigid, int a, int b, double time)
     Geometry geometry;
     std::vector<Pose> poses;
     const int dimensions = rigid.settings.dimensions;
+    geometry.solids.resize(rigid.bodies.size());
+    geometry.walls.resize(rigid.boundaries.size());
     for (const Body& body : rigid.bodies) {
-        geometry.solids.push_back(solid_of(body.shape, dimensions));
         poses.push_back(pose_of(body.position, body.orientation));
     }
-    for (const Boundary& boundary : rigid.boundaries) {
-        geometry.walls.push_back(wall_of(boundary, dimensions));
+    const auto add_body = [&](int k) {
+        geometry.solids[k] = solid_of(rigid.bodies[k].shape, dimensions);
+    };
+    add_body(a);
+    if (b >= 0) {
+        add_body(b);
+    } else {
+        geometry.walls[-1 - b] = wall_of(rigid.boundaries[-1 - b], dimensions);
     }
     const Configuration at{geometry, poses, time};
     if (has_axis({a, b}, geometry)) {

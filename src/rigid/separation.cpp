@@ -93,7 +93,7 @@ void improve_by_edges(Separation& best, const Placed& a, const Placed& b, const 
             if (length2 < sq(parallel_edges) * da.squaredNorm() * db.squaredNorm()) {
                 continue;
             }
-            const double sign = axis.dot(qa) < 0 ? -1 : 1; // away from the centre of a
+            const double sign = axis.dot(qa - a.solid.inside) < 0 ? -1 : 1; // out of a
             const double distance = sign * axis.dot(qb - qa) / std::sqrt(length2);
             if (distance > best.distance + margin) {
                 best = {distance, AxisKind::edges, static_cast<int>(k), static_cast<int>(m)};

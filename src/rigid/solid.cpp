@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "solid.hpp"
+#include "compound.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace hyoryu {
@@ -155,6 +157,9 @@ void add_polytope(Solid& solid, const Polytope& shape, int dimensions)
     solid.corners = shape.corners;
     add_extent(solid);
     const Vec3 inside = middle(solid.corners);
+    solid.inside = inside;
+    solid.extremes.resize(solid.corners.size());
+    std::iota(solid.extremes.begin(), solid.extremes.end(), 0);
     for (const auto& face : dimensions == 2 ? polygon_edges(shape) : shape.faces) {
         solid.faces.push_back(face_through(solid.corners, face, inside, dimensions));
     }
@@ -234,9 +239,14 @@ Solid solid_of(const ContactShape& shape, int dimensions)
         solid.radius = rod->radius;
         solid.half_length = rod->length / 2;
         add_polytope(solid, prism_of(*rod), dimensions);
-    } else {
+        // the flats of the prism are within the round surface
+        solid.box_half =
+            solid.box_half.cwiseMax(Vec3(solid.half_length, solid.radius, solid.radius));
+    } else if (const auto* polytope = std::get_if<Polytope>(&shape)) {
         solid.form = Form::polytope;
-        add_polytope(solid, std::get<Polytope>(shape), dimensions);
+        add_polytope(solid, *polytope, dimensions);
+    } else {
+        return compound_solid(std::get<Compound>(shape));
     }
     return solid;
 }

@@ -8,7 +8,7 @@
 
 namespace hyoryu {
 
-enum class Form { ball, rod, polytope };
+enum class Form { ball, rod, polytope, compound };
 
 /// A plane through an edge of a face, square to the face: n . x <= offset inside the face.
 /// In two dimensions the edge is one corner (i == j).
@@ -35,7 +35,7 @@ struct Edge {
 
 /// A shape in its body frame. A rod carries a prism in `corners`, `faces` and `edges`: against
 /// planes and balls it is exact, against polytopes and other rods it is the prism of the same
-/// cross-section.
+/// cross-section. A compound has the corners and faces of all its parts, one part after another.
 struct Solid {
     Form form = Form::ball;
     double radius = 0;      // ball, rod [m]
@@ -44,6 +44,11 @@ struct Solid {
     std::vector<Face> faces;
     std::vector<Edge> edges;
     std::vector<std::vector<int>> faces_of_corner;
+    std::vector<int> extremes; // corners that can touch a plane: those of the convex hull
+    std::vector<Solid> parts;  // of a compound, with their own numbers
+    int first_corner = 0;      // of a part within its compound
+    int first_face = 0;
+    Vec3 inside{0, 0, 0};     // a point within a polytope: the mean of its corners [m]
     Vec3 box_centre{0, 0, 0}; // bounding box in the body frame [m]
     Vec3 box_half{0, 0, 0};
     double reach = 0;     // largest distance of a point from the centre of mass [m]

@@ -3,6 +3,8 @@
 // added mass (measured: -29 % acceleration; rings: -4 %), so round shapes get rings and shells.
 #include "hyoryu/scene/fill.hpp"
 
+#include "hyoryu/scene/voxels.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -131,9 +133,17 @@ void fill_shape(Aggregate& body, const MeshShape& mesh, double spacing, int dime
             }
         }
     }
+    body.cell = size.cwiseQuotient(
+        Vec3(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz)));
     if (body.points.empty()) {
         place(body, centre, true); // thinner than a lattice cell everywhere
     }
+}
+
+void fill_shape(Aggregate& body, const ParticleShape& shape, double, int)
+{
+    body.points = shape.points;
+    body.surface_points = exposed_cells(shape.points, Vec3::Constant(shape.spacing));
 }
 
 } // namespace

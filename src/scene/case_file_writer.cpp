@@ -96,6 +96,9 @@ std::string shape_lines(const Shape& shape)
         return "shape = \"cylinder\"\n" + line("radius", cylinder->radius) +
                line("length", cylinder->length);
     }
+    if (const auto* particles = std::get_if<ParticleShape>(&shape)) {
+        return "shape = \"particles\"\n" + line("file", particles->file);
+    }
     const auto& mesh = std::get<MeshShape>(shape);
     return "shape = \"mesh\"\n" + line("file", mesh.file) + line("scale", mesh.scale);
 }
@@ -158,10 +161,25 @@ std::string geometry_lines(const Wall& wall)
            line("rotation", solid.rotation);
 }
 
+// A path as its points, so that the case does not need the file or formula it came from.
+std::string motion_lines(const Motion& motion)
+{
+    if (motion.times.empty()) {
+        return line("velocity", motion.velocity);
+    }
+    std::string times;
+    std::string places;
+    for (std::size_t k = 0; k < motion.times.size(); ++k) {
+        times += (k > 0 ? ", " : "") + toml(motion.times[k]);
+        places += (k > 0 ? ",\n  " : "") + toml(motion.places[k]);
+    }
+    return fmt::format("times = [{}]\nplaces = [\n  {}]\n", times, places);
+}
+
 std::string wall_text(const Wall& wall)
 {
     return "\n[[wall]]\n" + line("name", wall.name) + geometry_lines(wall) +
-           line("material", wall.material) + "[wall.motion]\n" + line("velocity", wall.velocity);
+           line("material", wall.material) + "[wall.motion]\n" + motion_lines(wall.motion);
 }
 
 std::string body_text(const BodySettings& body, int dimensions)

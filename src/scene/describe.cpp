@@ -41,9 +41,13 @@ std::string kind_of(const Parameter& parameter)
     case ValueKind::choice:
         return "text";
     case ValueKind::vector:
-        return fmt::format(
-            "list of {}numbers",
-            free_length ? fmt::format("{} or {} ", parameter.shortest, parameter.longest) : count);
+        return fmt::format("list of {}numbers",
+                           !free_length ? count
+                           : parameter.longest == parameter.shortest + 1
+                               ? fmt::format("{} or {} ", parameter.shortest, parameter.longest)
+                               : fmt::format("{} or more ", parameter.shortest));
+    case ValueKind::vectors:
+        return "list of lists of 3 numbers";
     case ValueKind::integers:
         return fmt::format("list of {}whole numbers", count);
     case ValueKind::texts:

@@ -39,9 +39,6 @@ constexpr std::array planned = {
     PlannedKey{"fluid.viscosity.smagorinsky", ""},
     PlannedKey{"fluid.block[].shape", "particles"},
     PlannedKey{"wall[].shape", "terrain"},
-    PlannedKey{"wall[].motion.table", ""},
-    PlannedKey{"wall[].motion.piston", ""},
-    PlannedKey{"body[].shape", "particles"},
 };
 
 } // namespace

@@ -14,6 +14,17 @@ Parameter quaternion_row(std::string_view key)
     return row;
 }
 
+Parameter path_row(std::string_view key, ValueKind kind, std::string_view unit,
+                   std::string_view meaning)
+{
+    constexpr int most_points = 1000000;
+    Parameter row = vector_row(key, unit, "", meaning);
+    row.kind = kind;
+    row.shortest = 2;
+    row.longest = most_points;
+    return row;
+}
+
 std::vector<Parameter> copies_parameters()
 {
     return {
@@ -67,6 +78,20 @@ std::vector<Parameter> wall_parameters()
         text_row("wall[].material", "", "Name of its material, for contact.pair."),
         table_row("wall[].motion", "How the wall moves; without it the wall stands still."),
         vector_row("wall[].motion.velocity", "m/s", "[0.0, 0.0, 0.0]", "Constant velocity."),
+        text_row("wall[].motion.table", "",
+                 "CSV file of a path, relative to the case file: columns time, x, y, z in s and m, "
+                 "a header line or none. The wall follows it by monotone cubics, starts where it "
+                 "stands in the case whatever place the file has at time 0, and rests outside."),
+        path_row("wall[].motion.times", ValueKind::vector, "s",
+                 "Times of a path within the case file, ascending; with places."),
+        path_row("wall[].motion.places", ValueKind::vectors, "m",
+                 "Displacements at the times, [x, y, z] each, from where the wall stands at time "
+                 "0."),
+        table_row("wall[].motion.piston",
+                  "The motion along +x of a paddle that makes a solitary wave (Goring 1978), from "
+                  "time 0 on."),
+        positive("wall[].motion.piston.solitary_height", "m", "", "Height of the wave."),
+        positive("wall[].motion.piston.depth", "m", "", "Depth of the water at rest."),
     };
 }
 
@@ -77,13 +102,16 @@ std::vector<Parameter> body_parameters()
         text_row("body[].name", "body.1, body.2 ...",
                  "Name in results; unique among walls and bodies."),
         choice_row(
-            "body[].shape", {"box", "sphere", "cylinder", "mesh"}, required,
+            "body[].shape", {"box", "sphere", "cylinder", "mesh", "particles"}, required,
             "box: size; sphere: radius, a disc in 2-D; cylinder: radius and length along its x "
-            "axis, a rectangle in 2-D; mesh: a closed surface from a file."),
+            "axis, a rectangle in 2-D; mesh: a closed surface from a file; particles: an aggregate "
+            "of cubes of body.spacing about the points of a file, in 3-D."),
         vector_row("body[].size", "m", "", "Edge lengths of a box."),
         positive("body[].radius", "m", "", "Radius of a sphere or cylinder."),
         positive("body[].length", "m", "", "Length of a cylinder."),
-        text_row("body[].file", "", "STL or OBJ file of a mesh, relative to the case file."),
+        text_row("body[].file", "",
+                 "STL or OBJ file of a mesh, or text file of particle centres (x, y, z in m, one a "
+                 "line), relative to the case file."),
         positive("body[].scale", "", "1", "Factor on the numbers of a mesh file, to metres."),
         positive("body[].density", "kg/m3", "", "Density; give it or the mass."),
         positive("body[].mass", "kg", "",

@@ -63,7 +63,7 @@ double expected_speed(const Scene& scene, const Filling& filling)
         speed = std::max(speed, body.velocity.norm());
     }
     for (const Wall& wall : scene.walls) {
-        speed = std::max(speed, wall.velocity.norm());
+        speed = std::max(speed, speed_bound(wall.motion, 0, scene.time.end));
     }
     return speed;
 }
@@ -184,7 +184,7 @@ void list_effects(const Scene& scene, Plan& plan)
                plan.counts.bodies == 0 ? "the scene has no bodies"
                                        : "one body alone, and no wall that it could meet");
     const bool moving = std::any_of(scene.walls.begin(), scene.walls.end(),
-                                    [](const Wall& w) { return w.velocity.norm() > 0; });
+                                    [](const Wall& w) { return moves(w.motion); });
     census.add("moving_walls", when(moving, "a wall has `motion`"), "every wall stands still");
     census.add("gauges", when(!scene.gauges.empty(), fmt::format("{} gauges", scene.gauges.size())),
                "the scene has no gauges");

@@ -62,6 +62,18 @@ double depth_in_basin(const BodySettings& body, const Wall& wall, int dimensions
     return depth;
 }
 
+// Depth of the centre of a body within a wall that is a mesh: contact looks at surfaces, and a body
+// that is wholly inside touches none.
+double depth_in_mesh(const BodySettings& body, const Wall& wall, int dimensions)
+{
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    if (solid == nullptr || !std::holds_alternative<MeshShape>(solid->shape)) {
+        return 0;
+    }
+    return -signed_distance({&solid->shape, solid->centre, solid->rotation, dimensions},
+                            body.position);
+}
+
 void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
 {
     const Rigid rigid = make_rigid(scene);
@@ -85,10 +97,11 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
             }
         }
         for (int w = 0; w < walls; ++w) {
-            const double depth = std::max(overlap(rigid, a, -1 - w, 0),
-                                          depth_in_basin(scene.bodies[static_cast<std::size_t>(a)],
-                                                         scene.walls[static_cast<std::size_t>(w)],
-                                                         scene.dimensions));
+            const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
+            const Wall& wall = scene.walls[static_cast<std::size_t>(w)];
+            const double depth = std::max({overlap(rigid, a, -1 - w, 0),
+                                           depth_in_basin(body, wall, scene.dimensions),
+                                           depth_in_mesh(body, wall, scene.dimensions)});
             if (depth > allowed) {
                 report(a, fmt::format("wall \"{}\"", scene.walls[static_cast<std::size_t>(w)].name),
                        depth);
@@ -158,6 +171,35 @@ void warn_if_it_tips(const Scene& scene, std::size_t b, Plan& plan)
     }
 }
 
+// A body that is not convex and has no lattice of its own meets others by one.
+void warn_about_staircase(const Scene& scene, std::size_t b, Plan& plan)
+{
+    const BodySettings& body = scene.bodies[b];
+    const bool mesh = std::holds_alternative<MeshShape>(body.shape);
+    const bool particles = std::holds_alternative<ParticleShape>(body.shape);
+    if (!mesh && !particles) {
+        return;
+    }
+    const ContactShape shape = contact_shape(body, scene.dimensions);
+    const auto* compound = std::get_if<Compound>(&shape);
+    const std::size_t parts = compound != nullptr ? compound->parts.size() : 1;
+    if (mesh && compound != nullptr) {
+        warn(scene, body.place, body_key(b),
+             fmt::format("body \"{}\" is not convex: contact sees it as {} boxes of its particle "
+                         "lattice, a staircase with steps of {:.3g} m",
+                         body.name, parts, body.spacing),
+             "a smaller `spacing` of the body makes the steps finer", plan);
+    }
+    constexpr std::size_t many = 1000;
+    if (parts > many) {
+        warn(scene, body.place, body_key(b),
+             fmt::format("body \"{}\" has {} parts for contact, which is slow", body.name, parts),
+             mesh ? "a larger `spacing` of the body makes fewer"
+                  : "particles on a lattice are merged into boxes",
+             plan);
+    }
+}
+
 void warn_about_bodies(const Scene& scene, Plan& plan)
 {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -175,6 +217,7 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
                  "use a smaller `particles.spacing`", plan);
         }
         warn_if_it_tips(scene, b, plan);
+        warn_about_staircase(scene, b, plan);
     }
 }
 

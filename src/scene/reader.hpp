@@ -16,8 +16,11 @@ struct PlacedShape {
 /// The shape of a fluid block or solid wall, in space; `kind` is the value of its key `shape`.
 PlacedShape read_placed_shape(TableReader& table, const std::string& kind);
 
-/// The shape of a body, about its centre of mass.
-Shape read_body_shape(TableReader& table, const std::string& kind);
+/// The shape of a body, about its centre of mass; `spacing` of its particles [m].
+Shape read_body_shape(TableReader& table, const std::string& kind, double spacing);
+
+/// [wall.motion]; a piston needs the magnitude of gravity.
+Motion read_motion(TableReader table, double gravity);
 
 /// `rotation_deg` or `rotation`; no rotation if neither is there.
 Quat read_rotation(TableReader& table);

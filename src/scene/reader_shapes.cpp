@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Shapes of fluid blocks, walls and bodies, their rotation, and the meshes they name.
+#include "number_table.hpp"
 #include "reader.hpp"
 
 #include "hyoryu/geometry/mesh.hpp"
+#include "hyoryu/scene/voxels.hpp"
 
 #include <fmt/format.h>
 
@@ -140,6 +142,59 @@ Quat from_quaternion(TableReader& table)
     return excess < rounding ? rotation : rotation.normalized();
 }
 
+// The boxes of the cubes, or the cubes themselves if they are on no common lattice.
+void make_boxes(ParticleShape& shape)
+{
+    const Vec3 cell = Vec3::Constant(shape.spacing);
+    if (const auto merged = merged_cells(shape.points, cell)) {
+        for (const Bounds& box : *merged) {
+            shape.boxes.push_back({box.min, box.max});
+        }
+        return;
+    }
+    for (const Vec3& point : shape.points) {
+        shape.boxes.push_back({point - cell / 2, point + cell / 2});
+    }
+}
+
+ParticleShape read_particle_shape(TableReader& table, double spacing)
+{
+    ParticleShape shape;
+    shape.spacing = spacing;
+    table.require("file");
+    const std::string name = table.text("file");
+    if (table.reading().dimensions == 2) {
+        table.error("shape", "this version has bodies of particles in three dimensions only");
+        return shape;
+    }
+    if (name.empty()) {
+        return shape;
+    }
+    const auto folder = table.reading().file.parent_path();
+    const auto path = std::filesystem::absolute(folder / name).lexically_normal();
+    shape.file = path.string();
+    const NumberTable numbers = read_number_table(path, 3);
+    for (const std::string& fault : numbers.faults) {
+        table.error("file", fault, "one particle a line: x, y, z in m");
+    }
+    if (numbers.rows.empty()) {
+        if (numbers.faults.empty()) {
+            table.error("file", fmt::format("{}: has no particle", path.string()));
+        }
+        return shape;
+    }
+    Vec3 mean = Vec3::Zero();
+    for (const auto& row : numbers.rows) {
+        shape.points.emplace_back(row[0], row[1], row[2]);
+        mean += shape.points.back() / static_cast<double>(numbers.rows.size());
+    }
+    for (Vec3& point : shape.points) {
+        point -= mean;
+    }
+    make_boxes(shape);
+    return shape;
+}
+
 /// Moves a mesh to its centre of mass, about which bodies are given.
 void centre_mesh(MeshShape& shape)
 {
@@ -181,8 +236,11 @@ PlacedShape read_placed_shape(TableReader& table, const std::string& kind)
     return placed;
 }
 
-Shape read_body_shape(TableReader& table, const std::string& kind)
+Shape read_body_shape(TableReader& table, const std::string& kind, double spacing)
 {
+    if (kind == "particles") {
+        return read_particle_shape(table, spacing);
+    }
     if (kind == "box") {
         return read_sized_box(table);
     }

@@ -87,7 +87,7 @@ void claim_name(TableReader& table, const std::string& name)
     }
 }
 
-Wall read_wall(TableReader& table, std::size_t number)
+Wall read_wall(TableReader& table, std::size_t number, double gravity)
 {
     Wall wall;
     wall.place = table.place();
@@ -103,9 +103,7 @@ Wall read_wall(TableReader& table, std::size_t number)
         wall.geometry = SolidWall{std::move(placed.shape), placed.centre, placed.rotation};
     }
     wall.material = table.text("material");
-    TableReader motion = table.table("motion");
-    wall.velocity = motion.planar("velocity");
-    motion.finish();
+    wall.motion = read_motion(table.table("motion"), gravity);
     table.finish();
     return wall;
 }
@@ -130,7 +128,7 @@ void read_mass(TableReader& table, BodySettings& body)
     }
 }
 
-void read_motion(TableReader& table, BodySettings& body)
+void read_state(TableReader& table, BodySettings& body)
 {
     body.velocity = table.planar("velocity");
     body.angular_velocity = table.vector("angular_velocity");
@@ -204,14 +202,14 @@ void read_body(TableReader& table, std::size_t number, Scene& scene)
     body.place = table.place();
     body.name = read_name(table, "body", number);
     const std::string kind = table.choice("shape");
+    body.spacing = table.find_number("spacing").value_or(scene.spacing);
     if (!kind.empty()) {
-        body.shape = read_body_shape(table, kind);
+        body.shape = read_body_shape(table, kind, body.spacing);
     }
     read_mass(table, body);
     body.position = table.planar("position");
     body.rotation = read_rotation(table);
-    read_motion(table, body);
-    body.spacing = table.find_number("spacing").value_or(scene.spacing);
+    read_state(table, body);
     body.material = table.text("material");
     const std::size_t before = scene.bodies.size();
     append_copies(table.table("copies"), body, scene.bodies);
@@ -305,7 +303,7 @@ void read_walls(TableReader& root, Scene& scene)
 {
     std::size_t number = 0;
     for (TableReader& table : root.tables("wall")) {
-        scene.walls.push_back(read_wall(table, ++number));
+        scene.walls.push_back(read_wall(table, ++number, scene.gravity.norm()));
     }
 }
 

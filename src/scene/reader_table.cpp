@@ -240,6 +240,33 @@ std::vector<double> TableReader::numbers(std::string_view key)
     return values;
 }
 
+std::vector<Vec3> TableReader::vectors(std::string_view key)
+{
+    const Parameter& rule = parameter(key);
+    std::vector<Vec3> values;
+    const TomlArray* items = ask_list(key, "lists of 3 numbers");
+    for (std::size_t k = 0; items != nullptr && k < items->size(); ++k) {
+        const TomlNode& item = (*items)[k];
+        const std::string name = fmt::format("{}[{}]", full(key), k);
+        const TomlArray* three = item.array();
+        if (three == nullptr || three->size() != 3) {
+            reading_.error(item, name,
+                           fmt::format("expected a list of 3 numbers, found {}", found(item)));
+            return {};
+        }
+        Vec3 value;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto number = to_number((*three)[static_cast<std::size_t>(axis)], rule, name);
+            if (!number) {
+                return {};
+            }
+            value[axis] = *number;
+        }
+        values.push_back(value);
+    }
+    return values;
+}
+
 std::vector<std::int64_t> TableReader::integers(std::string_view key)
 {
     const Parameter& rule = parameter(key);

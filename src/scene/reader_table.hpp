@@ -60,6 +60,7 @@ public:
     /// One of the choices; empty if mistaken: then keys that belong to a choice are not judged.
     std::string choice(std::string_view key);
     std::vector<double> numbers(std::string_view key);
+    std::vector<Vec3> vectors(std::string_view key);
     std::vector<std::int64_t> integers(std::string_view key);
     std::vector<std::string> texts(std::string_view key);
 

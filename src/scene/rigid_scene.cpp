@@ -3,8 +3,10 @@
 
 #include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/shapes.hpp"
+#include "hyoryu/scene/voxels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace hyoryu {
@@ -25,7 +27,10 @@ private:
     std::map<std::string, int> known_;
 };
 
-ContactShape contact_shape(const Shape& shape, int dimensions)
+// A hull with more than this times the volume of what it holds is not that body.
+constexpr double convex_enough = 1.02;
+
+ContactShape simple_shape(const Shape& shape, int dimensions)
 {
     if (const auto* box = std::get_if<BoxShape>(&shape)) {
         return box_polytope(box->size, dimensions);
@@ -39,8 +44,90 @@ ContactShape contact_shape(const Shape& shape, int dimensions)
         }
         return Rod{cylinder->radius, cylinder->length};
     }
-    return convex_hull(std::get<MeshShape>(shape).corners);
+    return {};
 }
+
+Polytope polytope_of(const Vec3& low, const Vec3& high)
+{
+    Polytope box = box_polytope(high - low, 3);
+    for (Vec3& corner : box.corners) {
+        corner += (low + high) / 2;
+    }
+    return box;
+}
+
+ContactShape union_of(const std::vector<std::array<Vec3, 2>>& boxes)
+{
+    if (boxes.size() == 1) {
+        return polytope_of(boxes[0][0], boxes[0][1]);
+    }
+    Compound compound;
+    for (const auto& [low, high] : boxes) {
+        compound.parts.push_back(polytope_of(low, high));
+    }
+    return compound;
+}
+
+ContactShape particle_shape(const ParticleShape& shape)
+{
+    ContactShape all = union_of(shape.boxes);
+    if (shape.boxes.size() < shape.points.size() || shape.points.size() == 1) {
+        return all;
+    }
+    std::vector<Vec3> corners;
+    for (const Polytope& cube : std::get<Compound>(all).parts) {
+        corners.insert(corners.end(), cube.corners.begin(), cube.corners.end());
+    }
+    Polytope hull = convex_hull(corners);
+    const bool convex = mass_properties(hull, 1, 3).mass <= convex_enough * volume(shape, 3);
+    return convex ? ContactShape(std::move(hull)) : std::move(all);
+}
+
+ContactShape mesh_shape(const MeshShape& mesh, double spacing)
+{
+    Polytope hull = convex_hull(mesh.corners);
+    if (mass_properties(hull, 1, 3).mass <= convex_enough * volume(mesh, 3)) {
+        return hull;
+    }
+    const Aggregate cells = aggregate(mesh, spacing, 3);
+    std::vector<std::array<Vec3, 2>> boxes;
+    const auto merged = merged_cells(cells.points, cells.cell);
+    for (const Bounds& box : merged.value_or(std::vector<Bounds>{})) {
+        boxes.push_back({box.min, box.max});
+    }
+    return union_of(boxes);
+}
+
+// Sum over the cubes about the mean, each with m d^2 / 6 about its own axes.
+MassProperties mass_of_cubes(const ParticleShape& shape, double density)
+{
+    const double m = density * std::pow(shape.spacing, 3);
+    Mat3 inertia = Mat3::Zero();
+    for (const Vec3& r : shape.points) {
+        inertia +=
+            m * ((r.squaredNorm() + sq(shape.spacing) / 6) * Mat3::Identity() - r * r.transpose());
+    }
+    return {m * static_cast<double>(shape.points.size()), inertia};
+}
+
+// Copies of one body share their shape: filling a mesh is not cheap.
+class ContactShapes {
+public:
+    const ContactShape& of(const BodySettings& body, int dimensions)
+    {
+        const bool known = last_ != nullptr && last_->place.line == body.place.line &&
+                           body.place.line > 0 && last_->spacing == body.spacing;
+        if (!known) {
+            shape_ = contact_shape(body, dimensions);
+            last_ = &body;
+        }
+        return shape_;
+    }
+
+private:
+    const BodySettings* last_ = nullptr;
+    ContactShape shape_;
+};
 
 MassProperties mass_of(const BodySettings& body, const ContactShape& contact, int dimensions)
 {
@@ -52,14 +139,18 @@ MassProperties mass_of(const BodySettings& body, const ContactShape& contact, in
         }
         return mass_properties(surface, density, dimensions);
     }
+    if (const auto* particles = std::get_if<ParticleShape>(&body.shape)) {
+        return mass_of_cubes(*particles, density);
+    }
     return mass_properties(contact, density, dimensions);
 }
 
-Body make_body(const BodySettings& settings, int dimensions, Materials& materials)
+Body make_body(const BodySettings& settings, const ContactShape& shape, int dimensions,
+               Materials& materials)
 {
     Body body;
     body.name = settings.name;
-    body.shape = contact_shape(settings.shape, dimensions);
+    body.shape = shape;
     body.mass = mass_of(settings, body.shape, dimensions);
     body.material = materials.index(settings.material);
     body.locks = settings.locks;
@@ -87,7 +178,7 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
 {
     Boundary boundary;
     boundary.name = wall.name;
-    boundary.motion.velocity = wall.velocity;
+    boundary.motion = wall.motion;
     boundary.material = materials.index(wall.material);
     if (const auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
         boundary.surface = Plane{plane->point, plane->normal};
@@ -99,8 +190,13 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
         boundary.surface = inside;
     } else {
         const auto& solid = std::get<SolidWall>(wall.geometry);
-        boundary.surface =
-            Obstacle{contact_shape(solid.shape, dimensions), solid.centre, solid.rotation};
+        if (const auto* mesh = std::get_if<MeshShape>(&solid.shape)) {
+            boundary.surface =
+                MeshSurface{mesh->corners, mesh->triangles, solid.centre, solid.rotation};
+        } else {
+            boundary.surface =
+                Obstacle{simple_shape(solid.shape, dimensions), solid.centre, solid.rotation};
+        }
     }
     return boundary;
 }
@@ -133,6 +229,17 @@ Penalty make_penalty(const Scene& scene)
 
 } // namespace
 
+ContactShape contact_shape(const BodySettings& body, int dimensions)
+{
+    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) {
+        return mesh_shape(*mesh, body.spacing);
+    }
+    if (const auto* particles = std::get_if<ParticleShape>(&body.shape)) {
+        return particle_shape(*particles);
+    }
+    return simple_shape(body.shape, dimensions);
+}
+
 double effective_density(const BodySettings& body, int dimensions)
 {
     return body.mass > 0 ? body.mass / volume(body.shape, dimensions) : body.density;
@@ -148,8 +255,10 @@ Rigid make_rigid(const Scene& scene)
         rigid.penalty = make_penalty(scene);
     }
     Materials materials;
+    ContactShapes shapes;
     for (const BodySettings& body : scene.bodies) {
-        rigid.bodies.push_back(make_body(body, scene.dimensions, materials));
+        rigid.bodies.push_back(
+            make_body(body, shapes.of(body, scene.dimensions), scene.dimensions, materials));
     }
     for (const Wall& wall : scene.walls) {
         rigid.boundaries.push_back(make_boundary(wall, scene.dimensions, materials));

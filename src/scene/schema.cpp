@@ -80,6 +80,10 @@ std::string object_schema(std::string_view prefix)
             return text_schema(parameter);
         case ValueKind::vector:
             return list_schema(parameter, number_schema(parameter));
+        case ValueKind::vectors:
+            return list_schema(parameter, fmt::format("\"type\": \"array\", \"minItems\": 3, "
+                                                      "\"maxItems\": 3, \"items\": {{{}}}",
+                                                      number_schema(parameter)));
         case ValueKind::integers:
             return list_schema(parameter, integer_schema(parameter));
         case ValueKind::texts:

@@ -110,6 +110,15 @@ double distance_to(const MeshShape& mesh, const Vec3& p, int)
     return std::sqrt(nearest) * (turns > 0.5 ? -1 : 1);
 }
 
+double distance_to(const ParticleShape& shape, const Vec3& p, int)
+{
+    double nearest = infinity;
+    for (const auto& [low, high] : shape.boxes) {
+        nearest = std::min(nearest, box_distance(p - (low + high) / 2, (high - low) / 2));
+    }
+    return nearest;
+}
+
 // Corners of the box that bounds the shape in its own axes.
 Bounds own_bounds(const Shape& shape)
 {
@@ -121,9 +130,13 @@ Bounds own_bounds(const Shape& shape)
     } else if (const auto* c = std::get_if<CylinderShape>(&shape)) {
         const Vec3 half{c->length / 2, c->radius, c->radius};
         box.add(Bounds{-half, half});
-    } else {
-        for (const Vec3& corner : std::get<MeshShape>(shape).corners) {
+    } else if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+        for (const Vec3& corner : mesh->corners) {
             box.add(corner);
+        }
+    } else {
+        for (const auto& [low, high] : std::get<ParticleShape>(shape).boxes) {
+            box.add(Bounds{low, high});
         }
     }
     return box;
@@ -145,6 +158,11 @@ double volume_of(const CylinderShape& c, int dimensions)
 double volume_of(const MeshShape& mesh, int)
 {
     return solid_properties({mesh.corners, mesh.triangles}).volume;
+}
+
+double volume_of(const ParticleShape& shape, int)
+{
+    return static_cast<double>(shape.points.size()) * std::pow(shape.spacing, 3);
 }
 
 } // namespace

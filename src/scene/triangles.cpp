@@ -113,6 +113,17 @@ void add(TriangleSurface& surface, const MeshShape& mesh, int)
     surface.triangles = mesh.triangles;
 }
 
+// The faces of all boxes; those between two boxes are hidden.
+void add(TriangleSurface& surface, const ParticleShape& shape, int)
+{
+    for (const auto& [low, high] : shape.boxes) {
+        for (int axis = 0; axis < 3; ++axis) {
+            add_polygon(surface, face(low, high, axis, 0));
+            add_polygon(surface, face(low, high, axis, 1));
+        }
+    }
+}
+
 void add_wall(TriangleSurface& surface, const PlaneWall& plane, const Bounds& domain,
               int dimensions)
 {

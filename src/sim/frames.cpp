@@ -167,13 +167,14 @@ Surface body_surface(const Simulation& sim)
     return all;
 }
 
-Surface wall_surface(const Scene& scene, const Bounds& domain)
+Surface wall_surface(const Scene& scene, const Bounds& domain, const Clock& clock)
 {
-    Surface all{"structures"};
+    Surface all{"structures", clock.time, clock.frame};
     std::vector<std::int32_t> walls;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const std::size_t added =
-            append(all, triangles_of(scene.walls[w], domain, scene.dimensions), {});
+            append(all, triangles_of(scene.walls[w], domain, scene.dimensions),
+                   {displacement(scene.walls[w].motion, clock.time), Quat::Identity()});
         walls.insert(walls.end(), added, static_cast<std::int32_t>(w));
     }
     all.columns = {{"Wall", "", 1, std::move(walls)}};

@@ -43,10 +43,33 @@ void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
         const std::size_t row = at(rows.begin + k);
         const std::int32_t wall = filling.wall_owner[at(k)];
         particles[field::position][row] = filling.wall[at(k)];
-        particles[field::velocity][row] = scene.walls[at(wall)].velocity;
+        particles[field::velocity][row] = velocity(scene.walls[at(wall)].motion, 0);
         particles.owner()[row] = -1 - wall;
-        fluid.moving_walls = fluid.moving_walls || scene.walls[at(wall)].velocity.norm() > 0;
+        fluid.moving_walls = fluid.moving_walls || moves(scene.walls[at(wall)].motion);
     }
+}
+
+// Particles of moving walls stand where their wall is at one time and move as it does at another.
+void move_walls(Simulation& sim, double place_time, double velocity_time)
+{
+    if (sim.wall_start.empty()) {
+        return;
+    }
+    std::vector<Vec3> places;
+    std::vector<Vec3> velocities;
+    for (const Wall& wall : sim.scene.walls) {
+        places.push_back(displacement(wall.motion, place_time));
+        velocities.push_back(velocity(wall.motion, velocity_time));
+    }
+    Particles& particles = sim.fluid->particles;
+    const auto x = particles[field::position];
+    const auto v = particles[field::velocity];
+    const Rows rows = particles.wall();
+    parallel_for(rows.begin, rows.end, [&](Index i) {
+        const auto wall = at(-1 - particles.owner()[at(i)]);
+        x[at(i)] = sim.wall_start[at(i - rows.begin)] + places[wall];
+        v[at(i)] = velocities[wall];
+    });
 }
 
 void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
@@ -101,6 +124,9 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
     sim.loads.bodies.resize(scene.bodies.size());
     if (plan.fluid) {
         sim.fluid = make_fluid(sim, filling);
+        if (sim.fluid->moving_walls) {
+            sim.wall_start = filling.wall;
+        }
         sim.poses = free_flight(sim.rigid, 0);
         place_bodies(sim.rigid, sim.poses, sim.body_particles, *sim.fluid);
         update_neighbours(*sim.fluid);
@@ -131,6 +157,7 @@ void step(Simulation& sim)
         Fluid& fluid = *sim.fluid;
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
+        move_walls(sim, sim.clock.time + dt / 2, sim.clock.time + dt / 2);
         sim.poses = free_flight(sim.rigid, dt / 2);
         place_bodies(sim.rigid, sim.poses, sim.body_particles, fluid);
         sim.timer.begin("neighbours");
@@ -153,10 +180,12 @@ void step(Simulation& sim)
         Fluid& fluid = *sim.fluid;
         sim.timer.begin("rates");
         place_bodies(sim.rigid, sim.poses, sim.body_particles, fluid);
+        move_walls(sim, sim.clock.time + dt / 2, next.end);
         update_rates(fluid);
         sim.pair_visits += static_cast<double>(fluid.neighbours.visits);
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
+        move_walls(sim, next.end, next.end);
     }
     sim.timer.begin("books");
     sim.clock.time = next.end;

@@ -136,7 +136,8 @@ TEST(MovingWall, RestitutionIsOfTheRelativeSpeed)
 {
     Rigid rigid = scene(0.6, 0.3);
     rigid.settings.gravity.setZero();
-    rigid.boundaries.push_back({"piston", Plane{Vec3(-0.5, 0, 0), Vec3::UnitX()}, 0, {Vec3(2, 0, 0), {}, {}}});
+    rigid.boundaries.push_back(
+        {"piston", Plane{Vec3(-0.5, 0, 0), Vec3::UnitX()}, 0, {Vec3(2, 0, 0), {}, {}}});
     rigid.bodies.push_back(box(cube_size(), 250, {0.2, 0, 0}));
     rigid.bodies[0].velocity.x() = -1;
     const std::vector<Contact> log = run(rigid, 1e-3, 400);

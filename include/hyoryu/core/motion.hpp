@@ -24,6 +24,9 @@ Vec3 displacement(const Motion& motion, double t);
 /// The derivative of the displacement [m/s].
 Vec3 velocity(const Motion& motion, double t);
 
+/// Whether it ever moves.
+bool moves(const Motion& motion);
+
 /// A speed that the motion does not exceed between two times [m/s].
 double speed_bound(const Motion& motion, double from, double to);
 

@@ -44,7 +44,7 @@ struct Fluid {
     Vec3 domain_min{-infinity, -infinity, -infinity};
     Vec3 domain_max{infinity, infinity, infinity};
     LostParticles lost;
-    bool moving_walls = false;
+    bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
 };
 
@@ -55,7 +55,7 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
 // The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves
 // the pressure loop and the velocity loop (Zhang, Rezavand & Hu 2020, without the dual time step).
 
-/// rho += dt R, x += dt v of the fluid; x += dt v of moving walls.
+/// rho += dt R, x += dt v of the fluid.
 void drift(Fluid& fluid, real dt);
 
 /// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and

@@ -31,7 +31,12 @@ struct Polytope {
     std::vector<Vec3> corners;           // [m]
     std::vector<std::vector<int>> faces; // corners of each face, counter-clockwise from outside
 };
-using ContactShape = std::variant<Ball, Rod, Polytope>;
+/// A union of convex polytopes that touch or overlap, in three dimensions: bodies that are not
+/// convex. Faces and edges that another part covers have no contact of their own.
+struct Compound {
+    std::vector<Polytope> parts;
+};
+using ContactShape = std::variant<Ball, Rod, Polytope, Compound>;
 
 /// The polytope of a box of the given edge lengths; a rectangle in the x-z plane if `dimensions`
 /// is 2.
@@ -47,8 +52,9 @@ struct MassProperties {
     Mat3 inertia = Mat3::Identity(); // I_b [kg m2]; kg m in two dimensions
 };
 
-/// The exact mass properties of a shape of uniform density. Two dimensions: per metre of width, and
-/// the inertia about y is that of the cross-section in the x-z plane.
+/// The exact mass properties of a shape of uniform density; the parts of a compound must not
+/// overlap for that. Two dimensions: per metre of width, and the inertia about y is that of the
+/// cross-section in the x-z plane.
 MassProperties mass_properties(const ContactShape& shape, double density, int dimensions);
 
 /// A rigid body. State: pose (x, q), V and the angular momentum L in world axes, so that
@@ -99,10 +105,19 @@ struct Obstacle {
     Quat orientation = Quat::Identity();
 };
 
+/// A triangle surface, in three dimensions: bodies stay on the side from which the triangles wind
+/// counter-clockwise. It need not be closed; at an open rim it is a thin plate.
+struct MeshSurface {
+    std::vector<Vec3> corners; // [m]
+    std::vector<std::array<int, 3>> triangles;
+    Vec3 position{0, 0, 0}; // of the origin of the corners
+    Quat orientation = Quat::Identity();
+};
+
 /// A wall as bodies meet it: a surface, never a row of particles.
 struct Boundary {
     std::string name;
-    std::variant<Plane, Basin, Obstacle> surface; // where it is at time 0
+    std::variant<Plane, Basin, Obstacle, MeshSurface> surface; // where it is at time 0
     int material = 0;
     Motion motion;
 };

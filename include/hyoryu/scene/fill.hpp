@@ -13,6 +13,7 @@ struct Aggregate {
     std::vector<Vec3> points;   // [m]
     double particle_volume = 0; // volume of the body / number of particles [m3]
     Index surface_points = 0;   // in the outermost layer
+    Vec3 cell{0, 0, 0};         // of the lattice that fills a mesh [m]
 };
 
 /// All particles of a scene at the start.

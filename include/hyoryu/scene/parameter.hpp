@@ -11,9 +11,8 @@
 
 namespace hyoryu {
 
-/// `vector` is a list of numbers, `integers` of whole numbers, `texts` of texts; `tables` is
-/// written
-/// [[so]].
+/// `vector` is a list of numbers, `vectors` of lists of three numbers, `integers` of whole numbers,
+/// `texts` of texts; `tables` is written [[so]].
 enum class ValueKind {
     number,
     integer,
@@ -21,6 +20,7 @@ enum class ValueKind {
     text,
     choice,
     vector,
+    vectors,
     integers,
     texts,
     table,

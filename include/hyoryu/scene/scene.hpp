@@ -3,6 +3,7 @@
 // Nothing here runs; `make_plan` turns a Scene into what will run.
 #pragma once
 
+#include "hyoryu/core/motion.hpp"
 #include "hyoryu/core/types.hpp"
 #include "hyoryu/rigid/law.hpp"
 
@@ -41,7 +42,17 @@ struct MeshShape {
     std::vector<Vec3> corners;                 // [m], scaled
     std::vector<std::array<int, 3>> triangles; // outward orientation
 };
-using Shape = std::variant<BoxShape, SphereShape, CylinderShape, MeshShape>;
+/// A body given as its own particles, each a cube of the edge of their spacing; in three
+/// dimensions.
+struct ParticleShape {
+    std::string file;
+    double spacing = 0;       // [m]
+    std::vector<Vec3> points; // about their mean [m]
+    /// The union of the cubes as axis-aligned boxes {lower corner, upper corner} that do not
+    /// overlap, where they lie on one lattice; else every cube by itself [m].
+    std::vector<std::array<Vec3, 2>> boxes;
+};
+using Shape = std::variant<BoxShape, SphereShape, CylinderShape, MeshShape, ParticleShape>;
 
 struct TimeSettings {
     double end = 0;             // [s]
@@ -99,8 +110,8 @@ struct SolidWall {
 struct Wall {
     std::string name;
     std::variant<PlaneWall, BasinWall, SolidWall> geometry;
-    std::string material;   // empty: none named
-    Vec3 velocity{0, 0, 0}; // constant [m/s], of [wall.motion]
+    std::string material; // empty: none named
+    Motion motion;        // of [wall.motion]
     Place place;
 };
 

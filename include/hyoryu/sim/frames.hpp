@@ -15,7 +15,7 @@ Cloud body_cloud(const Simulation& sim);
 Cloud wall_cloud(const Simulation& sim);
 /// Surfaces of all bodies at their present pose, with Body and Velocity at the corners.
 Surface body_surface(const Simulation& sim);
-/// Surfaces of all walls where they stood at the start, with Wall (index) at the corners.
-Surface wall_surface(const Scene& scene, const Bounds& domain);
+/// Surfaces of all walls where they are at the time of the clock, with Wall (index) at the corners.
+Surface wall_surface(const Scene& scene, const Bounds& domain, const Clock& clock);
 
 } // namespace hyoryu

@@ -25,7 +25,8 @@ struct Simulation {
     std::optional<Fluid> fluid; // none without `[fluid]`: no particles, grids or lists
     Rigid rigid;
     BodyParticles body_particles;
-    std::vector<Pose> poses; // of the bodies when the loads were taken
+    std::vector<Vec3> wall_start; // of the particles of walls at time 0 [m]; empty if none moves
+    std::vector<Pose> poses;      // of the bodies when the loads were taken
     Loads loads;
     Clock clock;
     Ledger ledger;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Solids made of several convex parts.
+#pragma once
+
+#include "mesh_axis.hpp"
+
+#include <span>
+
+namespace hyoryu {
+
+/// The tables of a compound in three dimensions.
+Solid compound_solid(const Compound& shape);
+
+/// The convex parts: those of a compound, or the solid itself.
+std::span<const Solid> convex_parts(const Solid& solid);
+
+/// The part that has a corner, by its number in the whole.
+const Solid& part_of_corner(const Solid& solid, int corner);
+
+/// Whether the surface of a compound goes through face f of one of its parts at a point of that
+/// face (body frame), or the face is covered there by another part. At the rim of an open region
+/// the face is open.
+bool face_is_open(const Solid& whole, const Solid& part, int f, const Vec3& point);
+
+/// Whether both faces beside an edge are open at a point of it: an edge within the surface, or in a
+/// corner that looks inwards, has no normal of its own.
+bool edge_is_open(const Solid& whole, const Solid& part, const Edge& edge, const Vec3& point);
+
+/// The face of a part that has the point, with the direction n as its normal; -1 if there is none:
+/// the point is on an edge or a corner.
+int face_at(const Solid& whole, const Solid& part, const Vec3& point, const Vec3& n);
+
+/// Whether all faces of a part at a point of an edge or corner are open there.
+bool rim_is_open(const Solid& whole, const Solid& part, const Vec3& point);
+
+} // namespace hyoryu

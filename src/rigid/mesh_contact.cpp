@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "mesh_contact.hpp"
+#include "compound.hpp"
+#include "mesh_axis.hpp"
+#include "mesh_round.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Features of polytopes farther apart than this are no contact [m].
+constexpr double near_enough = 1e-5;
+// A corner this part of the reach of its body past the rim of a triangle is still over it.
+constexpr double rim_tolerance = 1e-6;
+// Part of an edge at its ends that belongs to the corners.
+constexpr double edge_end = 1e-6;
+// Sine of the angle below which two edges are parallel and their cross product is noise.
+constexpr double parallel_edges = 1e-4;
+// What round-off does to an edge that lies flat (unit vectors).
+constexpr double lying_flat = 1e-6;
+
+std::size_t number(int k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// How far the foot of a point on the plane of a triangle is past its sides; negative inside.
+double past_sides(const FlatTriangle& t, const Vec3& p)
+{
+    double past = -infinity;
+    for (std::size_t k = 0; k < 3; ++k) {
+        past = std::max(past, t.sideways[k].dot(p - t.point[k]));
+    }
+    return past;
+}
+
+// Collects the features of one convex part of a body and a mesh.
+class PartSearch {
+public:
+    PartSearch(const Pair& pair, const Configuration& at, const PartAt& part,
+               std::vector<Candidate>& found)
+        : pair_(pair), at_(at), mesh_(at.geometry.walls[number(-1 - pair.b)].mesh), part_(part),
+          found_(found), first_(found.size())
+    {
+    }
+
+    void over(const FlatTriangle& triangle)
+    {
+        const TriangleAxis axis = triangle_axis(part_, mesh_, triangle, near_enough);
+        if (axis.distance > near_enough) {
+            return;
+        }
+        deepest_ = std::min(axis.distance, 0.0) - near_enough;
+        lowest_ = infinity;
+        corners_over(triangle);
+        for (std::size_t k = 0; k < 3; ++k) {
+            mesh_corner(triangle.corner[k]);
+            if (triangle.crease[k] >= 0) {
+                edges_across(triangle.crease[k]);
+            }
+        }
+        if (axis.distance < -near_enough && lowest_ >= 0) {
+            add_axis(axis, triangle);
+        }
+    }
+
+private:
+    void add(const Feature& feature)
+    {
+        const Touch touch = touch_of(feature, at_);
+        if (touch.gap > near_enough || touch.gap < deepest_) {
+            return;
+        }
+        lowest_ = std::min(lowest_, touch.gap);
+        const bool known =
+            std::any_of(found_.begin() + static_cast<std::ptrdiff_t>(first_), found_.end(),
+                        [&](const Candidate& c) { return c.feature == feature; });
+        if (!known) {
+            found_.push_back({feature, touch});
+        }
+    }
+
+    Feature feature(FeatureKind kind) const { return {pair_.a, pair_.b, kind}; }
+
+    Feature corner_feature(int corner, int patch) const
+    {
+        Feature f = feature(FeatureKind::corner_plane);
+        f.i = part_.solid.first_corner + corner;
+        f.f = patch;
+        return f;
+    }
+
+    void corners_over(const FlatTriangle& triangle)
+    {
+        const double tolerance = rim_tolerance * part_.solid.reach;
+        for (std::size_t k = 0; k < part_.corners.size(); ++k) {
+            if (past_sides(triangle, part_.corners[k]) <= tolerance) {
+                add(corner_feature(static_cast<int>(k), triangle.patch));
+            }
+        }
+    }
+
+    void mesh_corner(int corner)
+    {
+        const MeshCorner& c = mesh_.corners[number(corner)];
+        if (!c.sharp) {
+            return;
+        }
+        const Vec3 p = in_body(c.point);
+        for (std::size_t f = 0; f < part_.solid.faces.size(); ++f) {
+            const Face& face = part_.solid.faces[f];
+            const bool under =
+                std::all_of(face.sides.begin(), face.sides.end(), [&](const Side& side) {
+                    return side.normal.dot(p) - side.offset <= rim_tolerance * part_.solid.reach;
+                });
+            if (under && in_cone(mesh_, c, -part_.normals[f]) &&
+                face_is_open(part_.whole, part_.solid, static_cast<int>(f), p)) {
+                Feature found = feature(FeatureKind::face_corner);
+                found.i = corner;
+                found.f = part_.solid.first_face + static_cast<int>(f);
+                add(found);
+            }
+        }
+    }
+
+    void edges_across(int number_of_crease)
+    {
+        const Crease& crease = mesh_.creases[number(number_of_crease)];
+        const Vec3& q = mesh_.corners[number(crease.i)].point;
+        const Vec3 w = mesh_.corners[number(crease.j)].point - q;
+        for (const Edge& edge : part_.solid.edges) {
+            const Vec3& p = part_.corners[number(edge.i)];
+            const Vec3 u = part_.corners[number(edge.j)] - p;
+            const Vec3 cross = u.cross(w);
+            const double length = cross.norm();
+            if (length <= parallel_edges * u.norm() * w.norm()) {
+                continue;
+            }
+            const Vec3 n = (cross.dot(crease.outward) < 0 ? -1 : 1) / length * cross;
+            const double s = (q - p).cross(w).dot(cross) / sq(length);
+            const double t = (q - p).cross(u).dot(cross) / sq(length);
+            const bool within = std::min(s, t) > edge_end && std::max(s, t) < 1 - edge_end;
+            if (within && in_cone(crease, n) && rests_on(part_, edge, n, lying_flat) &&
+                edge_is_open(part_.whole, part_.solid, edge, in_body(p + s * u))) {
+                Feature found = feature(FeatureKind::edge_crease);
+                found.i = part_.solid.first_corner + edge.i;
+                found.j = part_.solid.first_corner + edge.j;
+                found.k = number_of_crease;
+                add(found);
+            }
+        }
+    }
+
+    // What the separating axis shows, when overlap is so deep that no pair of features does.
+    void add_axis(const TriangleAxis& axis, const FlatTriangle& triangle)
+    {
+        if (axis.kind == TriangleAxis::Kind::face) {
+            Feature found = feature(FeatureKind::face_corner);
+            found.i = triangle.corner[number(axis.corner)];
+            found.f = part_.solid.first_face + axis.index;
+            add(found);
+        } else {
+            add(corner_feature(axis.corner, triangle.patch));
+        }
+    }
+
+    Vec3 in_body(const Vec3& p) const { return part_.pose.R.transpose() * (p - part_.pose.x); }
+
+    const Pair& pair_;
+    const Configuration& at_;
+    const MeshTable& mesh_;
+    const PartAt& part_;
+    std::vector<Candidate>& found_;
+    std::size_t first_;
+    double deepest_ = 0;
+    double lowest_ = infinity;
+};
+
+} // namespace
+
+void find_mesh_candidates(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+{
+    const Solid& solid = at.geometry.solids[number(pair.a)];
+    const Wall& wall = at.geometry.walls[number(-1 - pair.b)];
+    if (solid.form == Form::ball || solid.form == Form::rod) {
+        find_round_on_mesh(pair, at, found);
+        return;
+    }
+    std::vector<int> near;
+    for (const Solid& own : convex_parts(solid)) {
+        const PartAt part =
+            part_at(solid, own, at.poses[number(pair.a)], displacement(wall.motion, at.time));
+        PartSearch search(pair, at, part, found);
+        find_near(wall.mesh.tree, part.box.grown(near_enough), near);
+        for (const int t : near) {
+            search.over(wall.mesh.triangles[number(t)]);
+        }
+    }
+}
+
+double mesh_distance(const Pair& pair, const Configuration& at)
+{
+    const Solid& solid = at.geometry.solids[number(pair.a)];
+    const Wall& wall = at.geometry.walls[number(-1 - pair.b)];
+    double smallest = infinity;
+    std::vector<int> near;
+    for (const Solid& own : convex_parts(solid)) {
+        const PartAt part =
+            part_at(solid, own, at.poses[number(pair.a)], displacement(wall.motion, at.time));
+        find_near(wall.mesh.tree, part.box, near);
+        for (const int t : near) {
+            const FlatTriangle& triangle = wall.mesh.triangles[number(t)];
+            smallest =
+                std::min(smallest, triangle_axis(part, wall.mesh, triangle, smallest).distance);
+        }
+    }
+    return smallest;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "mesh_round.hpp"
+#include "mesh_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// An overlap deeper than this was not located, and a body nearer than this may touch [m].
+constexpr double deep = 1e-5;
+// Rounding of a foot on the border of a triangle, as a part of the size of the body.
+constexpr double rim_tolerance = 1e-6;
+constexpr int rim_points = 8; // as in gap.cpp
+// A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
+constexpr double standing = 0.995;
+
+std::size_t number(int k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+AlignedBox box_of(const Solid& solid, const Pose& pose)
+{
+    const Vec3 half =
+        solid.form == Form::ball ? solid.box_half : Vec3(pose.R.cwiseAbs() * solid.box_half);
+    return {pose.x - half, pose.x + half};
+}
+
+double past_sides(const FlatTriangle& t, const Vec3& p)
+{
+    double past = -infinity;
+    for (std::size_t k = 0; k < 3; ++k) {
+        past = std::max(past, t.sideways[k].dot(p - t.point[k]));
+    }
+    return past;
+}
+
+class RoundSearch {
+public:
+    RoundSearch(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+        : pair_(pair), at_(at), wall_(at.geometry.walls[number(-1 - pair.b)]), mesh_(wall_.mesh),
+          solid_(at.geometry.solids[number(pair.a)]), pose_(at.poses[number(pair.a)]),
+          found_(found), first_(found.size())
+    {
+        pose_.x -= displacement(wall_.motion, at.time);
+    }
+
+    void search()
+    {
+        std::vector<int> near;
+        find_near(mesh_.tree, box_of(solid_, pose_).grown(deep), near);
+        for (const int t : near) {
+            const FlatTriangle& triangle = mesh_.triangles[number(t)];
+            const Patch& patch = mesh_.patches[number(triangle.patch)];
+            if (patch.normal.dot(pose_.x) <= patch.offset) {
+                continue;
+            }
+            if (solid_.form == Form::ball) {
+                ball_over(triangle);
+            } else {
+                rod_over(triangle, patch);
+            }
+        }
+    }
+
+private:
+    Feature feature(FeatureKind kind) const { return {pair_.a, pair_.b, kind}; }
+
+    void add(const Feature& f)
+    {
+        const bool known =
+            std::any_of(found_.begin() + static_cast<std::ptrdiff_t>(first_), found_.end(),
+                        [&](const Candidate& c) { return c.feature == f; });
+        if (!known) {
+            found_.push_back({f, touch_of(f, at_)});
+        }
+    }
+
+    // In the region of the face, or in the Voronoi region of a crease or corner.
+    void ball_over(const FlatTriangle& triangle)
+    {
+        if (past_sides(triangle, pose_.x) <= 0) {
+            Feature f = feature(FeatureKind::ball_plane);
+            f.f = triangle.patch;
+            add(f);
+            return;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (triangle.crease[k] >= 0) {
+                ball_at(mesh_.creases[number(triangle.crease[k])], triangle.crease[k]);
+            }
+            const MeshCorner& corner = mesh_.corners[number(triangle.corner[k])];
+            if (corner.sharp && in_cone(mesh_, corner, (pose_.x - corner.point).normalized())) {
+                Feature f = feature(FeatureKind::round_corner);
+                f.i = triangle.corner[k];
+                add(f);
+            }
+        }
+    }
+
+    void ball_at(const Crease& crease, int k)
+    {
+        const Vec3& a = mesh_.corners[number(crease.i)].point;
+        const Vec3 d = mesh_.corners[number(crease.j)].point - a;
+        const double t = d.dot(pose_.x - a) / d.squaredNorm();
+        const Vec3 out = pose_.x - a - t * d;
+        if (t > 0 && t < 1 && out.dot(crease.left) < 0 && out.dot(crease.right) < 0) {
+            Feature f = feature(FeatureKind::round_crease);
+            f.k = k;
+            add(f);
+        }
+    }
+
+    void rod_over(const FlatTriangle& triangle, const Patch& patch)
+    {
+        const double upright = pose_.R.col(0).dot(patch.normal);
+        Feature f = feature(FeatureKind::rim_low);
+        f.f = triangle.patch;
+        for (f.i = 0; f.i < 2; ++f.i) {
+            f.kind = FeatureKind::rim_low;
+            f.j = 0;
+            add_rim(f, triangle);
+            const bool lower_end = (upright > 0) == (f.i == 0);
+            f.kind = FeatureKind::rim_fixed;
+            for (f.j = 0; std::abs(upright) > standing && lower_end && f.j < rim_points; ++f.j) {
+                add_rim(f, triangle);
+            }
+        }
+        for (const int crease : triangle.crease) {
+            if (crease >= 0) {
+                rod_on(mesh_.creases[number(crease)], crease);
+            }
+        }
+    }
+
+    // A point beside the triangle is no deep overlap with it: only one well within its sides is.
+    void add_rim(const Feature& f, const FlatTriangle& triangle)
+    {
+        const Touch touch = touch_of(f, at_);
+        const double rim = rim_tolerance * solid_.reach;
+        const Vec3 point = touch.point - displacement(wall_.motion, at_.time);
+        if (past_sides(triangle, point) <= (touch.gap < -deep ? -rim : rim) &&
+            touch.gap > -solid_.thickness) {
+            add(f);
+        }
+    }
+
+    void rod_on(const Crease& crease, int k)
+    {
+        Feature f = feature(FeatureKind::round_crease);
+        f.k = k;
+        const Touch touch = mesh_touch(f, at_);
+        const Vec3 point = touch.point - displacement(wall_.motion, at_.time);
+        const auto is_at = [&](int corner) {
+            return (mesh_.corners[number(corner)].point - point).norm() <
+                   rim_tolerance * solid_.reach;
+        };
+        const bool first = is_at(crease.i);
+        const bool valid =
+            first || is_at(crease.j)
+                ? in_cone(mesh_, mesh_.corners[number(first ? crease.i : crease.j)], touch.normal)
+                : in_cone(crease, touch.normal);
+        if (valid && touch.gap > -solid_.thickness) {
+            add(f);
+        }
+    }
+
+    const Pair& pair_;
+    const Configuration& at_;
+    const Wall& wall_;
+    const MeshTable& mesh_;
+    const Solid& solid_;
+    Pose pose_; // in the axes of the mesh at time 0
+    std::vector<Candidate>& found_;
+    std::size_t first_;
+};
+
+} // namespace
+
+void find_round_on_mesh(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+{
+    RoundSearch(pair, at, found).search();
+}
+
+} // namespace hyoryu

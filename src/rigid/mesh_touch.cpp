@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Gap functions of the features that only meshes have.
+#include "mesh_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Steps of the golden section: the point is then known to 1e-10 of the crease.
+constexpr int golden_steps = 48;
+// Shorter than this a direction is noise (unit vectors).
+constexpr double no_direction = 1e-9;
+
+std::size_t number(int k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// A crease where it is now.
+struct Line {
+    Vec3 from{0, 0, 0};
+    Vec3 along{0, 0, 0};
+};
+
+Line line_of(const MeshTable& mesh, const Crease& crease, const Vec3& shift)
+{
+    const Vec3& a = mesh.corners[number(crease.i)].point;
+    return {a + shift, mesh.corners[number(crease.j)].point - a};
+}
+
+Touch edge_on_crease(const Feature& feature, const Placed& a, const Line& line,
+                     const Crease& crease)
+{
+    const Vec3 p = a.pose.x + a.pose.R * a.solid.corners[number(feature.i)];
+    const Vec3 u =
+        a.pose.R * (a.solid.corners[number(feature.j)] - a.solid.corners[number(feature.i)]);
+    const Vec3& w = line.along;
+    const Vec3 r = line.from - p;
+    const Vec3 cross = u.cross(w);
+    const double length = cross.norm();
+    if (length <= no_direction * u.norm() * w.norm()) {
+        const Vec3 n = crease.outward.normalized();
+        return {p, n, -n.dot(r)};
+    }
+    const Vec3 n = (cross.dot(crease.outward) < 0 ? -1 : 1) / length * cross;
+    const double s = std::clamp(r.cross(w).dot(cross) / sq(length), 0.0, 1.0);
+    const double t = std::clamp(r.cross(u).dot(cross) / sq(length), 0.0, 1.0);
+    const Vec3 on_a = p + s * u;
+    const Vec3 on_b = line.from + t * w;
+    return {0.5 * (on_a + on_b), n, n.dot(on_a - on_b)};
+}
+
+// The distance of a point from a convex solid is a convex function along a line.
+Touch rod_on_crease(const Placed& rod, const Line& line)
+{
+    const auto local = [&](double t) {
+        return nearest(rod.solid,
+                       rod.pose.R.transpose() * (line.from + t * line.along - rod.pose.x));
+    };
+    const double ratio = (std::sqrt(5.0) - 1) / 2;
+    double low = 0;
+    double high = 1;
+    double left = high - ratio;
+    double right = low + ratio;
+    double f_left = local(left).gap;
+    double f_right = local(right).gap;
+    for (int k = 0; k < golden_steps; ++k) {
+        if (f_left <= f_right) {
+            high = right;
+            right = left;
+            f_right = f_left;
+            left = high - ratio * (high - low);
+            f_left = local(left).gap;
+        } else {
+            low = left;
+            left = right;
+            f_left = f_right;
+            right = low + ratio * (high - low);
+            f_right = local(right).gap;
+        }
+    }
+    const double t = 0.5 * (low + high);
+    const Touch touch = local(t);
+    return {line.from + t * line.along, -(rod.pose.R * touch.normal), touch.gap};
+}
+
+Touch ball_on_point(const Placed& ball, const Vec3& point)
+{
+    const Vec3 out = ball.pose.x - point;
+    const double distance = out.norm();
+    return {point, distance > 0 ? Vec3(out / distance) : Vec3(Vec3::UnitZ()),
+            distance - ball.solid.radius};
+}
+
+} // namespace
+
+Touch mesh_touch(const Feature& feature, const Configuration& at)
+{
+    const Wall& wall = at.geometry.walls[number(-1 - feature.b)];
+    const Placed a = placed(at, feature.a);
+    const Vec3 shift = displacement(wall.motion, at.time);
+    if (feature.kind == FeatureKind::face_corner) {
+        const Face& face = a.solid.faces[number(feature.f)];
+        const Vec3 n = a.pose.R * face.normal;
+        const Vec3 point = wall.mesh.corners[number(feature.i)].point + shift;
+        return {point, -n, n.dot(point - a.pose.x) - face.offset};
+    }
+    if (feature.kind == FeatureKind::round_corner) {
+        return ball_on_point(a, wall.mesh.corners[number(feature.i)].point + shift);
+    }
+    const Crease& crease = wall.mesh.creases[number(feature.k)];
+    const Line line = line_of(wall.mesh, crease, shift);
+    if (feature.kind == FeatureKind::edge_crease) {
+        return edge_on_crease(feature, a, line, crease);
+    }
+    if (a.solid.form == Form::rod) {
+        return rod_on_crease(a, line);
+    }
+    const double t =
+        std::clamp(line.along.dot(a.pose.x - line.from) / line.along.squaredNorm(), 0.0, 1.0);
+    return ball_on_point(a, line.from + t * line.along);
+}
+
+} // namespace hyoryu

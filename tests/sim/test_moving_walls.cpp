@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Walls that follow a path: their particles, restart, and what they do to the water.
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/sim/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hyoryu {
+namespace {
+
+// A paddle at the left end of a channel, in the plane.
+constexpr const char* flume = R"(
+dimensions = 2
+[time]
+end = 2.0
+[particles]
+spacing = 0.02
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.6, 0.0, 0.2]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [-0.5, 0.0, 0.0]
+max = [0.6, 0.0, 0.5]
+open = ["+z"]
+[[wall]]
+name = "paddle"
+shape = "box"
+min = [-0.1, 0.0, 0.0]
+max = [0.0, 0.0, 0.4]
+[wall.motion]
+times = [0.0, 0.01, 0.03, 0.08]
+places = [[0, 0, 0], [0.002, 0, 0], [0.008, 0, 0], [0.01, 0, 0]]
+)";
+
+Simulation make()
+{
+    const Scene scene = parse_case(flume, "flume.toml");
+    const Filling filling = fill(scene);
+    return make_simulation(scene, make_plan(scene, filling), filling);
+}
+
+// One step; frames are taken note of as a run does.
+void advance(Simulation& sim)
+{
+    step(sim);
+    sim.clock.frame += frame_due(sim.clock, sim.scene) ? 1 : 0;
+}
+
+TEST(Paddle, ParticlesStandOnThePathAtEveryStep)
+{
+    Simulation sim = make();
+    const std::vector<Vec3> start = sim.wall_start;
+    ASSERT_FALSE(start.empty());
+    Vec3 pushed = Vec3::Zero();
+    for (int k = 0; k < 40; ++k) {
+        advance(sim);
+        const Particles& particles = sim.fluid->particles;
+        const Rows rows = particles.wall();
+        const Motion& motion = sim.scene.walls[1].motion;
+        for (Index i = rows.begin; i < rows.end; ++i) {
+            const auto row = static_cast<std::size_t>(i);
+            const bool paddle = particles.owner()[row] == -2;
+            const Vec3 moved =
+                particles[field::position][row] - start[static_cast<std::size_t>(i - rows.begin)];
+            // the place is the sum of the start and the displacement, in one rounding
+            EXPECT_LE(
+                (moved - (paddle ? displacement(motion, sim.clock.time) : Vec3::Zero())).norm(),
+                1e-15);
+            EXPECT_EQ(particles[field::velocity][row],
+                      paddle ? velocity(motion, sim.clock.time) : Vec3::Zero());
+        }
+        pushed = totals(sim).momentum;
+    }
+    EXPECT_GT(sim.clock.time, 0.01);
+    EXPECT_GT(pushed.x(), 0); // the water is pushed forward
+}
+
+TEST(Paddle, RestartContinuesWithTheSameBits)
+{
+    Simulation whole = make();
+    for (int k = 0; k < 40; ++k) {
+        advance(whole);
+    }
+    Simulation second = make();
+    restore(second, save(whole));
+    for (int k = 0; k < 15; ++k) {
+        advance(whole);
+        advance(second);
+    }
+    const Snapshot a = save(whole);
+    const Snapshot b = save(second);
+    for (const auto& [name, array] : a.arrays) {
+        EXPECT_TRUE(array.values == b.arrays.at(name).values) << name;
+    }
+}
+
+} // namespace
+} // namespace hyoryu
