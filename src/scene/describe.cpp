@@ -4,7 +4,7 @@
 #include "hyoryu/scene/parameter.hpp"
 
 #include "parameter_table.hpp"
-#include "reader_hint.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "reader_table.hpp"
 
 #include "parameter_table.hpp"
-#include "reader_hint.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
 #include "units.hpp"
 
 #include <fmt/format.h>
