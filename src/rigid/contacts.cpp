@@ -2,11 +2,77 @@
 // Contact search of a cluster and its islands.
 #include "sub_step.hpp"
 
+#include "hyoryu/core/parallel.hpp"
+
 #include <algorithm>
-#include <map>
+#include <limits>
 #include <numeric>
 
 namespace hyoryu {
+
+namespace {
+
+// Contacts below which waking the other threads costs more than they save.
+constexpr std::size_t worth_sharing_contacts = 64;
+
+int root_of(std::vector<int>& parents, int k)
+{
+    while (parents[k] != k) {
+        parents[k] = parents[parents[k]];
+        k = parents[k];
+    }
+    return k;
+}
+
+// Joins the movable bodies that share a row; the smallest index is the root.
+void join_bodies(const std::vector<Row>& rows, ContactMemory& memory)
+{
+    memory.parents.resize(memory.rotors.size());
+    for (const Row& row : rows) {
+        memory.parents[row.a] = row.a;
+        memory.parents[std::max(row.b, 0)] = std::max(row.b, 0);
+    }
+    for (const Row& row : rows) {
+        if (row.b >= 0 && memory.rotors[row.a].movable && memory.rotors[row.b].movable) {
+            const int a = root_of(memory.parents, row.a);
+            const int b = root_of(memory.parents, row.b);
+            memory.parents[std::max(a, b)] = std::min(a, b);
+        }
+    }
+}
+
+// Sorts the rows by the islands that share no movable body, in the order of their first rows, and
+// returns where each island ends.
+std::vector<std::size_t> sort_into_islands(std::vector<Row>& rows, ContactMemory& memory)
+{
+    join_bodies(rows, memory);
+    memory.island_of_root.assign(memory.rotors.size(), -1);
+    memory.island_of_row.clear();
+    std::vector<std::size_t> ends;
+    for (const Row& row : rows) {
+        const int body = memory.rotors[row.a].movable ? row.a : row.b;
+        int& island = memory.island_of_root[root_of(memory.parents, body)];
+        if (island < 0) {
+            island = static_cast<int>(ends.size());
+            ends.push_back(0);
+        }
+        memory.island_of_row.push_back(island);
+        ++ends[island];
+    }
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    if (ends.size() > 1) {
+        memory.group.resize(rows.size());
+        for (std::size_t k = rows.size(); k-- > 0;) { // ends become begins
+            memory.group[--ends[memory.island_of_row[k]]] = rows[k];
+        }
+        rows.swap(memory.group);
+        std::rotate(ends.begin(), ends.begin() + 1, ends.end());
+        ends.back() = rows.size();
+    }
+    return ends;
+}
+
+} // namespace
 
 bool tired(const ContactMemory& memory, int a, int b)
 {
@@ -19,7 +85,7 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
     memory.candidates.clear();
     const Configuration now = configuration(memory, memory.poses, time);
     for (const Pair& pair : cluster.pairs) {
-        find_candidates(pair, now, memory.candidates);
+        find_candidates(pair, now, clearly_apart, memory.candidates);
     }
     double& worst = context.rigid.counters.worst_penetration;
     for (const Candidate& candidate : memory.candidates) {
@@ -31,51 +97,19 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
 
 double solve_islands(std::vector<Row>& rows, ContactMemory& memory)
 {
-    // Rows that share a movable body belong together; islands in the order of their first row.
-    std::vector<int> island(rows.size());
-    std::iota(island.begin(), island.end(), 0);
-    std::map<int, int> island_of_body;
-    const auto join = [&](int from, int to) {
-        std::replace(island.begin(), island.end(), from, to);
-        for (auto& [body, its] : island_of_body) {
-            its = its == from ? to : its;
-        }
+    const std::vector<std::size_t> ends = sort_into_islands(rows, memory);
+    memory.solvers.resize(std::max(memory.solvers.size(), ends.size()));
+    memory.left.assign(ends.size(), 0);
+    const Index worth =
+        rows.size() < worth_sharing_contacts ? std::numeric_limits<Index>::max() : 2;
+    const auto solve_one = [&](Index k) {
+        const auto island = static_cast<std::size_t>(k);
+        const std::size_t begin = island == 0 ? 0 : ends[island - 1];
+        const std::span<Row> its = std::span(rows).subspan(begin, ends[island] - begin);
+        memory.left[island] = solve(its, memory.responses, memory.solvers[island]);
     };
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        for (const int body : {rows[k].a, rows[k].b}) {
-            if (body < 0 || !memory.rotors[body].movable) {
-                continue;
-            }
-            const auto [known, added] = island_of_body.try_emplace(body, island[k]);
-            if (!added && known->second != island[k]) {
-                const int other = known->second;
-                join(std::max(other, island[k]), std::min(other, island[k]));
-            }
-        }
-    }
-    if (std::all_of(island.begin(), island.end(), [](int k) { return k == 0; })) {
-        return solve(rows, memory.responses, memory.solver);
-    }
-    double worst = 0;
-    for (int k = 0; k < static_cast<int>(rows.size()); ++k) {
-        memory.group.clear();
-        for (std::size_t m = 0; m < rows.size(); ++m) {
-            if (island[m] == k) {
-                memory.group.push_back(rows[m]);
-            }
-        }
-        if (memory.group.empty()) {
-            continue;
-        }
-        worst = std::max(worst, solve(memory.group, memory.responses, memory.solver));
-        std::size_t next = 0;
-        for (std::size_t m = 0; m < rows.size(); ++m) {
-            if (island[m] == k) {
-                rows[m] = memory.group[next++];
-            }
-        }
-    }
-    return worst;
+    parallel_blocks(0, static_cast<Index>(ends.size()), solve_one, worth);
+    return ends.empty() ? 0 : *std::max_element(memory.left.begin(), memory.left.end());
 }
 
 } // namespace hyoryu

@@ -71,13 +71,16 @@ private:
 
     bool holds(const Pair& pair) const
     {
-        return std::any_of(memory_.held.begin(), memory_.held.end(),
-                           [&](const Feature& f) { return f.a == pair.a && f.b == pair.b; });
+        const auto first = std::lower_bound(memory_.held.begin(), memory_.held.end(), pair,
+                                            [](const Feature& f, const Pair& p) {
+                                                return std::pair(f.a, f.b) < std::pair(p.a, p.b);
+                                            });
+        return first != memory_.held.end() && first->a == pair.a && first->b == pair.b;
     }
 
     bool held(const Feature& feature) const
     {
-        return std::find(memory_.held.begin(), memory_.held.end(), feature) != memory_.held.end();
+        return std::binary_search(memory_.held.begin(), memory_.held.end(), feature);
     }
 
     double limit(const Pair& pair) const
@@ -93,7 +96,7 @@ private:
             return axis_distance(pair, at);
         }
         memory_.looked_at.clear();
-        find_candidates(pair, at, memory_.looked_at);
+        find_candidates(pair, at, clearly_apart, memory_.looked_at);
         double smallest = infinity;
         for (const Candidate& c : memory_.looked_at) {
             if (c.touch.gap < smallest && !held(c.feature)) {

@@ -74,6 +74,7 @@ struct Candidate {
     Feature feature;
     Touch touch;
     bool beyond = false;
+    bool closing = false; // in a jam: open now, and closed before the sub-step ends
 };
 
 /// All that geometry is made of; bodies by index, poses that change.

@@ -15,15 +15,15 @@ constexpr int most_rounds = 50;
 constexpr double no_gain = 1e-14;
 
 // All touching contacts that approach faster than the resting speed.
-void collect(const StepContext& context, double time, std::vector<Row>& rows)
+void collect(const StepContext& context, const SubStep& sub, double time, std::vector<Row>& rows)
 {
     ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
     rows.clear();
     for (std::size_t k = 0; k < memory.candidates.size(); ++k) {
         const Candidate& c = memory.candidates[k];
-        if (c.beyond || c.touch.gap > settings.contact_tolerance ||
-            separation_speed(memory, c, time) >= -settings.resting_speed) {
+        if (c.beyond || (c.touch.gap > settings.contact_tolerance && !c.closing) ||
+            separation_speed(memory, c, time) >= -sub.slow) {
             continue;
         }
         Row row;
@@ -136,10 +136,34 @@ void apply_round(const std::vector<Row>& rows, const StepContext& context)
     }
 }
 
-// Books a round; the energy of the round is shared in proportion to what each contact lost.
-void book(const std::vector<Row>& rows, const StepContext& context, std::size_t first, double time)
+// The log entry of another candidate of the same pair at the same place; -1 if there is none.
+int entry_at_same_point(const ContactMemory& memory, int contact)
 {
-    const ContactMemory& memory = context.memory;
+    const Candidate& c = memory.candidates[contact];
+    const auto same = [&](int k) {
+        const Candidate& other = memory.candidates[k];
+        return memory.entries[k] >= 0 && other.touch.point == c.touch.point &&
+               other.touch.normal == c.touch.normal;
+    };
+    const auto of_pair = [&](int k) {
+        return k >= 0 && k < static_cast<int>(memory.candidates.size()) &&
+               memory.candidates[k].feature.a == c.feature.a &&
+               memory.candidates[k].feature.b == c.feature.b;
+    };
+    for (const int way : {-1, 1}) {
+        for (int k = contact + way; of_pair(k); k += way) {
+            if (same(k)) {
+                return memory.entries[k];
+            }
+        }
+    }
+    return -1;
+}
+
+// Books a round; the energy of the round is shared in proportion to what each contact lost.
+void book(const std::vector<Row>& rows, const StepContext& context, double time)
+{
+    ContactMemory& memory = context.memory;
     double total = 0;
     double positive = 0;
     std::vector<double> losses;
@@ -153,36 +177,34 @@ void book(const std::vector<Row>& rows, const StepContext& context, std::size_t 
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const Row& row = rows[k];
         const Candidate& c = memory.candidates[row.contact];
-        auto entry = std::find_if(context.log.begin() + static_cast<std::ptrdiff_t>(first),
-                                  context.log.end(), [&](const Contact& known) {
-                                      return known.a == c.feature.a && known.b == c.feature.b &&
-                                             known.point == c.touch.point &&
-                                             known.normal == c.touch.normal;
-                                  });
-        if (entry == context.log.end()) {
+        int& index = memory.entries[row.contact];
+        index = index < 0 ? entry_at_same_point(memory, row.contact) : index;
+        if (index < 0) {
             Contact contact{Contact::Kind::impact, time,          c.feature.a,
                             c.feature.b,           c.touch.point, c.touch.normal};
             contact.approach_speed = -row.before[0];
             contact.effective_mass = 1 / row.cone.K(0, 0);
+            index = static_cast<int>(context.log.size());
             context.log.push_back(contact);
-            entry = context.log.end() - 1;
         }
-        entry->normal_impulse += row.p[0];
-        entry->tangential_impulse += row.impulse() - row.p[0] * c.touch.normal;
-        entry->energy_lost += share * losses[k];
+        Contact& entry = context.log[index];
+        entry.normal_impulse += row.p[0];
+        entry.tangential_impulse += row.impulse() - row.p[0] * c.touch.normal;
+        entry.energy_lost += share * losses[k];
     }
 }
 
 } // namespace
 
-void solve_impacts(const StepContext& context, const Cluster& cluster, double time)
+void solve_impacts(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
     RigidCounters& counters = context.rigid.counters;
     const std::size_t first = context.log.size();
-    set_responses(context, cluster);
+    memory.entries.assign(memory.candidates.size(), -1);
+    set_responses(context, sub.cluster);
     for (int round = 0; round < most_rounds; ++round) {
-        collect(context, time, memory.rows);
+        collect(context, sub, time, memory.rows);
         if (memory.rows.empty()) {
             break;
         }
@@ -190,8 +212,8 @@ void solve_impacts(const StepContext& context, const Cluster& cluster, double ti
         counters.worst_residual = std::max(counters.worst_residual, left);
         clamp_energy(memory.rows, memory);
         apply_round(memory.rows, context);
-        book(memory.rows, context, first, time);
-        set_responses(context, cluster);
+        book(memory.rows, context, time);
+        set_responses(context, sub.cluster);
         ++counters.rounds;
         for (const Row& row : memory.rows) {
             counters.tangential_impacts += row.tangential ? 1 : 0;

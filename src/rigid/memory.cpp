@@ -99,7 +99,8 @@ void set_responses(const StepContext& context, const Cluster& cluster)
 
 double separation_speed(const ContactMemory& memory, const Candidate& contact, double time)
 {
-    const auto& [feature, touch, beyond] = contact;
+    const Feature& feature = contact.feature;
+    const Touch& touch = contact.touch;
     const auto at_point = [&](int k) {
         const Response& body = memory.responses[k];
         return Vec3(body.v + body.omega.cross(touch.point - memory.poses[k].x));

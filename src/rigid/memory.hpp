@@ -38,6 +38,12 @@ struct Persistent {
     double dissipated = 0;     // [J]
 };
 
+/// What a persistent contact did over a sub-step.
+struct Resting {
+    Feature feature;
+    Contact contact;
+};
+
 struct ContactMemory {
     std::vector<Remembered> forces; // sorted by feature
 
@@ -54,14 +60,18 @@ struct ContactMemory {
     // Scratch of the cluster in hand.
     std::vector<Cluster> clusters;
     std::vector<Candidate> candidates, looked_at;
+    std::vector<std::vector<Candidate>> found; // of each block of pairs
     std::vector<Persistent> persistent;
-    std::vector<Feature> held;         // not looked for by the event search
+    std::vector<Feature> held;         // sorted; not looked for by the event search
     std::span<const Remembered> known; // forces of the last sub-step
     std::vector<Remembered> recent, fresh;
-    std::vector<Contact> resting;
-    std::vector<Feature> resting_features;
+    std::vector<Resting> resting;
+    std::vector<Feature> pressed;
     std::vector<Row> rows, group;
-    SolverWork solver;
+    std::vector<int> entries; // in the log, of each candidate; -1 if none
+    std::vector<int> parents, island_of_root, island_of_row;
+    std::vector<SolverWork> solvers; // of each island
+    std::vector<double> left;        // residual of each island [m/s]
 };
 
 /// What one step works on.

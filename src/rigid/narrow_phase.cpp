@@ -9,8 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-// A separating axis longer than this is as good as any other: no contact is near [m].
-constexpr double clearly_apart = 1e-5;
 // A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
 constexpr double standing = 0.995;
 constexpr int rim_points = 8; // as in gap.cpp
@@ -100,18 +98,19 @@ double axis_distance(const Pair& pair, const Configuration& at)
     return apart > 0 ? apart : separation(a, b, clearly_apart).distance;
 }
 
-void find_candidates(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+void find_candidates(const Pair& pair, const Configuration& at, double near,
+                     std::vector<Candidate>& found)
 {
     if (on_planes(pair, at.geometry)) {
         on_half_spaces(pair, at, found);
     } else if (has_axis(pair, at.geometry)) {
         const Placed a = placed(at, pair.a);
         const Placed b = placed(at, pair.b);
-        if ((a.pose.x - b.pose.x).norm() > a.solid.reach + b.solid.reach) {
+        if ((a.pose.x - b.pose.x).norm() > a.solid.reach + b.solid.reach + near) {
             return;
         }
-        const Separation axis = separation(a, b, clearly_apart);
-        if (axis.distance <= clearly_apart) {
+        const Separation axis = separation(a, b, near);
+        if (axis.distance <= near) {
             add_manifold(pair, axis, at, found);
         }
     } else {

@@ -14,8 +14,13 @@ struct Pair {
     auto operator<=>(const Pair&) const = default;
 };
 
-/// Appends the features of the pair that face each other, in a fixed order.
-void find_candidates(const Pair& pair, const Configuration& at, std::vector<Candidate>& found);
+/// A pair of polytopes farther apart than this has no contact that a located impact needs [m].
+inline constexpr double clearly_apart = 1e-5;
+
+/// Appends the features of the pair that face each other, in a fixed order. Of two polytopes that
+/// are more than `near` apart there are none.
+void find_candidates(const Pair& pair, const Configuration& at, double near,
+                     std::vector<Candidate>& found);
 
 /// Whether the pair is made of two polytopes (rods as prisms), which have a separating axis.
 bool has_axis(const Pair& pair, const Geometry& geometry);

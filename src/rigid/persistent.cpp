@@ -70,9 +70,8 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
             thin_out(memory.persistent, first);
             first = memory.persistent.size();
         }
-        const bool touches = !c.beyond && c.touch.gap <= settings.contact_tolerance;
-        const bool rests =
-            touches && (separation_speed(memory, c, sub.time) <= settings.resting_speed);
+        const bool touches = !c.beyond && (c.closing || c.touch.gap <= settings.contact_tolerance);
+        const bool rests = touches && separation_speed(memory, c, sub.time) <= sub.slow;
         if (rests) {
             Persistent p{c};
             const auto known = std::lower_bound(
@@ -88,6 +87,7 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
         }
     }
     thin_out(memory.persistent, first);
+    std::sort(memory.held.begin(), memory.held.end());
 }
 
 void plan_free_motion(const StepContext& context, const SubStep& sub)
@@ -158,6 +158,7 @@ void build_rows(const StepContext& context, const SubStep& sub)
         complete(row, p.touches, centres, memory.responses, context.rigid.settings.dimensions);
         if (row.cone.K(0, 0) > 0) {
             p.effective_mass = 1 / row.cone.K(0, 0);
+            row.target = p.candidate.closing ? -p.candidate.touch.gap / sub.h : 0;
             memory.rows.push_back(row);
         }
     }
@@ -230,6 +231,23 @@ std::vector<Vec3> contact_velocities(const ContactMemory& memory, double time)
 }
 
 } // namespace
+
+void predict_free_motion(const StepContext& context, const SubStep& sub)
+{
+    plan_free_motion(context, sub);
+    predict(context.memory, sub);
+}
+
+void remember(ContactMemory& memory, double h)
+{
+    memory.recent.clear();
+    for (const Persistent& p : memory.persistent) {
+        memory.recent.push_back({p.candidate.feature, p.impulse / h});
+    }
+    std::sort(memory.recent.begin(), memory.recent.end(),
+              [](const Remembered& a, const Remembered& b) { return a.feature < b.feature; });
+    memory.known = memory.recent;
+}
 
 void plan_motion(const StepContext& context, const SubStep& sub)
 {

@@ -17,24 +17,17 @@ constexpr double no_gap = 1e-12;
 constexpr double at_once = 1e-5;
 constexpr double share_of_deep = 0.2;
 
-void book_resting(ContactMemory& memory, const Persistent& p, const Vec3& impulse, double time,
-                  double part)
+void book_resting(ContactMemory& memory, const Persistent& p, double time, double part)
 {
     const Feature& f = p.candidate.feature;
     const Touch& touch = p.touches.push;
-    auto known = std::find(memory.resting_features.begin(), memory.resting_features.end(), f);
-    if (known == memory.resting_features.end()) {
-        memory.resting_features.push_back(f);
-        Contact contact{Contact::Kind::resting, time, f.a, f.b, touch.point, touch.normal};
-        contact.effective_mass = p.effective_mass;
-        memory.resting.push_back(contact);
-        known = memory.resting_features.end() - 1;
-    }
-    Contact& contact =
-        memory.resting[static_cast<std::size_t>(known - memory.resting_features.begin())];
-    contact.normal_impulse += impulse.dot(contact.normal);
-    contact.tangential_impulse += impulse - impulse.dot(contact.normal) * contact.normal;
-    contact.energy_lost += part * p.dissipated;
+    const Vec3 impulse = part * p.impulse;
+    Contact contact{Contact::Kind::resting, time, f.a, f.b, touch.point, touch.normal};
+    contact.effective_mass = p.effective_mass;
+    contact.normal_impulse = impulse.dot(touch.normal);
+    contact.tangential_impulse = impulse - contact.normal_impulse * touch.normal;
+    contact.energy_lost = part * p.dissipated;
+    memory.resting.push_back({f, contact});
 }
 
 void turn_by(Pose& pose, const Vec3& w)
@@ -96,17 +89,19 @@ std::vector<Goal> goals(const StepContext& context, double time)
     std::vector<Goal> list;
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
-        const bool pressed = p.impulse.dot(p.touches.push.normal) > 0;
-        if (pressed && std::abs(touch.gap) < at_once) {
+        if (p.impulse.dot(p.touches.push.normal) > 0 && std::abs(touch.gap) < at_once) {
             list.push_back({p.candidate.feature, 0});
         }
     }
-    const std::size_t pressed = list.size();
+    std::vector<Feature>& pressed = memory.pressed;
+    pressed.clear();
+    for (const Goal& goal : list) {
+        pressed.push_back(goal.feature);
+    }
+    std::sort(pressed.begin(), pressed.end());
     for (const Candidate& c : memory.candidates) {
-        const bool known =
-            std::any_of(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(pressed),
-                        [&](const Goal& goal) { return goal.feature == c.feature; });
-        if (!known && !c.beyond && c.touch.gap < overlapping) {
+        if (!c.beyond && c.touch.gap < overlapping &&
+            !std::binary_search(pressed.begin(), pressed.end(), c.feature)) {
             list.push_back({c.feature, aim(c.touch.gap)});
         }
     }
@@ -127,7 +122,7 @@ void move_to(const StepContext& context, const SubStep& sub, double s)
         body.angular_momentum = path.L0 + part * (path.L1 - path.L0);
     }
     for (const Persistent& p : memory.persistent) {
-        book_resting(memory, p, part * p.impulse, sub.time + s, part);
+        book_resting(memory, p, sub.time + s, part);
     }
 }
 

@@ -12,27 +12,20 @@ namespace hyoryu {
 
 namespace {
 
-// Rotation of a body in one sub-step at most [rad].
-constexpr double most_turn = 0.3;
-// Sub-steps of a cluster after which the rest of the step goes without events.
-constexpr int most_sub_steps = 2000;
+// Located events of a cluster in one step, shared out among its bodies: what a step may cost stays
+// within a few hundred small solves. A cluster that gets fewer than this is a jam from the start.
+constexpr int events_of_all = 60;
+constexpr int too_few_events = 4;
 
-// Short enough that no body turns by more than the most; a ball looks the same however it turns.
-double sub_step_length(const StepContext& context, const Cluster& cluster, double rest)
+int events_worth_locating(const Cluster& cluster)
 {
-    const ContactMemory& memory = context.memory;
-    double fastest = 0;
-    for (const int k : cluster.bodies) {
-        if (memory.geometry.solids[k].form != Form::ball) {
-            fastest = std::max(fastest, memory.responses[k].omega.norm());
-        }
-    }
-    return fastest * rest > most_turn ? most_turn / fastest : rest;
+    const int each = events_of_all / static_cast<int>(cluster.bodies.size());
+    return each < too_few_events ? 0 : each;
 }
 
 void fly(const StepContext& context, const Cluster& cluster)
 {
-    const SubStep sub{cluster, context.start, context.dt};
+    const SubStep sub{cluster, context.start, context.dt, 0};
     context.memory.candidates.clear();
     plan_motion(context, sub);
     move_to(context, sub, sub.h);
@@ -53,30 +46,32 @@ void count_event(const StepContext& context)
     }
 }
 
-void sort(std::vector<Remembered>& forces)
+// Adds up what each persistent contact did in all sub-steps, by the normal of the first.
+void log_resting(const StepContext& context)
 {
-    std::sort(forces.begin(), forces.end(),
-              [](const Remembered& a, const Remembered& b) { return a.feature < b.feature; });
-}
-
-// The forces of the persistent contacts, for the warm start of what follows.
-void remember(ContactMemory& memory, double h)
-{
-    memory.recent.clear();
-    for (const Persistent& p : memory.persistent) {
-        memory.recent.push_back({p.candidate.feature, p.impulse / h});
+    std::vector<Resting>& resting = context.memory.resting;
+    std::stable_sort(resting.begin(), resting.end(),
+                     [](const Resting& a, const Resting& b) { return a.feature < b.feature; });
+    for (std::size_t k = 0; k < resting.size(); ++k) {
+        const Contact& contact = resting[k].contact;
+        if (k == 0 || resting[k].feature != resting[k - 1].feature) {
+            context.log.push_back(contact);
+            continue;
+        }
+        Contact& sum = context.log.back();
+        const Vec3 impulse = contact.normal_impulse * contact.normal + contact.tangential_impulse;
+        sum.normal_impulse += impulse.dot(sum.normal);
+        sum.tangential_impulse += impulse - impulse.dot(sum.normal) * sum.normal;
+        sum.energy_lost += contact.energy_lost;
     }
-    sort(memory.recent);
-    memory.known = memory.recent;
+    resting.clear();
 }
 
 // Hands the cluster's results over: resting contacts to the log, forces to the next step.
 void close_cluster(const StepContext& context)
 {
     ContactMemory& memory = context.memory;
-    context.log.insert(context.log.end(), memory.resting.begin(), memory.resting.end());
-    memory.resting.clear();
-    memory.resting_features.clear();
+    log_resting(context);
     memory.fresh.insert(memory.fresh.end(), memory.recent.begin(), memory.recent.end());
     memory.recent.clear();
 }
@@ -84,7 +79,8 @@ void close_cluster(const StepContext& context)
 void close_step(Rigid& rigid)
 {
     ContactMemory& memory = *rigid.memory;
-    sort(memory.fresh);
+    std::sort(memory.fresh.begin(), memory.fresh.end(),
+              [](const Remembered& a, const Remembered& b) { return a.feature < b.feature; });
     memory.forces.swap(memory.fresh);
     for (std::size_t k = 0; k < rigid.bodies.size(); ++k) {
         if (memory.rotors[k].movable) {
@@ -97,30 +93,42 @@ void close_step(Rigid& rigid)
     rigid.counters.capped_steps += capped ? 1 : 0;
 }
 
-void advance(const StepContext& context, const Cluster& cluster)
+// Advances with impacts located in time until the step is over or the events are too many for the
+// cluster; returns how far it came.
+double locate_impacts(const StepContext& context, const Cluster& cluster)
 {
-    ContactMemory& memory = context.memory;
+    const double slow = context.rigid.settings.resting_speed;
+    const int most_events = events_worth_locating(cluster);
     double done = 0;
-    memory.known = memory.forces;
     find_contacts(context, cluster, context.start);
-    solve_impacts(context, cluster, context.start);
-    for (int count = 0; done < context.dt; ++count) {
-        const bool located = count < most_sub_steps;
+    solve_impacts(context, {cluster, context.start, 0, slow}, context.start);
+    for (int events = 0; done < context.dt && events < most_events;) {
         const double rest = context.dt - done;
-        const double h = located ? sub_step_length(context, cluster, rest) : rest;
-        const SubStep sub{cluster, context.start + done, h};
+        const double h = sub_step_length(context, cluster, rest);
+        const SubStep sub{cluster, context.start + done, h, slow};
         plan_motion(context, sub);
-        const double s = located ? first_event(context, sub) : h;
+        const double s = first_event(context, sub);
         const double now = sub.time + s;
         move_to(context, sub, s);
-        remember(memory, h);
+        remember(context.memory, h);
         find_contacts(context, cluster, now);
         project_gaps(context, sub, now);
         if (s < sub.h) {
             count_event(context);
+            ++events;
         }
-        solve_impacts(context, cluster, now);
+        solve_impacts(context, sub, now);
         done = s < rest ? done + s : context.dt;
+    }
+    return done;
+}
+
+void advance(const StepContext& context, const Cluster& cluster)
+{
+    context.memory.known = context.memory.forces;
+    const double done = events_worth_locating(cluster) > 0 ? locate_impacts(context, cluster) : 0;
+    if (done < context.dt) {
+        advance_jam(context, cluster, done);
     }
     close_cluster(context);
 }
@@ -166,7 +174,7 @@ double overlap(const Rigid& rigid, int a, int b, double time)
         return -axis_distance({a, b}, at);
     }
     std::vector<Candidate> found;
-    find_candidates({a, b}, at, found);
+    find_candidates({a, b}, at, clearly_apart, found);
     double deepest = -infinity;
     for (const Candidate& candidate : found) {
         deepest = std::max(deepest, candidate.beyond ? -infinity : -candidate.touch.gap);

@@ -109,10 +109,13 @@ void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)
 {
     row.p += dp;
     const Vec3 P = row.B * dp;
+    // Immovable bodies are shared between islands that are solved side by side: never written.
     Response& a = bodies[row.a];
-    a.v += a.inverse_mass.cwiseProduct(P);
-    a.omega += row.Ga * dp;
-    if (row.b >= 0) {
+    if (a.movable) {
+        a.v += a.inverse_mass.cwiseProduct(P);
+        a.omega += row.Ga * dp;
+    }
+    if (row.b >= 0 && bodies[row.b].movable) {
         Response& b = bodies[row.b];
         b.v -= b.inverse_mass.cwiseProduct(P);
         b.omega -= row.Gb * dp;

@@ -11,7 +11,15 @@ struct SubStep {
     const Cluster& cluster;
     double time = 0; // at its start [s]
     double h = 0;    // its length [s]
+    double slow = 0; // normal speed below which a contact rests and does not bounce [m/s]
 };
+
+/// Short enough that no body of the cluster turns too far for the scheme, and not longer than
+/// `rest` [s].
+double sub_step_length(const StepContext& context, const Cluster& cluster, double rest);
+
+/// The forces of the persistent contacts of the last sub-step, for the warm start of what follows.
+void remember(ContactMemory& memory, double h);
 
 /// Events of one body within a step after which its contacts are inelastic and no longer located.
 inline constexpr int event_limit = 50;
@@ -23,7 +31,10 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
 /// Impact rounds: while any touching contacts approach, all of them are solved together, each with
 /// the restitution of its own approach; then looked at again. The clamp of the energy (Kane and
 /// Levinson 1985) keeps every round dissipative.
-void solve_impacts(const StepContext& context, const Cluster& cluster, double time);
+void solve_impacts(const StepContext& context, const SubStep& sub, double time);
+
+/// Plans the paths without contacts and sets the poses at their ends.
+void predict_free_motion(const StepContext& context, const SubStep& sub);
 
 /// The smooth motion over the sub-step with persistent contacts: fills the paths and `persistent`.
 /// The velocity is asked for with the arm at the end, the impulse acts with the arm at the middle,
@@ -39,6 +50,14 @@ void move_to(const StepContext& context, const SubStep& sub, double s);
 /// Brings the gaps of pressed contacts to zero, and pushes overlapping ones apart, by position
 /// alone; the possible contacts that were found move with the bodies.
 void project_gaps(const StepContext& context, const SubStep& sub, double time);
+
+/// Advances the cluster from `done` into the step to its end without locating impacts. A contact
+/// that closes within the sub-step and approaches faster than gravity explains bounces at its
+/// start, with the restitution of its approach; all others may close to zero and no further: v_n >=
+/// -gap/h at its end. Momentum is exact, energy never grows, the time of an impact is off by less
+/// than the sub-step. Source: collisions ahead of contacts, Guendelman, Bridson and Fedkiw (2003);
+/// the constraint on the gap, Stewart and Trinkle (1996).
+void advance_jam(const StepContext& context, const Cluster& cluster, double done);
 
 /// Solves the rows island by island; returns the worst residual.
 double solve_islands(std::vector<Row>& rows, ContactMemory& memory);

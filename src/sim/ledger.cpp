@@ -16,7 +16,7 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-struct Motion {
+struct MomentumSum {
     Vec3 momentum{0, 0, 0};
     double scale = 0;
 };
@@ -27,19 +27,19 @@ bool locked(const Body& body, int axis)
 }
 
 // Momentum of fluid and bodies.
-Motion motion(const Simulation& sim)
+MomentumSum motion(const Simulation& sim)
 {
-    Motion all;
+    MomentumSum all;
     if (sim.fluid) {
         const Rows rows = sim.fluid->particles.fluid();
         const auto v = sim.fluid->particles[field::velocity];
         all = reduce(
-            rows.begin, rows.end, Motion{},
+            rows.begin, rows.end, MomentumSum{},
             [&](Index i) {
-                return Motion{v[at(i)], v[at(i)].norm()};
+                return MomentumSum{v[at(i)], v[at(i)].norm()};
             },
-            [](const Motion& a, const Motion& b) {
-                return Motion{a.momentum + b.momentum, a.scale + b.scale};
+            [](const MomentumSum& a, const MomentumSum& b) {
+                return MomentumSum{a.momentum + b.momentum, a.scale + b.scale};
             });
         all.momentum *= sim.fluid->parameters.mass;
         all.scale *= sim.fluid->parameters.mass;
@@ -134,7 +134,7 @@ Totals totals(const Simulation& sim)
         t.body_kinetic += kinetic_energy(body);
         t.body_potential -= body.mass.mass * sim.scene.gravity.dot(body.position);
     }
-    const Motion all = motion(sim);
+    const MomentumSum all = motion(sim);
     t.momentum = all.momentum;
     t.momentum_scale = all.scale;
     return t;
@@ -142,13 +142,13 @@ Totals totals(const Simulation& sim)
 
 OpenBooks open_books(const Simulation& sim)
 {
-    const Motion all = motion(sim);
+    const MomentumSum all = motion(sim);
     return {all.momentum, sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()), all.scale};
 }
 
 void close_books(Simulation& sim, const OpenBooks& before, double dt)
 {
-    const Motion after = motion(sim);
+    const MomentumSum after = motion(sim);
     Vec3 walls = outside_impulse(sim, dt);
     for (const Vec3& force : sim.loads.walls) {
         walls -= dt * force;

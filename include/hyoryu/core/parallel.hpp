@@ -29,11 +29,11 @@ void parallel_for(Index begin, Index end, const F& f)
 }
 
 /// Calls f(k) for k in [begin, end), each a block of much and uneven work: blocks are dealt out in
-/// turn.
+/// turn. Fewer blocks than `worth` stay on the calling thread.
 template <class F>
-void parallel_blocks(Index begin, Index end, const F& f)
+void parallel_blocks(Index begin, Index end, const F& f, Index worth = worth_sharing_blocks)
 {
-#pragma omp parallel for schedule(dynamic, 1) if (end - begin >= worth_sharing_blocks)
+#pragma omp parallel for schedule(dynamic, 1) if (end - begin >= worth)
     for (Index k = begin; k < end; ++k) {
         f(k);
     }

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Clusters of so many bodies, or with so many impacts, that locating each would cost without end.
+#include "sub_step.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Rotation of a body in one sub-step at most [rad].
+constexpr double most_turn = 0.3;
+// Sub-steps a step is split into at most, however fast a body spins.
+constexpr int most_sub_steps = 2000;
+// An approach that gravity and loads build up in this many sub-steps is that of a resting contact.
+constexpr double sub_steps_of_rest = 2;
+// Pairs that share a list of found contacts, whatever the number of threads.
+constexpr Index pairs_per_block = 32;
+
+double fastest_change(const StepContext& context, const Cluster& cluster)
+{
+    double most = 0;
+    for (const int k : cluster.bodies) {
+        most = std::max(most, acceleration(context, k).norm());
+    }
+    return most;
+}
+
+// How far a point of the body may move in the sub-step.
+double travel(const ContactMemory& memory, int k, const SubStep& sub)
+{
+    if (k < 0) {
+        return sub.h *
+               speed_bound(memory.geometry.walls[-1 - k].motion, sub.time, sub.time + sub.h);
+    }
+    const double spin = memory.responses[k].omega.norm() * memory.geometry.solids[k].reach;
+    const double speed = std::max(memory.paths[k].v0.norm(), memory.paths[k].v1.norm());
+    return memory.rotors[k].movable ? sub.h * (speed + spin) : 0;
+}
+
+// The features of a pair that touch, or that close on the free paths within the sub-step.
+void find_closing(const StepContext& context, const Pair& pair, const SubStep& sub,
+                  std::vector<Candidate>& found)
+{
+    const ContactMemory& memory = context.memory;
+    const Configuration now = configuration(memory, memory.poses, sub.time);
+    const Configuration later = configuration(memory, memory.end, sub.time + sub.h);
+    const double near = clearly_apart + travel(memory, pair.a, sub) + travel(memory, pair.b, sub);
+    const std::size_t first = found.size();
+    find_candidates(pair, now, near, found);
+    const double tolerance = context.rigid.settings.contact_tolerance;
+    const auto far = [&](Candidate& c) {
+        c.closing = !c.beyond && c.touch.gap > tolerance && c.touch.gap <= near &&
+                    (c.touch.gap <= clearly_apart || touch_of(c.feature, later).gap < 0);
+        return c.touch.gap > tolerance && !c.closing;
+    };
+    found.erase(
+        std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), far),
+        found.end());
+    const bool open = std::all_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
+                                  [](const Candidate& c) { return c.touch.gap > clearly_apart; });
+    if (open && has_axis(pair, memory.geometry) && axis_distance(pair, later) > 0) {
+        found.resize(first); // they pass each other
+    }
+}
+
+void find_all_closing(const StepContext& context, const SubStep& sub)
+{
+    ContactMemory& memory = context.memory;
+    const std::vector<Pair>& pairs = sub.cluster.pairs;
+    const auto count = static_cast<Index>(pairs.size());
+    const Index blocks = (count + pairs_per_block - 1) / pairs_per_block;
+    memory.found.resize(std::max(memory.found.size(), static_cast<std::size_t>(blocks)));
+    parallel_blocks(0, blocks, [&](Index block) {
+        std::vector<Candidate>& found = memory.found[static_cast<std::size_t>(block)];
+        found.clear();
+        const Index last = std::min(count, (block + 1) * pairs_per_block);
+        for (Index k = block * pairs_per_block; k < last; ++k) {
+            find_closing(context, pairs[static_cast<std::size_t>(k)], sub, found);
+        }
+    });
+    memory.candidates.clear();
+    for (Index block = 0; block < blocks; ++block) {
+        const auto& found = memory.found[static_cast<std::size_t>(block)];
+        memory.candidates.insert(memory.candidates.end(), found.begin(), found.end());
+    }
+    double& worst = context.rigid.counters.worst_penetration;
+    for (const Candidate& c : memory.candidates) {
+        worst = std::max(worst, c.beyond ? 0 : -c.touch.gap);
+    }
+}
+
+// The gaps of the known features where the bodies are now.
+void update_gaps(ContactMemory& memory, double time)
+{
+    const Configuration now = configuration(memory, memory.poses, time);
+    parallel_blocks(
+        0, static_cast<Index>(memory.candidates.size()),
+        [&](Index k) {
+            Candidate& c = memory.candidates[static_cast<std::size_t>(k)];
+            c.touch = touch_of(c.feature, now);
+        },
+        worth_sharing_rows);
+}
+
+} // namespace
+
+double sub_step_length(const StepContext& context, const Cluster& cluster, double rest)
+{
+    const ContactMemory& memory = context.memory;
+    double fastest = 0;
+    for (const int k : cluster.bodies) {
+        if (memory.geometry.solids[k].form !=
+            Form::ball) { // a ball looks the same however it turns
+            fastest = std::max(fastest, memory.responses[k].omega.norm());
+        }
+    }
+    const double least = context.dt / most_sub_steps;
+    return fastest * rest > most_turn ? std::min(rest, std::max(most_turn / fastest, least)) : rest;
+}
+
+void advance_jam(const StepContext& context, const Cluster& cluster, double done)
+{
+    ContactMemory& memory = context.memory;
+    const double change = fastest_change(context, cluster);
+    while (done < context.dt) {
+        set_responses(context, cluster);
+        const double rest = context.dt - done;
+        const double h = sub_step_length(context, cluster, rest);
+        const double slow =
+            std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
+        const SubStep sub{cluster, context.start + done, h, slow};
+        predict_free_motion(context, sub);
+        find_all_closing(context, sub);
+        solve_impacts(context, sub, sub.time);
+        plan_motion(context, sub);
+        move_to(context, sub, h);
+        remember(memory, h);
+        update_gaps(memory, sub.time + h);
+        project_gaps(context, sub, sub.time + h);
+        done = h < rest ? done + h : context.dt;
+    }
+}
+
+} // namespace hyoryu
