@@ -43,7 +43,7 @@ PlotCurve curve_of(const Benchmark& benchmark, const Panel& panel, const Curve& 
                     .y = {},
                     .style = static_cast<PlotCurve::Style>(curve.style)};
     const BenchmarkRun* run = find_run(benchmark, curve.run);
-    const Scope scope = run != nullptr ? scope_of(benchmark, *run) : benchmark.scope;
+    const Scope scope = scope_of(benchmark, run != nullptr ? *run : BenchmarkRun{});
     if (run == nullptr && !curve.series.file.ends_with(".csv")) {
         const CsvTable times = times_over(panel.x_range);
         drawn.x = evaluate(curve.x, scope, times);

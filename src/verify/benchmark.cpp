@@ -50,26 +50,30 @@ TomlNode parse(BenchmarkFile& file, const std::string& text)
     }
 }
 
-/// Numbers, or expressions of the constants above them.
-void read_constants(Section& root, Scope& scope)
+Constants read_constants(Section& root)
 {
+    Constants constants;
+    Scope scope;
     for (const TomlEntry* entry : root.entries("constants")) {
         const std::string key = "constants." + entry->key;
+        const std::string text = checked_expression(root.file(), entry->node, key);
         try {
-            scope.numbers[entry->key] =
-                evaluate(checked_expression(root.file(), entry->node, key), scope);
+            scope.numbers[entry->key] = evaluate(text, scope);
         } catch (const FormulaError& fault) {
             root.file().error(entry->node.place, key, fault.what());
         }
+        constants.emplace_back(entry->key, text);
     }
+    return constants;
 }
 
-void read_columns(Section& root, Scope& scope)
+std::map<std::string, std::string> read_columns(Section& root)
 {
+    std::map<std::string, std::string> columns;
     for (const TomlEntry* entry : root.entries("columns")) {
-        scope.columns[entry->key] =
-            checked_expression(root.file(), entry->node, "columns." + entry->key);
+        columns[entry->key] = checked_expression(root.file(), entry->node, "columns." + entry->key);
     }
+    return columns;
 }
 
 Benchmark read_root(Section& root)
@@ -82,9 +86,9 @@ Benchmark read_root(Section& root)
     benchmark.group = root.text("group");
     benchmark.source = root.text("source");
     const Tier tier = read_tier(root, Tier::quick);
-    read_constants(root, benchmark.scope);
-    read_columns(root, benchmark.scope);
-    benchmark.runs = read_runs(root, benchmark.scope, tier);
+    benchmark.constants = read_constants(root);
+    benchmark.columns = read_columns(root);
+    benchmark.runs = read_runs(root, benchmark.constants, tier);
     benchmark.checks = read_checks(root, benchmark.runs);
     benchmark.figures = read_figures(root, benchmark.runs);
     benchmark.tables = read_summary_tables(root, benchmark);

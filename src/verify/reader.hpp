@@ -8,7 +8,7 @@
 namespace hyoryu {
 
 /// The runs, every combination of the values of a `grid` by itself.
-std::vector<BenchmarkRun> read_runs(Section& root, const Scope& constants, Tier tier);
+std::vector<BenchmarkRun> read_runs(Section& root, const Constants& constants, Tier tier);
 
 std::vector<Check> read_checks(Section& root, const std::vector<BenchmarkRun>& runs);
 std::vector<Figure> read_figures(Section& root, const std::vector<BenchmarkRun>& runs);

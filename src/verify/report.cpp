@@ -78,13 +78,16 @@ ordered_json json_of(const RunResult& run)
 }
 
 /// Bars would end a cell of a Markdown table.
-std::string in_cell(std::string text)
+std::string in_cell(const std::string& text)
 {
-    for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
-        text.insert(at, "\\");
+    std::string safe;
+    for (const char letter : text) {
+        if (letter == '|') {
+            safe += '\\';
+        }
+        safe += letter == '\n' ? ' ' : letter;
     }
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+    return safe;
 }
 
 std::string markdown_row(const RunResult& run, const CheckResult& check, bool first)

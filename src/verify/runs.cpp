@@ -96,17 +96,25 @@ std::string expand(const std::string& text, const Parameters& parameters, const 
     return result + text.substr(done);
 }
 
-Scope with_parameters(Scope scope, const Parameters& parameters)
+/// Constants and parameters; a parameter replaces the constant of its name, and the constants that
+/// are expressions of it follow.
+Scope with_parameters(const Constants& constants, const Parameters& parameters)
 {
+    Scope scope;
     for (const auto& [name, value] : parameters) {
         if (const auto* number = std::get_if<double>(&value)) {
             scope.numbers[name] = *number;
         }
     }
+    for (const auto& [name, text] : constants) {
+        if (scope.numbers.count(name) == 0) {
+            scope.numbers[name] = evaluate(text, scope);
+        }
+    }
     return scope;
 }
 
-void append_run(Section& section, const Scope& constants, Tier tier,
+void append_run(Section& section, const Constants& constants, Tier tier,
                 const std::vector<std::string>& common, std::vector<BenchmarkRun>& runs)
 {
     section.require("name");
@@ -116,9 +124,9 @@ void append_run(Section& section, const Scope& constants, Tier tier,
     const std::vector<Axis> axes = read_grid(section);
     section.finish();
     for (const Parameters& parameters : combinations(axes)) {
-        const Scope scope = with_parameters(constants, parameters);
         BenchmarkRun run{.name = name, .set = common, .tier = own_tier, .parameters = parameters};
         try {
+            const Scope scope = with_parameters(constants, parameters);
             run.name = expand(name, parameters, scope);
             for (const std::string& text : set) {
                 run.set.push_back(expand(text, parameters, scope));
@@ -157,7 +165,7 @@ bool fits(std::string_view pattern, std::string_view name)
 
 } // namespace
 
-std::vector<BenchmarkRun> read_runs(Section& root, const Scope& constants, Tier tier)
+std::vector<BenchmarkRun> read_runs(Section& root, const Constants& constants, Tier tier)
 {
     const std::vector<std::string> common = root.texts("set");
     std::vector<BenchmarkRun> runs;
@@ -211,7 +219,18 @@ const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name
 
 Scope scope_of(const Benchmark& benchmark, const BenchmarkRun& run)
 {
-    return with_parameters(benchmark.scope, run.parameters);
+    Scope scope = with_parameters(benchmark.constants, run.parameters);
+    scope.columns = benchmark.columns;
+    return scope;
+}
+
+Series expanded(Series series, const BenchmarkRun& run, const Scope& scope)
+{
+    series.file = expand(series.file, run.parameters, scope);
+    for (auto& [column, wanted] : series.where) {
+        wanted = expand(wanted, run.parameters, scope);
+    }
+    return series;
 }
 
 } // namespace hyoryu

@@ -20,18 +20,21 @@ bool is_error_measure(Measure measure)
 }
 
 /// Fills in what was expected and what came out.
-void take(const Check& check, const Scope& scope, RunFiles& files, CheckResult& result)
+void take(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFiles& files,
+          CheckResult& result)
 {
-    const Quantity& quantity = check.quantity;
+    Quantity quantity = check.quantity;
+    quantity.series = expanded(quantity.series, run, scope);
+    const Series reference = expanded(check.reference.value_or(Series{}), run, scope);
     Measured got;
     if (is_error_measure(quantity.measure)) {
-        got = check.reference ? error_from(quantity, *check.reference, scope, files)
+        got = check.reference ? error_from(quantity, reference, scope, files)
                               : error_from(quantity, check.expected, scope, files);
     } else {
         got = measure(quantity, scope, samples(quantity.series, scope, files));
         Measured expected;
         if (check.reference) {
-            expected = measure(quantity, scope, samples(*check.reference, scope, files));
+            expected = measure(quantity, scope, samples(reference, scope, files));
         } else {
             expected.value = evaluate(check.expected, scope);
         }
@@ -104,13 +107,13 @@ bool counts_as_failure(Verdict verdict)
     return verdict == Verdict::fail || verdict == Verdict::xpass;
 }
 
-CheckResult judge(const Check& check, const Scope& scope, const std::string& run, RunFiles& files)
+CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFiles& files)
 {
     CheckResult result{
         .check = check.name, .comparison = check.comparison, .got = none, .because = check.because};
     // A check that cannot be made as it is written is no known failure.
     try {
-        take(check, scope, files, result);
+        take(check, run, scope, files, result);
     } catch (const FormulaError& fault) {
         result.note = fault.what();
         return result;
@@ -118,11 +121,11 @@ CheckResult judge(const Check& check, const Scope& scope, const std::string& run
         result.note = fault.what();
         return result;
     }
-    if (!matches(check.judged, run)) {
+    if (!matches(check.judged, run.name)) {
         result.verdict = Verdict::measured;
         return result;
     }
-    const bool known_to_fail = !check.xfail.empty() && matches(check.xfail_runs, run);
+    const bool known_to_fail = !check.xfail.empty() && matches(check.xfail_runs, run.name);
     result.verdict = verdict_of(is_good(result), known_to_fail);
     if (result.verdict == Verdict::xfail && result.note.empty()) {
         result.note = check.xfail;
@@ -147,7 +150,7 @@ RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
             continue;
         }
         if (error.empty()) {
-            result.checks.push_back(judge(check, scope, run.name, files));
+            result.checks.push_back(judge(check, run, scope, files));
         } else {
             result.checks.push_back({.check = check.name,
                                      .comparison = check.comparison,

@@ -24,6 +24,9 @@ std::optional<Tier> tier_of(const std::string& name);
 /// A parameter of a run: a number, usable in expressions, or a text.
 using RunParameter = std::variant<double, std::string>;
 
+/// Numbers, or expressions of the constants before them.
+using Constants = std::vector<std::pair<std::string, std::string>>;
+
 /// One run of the case.
 struct BenchmarkRun {
     std::string name;
@@ -134,7 +137,8 @@ struct Benchmark {
     std::string title;
     std::string group;
     std::string source; // of the reference
-    Scope scope;        // constants and derived columns
+    Constants constants;
+    std::map<std::string, std::string> columns; // derived columns: expressions of other columns
     std::vector<BenchmarkRun> runs;
     std::vector<Check> checks;
     std::vector<Figure> figures;
@@ -155,8 +159,13 @@ std::vector<Benchmark> select(std::vector<Benchmark> benchmarks,
 /// The run of that name, or none.
 const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name);
 
-/// Constants, derived columns and the numbers among the run's parameters.
+/// Constants, derived columns and the numbers among the run's parameters; a parameter replaces the
+/// constant of its name. Throws FormulaError.
 Scope scope_of(const Benchmark& benchmark, const BenchmarkRun& run);
+
+/// The series with every `${...}` in its file and its cells replaced by what it is in that run.
+/// Throws FormulaError.
+Series expanded(Series series, const BenchmarkRun& run, const Scope& scope);
 
 /// True if one of the patterns fits the name; `*` stands for any letters.
 bool matches(const std::vector<std::string>& patterns, const std::string& name);

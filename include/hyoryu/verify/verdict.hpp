@@ -51,7 +51,7 @@ struct BenchmarkResult {
 };
 
 /// Measures and judges one check in one run that came to its end.
-CheckResult judge(const Check& check, const Scope& scope, const std::string& run, RunFiles& files);
+CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFiles& files);
 
 /// All checks of a run from the results that it wrote to `results`; they fail if `error` says why
 /// it stopped. Throws IoError if the summary cannot be read.
