@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Impact rounds.
-#include "sub_step.hpp"
+#include "impact_law.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,109 +11,29 @@ namespace {
 
 // A cluster of n contacts settles in a few times n rounds; more means that they feed one another.
 constexpr int most_rounds = 50;
-// Gain of energy, relative to what was exchanged, that is round-off and not the impact law.
-constexpr double no_gain = 1e-14;
+// Approaches that are left below this part of the first are rattle: 1e-4 of its energy.
+constexpr double rattle = 0.01;
 
-// All touching contacts that approach faster than the resting speed.
-void collect(const StepContext& context, const SubStep& sub, double time, std::vector<Row>& rows)
+double solve_round(const StepContext& context, Round& round)
 {
-    ContactMemory& memory = context.memory;
-    const RigidSettings& settings = context.rigid.settings;
-    rows.clear();
-    for (std::size_t k = 0; k < memory.candidates.size(); ++k) {
-        const Candidate& c = memory.candidates[k];
-        if (c.beyond || (c.touch.gap > settings.contact_tolerance && !c.closing) ||
-            separation_speed(memory, c, time) >= -sub.slow) {
-            continue;
-        }
-        Row row;
-        row.a = c.feature.a;
-        row.b = std::max(c.feature.b, -1);
-        row.contact = static_cast<int>(k);
-        const ContactLaws::Law& law = law_of(context.rigid, c.feature.a, c.feature.b);
-        row.cone.mu = law.friction;
-        row.wall_velocity = wall_velocity(memory, c.feature.b, time);
-        const Vec3 xa = memory.poses[row.a].x;
-        const Vec3 xb = row.b >= 0 ? memory.poses[row.b].x : xa;
-        complete(row, {c.touch, c.touch}, {xa, xb, xa, xb}, memory.responses, settings.dimensions);
-        if (row.cone.K(0, 0) <= 0) {
-            continue; // neither body can move along the normal
-        }
-        row.before = velocity(row, memory.responses);
-        const bool no_bounce = tired(memory, c.feature.a, c.feature.b);
-        row.target = no_bounce ? 0 : -law.restitution * row.before[0];
-        rows.push_back(row);
+    switch (context.rigid.settings.law) {
+    case ImpactLaw::coupled:
+        return coupled_round(context, round);
+    case ImpactLaw::paper:
+        return paper_round(context, round);
+    case ImpactLaw::simultaneous:
+        return simultaneous_round(context, round);
     }
+    return 0;
 }
 
-// Work done by the contacts, 1/2 sum P . (u- + u+): the change of kinetic energy seen from the
-// walls.
-double work_done(const std::vector<Row>& rows, const std::vector<Response>& bodies)
+double fastest(const std::vector<Row>& rows)
 {
-    double work = 0;
+    double most = 0;
     for (const Row& row : rows) {
-        work += 0.5 * row.p.dot(row.before + velocity(row, bodies));
+        most = std::max(most, -row.before[0]);
     }
-    return work;
-}
-
-double exchanged(const std::vector<Row>& rows)
-{
-    double sum = 0;
-    for (const Row& row : rows) {
-        sum += std::abs(row.p.dot(row.before)) + 0.5 * row.p.dot(row.cone.K * row.p);
-    }
-    return sum;
-}
-
-// Largest s in [0, 1] with work(s) <= 0 on the line from the inelastic impulse P0 to P.
-double dissipative_share(double work0, double work_half, double work1)
-{
-    const double a = 2 * (work1 + work0 - 2 * work_half);
-    const double b = work1 - work0 - a;
-    const double root = std::sqrt(std::max(sq(b) - 4 * a * work0, 0.0));
-    const double s = b >= 0 ? -2 * work0 / (b + root) : (root - b) / (2 * a);
-    return std::clamp(s, 0.0, 1.0);
-}
-
-void set_impulses(std::vector<Row>& rows, const std::vector<Vec3>& p, std::vector<Response>& bodies)
-{
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        push(rows[k], p[k] - rows[k].p, bodies);
-    }
-}
-
-// If the round gained energy, goes back towards the inelastic impulse, which never does.
-void clamp_energy(std::vector<Row>& rows, ContactMemory& memory)
-{
-    const double work1 = work_done(rows, memory.responses);
-    if (work1 <= no_gain * exchanged(rows)) {
-        return;
-    }
-    std::vector<Vec3> p1;
-    std::vector<double> targets;
-    for (Row& row : rows) {
-        p1.push_back(row.p);
-        targets.push_back(row.target);
-        row.target = 0;
-    }
-    solve_islands(rows, memory);
-    const double work0 = work_done(rows, memory.responses);
-    std::vector<Vec3> p0;
-    std::vector<Vec3> p_half;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        p0.push_back(rows[k].p);
-        p_half.emplace_back(0.5 * (p0[k] + p1[k]));
-        rows[k].target = targets[k];
-    }
-    set_impulses(rows, p_half, memory.responses);
-    const double work_half = work_done(rows, memory.responses);
-    const double s = work0 < 0 ? dissipative_share(work0, work_half, work1) : 0;
-    std::vector<Vec3> p;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        p.emplace_back(p0[k] + s * (p1[k] - p0[k]));
-    }
-    set_impulses(rows, p, memory.responses);
+    return most;
 }
 
 // Velocities and momenta of the bodies after the round.
@@ -160,20 +80,23 @@ int entry_at_same_point(const ContactMemory& memory, int contact)
     return -1;
 }
 
-// Books a round; the energy of the round is shared in proportion to what each contact lost.
+// Books a round; the energy of the round is shared in proportion to what each contact lost, or, if
+// the law may gain energy, as it is.
 void book(const std::vector<Row>& rows, const StepContext& context, double time)
 {
     ContactMemory& memory = context.memory;
+    const bool may_gain = context.rigid.settings.law == ImpactLaw::paper;
     double total = 0;
     double positive = 0;
     std::vector<double> losses;
     for (const Row& row : rows) {
         const double loss = -0.5 * row.p.dot(row.before + velocity(row, memory.responses));
-        losses.push_back(std::max(loss, 0.0));
+        losses.push_back(may_gain ? loss : std::max(loss, 0.0));
         total += loss;
         positive += losses.back();
     }
-    const double share = positive > 0 ? std::max(total, 0.0) / positive : 0;
+    const double dissipated_share = positive > 0 ? std::max(total, 0.0) / positive : 0;
+    const double share = may_gain ? 1 : dissipated_share;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const Row& row = rows[k];
         const Candidate& c = memory.candidates[row.contact];
@@ -182,7 +105,7 @@ void book(const std::vector<Row>& rows, const StepContext& context, double time)
         if (index < 0) {
             Contact contact{Contact::Kind::impact, time,          c.feature.a,
                             c.feature.b,           c.touch.point, c.touch.normal};
-            contact.approach_speed = -row.before[0];
+            contact.approach_speed = std::max(0.0, -row.before[0]);
             contact.effective_mass = 1 / row.cone.K(0, 0);
             index = static_cast<int>(context.log.size());
             context.log.push_back(contact);
@@ -203,14 +126,13 @@ void solve_impacts(const StepContext& context, const SubStep& sub, double time)
     const std::size_t first = context.log.size();
     memory.entries.assign(memory.candidates.size(), -1);
     set_responses(context, sub.cluster);
-    for (int round = 0; round < most_rounds; ++round) {
-        collect(context, sub, time, memory.rows);
+    Round round{time, sub.slow};
+    for (int count = 1; !round.closing; ++count) {
+        const double left = solve_round(context, round);
         if (memory.rows.empty()) {
             break;
         }
-        const double left = solve_islands(memory.rows, memory);
         counters.worst_residual = std::max(counters.worst_residual, left);
-        clamp_energy(memory.rows, memory);
         apply_round(memory.rows, context);
         book(memory.rows, context, time);
         set_responses(context, sub.cluster);
@@ -218,6 +140,8 @@ void solve_impacts(const StepContext& context, const SubStep& sub, double time)
         for (const Row& row : memory.rows) {
             counters.tangential_impacts += row.tangential ? 1 : 0;
         }
+        round.least =
+            count < most_rounds ? std::max(round.least, rattle * fastest(memory.rows)) : infinity;
     }
     counters.impacts += static_cast<long long>(context.log.size() - first);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hyoryu/rigid/body.hpp"
+#include "hyoryu/rigid/law.hpp"
 
 #include <memory>
 #include <span>
@@ -23,7 +24,9 @@ struct Contact {
     double normal_impulse = 0;        // on a, along the normal [N s]
     Vec3 tangential_impulse{0, 0, 0}; // on a [N s]
     double effective_mass = 0;        // 1 / (n . K n) [kg]
-    double energy_lost = 0;           // [J], >= 0
+    // [J]; >= 0 but for the law "paper", which can gain. Exact in sum: the impacts of one moment
+    // lose together what the kinetic energy, seen from the walls, lost.
+    double energy_lost = 0;
 };
 
 /// Choices of the solver, with the defaults of the method.
@@ -32,6 +35,7 @@ struct RigidSettings {
     Vec3 gravity{0, 0, -9.81};       // [m/s2]
     double contact_tolerance = 1e-7; // gap below which a point is in contact [m]
     double resting_speed = 1e-3;     // approach speed below which restitution is zero [m/s]
+    ImpactLaw law = ImpactLaw::coupled;
 };
 
 /// Counters that tell how hard the contact problem was.

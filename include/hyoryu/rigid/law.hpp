@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What a user may choose about contact.
+#pragma once
+
+namespace hyoryu {
+
+/// What one impact does to the bodies that touch. Resting contacts are solved alike under every
+/// law.
+///
+/// - coupled: rounds. All contacts that approach are solved together, each with the restitution of
+///   its own approach and friction in the circular Coulomb cone, normal and tangential impulse
+///   coupled; then looked at again until none approaches. Never gains energy.
+/// - paper: equations (1)-(6) of the Iwate paper as they stand: J = -(1 + e) n.v / (n.K n), and the
+///   friction min(mu J, |b|), b = t.v / (t.K t), against the velocity before the impact, neither
+///   knowing of the other. One face after another until none approaches; a face acts at the mean of
+///   its points that approach. Kept to compare with: it can gain energy.
+/// - simultaneous: Moreau's law. All touching contacts of an island are solved at once, those that
+///   do not approach included, with the coupled cone; a struck body does not bounce off where it
+///   already rested. Never gains energy.
+enum class ImpactLaw { coupled, paper, simultaneous };
+
+} // namespace hyoryu
