@@ -163,7 +163,7 @@ void Outputs::log_contacts(const Simulation& sim)
             write_contact(sim, contact);
             continue;
         }
-        // Impulses add up; place and normal are means weighted with the normal impulse.
+        // Impulses add up as vectors; place and normal are means weighted with the normal impulse.
         Resting& rest = resting_[{contact.a, contact.b}];
         const double before = rest.weight;
         rest.weight += contact.normal_impulse;
@@ -174,10 +174,13 @@ void Outputs::log_contacts(const Simulation& sim)
             sum.point = rest.sum.point + share * (contact.point - rest.sum.point);
             sum.normal =
                 (rest.sum.normal + share * (contact.normal - rest.sum.normal)).normalized();
-            sum.normal_impulse += rest.sum.normal_impulse;
-            sum.tangential_impulse += rest.sum.tangential_impulse;
-            sum.energy_lost += rest.sum.energy_lost;
         }
+        const Vec3 impulse = rest.sum.normal_impulse * rest.sum.normal +
+                             rest.sum.tangential_impulse + contact.normal_impulse * contact.normal +
+                             contact.tangential_impulse;
+        sum.normal_impulse = impulse.dot(sum.normal);
+        sum.tangential_impulse = impulse - sum.normal_impulse * sum.normal;
+        sum.energy_lost += rest.sum.energy_lost;
         rest.sum = sum;
     }
 }

@@ -29,6 +29,50 @@ std::string join_effects(const std::vector<Plan::Effect>& effects)
     return text;
 }
 
+// What every two materials that can meet have, and by which rule.
+constexpr const char* mixing_rule =
+    "the entry of `contact.pair` that names both materials, else `[contact]`; nothing is averaged";
+
+std::string material_lines(const Scene& scene, const Plan& plan)
+{
+    if (plan.materials.empty()) {
+        return {};
+    }
+    const auto named = [](const std::string& name) { return name.empty() ? "(none)" : name; };
+    std::string text = fmt::format("  contact of materials: {}\n", mixing_rule);
+    for (const auto& pair : plan.materials) {
+        const std::string who =
+            fmt::format("{} - {}", named(pair.materials[0]), named(pair.materials[1]));
+        const std::string restitution = scene.contact.penalty ? "from stiffness and damping"
+                                                              : fmt::format("{}", pair.restitution);
+        const std::string stiffness =
+            pair.stiffness ? fmt::format(", stiffness {} N/m (reports)", *pair.stiffness) : "";
+        text +=
+            fmt::format("    {:<22} restitution {}, friction {}{}, from {}\n", who, restitution,
+                        pair.friction, stiffness, pair.listed ? "`contact.pair`" : "`[contact]`");
+    }
+    return text;
+}
+
+nlohmann::ordered_json material_json(const Scene& scene, const Plan& plan)
+{
+    using nlohmann::ordered_json;
+    const auto named = [](const std::string& name) {
+        return name.empty() ? ordered_json() : ordered_json(name);
+    };
+    ordered_json json = {{"mixing_rule", mixing_rule}, {"pairs", ordered_json::array()}};
+    for (const auto& pair : plan.materials) {
+        json["pairs"].push_back(
+            {{"materials", {named(pair.materials[0]), named(pair.materials[1])}},
+             {"restitution",
+              scene.contact.penalty ? ordered_json() : ordered_json(pair.restitution)},
+             {"friction", pair.friction},
+             {"stiffness", pair.stiffness ? ordered_json(*pair.stiffness) : ordered_json()},
+             {"from", pair.listed ? "contact.pair" : "contact"}});
+    }
+    return json;
+}
+
 std::string size_lines(const Scene& scene, const Plan& plan)
 {
     const auto& n = plan.counts;
@@ -121,7 +165,7 @@ std::string plan_text(const Scene& scene, const Plan& plan)
         }
         text += fmt::format("    {:<22} {:<8} {:>3} B a particle\n", "together", "", bytes);
     }
-    return text + size_lines(scene, plan) + time_lines(scene, plan);
+    return text + material_lines(scene, plan) + size_lines(scene, plan) + time_lines(scene, plan);
 }
 
 std::string plan_json(const Scene& scene, const Plan& plan)
@@ -151,6 +195,9 @@ std::string plan_json(const Scene& scene, const Plan& plan)
     json["pair_kinds"] = ordered_json::array();
     for (const auto& kind : plan.pair_kinds) {
         json["pair_kinds"].push_back({{"name", kind.name}, {"why", kind.why}});
+    }
+    if (plan.contact) {
+        json["contact"] = material_json(scene, plan);
     }
     const auto& n = plan.counts;
     json["counts"] = {{"fluid", n.fluid},

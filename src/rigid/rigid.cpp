@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The step of the rigid layer.
 #include "broad_phase.hpp"
+#include "penalty.hpp"
 #include "sub_step.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -146,6 +147,11 @@ void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
     expects(loads.size() == rigid.bodies.size());
     prepare(rigid);
     const StepContext context{rigid, *rigid.memory, loads, log, time, dt};
+    if (rigid.penalty) {
+        step_by_penalty(context);
+        close_step(rigid);
+        return;
+    }
     find_clusters(context);
     for (const Cluster& cluster : context.memory.clusters) {
         if (cluster.pairs.empty()) {

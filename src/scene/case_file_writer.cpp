@@ -179,9 +179,17 @@ std::string body_text(const BodySettings& body, int dimensions)
 
 std::string contact_text(const ContactSettings& contact)
 {
-    std::string text = "\n[contact]\nmethod = \"impulse\"\n" +
-                       line("restitution", contact.restitution) +
-                       line("friction", contact.friction);
+    constexpr std::array<const char*, 3> laws{"coupled", "paper", "simultaneous"};
+    std::string text = "\n[contact]\n";
+    text += line("method", std::string(contact.penalty ? "penalty" : "impulse"));
+    if (!contact.penalty) {
+        text += line("law", std::string(laws[static_cast<std::size_t>(contact.law)]));
+    }
+    text += line("restitution", contact.restitution) + line("friction", contact.friction);
+    if (contact.penalty) {
+        text += "[contact.penalty]\n" + line("stiffness", contact.penalty->stiffness) +
+                line("damping", contact.penalty->damping) + line("step", contact.penalty->step);
+    }
     for (const MaterialPair& pair : contact.pairs) {
         text += "\n[[contact.pair]]\n" +
                 line("materials", std::vector<std::string>{pair.materials[0], pair.materials[1]}) +

@@ -42,7 +42,6 @@ constexpr std::array planned = {
     PlannedKey{"wall[].motion.table", ""},
     PlannedKey{"wall[].motion.piston", ""},
     PlannedKey{"body[].shape", "particles"},
-    PlannedKey{"contact.method", "penalty"},
 };
 
 } // namespace

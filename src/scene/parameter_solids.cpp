@@ -122,14 +122,30 @@ std::vector<Parameter> contact_parameters()
     materials.shortest = materials.longest = 2;
     return {
         table_row("contact", "How bodies hit each other and the walls."),
-        choice_row("contact.method", {"impulse"}, "impulse",
-                   "\"impulse\" solves for the impulses that keep bodies apart, with friction."),
+        choice_row("contact.method", {"impulse", "penalty"}, "impulse",
+                   "\"impulse\" solves for the impulses that keep bodies apart, with friction; "
+                   "\"penalty\" puts springs between particles, the baseline to compare with."),
+        choice_row("contact.law", {"coupled", "paper", "simultaneous"}, "coupled",
+                   "What an impact does, by the impulse method. \"coupled\": all contacts that "
+                   "approach together, round after round, with the circular Coulomb cone; "
+                   "\"paper\": the uncoupled equations (1)-(6) of the Iwate paper, which can gain "
+                   "energy; \"simultaneous\": all touching contacts at once (Moreau)."),
         fraction(
             "contact.restitution", "0.4",
             "Part of the approach speed that a pair keeps after an impact, unless contact.pair "
-            "names the pair."),
+            "names the pair. The penalty method has no use for it: there it follows from stiffness "
+            "and damping."),
         not_negative("contact.friction", "", "0.3",
                      "Dynamic friction coefficient, unless contact.pair names the pair."),
+        table_row("contact.penalty", "The penalty method, with method = \"penalty\"."),
+        positive("contact.penalty.stiffness", "N/m", "1000",
+                 "Stiffness of a pair of particles; in 2-D per metre of width."),
+        not_negative("contact.penalty.damping", "N s/m", "0.2171",
+                     "Damping of a pair of particles along the line between them, and across it up "
+                     "to the friction; in 2-D per metre of width."),
+        positive("contact.penalty.step", "s", "1e-5",
+                 "Longest sub-step of the explicit integration; a step of the bodies is split into "
+                 "equal ones."),
         tables_row("contact.pair", "The contact of two materials."),
         std::move(materials),
         fraction("contact.pair[].restitution", "contact.restitution",

@@ -4,6 +4,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_checks.hpp"
+#include "plan_contact.hpp"
 
 #include <fmt/format.h>
 
@@ -287,6 +288,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     }
     plan.first_step = scene.time.step.value_or(shortest(plan.limits).dt);
     list_effects(scene, plan);
+    list_contact(scene, filling, plan);
     list_pairs(plan);
     list_fields(plan);
     estimate_cost(scene, plan);

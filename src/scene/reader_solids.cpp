@@ -257,6 +257,23 @@ MaterialPair read_pair(TableReader& table, const Scene& scene,
     return pair;
 }
 
+ImpactLaw law_named(const std::string& name)
+{
+    return name == "paper"          ? ImpactLaw::paper
+           : name == "simultaneous" ? ImpactLaw::simultaneous
+                                    : ImpactLaw::coupled;
+}
+
+PenaltyParameters read_penalty(TableReader table)
+{
+    PenaltyParameters penalty;
+    penalty.stiffness = table.number("stiffness");
+    penalty.damping = table.number("damping");
+    penalty.step = table.number("step");
+    table.finish();
+    return penalty;
+}
+
 bool same_pair(const MaterialPair& a, const MaterialPair& b)
 {
     return a.materials == b.materials ||
@@ -287,7 +304,12 @@ void read_bodies(TableReader& root, Scene& scene)
 
 void read_contact(TableReader table, Scene& scene)
 {
-    table.choice("method");
+    if (table.choice("method") == "penalty") {
+        scene.contact.penalty = read_penalty(table.table("penalty"));
+    } else {
+        scene.contact.law = law_named(table.choice("law"));
+    }
+    // Both methods take it, so that one case can be run with either.
     scene.contact.restitution = table.number("restitution");
     scene.contact.friction = table.number("friction");
     const std::set<std::string> materials = materials_of(scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/rigid_scene.hpp"
 
+#include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/shapes.hpp"
 
 #include <algorithm>
@@ -104,6 +105,32 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
     return boundary;
 }
 
+// Particles of the bodies, and of the obstacles down to the depth that contact reaches.
+Penalty make_penalty(const Scene& scene)
+{
+    constexpr double obstacle_layers = 2;
+    Penalty penalty;
+    penalty.parameters = *scene.contact.penalty;
+    penalty.wall_spacing = scene.spacing;
+    for (const BodySettings& body : scene.bodies) {
+        penalty.bodies.push_back(particle_cloud(
+            aggregate(body.shape, body.spacing, scene.dimensions).points, body.spacing));
+    }
+    for (const Wall& wall : scene.walls) {
+        std::vector<Vec3> points;
+        if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
+            const Placed own{.shape = &solid->shape, .dimensions = scene.dimensions};
+            for (const Vec3& p : aggregate(solid->shape, scene.spacing, scene.dimensions).points) {
+                if (signed_distance(own, p) > -obstacle_layers * scene.spacing) {
+                    points.emplace_back(solid->centre + solid->rotation * p);
+                }
+            }
+        }
+        penalty.obstacles.push_back(particle_cloud(std::move(points), scene.spacing));
+    }
+    return penalty;
+}
+
 } // namespace
 
 double effective_density(const BodySettings& body, int dimensions)
@@ -116,6 +143,10 @@ Rigid make_rigid(const Scene& scene)
     Rigid rigid;
     rigid.settings.dimensions = scene.dimensions;
     rigid.settings.gravity = scene.gravity;
+    rigid.settings.law = scene.contact.law;
+    if (scene.contact.penalty) {
+        rigid.penalty = make_penalty(scene);
+    }
     Materials materials;
     for (const BodySettings& body : scene.bodies) {
         rigid.bodies.push_back(make_body(body, scene.dimensions, materials));

@@ -119,6 +119,7 @@ position = [5.5, 0.5, 0.7]
 
 [contact]
 method = "impulse"
+law = "simultaneous"
 restitution = 0.4
 friction = 0.3
 [[contact.pair]]

@@ -105,6 +105,9 @@ TEST(Parameters, DefaultsOfTheSceneAreThoseOfTheTable)
     EXPECT_EQ(number("fluid.smoothing_ratio"), FluidSettings{}.smoothing_ratio);
     EXPECT_EQ(number("contact.restitution"), ContactSettings{}.restitution);
     EXPECT_EQ(number("contact.friction"), ContactSettings{}.friction);
+    EXPECT_EQ(number("contact.penalty.stiffness"), PenaltyParameters{}.stiffness);
+    EXPECT_EQ(number("contact.penalty.damping"), PenaltyParameters{}.damping);
+    EXPECT_EQ(number("contact.penalty.step"), PenaltyParameters{}.step);
     EXPECT_EQ(number("output.checkpoint_every"), OutputSettings{}.checkpoint_every);
     EXPECT_EQ(scene.gravity, Scene{}.gravity);
     EXPECT_EQ(scene.seed, Scene{}.seed);

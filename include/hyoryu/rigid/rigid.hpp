@@ -4,8 +4,10 @@
 
 #include "hyoryu/rigid/body.hpp"
 #include "hyoryu/rigid/law.hpp"
+#include "hyoryu/rigid/penalty.hpp"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,6 +58,7 @@ struct Rigid {
     std::vector<Body> bodies;
     std::vector<Boundary> boundaries;
     ContactLaws laws;
+    std::optional<Penalty> penalty; // the method of contact in place of impulses; none: impulses
     RigidCounters counters;
     std::unique_ptr<ContactMemory> memory;
 
@@ -70,8 +73,9 @@ struct Rigid {
 /// `log`. The impulses in the log make up all that contact did to a body: M dV = sum of impulses +
 /// M g dt + F dt to round-off. Torques act with the arms at the middle of a sub-step (`point`),
 /// exact for impacts. Shapes, masses and locks must not change after the first step; locked
-/// velocities are set to zero. Source: the project's contact notes; Moreau (1988) for the
-/// time-discrete cone law.
+/// velocities are set to zero. With `penalty` set, springs between particles take the place of
+/// impulses, and the log sums them over the step as resting contacts. Source: the project's contact
+/// notes; Moreau (1988) for the time-discrete cone law.
 void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
           std::vector<Contact>& log);
 

@@ -5,6 +5,7 @@
 #include "hyoryu/fluid/fluid.hpp"
 #include "hyoryu/scene/fill.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,10 +34,21 @@ struct Plan {
         Index particles() const { return fluid + wall + body; }
     };
 
+    /// Two materials that can meet. The mixing rule: the entry of `contact.pair` that names both,
+    /// else what `[contact]` says of all others; nothing is averaged.
+    struct MaterialContact {
+        std::array<std::string, 2> materials; // of a body and of what it meets; "" if none is named
+        double restitution = 0;               // [1]
+        double friction = 0;                  // [1]
+        std::optional<double> stiffness;      // [N/m], for the force formulae of reports only
+        bool listed = false;                  // by `contact.pair`
+    };
+
     std::vector<Effect> on;
     std::vector<Effect> off;
     std::vector<FieldUse> fields;
     std::vector<PairKind> pair_kinds;
+    std::vector<MaterialContact> materials; // by name
     Counts counts;
     std::vector<TimeLimit> limits; // of the first step
     double first_step = 0;         // [s]

@@ -8,7 +8,8 @@
 namespace hyoryu {
 
 /// Bodies in the order of the scene, boundaries in the order of its walls, laws of every pair of
-/// materials. Meshes meet others by their convex hull and have the exact mass properties of the
+/// materials. With the penalty method, the particles of bodies and obstacles as the filling places
+/// them. Meshes meet others by their convex hull and have the exact mass properties of the
 /// mesh.
 Rigid make_rigid(const Scene& scene);
 

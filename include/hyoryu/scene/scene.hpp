@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hyoryu/core/types.hpp"
+#include "hyoryu/rigid/law.hpp"
 
 #include <array>
 #include <filesystem>
@@ -127,8 +128,11 @@ struct MaterialPair {
 };
 
 struct ContactSettings {
-    double restitution = 0.4; // of every pair that no entry of `pairs` names [1]
-    double friction = 0.3;    // dynamic Coulomb coefficient [1]
+    ImpactLaw law = ImpactLaw::coupled;       // of the impulse method
+    std::optional<PenaltyParameters> penalty; // the penalty method; none: the impulse method
+    // Of every pair that no entry of `pairs` names [1]; the penalty method does not read it.
+    double restitution = 0.4;
+    double friction = 0.3; // dynamic Coulomb coefficient [1]
     std::vector<MaterialPair> pairs;
 };
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The part of the plan that tells how bodies meet.
+#pragma once
+
+#include "hyoryu/scene/plan.hpp"
+
+namespace hyoryu {
+
+/// Names the method and the law of contact, on or off with a reason, and every pair of materials
+/// that can meet; warns of penalty sub-steps that are too long.
+void list_contact(const Scene& scene, const Filling& filling, Plan& plan);
+
+} // namespace hyoryu
