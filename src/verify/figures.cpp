@@ -128,6 +128,7 @@ std::vector<SummaryTable> read_summary_tables(Section& root, const Benchmark& be
     for (Section& section : root.tables("table")) {
         SummaryTable table;
         table.file = read_file_name(section, ".md");
+        table.preface = section.text("preface");
         table.title = section.text("title");
         table.text = section.text("text");
         table.by = section.texts("by");

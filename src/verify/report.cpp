@@ -67,6 +67,7 @@ ordered_json json_of(const RunResult& run)
     }
     json["error"] = run.error;
     json["wall_seconds"] = run.cost.wall_seconds;
+    json["solver_seconds"] = run.cost.solver_seconds;
     json["steps"] = run.cost.steps;
     json["simulated_seconds"] = run.cost.simulated_seconds;
     json["microseconds_per_step"] = run.cost.microseconds_per_step();

@@ -64,22 +64,31 @@ const CheckResult* find_check(const RunResult& run, const std::string& name)
     return at == run.checks.end() ? nullptr : &*at;
 }
 
-/// "asked | worst | rms" of one check over the runs of a row. For a bound the excess counts.
-std::string cells_of(const Group& group, const SummaryTable::Item& item)
+/// What was asked of a check and what came out, in the unit shown; a bound asks for zero.
+struct Errors {
+    std::vector<double> asked, errors;
+};
+
+Errors errors_of(const std::vector<const RunResult*>& runs, const SummaryTable::Item& item)
 {
-    std::vector<double> asked;
-    std::vector<double> errors;
-    for (const RunResult* run : group.runs) {
+    Errors result;
+    for (const RunResult* run : runs) {
         if (const CheckResult* check = find_check(*run, item.check)) {
-            const bool bound = check->comparison != Comparison::equal;
-            asked.push_back(bound ? 0 : check->expected);
-            errors.push_back(item.scale * (check->got - asked.back()));
+            const double asked = check->comparison == Comparison::equal ? check->expected : 0;
+            result.asked.push_back(item.scale * asked);
+            result.errors.push_back(item.scale * (check->got - asked));
         }
     }
+    return result;
+}
+
+/// "worst | rms" of one check over the runs of a row.
+std::string cells_of(const Group& group, const SummaryTable::Item& item)
+{
+    const std::vector<double> errors = errors_of(group.runs, item).errors;
     if (errors.empty()) {
-        return " | | |";
+        return " | |";
     }
-    const auto [low, high] = std::minmax_element(asked.begin(), asked.end());
     const double worst = *std::max_element(errors.begin(), errors.end(), [](double a, double b) {
         return std::isnan(b) || std::abs(a) < std::abs(b);
     });
@@ -88,18 +97,15 @@ std::string cells_of(const Group& group, const SummaryTable::Item& item)
         squares += error * error;
     }
     const double rms = std::sqrt(squares / static_cast<double>(errors.size()));
-    const std::string asked_text =
-        *low == *high ? fmt::format("{:.4g}", item.scale * *low)
-                      : fmt::format("{:.3g} to {:.3g}", item.scale * *low, item.scale * *high);
-    return fmt::format(" {} | {:.2g} | {:.2g} |", asked_text, worst, rms);
+    return fmt::format(" {:.2g} | {:.2g} |", worst, rms);
 }
 
-/// "us/step | wall s a simulated s" of the runs of a row that came to their end.
+/// "us/step | solver seconds a simulated second" of the runs of a row that came to their end.
 std::string cost_cells(const Group& group)
 {
     RunCost sum;
     for (const RunResult* run : group.runs) {
-        sum.wall_seconds += run->cost.wall_seconds;
+        sum.solver_seconds += run->cost.solver_seconds;
         sum.steps += run->cost.steps;
         sum.simulated_seconds += run->cost.simulated_seconds;
     }
@@ -107,10 +113,28 @@ std::string cost_cells(const Group& group)
         return " | |";
     }
     return fmt::format(" {:.3g} | {:.3g} |", sum.microseconds_per_step(),
-                       sum.wall_seconds / sum.simulated_seconds);
+                       sum.solver_seconds / sum.simulated_seconds);
 }
 
-std::string header_of(const SummaryTable& table)
+/// "restitution, asked 0.75: worst error".
+std::string title_of(const std::vector<Group>& groups, const SummaryTable::Item& item)
+{
+    std::vector<double> asked;
+    for (const Group& group : groups) {
+        const std::vector<double> of_group = errors_of(group.runs, item).asked;
+        asked.insert(asked.end(), of_group.begin(), of_group.end());
+    }
+    const std::string unit = item.unit.empty() ? "" : fmt::format(" [{}]", item.unit);
+    if (asked.empty()) {
+        return item.label + unit;
+    }
+    const auto [low, high] = std::minmax_element(asked.begin(), asked.end());
+    return *low == *high
+               ? fmt::format("{}{}, asked {:.6g}", item.label, unit, *low)
+               : fmt::format("{}{}, asked {:.4g} to {:.4g}", item.label, unit, *low, *high);
+}
+
+std::string header_of(const SummaryTable& table, const std::vector<Group>& groups)
 {
     std::string names = "|";
     std::string rule = "|";
@@ -121,18 +145,19 @@ std::string header_of(const SummaryTable& table)
     names += " runs |";
     rule += "---|";
     for (const SummaryTable::Item& item : table.items) {
-        const std::string unit = item.unit.empty() ? "" : fmt::format(" [{}]", item.unit);
-        names += fmt::format(" {}{}: asked | worst error | rms |", item.label, unit);
-        rule += "---|---|---|";
+        names += fmt::format(" {}: worst error | rms |", title_of(groups, item));
+        rule += "---|---|";
     }
-    return names + " us/step | wall s per s |\n" + rule + "---|---|\n";
+    return names + " us/step | solver s per s |\n" + rule + "---|---|\n";
 }
 
 std::string table_text(const BenchmarkResult& result, const SummaryTable& table)
 {
-    std::string text = fmt::format("## {}\n\n{}\n\n", table.title, table.text);
-    text += header_of(table);
-    for (const Group& group : groups_of(result, table)) {
+    const std::vector<Group> groups = groups_of(result, table);
+    std::string text = table.preface.empty() ? "" : table.preface + "\n\n";
+    text += fmt::format("## {}\n\n{}\n\n", table.title, table.text);
+    text += header_of(table, groups);
+    for (const Group& group : groups) {
         text += fmt::format("| {} | {} |", fmt::join(group.key, " | "), group.runs.size());
         for (const SummaryTable::Item& item : table.items) {
             text += cells_of(group, item);

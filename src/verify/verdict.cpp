@@ -78,7 +78,12 @@ RunCost read_cost(RunFiles& files)
         const auto* column = summary.find(name);
         return column != nullptr ? column->numbers.front() : 0;
     };
+    double solver_seconds = 0;
+    for (const CsvTable::Column& column : summary.columns) {
+        solver_seconds += column.name.starts_with("stages.") ? column.numbers.front() : 0;
+    }
     return {.wall_seconds = number("wall_seconds"),
+            .solver_seconds = solver_seconds,
             .steps = number("steps"),
             .simulated_seconds = number("simulated_seconds")};
 }

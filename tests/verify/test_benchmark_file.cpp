@@ -2,20 +2,22 @@
 // The benchmark file: runs, grids, and every mistake with its place.
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/verify/benchmark.hpp"
-#include "results_on_disk.hpp"
+#include "io/results_fixture.hpp"
 
 namespace hyoryu {
 namespace {
+
+using testing::put_text_into;
 
 const std::string head = "title = \"a test\"\ngroup = \"tests\"\nsource = \"none\"\n";
 const std::string check = "[[check]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\n"
                           "expected = 1\ntolerance = 0.1\nbecause = \"a test\"\n";
 
-class BenchmarkFiles : public testing::OnDisk {
+class BenchmarkFiles : public testing::ResultsTest {
 protected:
     Benchmark read(const std::string& text) const
     {
-        put("verify.toml", text);
+        put_text_into(folder / "verify.toml", text);
         return read_benchmark(folder);
     }
 

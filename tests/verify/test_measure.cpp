@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT
 // Numbers taken from tables that were written by hand.
 #include "hyoryu/verify/measure.hpp"
-#include "results_on_disk.hpp"
+#include "io/results_fixture.hpp"
 
 #include <cmath>
 
 namespace hyoryu {
 namespace {
 
-class Measures : public testing::OnDisk {
+using testing::put_text_into;
+
+class Measures : public testing::ResultsTest {
 protected:
     void SetUp() override
     {
-        OnDisk::SetUp();
-        put("bodies.csv", "# s,-,m\ntime,body,x\n0,a,0\n0,b,7\n1,a,3\n1,b,7\n2,a,4\n2,b,7\n"
-                          "3,a,3\n3,b,7\n4,a,1\n4,b,7\n5,a,2\n5,b,9\n");
-        put("summary.json", R"({"steps": 500, "contact": {"impacts": 12}})");
-        put("reference.csv", "time,case,x\n0.5,one,1.5\n1.5,one,3.25\n1.5,two,100\n");
+        ResultsTest::SetUp();
+        put_text_into(folder / "bodies.csv",
+                      "# s,-,m\ntime,body,x\n0,a,0\n0,b,7\n1,a,3\n1,b,7\n2,a,4\n2,b,7\n"
+                      "3,a,3\n3,b,7\n4,a,1\n4,b,7\n5,a,2\n5,b,9\n");
+        put_text_into(folder / "summary.json", R"({"steps": 500, "contact": {"impacts": 12}})");
+        put_text_into(folder / "reference.csv",
+                      "time,case,x\n0.5,one,1.5\n1.5,one,3.25\n1.5,two,100\n");
     }
 
     Measured of_a(Measure measure_, int index = 1, const std::string& time = "") const

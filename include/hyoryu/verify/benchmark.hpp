@@ -125,6 +125,7 @@ struct SummaryTable {
         double scale = 1; // of the numbers shown
     };
     std::string file; // Markdown in the output folder; tables that name the same file follow there
+    std::string preface; // before the title, for the first table of a file
     std::string title;
     std::string text;            // before the table
     std::vector<std::string> by; // parameters: one row of the table for each of their combinations
