@@ -91,7 +91,7 @@ void set_axis(vtkAxis& axis, const std::string& title, const std::vector<double>
 {
     axis.SetTitle(title);
     use_sans(*axis.GetTitleProperties(), text_size);
-    use_sans(*axis.GetLabelProperties(), text_size - 4);
+    use_sans(*axis.GetLabelProperties(), text_size - 2);
     set_pen(*axis.GetPen(), black, 1.5F);
     set_pen(*axis.GetGridPen(), grey, 1.0F);
     if (!range.empty()) {

@@ -4,6 +4,8 @@
 #include "hyoryu/verify/benchmark.hpp"
 #include "io/results_fixture.hpp"
 
+#include <fmt/format.h>
+
 namespace hyoryu {
 namespace {
 
@@ -28,8 +30,7 @@ protected:
             read(text);
         } catch (const CaseError& error) {
             const Diagnostic& first = error.diagnostics().front();
-            return std::to_string(first.line) + ":" + first.key + ": " + first.what + " (" +
-                   first.hint + ")";
+            return fmt::format("{}:{}: {} ({})", first.line, first.key, first.what, first.hint);
         }
         return "";
     }
@@ -68,7 +69,7 @@ TEST_F(BenchmarkFiles, WithoutRunsTheCaseRunsOnceAsItIs)
 
 TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
 {
-    EXPECT_EQ(mistake(head + "tire = \"quick\"\n"), "4:tire: unknown key (did you mean \"tier\"?)");
+    EXPECT_EQ(mistake(head + "tiers = \"quick\"\n"), "4:tiers: unknown key (did you mean \"tier\"?)");
     EXPECT_EQ(mistake("title = \"t\"\ngroup = \"g\"\n").substr(2), "source: is missing ()");
     EXPECT_NE(mistake(head + "[[check]]\nname = \"x\"\nvalue = \"x +\"\nmeasure = \"last\"\n"
                              "expected = 1\ntolerance = 1\nbecause = \"b\"\n")

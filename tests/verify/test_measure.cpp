@@ -25,9 +25,11 @@ protected:
 
     Measured of_a(Measure measure_, int index = 1, const std::string& time = "") const
     {
-        Quantity quantity{.series = series("x"), .measure = measure_, .index = index};
-        quantity.time = time;
-        quantity.level = time;
+        const Quantity quantity{.series = series("x"),
+                                .measure = measure_,
+                                .index = index,
+                                .time = time,
+                                .level = time};
         RunFiles files(folder, folder);
         return measure(quantity, {}, samples(quantity.series, {}, files));
     }
@@ -82,12 +84,10 @@ TEST_F(Measures, CrossingsAndRowsAreCounted)
 TEST_F(Measures, RowsAreChosenByCellsByExpressionsAndByTime)
 {
     RunFiles files(folder, folder);
-    Series chosen = series("x");
-    chosen.filter = "x > 2.5";
+    const Series chosen{.where = {{"body", "a"}}, .filter = "x > 2.5", .value = "x"};
     EXPECT_EQ(samples(chosen, {}, files).t, (std::vector<double>{1, 2, 3}));
-    Quantity late{.series = series("x"), .measure = Measure::max};
-    late.from = "2.5";
-    late.until = "4";
+    const Quantity late{
+        .series = series("x"), .measure = Measure::max, .from = "2.5", .until = "4"};
     EXPECT_EQ(measure(late, {}, samples(late.series, {}, files)).value, 3);
     EXPECT_THROW(samples({.where = {{"bdy", "a"}}, .value = "x"}, {}, files), FormulaError);
 }
@@ -102,8 +102,7 @@ TEST_F(Measures, TheSummaryIsATableOfOneRow)
 TEST_F(Measures, ErrorsFromExpressionsAndFromReferences)
 {
     RunFiles files(folder, folder);
-    Quantity quantity{.series = series("x"), .measure = Measure::largest_error};
-    quantity.until = "3";
+    Quantity quantity{.series = series("x"), .measure = Measure::largest_error, .until = "3"};
     EXPECT_DOUBLE_EQ(error_from(quantity, "3", {}, files).value, 3); // at t = 0
     quantity.measure = Measure::rms_error;
     EXPECT_DOUBLE_EQ(error_from(quantity, "3", {}, files).value, std::sqrt(10.0 / 4));

@@ -68,7 +68,8 @@ TEST_F(Verdicts, AKnownFailureIsToldAndAStaleOneCountsAsFailure)
     EXPECT_EQ(judged(known).verdict, Verdict::xfail);
     EXPECT_EQ(judged(known).note, "not solved yet");
     EXPECT_FALSE(counts_as_failure(Verdict::xfail));
-    known.expected = "10";
+    known = check("10", "1");
+    known.xfail = "not solved yet";
     EXPECT_EQ(judged(known).verdict, Verdict::xpass);
     EXPECT_TRUE(counts_as_failure(Verdict::xpass));
     known.xfail_runs = {"b"};
@@ -81,7 +82,7 @@ TEST_F(Verdicts, NothingMeasuredIsAFailureAndABrokenCheckIsNoKnownOne)
     missing.quantity.measure = Measure::peak;
     EXPECT_EQ(judged(missing).verdict, Verdict::fail);
     EXPECT_FALSE(judged(missing).note.empty());
-    missing.quantity.series.value = "y";
+    missing.quantity.series = {.value = "no_such_column"};
     missing.xfail = "known";
     EXPECT_EQ(judged(missing).verdict, Verdict::fail);
     missing.quantity.series.file = "gauges"; // not written
@@ -116,9 +117,9 @@ TEST_F(Verdicts, AReportCountsThemAndNamesTheCost)
     benchmark.name = "case";
     benchmark.folder = folder;
     benchmark.checks = {check("10", "1"), check("0", "1")};
-    benchmark.checks[1].name = "y";
+    benchmark.checks[1].name = "second";
     SummaryTable table{.file = "proof.md", .title = "Proof", .text = "", .by = {"n"}, .items = {}};
-    table.items = {{.check = "y", .label = "way", .unit = "mm", .scale = 1000}};
+    table.items = {{.check = "second", .label = "way", .unit = "mm", .scale = 1000}};
     benchmark.tables = {table};
     const std::vector<BenchmarkResult> results{
         {benchmark, {judge_run(benchmark, run, folder, "")}}};

@@ -8,6 +8,7 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
+#include <vtkSmartPointer.h>
 
 namespace hyoryu {
 namespace {
