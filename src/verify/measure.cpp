@@ -141,6 +141,33 @@ double total(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
+double number_of_all(Measure measure, const std::vector<double>& values)
+{
+    const auto [min, max] = std::minmax_element(values.begin(), values.end());
+    switch (measure) {
+    case Measure::first:
+        return values.front();
+    case Measure::last:
+        return values.back();
+    case Measure::min:
+        return *min;
+    case Measure::max:
+        return *max;
+    case Measure::mean:
+        return total(values) / static_cast<double>(values.size());
+    case Measure::sum:
+        return total(values);
+    case Measure::range:
+        return *max - *min;
+    case Measure::drift:
+        return values.back() - values.front();
+    case Measure::gain:
+        return largest_gain(values);
+    default:
+        return none; // not of the values alone
+    }
+}
+
 Measured error_of(Measure measure, const std::vector<double>& differences)
 {
     double squares = 0;
@@ -167,28 +194,9 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
     if (s.values.empty()) {
         return {none, "no row fits"};
     }
-    const auto [min, max] = std::minmax_element(s.values.begin(), s.values.end());
     switch (quantity.measure) {
     case Measure::at:
         return at_time(s, evaluate(quantity.time, scope));
-    case Measure::first:
-        return {s.values.front(), ""};
-    case Measure::last:
-        return {s.values.back(), ""};
-    case Measure::min:
-        return {*min, ""};
-    case Measure::max:
-        return {*max, ""};
-    case Measure::mean:
-        return {total(s.values) / static_cast<double>(s.values.size()), ""};
-    case Measure::sum:
-        return {total(s.values), ""};
-    case Measure::range:
-        return {*max - *min, ""};
-    case Measure::drift:
-        return {s.values.back() - s.values.front(), ""};
-    case Measure::gain:
-        return {largest_gain(s.values), ""};
     case Measure::row:
         return row_of(quantity, s);
     case Measure::peak:
@@ -197,12 +205,9 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
         return number_of_extremum(quantity, s);
     case Measure::crossing:
         return crossing(s, evaluate(quantity.level, scope), quantity.index);
-    case Measure::count:
-    case Measure::rms_error:
-    case Measure::largest_error:
-        break;
+    default:
+        return {number_of_all(quantity.measure, s.values), ""};
     }
-    return {none, "an error needs a reference"};
 }
 
 Measured error_from(const Quantity& quantity, const std::string& expected, const Scope& scope,

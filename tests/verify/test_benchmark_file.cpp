@@ -69,7 +69,8 @@ TEST_F(BenchmarkFiles, WithoutRunsTheCaseRunsOnceAsItIs)
 
 TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
 {
-    EXPECT_EQ(mistake(head + "tiers = \"quick\"\n"), "4:tiers: unknown key (did you mean \"tier\"?)");
+    EXPECT_EQ(mistake(head + "tiers = \"quick\"\n"),
+              "4:tiers: unknown key (did you mean \"tier\"?)");
     EXPECT_EQ(mistake("title = \"t\"\ngroup = \"g\"\n").substr(2), "source: is missing ()");
     EXPECT_NE(mistake(head + "[[check]]\nname = \"x\"\nvalue = \"x +\"\nmeasure = \"last\"\n"
                              "expected = 1\ntolerance = 1\nbecause = \"b\"\n")

@@ -45,13 +45,13 @@ struct Series {
 
 /// One number of a series.
 enum class Measure {
-    at,            // at the time `time`, linear between rows
-    first,         // row
-    last,          // row
-    min,           //
-    max,           //
-    mean,          // over rows
-    sum,           // over rows
+    at,    // at the time `time`, linear between rows
+    first, // row
+    last,
+    min,
+    max,
+    mean,
+    sum,
     count,         // of rows
     range,         // max - min
     drift,         // last - first
