@@ -3,6 +3,8 @@
 
 #include "penalty_pairs.hpp"
 
+#include "hyoryu/core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -231,6 +233,9 @@ private:
 
 void step_by_penalty(const StepContext& context)
 {
+    const Penalty& penalty = *context.rigid.penalty;
+    expects(penalty.bodies.size() == context.rigid.bodies.size());
+    expects(penalty.obstacles.size() == context.rigid.boundaries.size());
     PenaltyStep(context).run();
 }
 

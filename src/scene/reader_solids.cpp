@@ -274,6 +274,25 @@ PenaltyParameters read_penalty(TableReader table)
     return penalty;
 }
 
+void read_method(TableReader& table, ContactSettings& contact)
+{
+    const std::string method = table.choice("method");
+    contact.law = law_named(table.choice("law"));
+    TableReader springs = table.table("penalty");
+    const bool has_springs = springs.present();
+    const PenaltyParameters penalty = read_penalty(std::move(springs));
+    if (method == "penalty") {
+        contact.penalty = penalty;
+        if (table.has("law")) {
+            table.error("law", "has no meaning with method = \"penalty\"",
+                        "laws are of the impulse method: leave `law` out");
+        }
+    } else if (method == "impulse" && has_springs) {
+        table.error("penalty", "has no meaning with method = \"impulse\"",
+                    "leave the table out, or write method = \"penalty\"");
+    }
+}
+
 bool same_pair(const MaterialPair& a, const MaterialPair& b)
 {
     return a.materials == b.materials ||
@@ -304,11 +323,7 @@ void read_bodies(TableReader& root, Scene& scene)
 
 void read_contact(TableReader table, Scene& scene)
 {
-    if (table.choice("method") == "penalty") {
-        scene.contact.penalty = read_penalty(table.table("penalty"));
-    } else {
-        scene.contact.law = law_named(table.choice("law"));
-    }
+    read_method(table, scene.contact);
     // Both methods take it, so that one case can be run with either.
     scene.contact.restitution = table.number("restitution");
     scene.contact.friction = table.number("friction");

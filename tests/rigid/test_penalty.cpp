@@ -222,6 +222,20 @@ TEST(PenaltyWalls, OnlyRelativeVelocityCounts)
     EXPECT_GT(velocities[0].z(), 0.4);
 }
 
+// Sub-steps are the same however long the step of the bodies is, and whenever pairs are looked for.
+TEST(PenaltyWalls, LongStepsOfTheBodiesGiveTheSameBounce)
+{
+    std::vector<Vec3> velocities;
+    for (const int steps : {30, 3}) {
+        Rigid rigid = by_penalty(0.3, floor_plane);
+        add_cube(rigid, {0.0027, 0.001, 0.035}, {1, 0, -1});
+        run(rigid, 0.03 / steps, steps);
+        velocities.push_back(rigid.bodies[0].velocity);
+    }
+    EXPECT_LE((velocities[1] - velocities[0]).norm(), 1e-11); // round-off of the sub-step
+    EXPECT_GT(velocities[0].z(), 0.3);
+}
+
 // The floor as a plane, as the bottom of a basin, as the top of an obstacle.
 TEST(PenaltyWalls, TheSameLatticeGivesTheSameBounce)
 {
