@@ -29,4 +29,7 @@ struct ConeImpulse {
 /// velocity; `guess` is an earlier impulse, for the direction of sliding.
 ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess);
 
+/// The nearest point of the friction cone |p_t| <= mu p_n; components beyond `size` become zero.
+Vec3 onto_cone(Vec3 p, double mu, int size);
+
 } // namespace hyoryu

@@ -95,7 +95,7 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
     }
 }
 
-double solve_islands(std::vector<Row>& rows, ContactMemory& memory)
+double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort)
 {
     const std::vector<std::size_t> ends = sort_into_islands(rows, memory);
     memory.solvers.resize(std::max(memory.solvers.size(), ends.size()));
@@ -106,7 +106,7 @@ double solve_islands(std::vector<Row>& rows, ContactMemory& memory)
         const auto island = static_cast<std::size_t>(k);
         const std::size_t begin = island == 0 ? 0 : ends[island - 1];
         const std::span<Row> its = std::span(rows).subspan(begin, ends[island] - begin);
-        memory.left[island] = solve(its, memory.responses, memory.solvers[island]);
+        memory.left[island] = solve(its, memory.responses, memory.solvers[island], effort);
     };
     parallel_blocks(0, static_cast<Index>(ends.size()), solve_one, worth);
     return ends.empty() ? 0 : *std::max_element(memory.left.begin(), memory.left.end());

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hyoryu {
@@ -13,9 +14,11 @@ namespace {
 enum State { open = 0, slides = 1, sticks = 2 };
 
 // Changes of the active set after which the iteration takes over.
-constexpr int rounds_of_guesses = 6;
+constexpr int rounds_of_guesses = 4;
 // A sliding direction has settled when it turns by less [rad].
 constexpr double settled_direction = 1e-9;
+// An impulse this part below the cone lies on it.
+constexpr double on_cone = 1e-9;
 // Relative rank tolerance of the redundant, symmetric problem (round-off times condition).
 constexpr double rank_tolerance = 1e-11;
 
@@ -130,12 +133,32 @@ int better_state(const Row& row, const Vec3& u, int state, Vec3& d)
 
 } // namespace
 
+bool cold(std::span<const Row> rows)
+{
+    return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.p.isZero(0); });
+}
+
+void guess_states(std::span<const Row> rows, SolverWork& work)
+{
+    const bool unknown = cold(rows);
+    work.states.clear();
+    work.directions.assign(rows.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Vec3& p = rows[k].p;
+        const Vec3 t(0, p[1], p[2]);
+        const bool inside =
+            rows[k].cone.size == 1 || t.norm() < (1 - on_cone) * rows[k].cone.mu * p[0];
+        work.states.push_back(unknown || (inside && p[0] > 0) ? sticks : p[0] > 0 ? slides : open);
+        if (work.states.back() == slides) {
+            work.directions[k] = -t.normalized();
+        }
+    }
+}
+
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
     const std::size_t n = rows.size();
-    work.states.assign(n, sticks);
     work.columns.assign(n, 0);
-    work.directions.assign(n, Vec3::Zero());
     work.momenta.clear();
     for (Row& row : rows) {
         push(row, -row.p, bodies);

@@ -10,7 +10,6 @@ namespace hyoryu {
 namespace {
 
 constexpr int inner_steps = 300;
-constexpr int outer_passes = 4; // of the De Saxce correction, which settles like mu^k
 constexpr int power_steps = 12; // enough for a bound within the safety factor
 constexpr double safety = 1.3;
 
@@ -23,25 +22,6 @@ double scale_of(const Row& row)
 void set_impulse(Row& row, const Vec3& p, std::vector<Response>& bodies)
 {
     push(row, p - row.p, bodies);
-}
-
-Vec3 onto_cone(Vec3 p, double mu, int size)
-{
-    if (size == 1) {
-        return {std::max(p[0], 0.0), 0, 0};
-    }
-    p[2] = size == 3 ? p[2] : 0;
-    const double t = p.tail<2>().norm();
-    if (t <= mu * p[0]) {
-        return p;
-    }
-    if (mu * t <= -p[0]) {
-        return Vec3::Zero();
-    }
-    const double n = (p[0] + mu * t) / (1 + mu * mu);
-    p.tail<2>() *= mu * n / t;
-    p[0] = n;
-    return p;
 }
 
 // The largest eigenvalue of the scaled problem, by powers of it.
@@ -136,10 +116,12 @@ void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, Solver
 
 } // namespace
 
-void projected_gradient(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
+// Each pass renews the De Saxce correction, which settles like mu^k.
+void projected_gradient(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                        int passes)
 {
     const double L = stiffness(rows, bodies, work);
-    for (int pass = 0; pass < outer_passes; ++pass) {
+    for (int pass = 0; pass < passes; ++pass) {
         accelerated_pass(rows, bodies, work, L);
     }
 }

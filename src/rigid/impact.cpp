@@ -9,8 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-// A cluster of n contacts settles in a few times n rounds; more means that they feed one another.
-constexpr int most_rounds = 50;
 // Approaches that are left below this part of the first are rattle: 1e-4 of its energy.
 constexpr double rattle = 0.01;
 
@@ -126,23 +124,26 @@ void solve_impacts(const StepContext& context, const SubStep& sub, double time)
     const std::size_t first = context.log.size();
     memory.entries.assign(memory.candidates.size(), -1);
     set_responses(context, sub.cluster);
-    Round round{time, sub.slow};
+    double left = 0;
+    Round round{time, sub.slow, sub.impact_effort};
     for (int count = 1; !round.closing; ++count) {
-        const double left = solve_round(context, round);
+        const double change = solve_round(context, round);
         if (memory.rows.empty()) {
             break;
         }
-        counters.worst_residual = std::max(counters.worst_residual, left);
+        left = change; // of earlier rounds is made good by later ones
         apply_round(memory.rows, context);
         book(memory.rows, context, time);
         set_responses(context, sub.cluster);
         ++counters.rounds;
+        memory.solved_contacts += memory.rows.size();
         for (const Row& row : memory.rows) {
             counters.tangential_impacts += row.tangential ? 1 : 0;
         }
-        round.least =
-            count < most_rounds ? std::max(round.least, rattle * fastest(memory.rows)) : infinity;
+        const bool enough = count >= sub.most_rounds || memory.solved_contacts > worth_rounds;
+        round.least = enough ? infinity : std::max(round.least, rattle * fastest(memory.rows));
     }
+    counters.worst_residual = std::max(counters.worst_residual, left);
     counters.impacts += static_cast<long long>(context.log.size() - first);
 }
 

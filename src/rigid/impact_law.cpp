@@ -83,7 +83,7 @@ void collect(const StepContext& context, const Round& round, double slower, std:
     }
 }
 
-void clamp_energy(std::vector<Row>& rows, ContactMemory& memory)
+void clamp_energy(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort)
 {
     const double work1 = work_done(rows, memory.responses);
     if (work1 <= no_gain * exchanged(rows)) {
@@ -96,7 +96,7 @@ void clamp_energy(std::vector<Row>& rows, ContactMemory& memory)
         targets.push_back(row.target);
         row.target = 0;
     }
-    solve_islands(rows, memory);
+    solve_islands(rows, memory, effort);
     const double work0 = work_done(rows, memory.responses);
     std::vector<Vec3> p0;
     std::vector<Vec3> p_half;
@@ -130,8 +130,8 @@ double coupled_round(const StepContext& context, Round& round)
             row.target = 0;
         }
     }
-    const double left = solve_islands(memory.rows, memory);
-    clamp_energy(memory.rows, memory);
+    const double left = solve_islands(memory.rows, memory, round.effort);
+    clamp_energy(memory.rows, memory, round.effort);
     return left;
 }
 

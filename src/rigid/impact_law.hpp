@@ -7,8 +7,9 @@
 namespace hyoryu {
 
 struct Round {
-    double time = 0;      // [s]
-    double slow = 0;      // an approach below this is no impact [m/s]
+    double time = 0; // [s]
+    double slow = 0; // an approach below this is no impact [m/s]
+    Effort effort{};
     double least = 0;     // if all approaches are below this, the round closes the event [m/s]
     bool closing = false; // no round after this one
 };
@@ -29,6 +30,6 @@ void collect(const StepContext& context, const Round& round, double slower, std:
 
 /// If the round gained energy, goes back towards the inelastic impulse, which never does (Kane and
 /// Levinson 1985).
-void clamp_energy(std::vector<Row>& rows, ContactMemory& memory);
+void clamp_energy(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort);
 
 } // namespace hyoryu

@@ -46,8 +46,8 @@ double simultaneous_round(const StepContext& context, Round& round)
     if (memory.rows.empty()) {
         return 0;
     }
-    const double left = solve_islands(memory.rows, memory);
-    clamp_energy(memory.rows, memory);
+    const double left = solve_islands(memory.rows, memory, round.effort);
+    clamp_energy(memory.rows, memory, round.effort);
     std::erase_if(memory.rows, [](const Row& row) { return row.p.isZero(0); });
     return left;
 }

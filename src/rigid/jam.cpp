@@ -17,6 +17,10 @@ constexpr double most_turn = 0.3;
 constexpr int most_sub_steps = 2000;
 // An approach that gravity and loads build up in this many sub-steps is that of a resting contact.
 constexpr double sub_steps_of_rest = 2;
+// Impacts that are not located do not deserve more.
+constexpr int most_rounds = 4;
+constexpr Effort impact_effort{.enough = 1e-3, .direct_tries = 0, .gradient_passes = 0};
+constexpr Effort contact_effort{.enough = 1e-5, .direct_tries = 1, .gradient_passes = 1};
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
 
@@ -132,7 +136,8 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
         const double h = sub_step_length(context, cluster, rest);
         const double slow =
             std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
-        const SubStep sub{cluster, context.start + done, h, slow};
+        const SubStep sub{cluster,       context.start + done, h, slow, most_rounds,
+                          impact_effort, contact_effort};
         predict_free_motion(context, sub);
         find_all_closing(context, sub);
         solve_impacts(context, sub, sub.time);

@@ -68,7 +68,8 @@ struct ContactMemory {
     std::vector<Resting> resting;
     std::vector<Feature> pressed;
     std::vector<Row> rows, group;
-    std::vector<int> entries; // in the log, of each candidate; -1 if none
+    std::size_t solved_contacts = 0; // by the impacts of the cluster in this step, round by round
+    std::vector<int> entries;        // in the log, of each candidate; -1 if none
     std::vector<int> parents, island_of_root, island_of_row;
     std::vector<SolverWork> solvers; // of each island
     std::vector<double> left;        // residual of each island [m/s]

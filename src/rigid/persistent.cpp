@@ -158,6 +158,7 @@ void build_rows(const StepContext& context, const SubStep& sub)
         complete(row, p.touches, centres, memory.responses, context.rigid.settings.dimensions);
         if (row.cone.K(0, 0) > 0) {
             p.effective_mass = 1 / row.cone.K(0, 0);
+            row.before = velocity(row, memory.responses);
             row.target = p.candidate.closing ? -p.candidate.touch.gap / sub.h : 0;
             memory.rows.push_back(row);
         }
@@ -177,7 +178,7 @@ void solve_pass(const StepContext& context, const SubStep& sub)
         p[2] = row.cone.size > 2 ? p[2] : 0;
         push(row, p, memory.responses);
     }
-    const double left = solve_islands(memory.rows, memory);
+    const double left = solve_islands(memory.rows, memory, sub.contact_effort);
     double& worst = context.rigid.counters.worst_residual;
     worst = std::max(worst, left);
     for (const Row& row : memory.rows) {

@@ -13,20 +13,14 @@ namespace hyoryu {
 
 namespace {
 
-// Located events of a cluster in one step, shared out among its bodies: what a step may cost stays
-// within a few hundred small solves. A cluster that gets fewer than this is a jam from the start.
-constexpr int events_of_all = 60;
-constexpr int too_few_events = 4;
-
-int events_worth_locating(const Cluster& cluster)
-{
-    const int each = events_of_all / static_cast<int>(cluster.bodies.size());
-    return each < too_few_events ? 0 : each;
-}
+// A blow through a chain of n bodies takes n rounds.
+constexpr int most_rounds = 50;
+// A cluster of more pairs than this is a jam from the start.
+constexpr std::size_t pairs_of_a_jam = 24;
 
 void fly(const StepContext& context, const Cluster& cluster)
 {
-    const SubStep sub{cluster, context.start, context.dt, 0};
+    const SubStep sub{cluster, context.start, context.dt};
     context.memory.candidates.clear();
     plan_motion(context, sub);
     move_to(context, sub, sub.h);
@@ -99,14 +93,13 @@ void close_step(Rigid& rigid)
 double locate_impacts(const StepContext& context, const Cluster& cluster)
 {
     const double slow = context.rigid.settings.resting_speed;
-    const int most_events = events_worth_locating(cluster);
     double done = 0;
     find_contacts(context, cluster, context.start);
-    solve_impacts(context, {cluster, context.start, 0, slow}, context.start);
-    for (int events = 0; done < context.dt && events < most_events;) {
+    solve_impacts(context, {cluster, context.start, 0, slow, most_rounds}, context.start);
+    while (done < context.dt && context.memory.solved_contacts < worth_rounds) {
         const double rest = context.dt - done;
         const double h = sub_step_length(context, cluster, rest);
-        const SubStep sub{cluster, context.start + done, h, slow};
+        const SubStep sub{cluster, context.start + done, h, slow, most_rounds};
         plan_motion(context, sub);
         const double s = first_event(context, sub);
         const double now = sub.time + s;
@@ -116,7 +109,6 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
         project_gaps(context, sub, now);
         if (s < sub.h) {
             count_event(context);
-            ++events;
         }
         solve_impacts(context, sub, now);
         done = s < rest ? done + s : context.dt;
@@ -127,7 +119,9 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
 void advance(const StepContext& context, const Cluster& cluster)
 {
     context.memory.known = context.memory.forces;
-    const double done = events_worth_locating(cluster) > 0 ? locate_impacts(context, cluster) : 0;
+    context.memory.solved_contacts = 0;
+    const bool jam = cluster.pairs.size() > pairs_of_a_jam;
+    const double done = jam ? 0 : locate_impacts(context, cluster);
     if (done < context.dt) {
         advance_jam(context, cluster, done);
     }

@@ -11,12 +11,16 @@ namespace {
 // Contacts up to which one body is left to Gauss-Seidel, which settles there in a few sweeps.
 constexpr std::size_t few_contacts = 8;
 constexpr int few_sweeps = 60;
-constexpr int many_sweeps = 100; // hard cap; what remains is reported
-// What sweeps may leave before the gradient method is called in [m/s]: a creep of a tenth of a
-// micrometre per second.
-constexpr double good_enough = 1e-7;
-// Unknowns above which a dense direct solution costs more than the iteration.
-constexpr std::size_t dense_contacts = 100;
+// Direct solutions and alternating directions take turns: the iteration finds which contacts stick,
+// slide and open, which the direct solution takes up (Silcowitz, Niebe and Erleben 2010).
+constexpr int alternations = 60;
+constexpr int sweeps_at_once = 20;
+// What round-off leaves of the direct solution of an ill-conditioned stack [m/s].
+constexpr double directly_solved = 10 * solved_speed;
+// More than this part left means that sweeps stall, as they do in high piles and at mass ratios.
+constexpr double far_from_solved = 1e-3;
+// Contacts above which a dense direct solution costs more than the iteration.
+constexpr std::size_t dense_contacts = 60;
 
 bool one_body(std::span<const Row> rows, const std::vector<Response>& bodies)
 {
@@ -30,6 +34,16 @@ void set_impulses(std::span<Row> rows, const std::vector<Vec3>& p, std::vector<R
     for (std::size_t k = 0; k < rows.size(); ++k) {
         push(rows[k], p[k] - rows[k].p, bodies);
     }
+}
+
+// The largest change of speed that the contacts are asked for.
+double change_asked(std::span<const Row> rows)
+{
+    double most = 0;
+    for (const Row& row : rows) {
+        most = std::max(most, (row.before - Vec3(row.target, 0, 0)).norm());
+    }
+    return most;
 }
 
 double change_of(Row& row, std::vector<Response>& bodies)
@@ -57,11 +71,11 @@ double residual(std::span<Row> rows, const std::vector<Response>& bodies)
     return worst;
 }
 
-double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, int sweeps)
+double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sweeps& sweeps)
 {
     const std::size_t n = rows.size();
     double change = infinity;
-    for (int sweep = 0; sweep < sweeps && change > settled_speed; ++sweep) {
+    for (int sweep = 0; sweep < sweeps.most && change > sweeps.settled; ++sweep) {
         change = 0;
         for (std::size_t k = 0; k < n; ++k) { // to and fro, so that no end is favoured
             Row& row = rows[sweep % 2 == 0 ? k : n - 1 - k];
@@ -71,14 +85,55 @@ double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, int swee
     return change;
 }
 
-double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
+namespace {
+
+// Tries the direct solution; goes back if it is worse than what there was.
+double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                    double left)
+{
+    work.start.clear();
+    for (const Row& row : rows) {
+        work.start.push_back(row.p);
+    }
+    guess_states(rows, work);
+    solve_directly(rows, bodies, work);
+    const double left_directly = residual(rows, bodies);
+    if (left_directly <= left) {
+        return left_directly;
+    }
+    set_impulses(rows, work.start, bodies);
+    return left;
+}
+
+struct Task {
+    const Effort& effort;
+    double asked = 0; // [m/s]
+};
+
+// Sweeps, and the gradient method where they stall.
+double solve_large(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                   const Task& task)
+{
+    const Sweeps sweeps{sweeps_at_once, std::max(task.effort.enough * task.asked, solved_speed)};
+    double left = gauss_seidel(rows, bodies, sweeps);
+    if (task.effort.gradient_passes > 0 && left > far_from_solved * task.asked) {
+        projected_gradient(rows, bodies, work, task.effort.gradient_passes);
+        left = gauss_seidel(rows, bodies, sweeps);
+    }
+    return left;
+}
+
+} // namespace
+
+double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+             const Effort& effort)
 {
     if (rows.size() == 1) {
         change_of(rows[0], bodies);
         return 0;
     }
     if (rows.size() <= few_contacts && one_body(rows, bodies)) {
-        const double change = gauss_seidel(rows, bodies, few_sweeps);
+        const double change = gauss_seidel(rows, bodies, {few_sweeps, settled_speed});
         if (change <= solved_speed) {
             return change;
         }
@@ -87,24 +142,20 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
     if (left <= solved_speed) {
         return left;
     }
-    if (rows.size() <= dense_contacts) {
-        work.start.clear();
-        for (const Row& row : rows) {
-            work.start.push_back(row.p);
-        }
-        solve_directly(rows, bodies, work);
-        const double left_directly = residual(rows, bodies);
-        if (left_directly <= 10 * solved_speed) { // round-off of an ill-conditioned stack
-            return left_directly;
-        }
-        if (left_directly > left) {
-            set_impulses(rows, work.start, bodies);
-        }
+    const double asked = change_asked(rows);
+    const double enough = std::max(effort.enough * asked, solved_speed);
+    if (cold(rows)) {
+        left = gauss_seidel(rows, bodies, {sweeps_at_once, enough});
     }
-    left = gauss_seidel(rows, bodies, many_sweeps);
-    if (left > good_enough) {
-        projected_gradient(rows, bodies, work);
-        left = gauss_seidel(rows, bodies, many_sweeps);
+    if (rows.size() > dense_contacts) {
+        return left > enough ? solve_large(rows, bodies, work, {effort, asked}) : left;
+    }
+    for (int k = 0; k < effort.direct_tries && left > enough; ++k) {
+        left = try_directly(rows, bodies, work, left);
+        if (left > enough) {
+            alternating_directions(rows, bodies, work, {alternations, enough});
+            left = residual(rows, bodies);
+        }
     }
     return left;
 }

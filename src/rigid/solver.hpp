@@ -4,12 +4,28 @@
 
 #include "row.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <span>
 
 namespace hyoryu {
 
+/// A contact in the space of the bodies of its island.
+struct Link {
+    int a = -1, b = -1; // places in the island, -1: immovable
+    Eigen::Matrix<double, 3, 6> Ha = Eigen::Matrix<double, 3, 6>::Zero(); // J M^-1/2
+    Eigen::Matrix<double, 3, 6> Hb = Eigen::Matrix<double, 3, 6>::Zero();
+    double inverse_mass = 0; // mean of the diagonal of K [1/kg]
+    double r = 0;            // step [1/kg]
+    Vec3 lambda{0, 0, 0};    // multiplier [m/s]
+    Vec3 q{0, 0, 0};         // right-hand side [m/s], then the change of the impulse [N s]
+};
+
 /// Scratch of the solvers, kept between calls.
 struct SolverWork {
+    Eigen::LLT<Eigen::MatrixXd> factor;
+    std::vector<int> island; // its bodies, sorted
+    std::vector<Link> links;
     Eigen::MatrixXd W;
     Eigen::VectorXd rhs;
     Eigen::VectorXd solution;
@@ -19,22 +35,44 @@ struct SolverWork {
     std::vector<Vec3> directions, impulses, momenta, start;
 };
 
+/// What a solve may cost and what it may leave.
+struct Effort {
+    /// Left as a part of the largest change of speed that is asked for [1].
+    double enough = 1e-6;
+    int direct_tries = 2;    // direct solutions of a small island, each before an iteration
+    int gradient_passes = 4; // for a large island, if sweeps stall
+};
+
 /// Solves normal velocity >= target, impulse >= 0, Coulomb friction for all rows together, from the
 /// impulses the rows hold (already applied to the bodies). Returns the largest speed by which a
 /// contact still wants to change [m/s]. A row that met a Painleve configuration has `tangential`
 /// set.
 ///
-/// One body and few contacts: Gauss-Seidel with exact local solutions. Otherwise first the
-/// active-set direct solution (all stick, then with sliding and open contacts set aside), which is
-/// blind to mass ratios; if that does not settle, accelerated projected gradient (Mazhar et al.
-/// 2015) with the De Saxce correction for sliding, and Gauss-Seidel to polish.
-double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
+/// One body and few contacts: Gauss-Seidel with exact local solutions. Otherwise the active-set
+/// direct solution (all stick at first, then with sliding and open contacts set aside), which is
+/// blind to mass ratios, in turns with alternating directions. Islands too large for that:
+/// Gauss-Seidel from the known impulses and, where it stalls, accelerated projected gradient
+/// (Mazhar et al. 2015).
+double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+             const Effort& effort);
 
 /// The parts of the solver, for its tests and for one another.
 double residual(std::span<Row> rows, const std::vector<Response>& bodies);
-double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, int sweeps);
+struct Sweeps {
+    int most = 0;
+    double settled = 0; // change of speed in a sweep at which to stop [m/s]
+};
+double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sweeps& sweeps);
+/// Whether no impulse is known yet.
+bool cold(std::span<const Row> rows);
+/// The states that the impulses of the rows show; all stick if there are none yet.
+void guess_states(std::span<const Row> rows, SolverWork& work);
+/// From the states in `work`; false if they did not settle.
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
-void projected_gradient(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
+void alternating_directions(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                            const Sweeps& steps);
+void projected_gradient(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                        int passes);
 
 /// The speed by which a solved problem may still want to change [m/s]: g h of a step of a
 /// microsecond is a million times more.

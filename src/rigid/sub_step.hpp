@@ -6,12 +6,20 @@
 
 namespace hyoryu {
 
+/// Contacts that the impacts of a cluster may solve in one step, round by round, before its events
+/// are closed early and the rest of the step goes without location: it bounds what a step may cost,
+/// far above what single bodies, stacks and chains of balls need.
+inline constexpr std::size_t worth_rounds = 100;
+
 /// How a sub-step treats a cluster.
 struct SubStep {
     const Cluster& cluster;
-    double time = 0; // at its start [s]
-    double h = 0;    // its length [s]
-    double slow = 0; // normal speed below which a contact rests and does not bounce [m/s]
+    double time = 0;     // at its start [s]
+    double h = 0;        // its length [s]
+    double slow = 0;     // normal speed below which a contact rests and does not bounce [m/s]
+    int most_rounds = 0; // of impacts, before the one that closes the event
+    Effort impact_effort{};
+    Effort contact_effort{};
 };
 
 /// Short enough that no body of the cluster turns too far for the scheme, and not longer than
@@ -60,6 +68,6 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time);
 void advance_jam(const StepContext& context, const Cluster& cluster, double done);
 
 /// Solves the rows island by island; returns the worst residual.
-double solve_islands(std::vector<Row>& rows, ContactMemory& memory);
+double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort);
 
 } // namespace hyoryu
