@@ -16,9 +16,11 @@ MAY_INCLUDE = {
     "scene": {"core", "fluid", "rigid", "coupling", "geometry"},
     "sim": {"core", "fluid", "rigid", "coupling", "scene"},
     "io": {"core"},
+    "verify": {"core", "scene", "sim", "io"},
     "view": {"core", "io"},
     "vtk": {"core", "io", "geometry", "view"},
-    "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "view"},
+    "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "verify",
+            "view"},
 }
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')

@@ -47,6 +47,18 @@ struct RenderOptions {
 };
 int render_results(const RenderOptions& options);
 
+struct VerifyOptions {
+    std::vector<std::string> names; // of benchmarks or groups; empty: all
+    std::string tier = "quick";
+    std::filesystem::path cases; // empty: found beside the user or the program
+    std::filesystem::path folder = "verify-results";
+    std::filesystem::path json; // where else `verify.json` goes; empty: nowhere
+    bool list = false;
+    int threads = 0; // 0: all
+    bool force = false;
+};
+int verify(const VerifyOptions& options);
+
 /// Version, commit and build options.
 std::string version_text();
 

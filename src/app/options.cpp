@@ -61,6 +61,21 @@ void add_render(CLI::App& app, RenderOptions& options)
         ->check(CLI::Range(1, 120));
 }
 
+void add_verify(CLI::App& app, VerifyOptions& options)
+{
+    auto* verify_ = app.add_subcommand("verify", "run benchmarks against their references");
+    verify_->add_option("NAME", options.names, "benchmarks or groups of them (default: all)");
+    verify_->add_option("--tier", options.tier, "quick (default), nightly or release");
+    verify_->add_option("--cases", options.cases, "folder of the benchmark folders");
+    verify_->add_option("-o,--output", options.folder,
+                        "folder for results, tables and figures (default: verify-results)");
+    verify_->add_option("--json", options.json, "write verify.json to this file as well");
+    verify_->add_option("--threads", options.threads, "threads to use (default: all)")
+        ->check(CLI::Range(1, 4096));
+    verify_->add_flag("--list", options.list, "only list the benchmarks");
+    verify_->add_flag("--force", options.force, "replace the results of an earlier verify");
+}
+
 } // namespace
 
 int run_command_line(int argc, const char* const* argv)
@@ -75,10 +90,12 @@ int run_command_line(int argc, const char* const* argv)
     DescribeOptions describe_;
     InfoOptions info;
     RenderOptions render_;
+    VerifyOptions verify_;
     add_run(app, run);
     add_check(app, check);
     add_describe(app, describe_);
     add_render(app, render_);
+    add_verify(app, verify_);
     app.add_subcommand("info", "what a results folder holds")
         ->add_option("RESULTS", info.folder, "results folder")
         ->required();
@@ -100,6 +117,9 @@ int run_command_line(int argc, const char* const* argv)
     }
     if (app.got_subcommand("info")) {
         return show_info(info);
+    }
+    if (app.got_subcommand("verify")) {
+        return verify(verify_);
     }
     return render_results(render_);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `read_mesh` and `render` of the program: found in the VTK module, which stands beside the program
-// or in ../lib/hyoryu.
+// `read_mesh`, `render` and `draw` of the program: found in the VTK module, which stands beside the
+// program or in ../lib/hyoryu.
 #include "vtk/module.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -57,6 +57,11 @@ RenderResult render(const fs::path& results, const RenderSettings& settings)
     RenderResult result;
     module_function<vtk_module::Render>(vtk_module::render_name)(results, settings, result);
     return result;
+}
+
+void draw(const Plot& plot, const fs::path& file)
+{
+    module_function<vtk_module::Draw>(vtk_module::draw_name)(plot, file);
 }
 
 } // namespace hyoryu

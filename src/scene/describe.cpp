@@ -3,8 +3,8 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/parameter.hpp"
 
+#include "hyoryu/scene/reader_hint.hpp"
 #include "parameter_table.hpp"
-#include "reader_hint.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Edit distance over a handful of candidates.
-#include "reader_hint.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // Gauges and output.
 #include "reader.hpp"
 
-#include "reader_hint.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "hyoryu/scene/shapes.hpp"
 #include "reader.hpp"
 
-#include "reader_hint.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tables within tables, keys that are missing, unknown or without meaning.
+#include "hyoryu/scene/reader_hint.hpp"
 #include "parameter_table.hpp"
-#include "reader_hint.hpp"
 #include "reader_table.hpp"
 
 #include <fmt/format.h>

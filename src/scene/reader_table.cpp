@@ -2,8 +2,8 @@
 // Values by type, unit and bounds.
 #include "reader_table.hpp"
 
+#include "hyoryu/scene/reader_hint.hpp"
 #include "parameter_table.hpp"
-#include "reader_hint.hpp"
 #include "units.hpp"
 
 #include <fmt/format.h>

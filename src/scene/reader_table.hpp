@@ -3,7 +3,7 @@
 // bounds when it is asked for, every mistake is noted with its place, and nothing is left unread.
 #pragma once
 
-#include "toml_document.hpp"
+#include "hyoryu/scene/toml_document.hpp"
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/parameter.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parsing with toml++; the only file that includes it.
-#include "toml_document.hpp"
+#include "hyoryu/scene/toml_document.hpp"
 
 #define TOML_HEADER_ONLY 0
 #include <toml++/toml.h>

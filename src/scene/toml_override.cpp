@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `key.path=VALUE` on the command line: the value put into the tree of the case file.
-#include "toml_document.hpp"
+#include "hyoryu/scene/toml_document.hpp"
 
 #include <fmt/format.h>
 

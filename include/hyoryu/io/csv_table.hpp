@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A CSV table read back: histories of a run, and reference series from elsewhere.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyoryu {
+
+/// A table by columns. Lines that begin with `#` (units, sources) are no rows.
+struct CsvTable {
+    struct Column {
+        std::string name;
+        std::vector<double> numbers;    // one a row; NaN where the cell holds no number
+        std::vector<std::string> texts; // one a row if any cell holds no number, else none
+    };
+    std::vector<Column> columns;
+    std::size_t rows = 0;
+
+    /// The column of that name, or none.
+    const Column* find(std::string_view name) const;
+};
+
+/// Reads a whole file; the first line that is no comment names the columns. A torn last line is no
+/// row. Throws IoError if the file cannot be read, names no columns, or has a row of another
+/// length.
+CsvTable read_csv(const std::filesystem::path& file);
+
+} // namespace hyoryu

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What came out of benchmarks, and whether it is good enough.
+#pragma once
+
+#include "hyoryu/verify/measure.hpp"
+
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+enum class Verdict {
+    pass,
+    fail,  // also a run that stopped with an error
+    xfail, // failed as known
+    xpass, // passed although it is marked as known to fail: the mark is stale, so it counts as FAIL
+    measured, // not judged in this run
+};
+std::string to_string(Verdict verdict);
+bool counts_as_failure(Verdict verdict);
+
+struct CheckResult {
+    std::string check;
+    Verdict verdict = Verdict::fail;
+    Comparison comparison = Comparison::equal;
+    double expected = 0;
+    double got = 0;     // NaN if nothing could be measured
+    double allowed = 0; // absolute difference; of no meaning for a bound
+    std::string note;   // why nothing could be measured, or why it is known to fail
+    std::string because;
+};
+
+/// What a run cost.
+struct RunCost {
+    double wall_seconds = 0;   // of everything, most of it writing where a case is small
+    double solver_seconds = 0; // within the steps
+    double steps = 0;
+    double simulated_seconds = 0;
+    double microseconds_per_step() const { return steps > 0 ? 1e6 * solver_seconds / steps : 0; }
+};
+
+struct RunResult {
+    BenchmarkRun run;
+    RunCost cost;
+    std::string error; // why the run stopped; empty if it came to its end
+    std::vector<CheckResult> checks;
+};
+
+struct BenchmarkResult {
+    Benchmark benchmark;
+    std::vector<RunResult> runs;
+};
+
+/// Measures and judges one check in one run that came to its end.
+CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFiles& files);
+
+/// All checks of a run from the results that it wrote to `results`; they fail if `error` says why
+/// it stopped. Throws IoError if the summary cannot be read.
+RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
+                    const std::filesystem::path& results, const std::string& error);
+
+/// Checks by their verdicts.
+struct Tally {
+    int pass = 0, fail = 0, xfail = 0, xpass = 0, measured = 0;
+};
+Tally tally(const std::vector<BenchmarkResult>& results);
+
+} // namespace hyoryu

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// `[[check]]`: what is measured, what it must be, and how far it may be off.
+#include "hyoryu/scene/reader_hint.hpp"
+#include "reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace hyoryu {
+
+namespace {
+
+struct MeasureName {
+    std::string_view name;
+    Measure measure;
+};
+constexpr std::array measures{
+    MeasureName{"at", Measure::at},
+    MeasureName{"first", Measure::first},
+    MeasureName{"last", Measure::last},
+    MeasureName{"min", Measure::min},
+    MeasureName{"max", Measure::max},
+    MeasureName{"mean", Measure::mean},
+    MeasureName{"sum", Measure::sum},
+    MeasureName{"count", Measure::count},
+    MeasureName{"range", Measure::range},
+    MeasureName{"drift", Measure::drift},
+    MeasureName{"gain", Measure::gain},
+    MeasureName{"row", Measure::row},
+    MeasureName{"peak", Measure::peak},
+    MeasureName{"peak_time", Measure::peak_time},
+    MeasureName{"trough", Measure::trough},
+    MeasureName{"crossing", Measure::crossing},
+    MeasureName{"rms_error", Measure::rms_error},
+    MeasureName{"largest_error", Measure::largest_error},
+};
+
+Measure read_measure(Section& check)
+{
+    check.require("measure");
+    const std::string name = check.text("measure", "last");
+    std::vector<std::string_view> names;
+    for (const MeasureName& known : measures) {
+        if (known.name == name) {
+            return known.measure;
+        }
+        names.push_back(known.name);
+    }
+    const std::string near = did_you_mean(name, names);
+    check.error("measure", fmt::format("unknown \"{}\"", name),
+                near.empty() ? "there are: " + quoted_list(names) : near);
+    return Measure::last;
+}
+
+Quantity read_quantity(Section& check)
+{
+    Quantity quantity;
+    quantity.series = read_series(check, "value");
+    quantity.measure = read_measure(check);
+    quantity.index = static_cast<int>(check.integer("index", 1));
+    quantity.time = check.expression("time");
+    quantity.level = check.expression("level");
+    quantity.from = check.expression("from");
+    quantity.until = check.expression("until");
+    if (quantity.index < 1) {
+        check.error("index", "counts from 1");
+    }
+    if (quantity.measure == Measure::at && quantity.time.empty()) {
+        check.error("time", "is missing: the measure \"at\" needs it");
+    }
+    if (quantity.measure == Measure::crossing && quantity.level.empty()) {
+        check.error("level", "is missing: the measure \"crossing\" needs it");
+    }
+    return quantity;
+}
+
+bool is_error_measure(Measure measure)
+{
+    return measure == Measure::rms_error || measure == Measure::largest_error;
+}
+
+/// Exactly one of `expected`, `at_most`, `at_least` and `reference`.
+void read_expectation(Section& section, Check& check)
+{
+    int given = 0;
+    const auto take = [&](std::string_view key, Comparison comparison) {
+        const std::string text = section.expression(key);
+        if (!text.empty()) {
+            check.expected = text;
+            check.comparison = comparison;
+            given += 1;
+        }
+    };
+    take("expected", Comparison::equal);
+    take("at_most", Comparison::at_most);
+    take("at_least", Comparison::at_least);
+    if (auto reference = section.table("reference")) {
+        check.reference = read_series(*reference, "value");
+        reference->require("file");
+        reference->finish();
+        given += 1;
+    }
+    if (given != 1) {
+        section.error("", "give one of `expected`, `at_most`, `at_least` and `reference`");
+    }
+    if (is_error_measure(check.quantity.measure) && check.comparison != Comparison::equal) {
+        section.error("measure", "is the difference from `expected` or `reference`",
+                      "give `expected` as an expression of t and `tolerance`");
+    }
+}
+
+void read_tolerance(Section& section, Check& check)
+{
+    check.tolerance = section.expression("tolerance");
+    check.relative = section.number("relative", 0);
+    check.because = section.text("because");
+    const bool one = section.has("tolerance") != section.has("relative");
+    if (check.comparison == Comparison::equal && !one) {
+        section.error("tolerance", "give either `tolerance` or `relative`");
+    }
+    if (check.comparison != Comparison::equal &&
+        (section.has("tolerance") || section.has("relative"))) {
+        section.error(section.has("tolerance") ? "tolerance" : "relative",
+                      "a bound has no tolerance besides itself");
+    }
+    if (is_error_measure(check.quantity.measure) && section.has("relative")) {
+        section.error("relative", "has no meaning for an error",
+                      "give `tolerance` in the unit of the value");
+    }
+    if (check.because.empty()) {
+        section.error("because", "is missing: why this tolerance or bound?");
+    }
+}
+
+Check read_check(Section& section, const std::vector<BenchmarkRun>& runs)
+{
+    Check check;
+    section.require("name");
+    check.name = section.text("name");
+    check.place = section.place();
+    check.runs =
+        section.has("runs") ? read_patterns(section, "runs", runs) : std::vector<std::string>{"*"};
+    check.judged = section.has("judged") ? read_patterns(section, "judged", runs)
+                                         : std::vector<std::string>{"*"};
+    check.quantity = read_quantity(section);
+    read_expectation(section, check);
+    read_tolerance(section, check);
+    check.xfail = section.text("xfail");
+    check.xfail_runs = section.has("xfail_runs") ? read_patterns(section, "xfail_runs", runs)
+                                                 : std::vector<std::string>{"*"};
+    if (section.has("xfail_runs") && check.xfail.empty()) {
+        section.error("xfail_runs", "has no meaning without `xfail`");
+    }
+    section.finish();
+    return check;
+}
+
+} // namespace
+
+Series read_series(Section& section, std::string_view key)
+{
+    Series series;
+    section.require(key);
+    series.file = section.text("file", series.file);
+    series.filter = section.expression("filter");
+    series.value = section.expression(key);
+    for (const TomlEntry* entry : section.entries("where")) {
+        const auto text = scalar_text(entry->node);
+        if (!text) {
+            section.file().error(
+                entry->node.place, section.full("where." + entry->key),
+                fmt::format("expected a text or a number, found {}", found(entry->node)));
+        }
+        series.where[entry->key] = text.value_or("");
+    }
+    return series;
+}
+
+std::vector<Check> read_checks(Section& root, const std::vector<BenchmarkRun>& runs)
+{
+    std::vector<Check> checks;
+    for (Section& section : root.tables("check")) {
+        checks.push_back(read_check(section, runs));
+        const auto same = [&](const Check& other) { return other.name == checks.back().name; };
+        if (std::find_if(checks.begin(), checks.end() - 1, same) != checks.end() - 1) {
+            section.error("name", fmt::format("the check \"{}\" stands twice", checks.back().name));
+        }
+    }
+    return checks;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// `[[figure]]` and `[[table]]`: what is drawn and tabulated of the runs.
+#include "hyoryu/scene/reader_hint.hpp"
+#include "reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> styles{"line", "dashed", "points", "theory"};
+
+/// A plain file name with that end.
+std::string read_file_name(Section& section, std::string_view end)
+{
+    section.require("file");
+    const std::string name = section.text("file");
+    if (section.has("file") &&
+        (!name.ends_with(end) || name.find_first_of("/\\") != std::string::npos)) {
+        section.error("file", fmt::format("expected a file name that ends in {}", end));
+    }
+    return name;
+}
+
+std::vector<double> read_range(Section& panel, std::string_view key)
+{
+    const std::vector<double> range = panel.numbers(key);
+    if (panel.has(key) && (range.size() != 2 || !(range[0] < range[1]))) {
+        panel.error(key, "expected [lowest, highest]");
+        return {};
+    }
+    return range;
+}
+
+Curve read_curve(Section& section, const std::vector<BenchmarkRun>& runs)
+{
+    Curve curve;
+    section.require("label");
+    curve.label = section.text("label");
+    curve.run = section.text("run");
+    curve.series = read_series(section, "y");
+    if (section.has("x")) {
+        curve.x = section.expression("x");
+    }
+    const std::string style = section.text("style", "line");
+    const auto* at = std::find(styles.begin(), styles.end(), style);
+    if (at == styles.end()) {
+        section.error(
+            "style", fmt::format("unknown \"{}\", expected one of {}", style, quoted_list(styles)));
+    } else {
+        curve.style = static_cast<Curve::Style>(at - styles.begin());
+    }
+    const auto is_it = [&](const BenchmarkRun& run) { return run.name == curve.run; };
+    if (!curve.run.empty() && std::none_of(runs.begin(), runs.end(), is_it)) {
+        section.error("run", fmt::format("no run is named \"{}\"", curve.run));
+    }
+    section.finish();
+    return curve;
+}
+
+Panel read_panel(Section& section, const std::vector<BenchmarkRun>& runs)
+{
+    Panel panel;
+    panel.title = section.text("title");
+    panel.x_axis = section.text("x_axis");
+    panel.y_axis = section.text("y_axis");
+    panel.x_range = read_range(section, "x_range");
+    panel.y_range = read_range(section, "y_range");
+    for (Section& curve : section.tables("curve")) {
+        panel.curves.push_back(read_curve(curve, runs));
+        const bool of_time_alone = panel.curves.back().run.empty() && !curve.has("file");
+        if (of_time_alone && panel.x_range.empty()) {
+            section.error("x_range", "is missing: a curve of t alone needs it");
+        }
+    }
+    section.finish();
+    return panel;
+}
+
+SummaryTable::Item read_item(Section& section, const Benchmark& benchmark)
+{
+    SummaryTable::Item item;
+    section.require("check");
+    item.check = section.text("check");
+    item.label = section.text("label", item.check);
+    item.unit = section.text("unit");
+    item.scale = section.number("scale", 1);
+    std::vector<std::string_view> names;
+    for (const Check& check : benchmark.checks) {
+        names.push_back(check.name);
+    }
+    if (std::find(names.begin(), names.end(), item.check) == names.end()) {
+        section.error("check", fmt::format("no check is named \"{}\"", item.check),
+                      did_you_mean(item.check, names));
+    }
+    section.finish();
+    return item;
+}
+
+} // namespace
+
+std::vector<Figure> read_figures(Section& root, const std::vector<BenchmarkRun>& runs)
+{
+    std::vector<Figure> figures;
+    for (Section& section : root.tables("figure")) {
+        Figure figure;
+        figure.file = read_file_name(section, ".png");
+        figure.title = section.text("title");
+        for (Section& panel : section.tables("panel")) {
+            figure.panels.push_back(read_panel(panel, runs));
+        }
+        if (figure.panels.empty()) {
+            section.error("panel", "is missing: a figure needs [[figure.panel]]");
+        }
+        section.finish();
+        figures.push_back(std::move(figure));
+    }
+    return figures;
+}
+
+std::vector<SummaryTable> read_summary_tables(Section& root, const Benchmark& benchmark)
+{
+    std::vector<SummaryTable> tables;
+    for (Section& section : root.tables("table")) {
+        SummaryTable table;
+        table.file = read_file_name(section, ".md");
+        table.preface = section.text("preface");
+        table.title = section.text("title");
+        table.text = section.text("text");
+        table.by = section.texts("by");
+        for (Section& item : section.tables("column")) {
+            table.items.push_back(read_item(item, benchmark));
+        }
+        section.finish();
+        tables.push_back(std::move(table));
+    }
+    return tables;
+}
+
+} // namespace hyoryu

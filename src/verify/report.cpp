@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// All checks, one line each.
+#include "hyoryu/verify/report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string expected_text(const CheckResult& check)
+{
+    const char* sign = check.comparison == Comparison::at_most    ? "<= "
+                       : check.comparison == Comparison::at_least ? ">= "
+                                                                  : "";
+    return fmt::format("{}{:.8g}", sign, check.expected);
+}
+
+std::string tolerance_text(const CheckResult& check)
+{
+    return check.comparison == Comparison::equal ? fmt::format("{:.2g}", check.allowed) : "bound";
+}
+
+std::string cost_text(const RunCost& cost)
+{
+    return fmt::format("{:.3g} s, {} steps, {:.3g} us/step", cost.wall_seconds,
+                       static_cast<long long>(cost.steps), cost.microseconds_per_step());
+}
+
+const char* comparison_name(Comparison comparison)
+{
+    switch (comparison) {
+    case Comparison::at_most:
+        return "at_most";
+    case Comparison::at_least:
+        return "at_least";
+    case Comparison::equal:
+        break;
+    }
+    return "equal";
+}
+
+ordered_json json_of(const CheckResult& check)
+{
+    // NaN has no JSON number; the library writes null.
+    return {{"check", check.check},
+            {"verdict", to_string(check.verdict)},
+            {"comparison", comparison_name(check.comparison)},
+            {"expected", check.expected},
+            {"got", check.got},
+            {"allowed", check.allowed},
+            {"because", check.because},
+            {"note", check.note}};
+}
+
+ordered_json json_of(const RunResult& run)
+{
+    ordered_json json{{"name", run.run.name}};
+    json["parameters"] = ordered_json::object();
+    for (const auto& [name, value] : run.run.parameters) {
+        std::visit([&, key = name](const auto& v) { json["parameters"][key] = v; }, value);
+    }
+    json["error"] = run.error;
+    json["wall_seconds"] = run.cost.wall_seconds;
+    json["solver_seconds"] = run.cost.solver_seconds;
+    json["steps"] = run.cost.steps;
+    json["simulated_seconds"] = run.cost.simulated_seconds;
+    json["microseconds_per_step"] = run.cost.microseconds_per_step();
+    json["checks"] = ordered_json::array();
+    for (const CheckResult& check : run.checks) {
+        json["checks"].push_back(json_of(check));
+    }
+    return json;
+}
+
+/// Bars would end a cell of a Markdown table.
+std::string in_cell(const std::string& text)
+{
+    std::string safe;
+    for (const char letter : text) {
+        if (letter == '|') {
+            safe += '\\';
+        }
+        safe += letter == '\n' ? ' ' : letter;
+    }
+    return safe;
+}
+
+std::string markdown_row(const RunResult& run, const CheckResult& check, bool first)
+{
+    const std::string note = check.note.empty() ? check.because : check.note;
+    return fmt::format("| {} | {} | {} | {:.8g} | {} | {} | {} | {} |\n",
+                       in_cell(first ? run.run.name : ""), in_cell(check.check),
+                       expected_text(check), check.got, tolerance_text(check),
+                       to_string(check.verdict), in_cell(note), first ? cost_text(run.cost) : "");
+}
+
+std::string markdown_section(const BenchmarkResult& result)
+{
+    std::string text = fmt::format("## {}: {}\n\nReference: {}\n\n", result.benchmark.name,
+                                   result.benchmark.title, result.benchmark.source);
+    text += "| run | check | expected | got | tolerance | verdict | why | cost |\n"
+            "|---|---|---|---|---|---|---|---|\n";
+    for (const RunResult& run : result.runs) {
+        bool first = true;
+        for (const CheckResult& check : run.checks) {
+            text += markdown_row(run, check, first);
+            first = false;
+        }
+        if (run.checks.empty()) {
+            text += fmt::format("| {} | | | | | {} | {} | {} |\n", in_cell(run.run.name),
+                                run.error.empty() ? "" : "FAIL", in_cell(run.error),
+                                cost_text(run.cost));
+        }
+    }
+    return text + "\n";
+}
+
+} // namespace
+
+TableWidths widths_of(const std::vector<Benchmark>& benchmarks)
+{
+    TableWidths widths;
+    for (const Benchmark& benchmark : benchmarks) {
+        widths.benchmark = std::max(widths.benchmark, benchmark.name.size());
+        for (const BenchmarkRun& run : benchmark.runs) {
+            widths.run = std::max(widths.run, run.name.size());
+        }
+        for (const Check& check : benchmark.checks) {
+            widths.check = std::max(widths.check, check.name.size());
+        }
+    }
+    return widths;
+}
+
+std::string terminal_header(const TableWidths& widths)
+{
+    return fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>15}  {:>15}  {:>9}  {:<8}  {}\n", "case",
+                       widths.benchmark, "run", widths.run, "check", widths.check, "expected",
+                       "got", "tolerance", "verdict", "cost");
+}
+
+std::string terminal_rows(const TableWidths& widths, const std::string& benchmark,
+                          const RunResult& run)
+{
+    std::string text;
+    bool first = true;
+    for (const CheckResult& check : run.checks) {
+        text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>15}  {:>15.8g}  {:>9}  {:<8}  {}\n",
+                            benchmark, widths.benchmark, run.run.name, widths.run, check.check,
+                            widths.check, expected_text(check), check.got, tolerance_text(check),
+                            to_string(check.verdict), first ? cost_text(run.cost) : "");
+        if (!check.note.empty()) {
+            text += fmt::format("    {}\n", check.note);
+        }
+        first = false;
+    }
+    if (run.checks.empty()) {
+        text += fmt::format("{:<{}}  {:<{}}  {}\n", benchmark, widths.benchmark, run.run.name,
+                            widths.run, run.error.empty() ? cost_text(run.cost) : run.error);
+    }
+    return text;
+}
+
+std::string summary_line(const Tally& tally)
+{
+    std::string line = fmt::format("{} passed, {} failed", tally.pass, tally.fail + tally.xpass);
+    if (tally.xpass > 0) {
+        line += fmt::format(" ({} of them pass although marked as known to fail)", tally.xpass);
+    }
+    if (tally.xfail > 0) {
+        line += fmt::format(", {} known to fail", tally.xfail);
+    }
+    if (tally.measured > 0) {
+        line += fmt::format(", {} measured only", tally.measured);
+    }
+    return line;
+}
+
+std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info)
+{
+    const Tally count = tally(results);
+    ordered_json json{{"version", info.version},
+                      {"commit", info.commit},
+                      {"build", info.build},
+                      {"tier", to_string(info.tier)},
+                      {"wall_seconds", info.wall_seconds},
+                      {"threads", info.threads}};
+    json["passed"] = count.pass;
+    json["failed"] = count.fail + count.xpass;
+    json["known_to_fail"] = count.xfail;
+    json["measured"] = count.measured;
+    json["cases"] = ordered_json::array();
+    for (const BenchmarkResult& result : results) {
+        ordered_json runs = ordered_json::array();
+        for (const RunResult& run : result.runs) {
+            runs.push_back(json_of(run));
+        }
+        json["cases"].push_back({{"name", result.benchmark.name},
+                                 {"title", result.benchmark.title},
+                                 {"group", result.benchmark.group},
+                                 {"source", result.benchmark.source},
+                                 {"runs", std::move(runs)}});
+    }
+    return json.dump(2) + "\n";
+}
+
+std::string verify_markdown(const std::vector<BenchmarkResult>& results, const VerifyInfo& info,
+                            const std::map<std::string, std::vector<std::string>>& figures)
+{
+    std::string text = fmt::format(
+        "# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: **{}**.\n\n",
+        info.version, info.commit, info.build, to_string(info.tier), info.threads,
+        info.wall_seconds, summary_line(tally(results)));
+    for (const BenchmarkResult& result : results) {
+        text += markdown_section(result);
+        const auto drawn = figures.find(result.benchmark.name);
+        if (drawn != figures.end()) {
+            for (const std::string& file : drawn->second) {
+                text += fmt::format("![{}]({})\n\n", file, file);
+            }
+        }
+    }
+    return text;
+}
+
+} // namespace hyoryu

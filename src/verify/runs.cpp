@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// `[[run]]`: runs and grids of runs.
+#include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
+#include "reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+using Parameters = std::vector<std::pair<std::string, RunParameter>>;
+
+/// One parameter of a grid with its values.
+struct Axis {
+    std::string name;
+    std::vector<RunParameter> values;
+};
+
+std::optional<RunParameter> parameter_of(const TomlNode& node)
+{
+    if (const auto* text = std::get_if<std::string>(&node.value)) {
+        return *text;
+    }
+    if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
+        return static_cast<double>(*integer);
+    }
+    const auto* number = std::get_if<double>(&node.value);
+    return number != nullptr ? std::optional<RunParameter>(*number) : std::nullopt;
+}
+
+std::vector<Axis> read_grid(Section& run)
+{
+    std::vector<Axis> axes;
+    for (const TomlEntry* entry : run.entries("grid")) {
+        Axis axis{entry->key, {}};
+        const TomlArray* items = entry->node.array();
+        const TomlArray single{entry->node};
+        for (const TomlNode& item : items != nullptr ? *items : single) {
+            if (const auto value = parameter_of(item)) {
+                axis.values.push_back(*value);
+            } else {
+                run.file().error(item.place, run.full("grid." + entry->key),
+                                 fmt::format("expected a number or a text, found {}", found(item)));
+            }
+        }
+        axes.push_back(std::move(axis));
+    }
+    return axes;
+}
+
+/// Every combination of the values; the last axis runs fastest.
+std::vector<Parameters> combinations(const std::vector<Axis>& axes)
+{
+    std::vector<Parameters> all(1);
+    for (const Axis& axis : axes) {
+        std::vector<Parameters> longer;
+        for (const Parameters& begun : all) {
+            for (const RunParameter& value : axis.values) {
+                longer.push_back(begun);
+                longer.back().emplace_back(axis.name, value);
+            }
+        }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+/// What stands for `${inner}`: the text of that parameter, or the number that the expression gives.
+std::string substitute(const std::string& inner, const Parameters& parameters, const Scope& scope)
+{
+    for (const auto& [name, value] : parameters) {
+        if (const auto* text = std::get_if<std::string>(&value); text != nullptr && name == inner) {
+            return *text;
+        }
+    }
+    return cell(evaluate(inner, scope));
+}
+
+std::string expand(const std::string& text, const Parameters& parameters, const Scope& scope)
+{
+    std::string result;
+    std::size_t done = 0;
+    for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", done)) {
+        const std::size_t end = text.find('}', at);
+        if (end == std::string::npos) {
+            throw FormulaError(fmt::format("\"{}\": no }} closes the ${{", text));
+        }
+        result += text.substr(done, at - done);
+        result += substitute(text.substr(at + 2, end - at - 2), parameters, scope);
+        done = end + 1;
+    }
+    return result + text.substr(done);
+}
+
+/// Constants and parameters; a parameter replaces the constant of its name, and the constants that
+/// are expressions of it follow.
+Scope with_parameters(const Constants& constants, const Parameters& parameters)
+{
+    Scope scope;
+    for (const auto& [name, value] : parameters) {
+        if (const auto* number = std::get_if<double>(&value)) {
+            scope.numbers[name] = *number;
+        }
+    }
+    for (const auto& [name, text] : constants) {
+        if (scope.numbers.count(name) == 0) {
+            scope.numbers[name] = evaluate(text, scope);
+        }
+    }
+    return scope;
+}
+
+void append_run(Section& section, const Constants& constants, Tier tier,
+                const std::vector<std::string>& common, std::vector<BenchmarkRun>& runs)
+{
+    section.require("name");
+    const std::string name = section.text("name", "run");
+    const std::vector<std::string> set = section.texts("set");
+    const Tier own_tier = read_tier(section, tier);
+    const std::vector<Axis> axes = read_grid(section);
+    section.finish();
+    for (const Parameters& parameters : combinations(axes)) {
+        BenchmarkRun run{.name = name, .set = common, .tier = own_tier, .parameters = parameters};
+        try {
+            const Scope scope = with_parameters(constants, parameters);
+            run.name = expand(name, parameters, scope);
+            for (const std::string& text : set) {
+                run.set.push_back(expand(text, parameters, scope));
+            }
+        } catch (const FormulaError& fault) {
+            section.error("", fault.what());
+            return;
+        }
+        const auto same = [&](const BenchmarkRun& other) { return other.name == run.name; };
+        if (std::any_of(runs.begin(), runs.end(), same)) {
+            section.error("name", fmt::format("the run \"{}\" stands twice", run.name),
+                          axes.empty() ? "" : "put every parameter of the grid into the name");
+            return;
+        }
+        runs.push_back(std::move(run));
+    }
+}
+
+bool fits(std::string_view pattern, std::string_view name)
+{
+    const std::size_t star = pattern.find('*');
+    if (star == std::string_view::npos) {
+        return pattern == name;
+    }
+    if (name.substr(0, star) != pattern.substr(0, star)) {
+        return false;
+    }
+    const std::string_view rest = pattern.substr(star + 1);
+    for (std::size_t skip = star; skip <= name.size(); ++skip) {
+        if (fits(rest, name.substr(skip))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+std::vector<BenchmarkRun> read_runs(Section& root, const Constants& constants, Tier tier)
+{
+    const std::vector<std::string> common = root.texts("set");
+    std::vector<BenchmarkRun> runs;
+    for (Section& section : root.tables("run")) {
+        append_run(section, constants, tier, common, runs);
+    }
+    for (const BenchmarkRun& run : runs) {
+        if (run.name.empty() || run.name.front() == '.' ||
+            run.name.find_first_of("/\\*,;\"\n") != std::string::npos) {
+            root.error("run", fmt::format("\"{}\" is no name of a run", run.name),
+                       "it names a folder: use letters, digits, `_`, `-`, `=` and `.`");
+        }
+    }
+    if (!root.has("run")) {
+        runs.push_back({.name = "run", .set = common, .tier = tier, .parameters = {}});
+    }
+    return runs;
+}
+
+std::vector<std::string> read_patterns(Section& section, std::string_view key,
+                                       const std::vector<BenchmarkRun>& runs)
+{
+    std::vector<std::string> patterns = section.texts(key);
+    for (const std::string& pattern : patterns) {
+        const auto is_fit = [&](const BenchmarkRun& run) { return fits(pattern, run.name); };
+        if (std::none_of(runs.begin(), runs.end(), is_fit)) {
+            std::vector<std::string_view> names;
+            for (const BenchmarkRun& run : runs) {
+                names.push_back(run.name);
+            }
+            const std::string near = did_you_mean(pattern, names);
+            section.error(key, fmt::format("no run is named \"{}\"", pattern),
+                          near.empty() ? "the first is " + quoted_list({names.data(), 1}) : near);
+        }
+    }
+    return patterns;
+}
+
+bool matches(const std::vector<std::string>& patterns, const std::string& name)
+{
+    return std::any_of(patterns.begin(), patterns.end(),
+                       [&](const std::string& pattern) { return fits(pattern, name); });
+}
+
+const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name)
+{
+    const auto at = std::find_if(benchmark.runs.begin(), benchmark.runs.end(),
+                                 [&](const BenchmarkRun& run) { return run.name == name; });
+    return at == benchmark.runs.end() ? nullptr : &*at;
+}
+
+Scope scope_of(const Benchmark& benchmark, const BenchmarkRun& run)
+{
+    Scope scope = with_parameters(benchmark.constants, run.parameters);
+    scope.columns = benchmark.columns;
+    return scope;
+}
+
+Series expanded(Series series, const BenchmarkRun& run, const Scope& scope)
+{
+    series.file = expand(series.file, run.parameters, scope);
+    for (auto& [column, wanted] : series.where) {
+        wanted = expand(wanted, run.parameters, scope);
+    }
+    return series;
+}
+
+} // namespace hyoryu

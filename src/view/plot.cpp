@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Charts of VTK, in colours that the colour-blind can tell apart.
+#include "hyoryu/view/plot.hpp"
+
+#include "hyoryu/core/error.hpp"
+
+#ifdef HYORYU_HAS_VTK
+#include "hyoryu/io/results.hpp"
+#include "offscreen_window.hpp"
+#include "palette.hpp"
+#include "png.hpp"
+
+#include <vtkAxis.h>
+#include <vtkChartLegend.h>
+#include <vtkChartXY.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkPen.h>
+#include <vtkPlotLine.h>
+#include <vtkRenderer.h>
+#include <vtkTable.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr int title_height = 52; // [pixels]
+constexpr int text_size = 20;
+constexpr Rgb black{0, 0, 0};
+constexpr Rgb grey{214, 214, 214};
+
+// Okabe & Ito (2008), "Color Universal Design", the darker ones first.
+constexpr std::array<Rgb, 6> colours{
+    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
+
+void use_sans(vtkTextProperty& text, int size)
+{
+    text.SetFontFamilyToArial();
+    text.SetFontSize(size);
+    text.SetBold(0);
+    text.SetColor(0.1, 0.1, 0.1);
+}
+
+void set_pen(vtkPen& pen, const Rgb& colour, float width)
+{
+    pen.SetColor(colour[0], colour[1], colour[2]);
+    pen.SetWidth(width);
+}
+
+vtkSmartPointer<vtkTable> table_of(const PlotCurve& curve)
+{
+    auto table = vtkSmartPointer<vtkTable>::New();
+    for (const char* name : {"x", "y"}) {
+        vtkNew<vtkDoubleArray> column;
+        column->SetName(name);
+        table->AddColumn(column);
+    }
+    const auto rows = static_cast<vtkIdType>(std::min(curve.x.size(), curve.y.size()));
+    table->SetNumberOfRows(rows);
+    for (vtkIdType row = 0; row < rows; ++row) {
+        table->SetValue(row, 0, curve.x[static_cast<std::size_t>(row)]);
+        table->SetValue(row, 1, curve.y[static_cast<std::size_t>(row)]);
+    }
+    return table;
+}
+
+void add_curve(vtkChartXY& chart, const PlotCurve& curve, int number)
+{
+    constexpr float line_width = 2.5F;
+    constexpr float marker_size = 7.0F;
+    auto* line = vtkPlotLine::SafeDownCast(chart.AddPlot(vtkChart::LINE));
+    line->SetInputData(table_of(curve), 0, 1);
+    line->SetLabel(curve.label);
+    const bool theory = curve.style == PlotCurve::Style::theory;
+    set_pen(*line->GetPen(), theory ? black : pick(colours, number), line_width);
+    if (curve.style == PlotCurve::Style::dashed) {
+        line->GetPen()->SetLineType(vtkPen::DASH_LINE);
+    }
+    if (curve.style == PlotCurve::Style::points) {
+        line->GetPen()->SetLineType(vtkPen::NO_PEN);
+        line->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+        line->SetMarkerSize(marker_size);
+    }
+}
+
+void set_axis(vtkAxis& axis, const std::string& title, const std::vector<double>& range)
+{
+    axis.SetTitle(title);
+    use_sans(*axis.GetTitleProperties(), text_size);
+    use_sans(*axis.GetLabelProperties(), text_size - 2);
+    set_pen(*axis.GetPen(), black, 1.5F);
+    set_pen(*axis.GetGridPen(), grey, 1.0F);
+    if (!range.empty()) {
+        axis.SetBehavior(vtkAxis::FIXED);
+        axis.SetRange(range[0], range[1]);
+    }
+}
+
+vtkSmartPointer<vtkChartXY> chart_of(const PlotPanel& panel)
+{
+    auto chart = vtkSmartPointer<vtkChartXY>::New();
+    chart->SetTitle(panel.title);
+    use_sans(*chart->GetTitleProperties(), text_size + 1);
+    chart->SetShowLegend(true);
+    int number = 0;
+    for (const PlotCurve& curve : panel.curves) {
+        add_curve(*chart, curve, number);
+        number += curve.style == PlotCurve::Style::theory ? 0 : 1;
+    }
+    set_axis(*chart->GetAxis(vtkAxis::BOTTOM), panel.x_axis, panel.x_range);
+    set_axis(*chart->GetAxis(vtkAxis::LEFT), panel.y_axis, panel.y_range);
+    use_sans(*chart->GetLegend()->GetLabelProperties(), text_size - 2);
+    chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
+    chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+    return chart;
+}
+
+vtkSmartPointer<vtkTextActor> title_of(const Plot& plot, int width)
+{
+    auto title = vtkSmartPointer<vtkTextActor>::New();
+    title->SetInput(plot.title.c_str());
+    use_sans(*title->GetTextProperty(), text_size + 4);
+    title->GetTextProperty()->SetJustificationToCentered();
+    title->GetTextProperty()->SetVerticalJustificationToCentered();
+    title->SetPosition(0.5 * width, plot.height - 0.5 * title_height);
+    return title;
+}
+
+} // namespace
+
+void draw(const Plot& plot, const std::filesystem::path& file)
+{
+    expects(!plot.panels.empty());
+    const int width = plot.panel_width * static_cast<int>(plot.panels.size());
+    const auto window = offscreen_window(width, plot.height);
+    window->SetMultiSamples(8);
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetBackground(1, 1, 1);
+    window->AddRenderer(renderer);
+    vtkNew<vtkContextActor> sheet;
+    renderer->AddActor(sheet);
+    sheet->GetScene()->SetRenderer(renderer);
+    const float chart_height = static_cast<float>(plot.height - title_height);
+    float left = 0;
+    for (const PlotPanel& panel : plot.panels) {
+        const auto chart = chart_of(panel);
+        chart->SetAutoSize(false);
+        chart->SetSize(vtkRectf(left, 0, static_cast<float>(plot.panel_width), chart_height));
+        sheet->GetScene()->AddItem(chart);
+        left += static_cast<float>(plot.panel_width);
+    }
+    renderer->AddActor2D(title_of(plot, width));
+    window->Render();
+    write_text(file, png_of(*window));
+}
+
+} // namespace hyoryu
+
+#else
+
+namespace hyoryu {
+
+void draw(const Plot&, const std::filesystem::path&)
+{
+    throw IoError("pictures need VTK, and this program was built without it (HYORYU_VTK=OFF)");
+}
+
+} // namespace hyoryu
+#endif

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The benchmark file: runs, grids, and every mistake with its place.
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/verify/benchmark.hpp"
+#include "io/results_fixture.hpp"
+
+#include <fmt/format.h>
+
+namespace hyoryu {
+namespace {
+
+using testing::put_text_into;
+
+const std::string head = "title = \"a test\"\ngroup = \"tests\"\nsource = \"none\"\n";
+const std::string check = "[[check]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\n"
+                          "expected = 1\ntolerance = 0.1\nbecause = \"a test\"\n";
+
+class BenchmarkFiles : public testing::ResultsTest {
+protected:
+    Benchmark read(const std::string& text) const
+    {
+        put_text_into(folder / "verify.toml", text);
+        return read_benchmark(folder);
+    }
+
+    /// The first mistake that names the key, as `line:key: what (hint)`.
+    std::string mistake(const std::string& text) const
+    {
+        try {
+            read(text);
+        } catch (const CaseError& error) {
+            const Diagnostic& first = error.diagnostics().front();
+            return fmt::format("{}:{}: {} ({})", first.line, first.key, first.what, first.hint);
+        }
+        return "";
+    }
+};
+
+TEST_F(BenchmarkFiles, AGridMakesEveryCombinationInTheOrderOfTheFile)
+{
+    const Benchmark benchmark =
+        read(head + "[constants]\nd = 0.01\nhalf = \"d/2\"\n[[run]]\nname = \"${law}-${n}\"\n"
+                    "set = [\"contact.law=${law}\", \"body[0].spacing=${half*n}\"]\n"
+                    "grid = { n = [1, 2], law = [\"coupled\", \"paper\"] }\n");
+    ASSERT_EQ(benchmark.runs.size(), 4u);
+    EXPECT_EQ(benchmark.runs[0].name, "coupled-1");
+    EXPECT_EQ(benchmark.runs[1].name, "paper-1");
+    EXPECT_EQ(benchmark.runs[2].name, "coupled-2");
+    EXPECT_EQ(benchmark.runs[2].set,
+              (std::vector<std::string>{"contact.law=coupled", "body[0].spacing=0.01"}));
+    EXPECT_EQ(scope_of(benchmark, benchmark.runs[3]).numbers.at("n"), 2);
+}
+
+TEST_F(BenchmarkFiles, AParameterReplacesAConstantAndWhatFollowsFromIt)
+{
+    const Benchmark benchmark = read(head + "[constants]\nh = 1\ndouble = \"2*h\"\n[[run]]\n"
+                                            "name = \"high\"\ngrid = { h = 5 }\n");
+    EXPECT_EQ(scope_of(benchmark, benchmark.runs[0]).numbers.at("double"), 10);
+    EXPECT_EQ(scope_of(benchmark, {}).numbers.at("double"), 2);
+}
+
+TEST_F(BenchmarkFiles, WithoutRunsTheCaseRunsOnceAsItIs)
+{
+    const Benchmark benchmark = read(head + check);
+    ASSERT_EQ(benchmark.runs.size(), 1u);
+    EXPECT_TRUE(benchmark.runs[0].set.empty());
+    EXPECT_EQ(benchmark.runs[0].tier, Tier::quick);
+}
+
+TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
+{
+    EXPECT_EQ(mistake(head + "tiers = \"quick\"\n"),
+              "4:tiers: unknown key (did you mean \"tier\"?)");
+    EXPECT_EQ(mistake("title = \"t\"\ngroup = \"g\"\n").substr(2), "source: is missing ()");
+    EXPECT_NE(mistake(head + "[[check]]\nname = \"x\"\nvalue = \"x +\"\nmeasure = \"last\"\n"
+                             "expected = 1\ntolerance = 1\nbecause = \"b\"\n")
+                  .find("6:check[0].value: \"x +\" is no expression"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + check + "judged = [\"rnu\"]\n").find("did you mean \"run\""),
+              std::string::npos);
+    EXPECT_NE(mistake(head + check + "xfail_runs = [\"run\"]\n").find("without `xfail`"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + "[[run]]\nname = \"a\"\ngrid = { n = [1, 2] }\n").find("twice"),
+              std::string::npos);
+    EXPECT_NE(mistake("title = \n").find("1:"), std::string::npos);
+}
+
+TEST_F(BenchmarkFiles, AToleranceNeedsAReason)
+{
+    std::string text = check;
+    text.replace(text.find("because"), std::string::npos, "");
+    EXPECT_NE(mistake(head + text).find("because: is missing"), std::string::npos);
+    text.replace(text.find("tolerance"), std::string::npos, "because = \"b\"\n");
+    EXPECT_NE(mistake(head + text).find("give either `tolerance` or `relative`"),
+              std::string::npos);
+}
+
+TEST(Patterns, AStarStandsForAnyLetters)
+{
+    EXPECT_TRUE(matches({"*"}, "anything"));
+    EXPECT_TRUE(matches({"a*c*"}, "abcd"));
+    EXPECT_TRUE(matches({"x", "abc"}, "abc"));
+    EXPECT_FALSE(matches({"a*c"}, "abcd"));
+    EXPECT_FALSE(matches({"ab*"}, "a"));
+}
+
+class Selection : public ::testing::Test {
+protected:
+    static Benchmark benchmark(const std::string& name, Tier tier)
+    {
+        Benchmark result;
+        result.name = name;
+        result.group = "contact";
+        result.runs = {{.name = "run", .set = {}, .tier = tier, .parameters = {}}};
+        return result;
+    }
+    const std::vector<Benchmark> all{benchmark("drop", Tier::quick),
+                                     benchmark("heap", Tier::nightly)};
+};
+
+TEST_F(Selection, TakesNamesGroupsAndTiersThatIncludeTheLowerOnes)
+{
+    EXPECT_EQ(select(all, {}, Tier::quick).size(), 1u);
+    EXPECT_EQ(select(all, {}, Tier::nightly).size(), 2u);
+    EXPECT_EQ(select(all, {"contact"}, Tier::release).size(), 2u);
+    EXPECT_EQ(select(all, {"drop"}, Tier::nightly).front().name, "drop");
+}
+
+TEST_F(Selection, RefusesWhatItDoesNotKnowOrWhatTheTierLeavesOut)
+{
+    const auto fault = [&](const char* name) -> std::string {
+        try {
+            select(all, {name}, Tier::quick);
+        } catch (const CaseError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(fault("dorp").find("did you mean \"drop\""), std::string::npos);
+    EXPECT_NE(fault("heap").find("--tier nightly"), std::string::npos);
+}
+
+} // namespace
+} // namespace hyoryu

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Verdicts, and what they add up to.
+#include "hyoryu/verify/report.hpp"
+#include "io/results_fixture.hpp"
+
+namespace hyoryu {
+namespace {
+
+using testing::put_text_into;
+
+class Verdicts : public testing::ResultsTest {
+protected:
+    void SetUp() override
+    {
+        ResultsTest::SetUp();
+        put_text_into(folder / "bodies.csv", "time,x\n0,0\n1,10\n");
+        put_text_into(folder / "summary.json",
+                      R"({"steps": 100, "wall_seconds": 9, "simulated_seconds": 1,
+                                 "stages": {"bodies": 0.4, "books": 0.1}})");
+    }
+
+    /// A check that finds 10.
+    static Check check(const std::string& expected, const std::string& tolerance)
+    {
+        Check result;
+        result.name = "x";
+        result.runs = result.judged = result.xfail_runs = {"*"};
+        result.quantity.series.value = "x";
+        result.quantity.measure = Measure::last;
+        result.expected = expected;
+        result.tolerance = tolerance;
+        return result;
+    }
+
+    CheckResult judged(const Check& check) const
+    {
+        RunFiles files(folder, folder);
+        return judge(check, run, {}, files);
+    }
+
+    const BenchmarkRun run{.name = "a", .set = {}, .tier = Tier::quick, .parameters = {{"n", 2.0}}};
+};
+
+TEST_F(Verdicts, PassWithinTheToleranceAndFailBeyond)
+{
+    EXPECT_EQ(judged(check("9.5", "0.5")).verdict, Verdict::pass);
+    EXPECT_EQ(judged(check("9.5", "0.49")).verdict, Verdict::fail);
+    Check relative = check("8", "");
+    relative.relative = 0.25;
+    EXPECT_EQ(judged(relative).verdict, Verdict::pass);
+    relative.relative = 0.24;
+    EXPECT_EQ(judged(relative).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, BoundsAreOneSided)
+{
+    Check bound = check("10.5", "");
+    bound.comparison = Comparison::at_most;
+    EXPECT_EQ(judged(bound).verdict, Verdict::pass);
+    bound.comparison = Comparison::at_least;
+    EXPECT_EQ(judged(bound).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, AKnownFailureIsToldAndAStaleOneCountsAsFailure)
+{
+    Check known = check("0", "1");
+    known.xfail = "not solved yet";
+    EXPECT_EQ(judged(known).verdict, Verdict::xfail);
+    EXPECT_EQ(judged(known).note, "not solved yet");
+    EXPECT_FALSE(counts_as_failure(Verdict::xfail));
+    known = check("10", "1");
+    known.xfail = "not solved yet";
+    EXPECT_EQ(judged(known).verdict, Verdict::xpass);
+    EXPECT_TRUE(counts_as_failure(Verdict::xpass));
+    known.xfail_runs = {"b"};
+    EXPECT_EQ(judged(known).verdict, Verdict::pass);
+}
+
+TEST_F(Verdicts, NothingMeasuredIsAFailureAndABrokenCheckIsNoKnownOne)
+{
+    Check missing = check("0", "100");
+    missing.quantity.measure = Measure::peak;
+    EXPECT_EQ(judged(missing).verdict, Verdict::fail);
+    EXPECT_FALSE(judged(missing).note.empty());
+    missing.quantity.series = {.value = "no_such_column"};
+    missing.xfail = "known";
+    EXPECT_EQ(judged(missing).verdict, Verdict::fail);
+    missing.quantity.series.file = "gauges"; // not written
+    EXPECT_EQ(judged(missing).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, RunsThatAreOnlyMeasuredAreNotJudged)
+{
+    Check measured = check("0", "1");
+    measured.judged = {"b"};
+    EXPECT_EQ(judged(measured).verdict, Verdict::measured);
+    EXPECT_EQ(judged(measured).got, 10);
+}
+
+TEST_F(Verdicts, AStoppedRunFailsAllItsChecksEvenKnownFailures)
+{
+    Benchmark benchmark;
+    benchmark.folder = folder;
+    benchmark.checks = {check("10", "1"), check("10", "1")};
+    benchmark.checks[1].xfail = "known";
+    const RunResult stopped = judge_run(benchmark, run, folder / "nowhere", "blew up");
+    const Tally count = tally({{benchmark, {stopped}}});
+    EXPECT_EQ(count.fail, 2);
+    EXPECT_NE(stopped.checks[1].note.find("blew up"), std::string::npos);
+    benchmark.checks.clear();
+    EXPECT_EQ(tally({{benchmark, {judge_run(benchmark, run, folder, "blew up")}}}).fail, 1);
+}
+
+TEST_F(Verdicts, AReportCountsThemAndNamesTheCost)
+{
+    Benchmark benchmark;
+    benchmark.name = "case";
+    benchmark.folder = folder;
+    benchmark.checks = {check("10", "1"), check("0", "1")};
+    benchmark.checks[1].name = "second";
+    SummaryTable table{.file = "proof.md", .title = "Proof", .text = "", .by = {"n"}, .items = {}};
+    table.items = {{.check = "second", .label = "way", .unit = "mm", .scale = 1000}};
+    benchmark.tables = {table};
+    const std::vector<BenchmarkResult> results{
+        {benchmark, {judge_run(benchmark, run, folder, "")}}};
+    EXPECT_EQ(summary_line(tally(results)), "1 passed, 1 failed");
+    EXPECT_NE(verify_json(results, {}).find("\"microseconds_per_step\": 5000.0"),
+              std::string::npos);
+    EXPECT_NE(verify_markdown(results, {}, {}).find("| a | x | 10 | 10 | 1 | PASS |"),
+              std::string::npos);
+    // Worst and rms error 10 m; 5000 us a step, half a second a second.
+    const std::string proof = summary_documents(results, {}).at("proof.md");
+    EXPECT_NE(proof.find("way [mm], asked 0: worst error"), std::string::npos);
+    EXPECT_NE(proof.find("| 2 | 1 | 1e+04 | 1e+04 | 5e+03 | 0.5 |"), std::string::npos);
+}
+
+} // namespace
+} // namespace hyoryu
