@@ -16,7 +16,7 @@ namespace {
 // A blow through a chain of n bodies takes n rounds.
 constexpr int most_rounds = 50;
 // A cluster of more pairs than this is a jam from the start.
-constexpr std::size_t pairs_of_a_jam = 24;
+constexpr std::size_t pairs_of_a_jam = 10;
 
 void fly(const StepContext& context, const Cluster& cluster)
 {
@@ -109,6 +109,7 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
         project_gaps(context, sub, now);
         if (s < sub.h) {
             count_event(context);
+            context.memory.solved_contacts += context.memory.candidates.size();
         }
         solve_impacts(context, sub, now);
         done = s < rest ? done + s : context.dt;

@@ -12,6 +12,9 @@ namespace {
 constexpr double face_preference = 1e-7;
 // Sine of the angle below which two edges are parallel and their cross product is noise.
 constexpr double parallel_edges = 1e-4;
+// Solids that overlap deeply touch at their faces unless edges halve the depth: one point between
+// edges would let the others of a face sink in turn.
+constexpr double overlap_preference = 0.5;
 
 // The pose of b in the frame of a.
 struct Relative {
@@ -73,7 +76,7 @@ bool spans_face(const Solid& a, const Edge& ea, const Vec3& c, const Vec3& d, co
 
 void improve_by_edges(Separation& best, const Placed& a, const Placed& b, const Relative& ab)
 {
-    double margin = face_preference;
+    double margin = face_preference + overlap_preference * std::max(0.0, -best.distance);
     for (std::size_t m = 0; m < b.solid.edges.size(); ++m) {
         const Edge& eb = b.solid.edges[m];
         const Vec3 c = -(ab.R * b.solid.faces[eb.left].normal);

@@ -9,11 +9,8 @@ namespace hyoryu {
 namespace {
 
 // Contacts up to which one body is left to Gauss-Seidel, which settles there in a few sweeps.
-constexpr std::size_t few_contacts = 8;
+constexpr std::size_t few_contacts = 24;
 constexpr int few_sweeps = 60;
-// Direct solutions and alternating directions take turns: the iteration finds which contacts stick,
-// slide and open, which the direct solution takes up (Silcowitz, Niebe and Erleben 2010).
-constexpr int alternations = 60;
 constexpr int sweeps_at_once = 20;
 // What round-off leaves of the direct solution of an ill-conditioned stack [m/s].
 constexpr double directly_solved = 10 * solved_speed;
@@ -107,14 +104,31 @@ double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 
 struct Task {
     const Effort& effort;
-    double asked = 0; // [m/s]
+    double asked = 0;  // change of speed [m/s]
+    double enough = 0; // of it that may be left [m/s]
 };
+
+// Direct solutions and alternating directions take turns: the iteration finds which contacts stick,
+// slide and open, which the direct solution takes up (Silcowitz, Niebe and Erleben 2010).
+double solve_small(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                   const Task& task)
+{
+    double left = residual(rows, bodies);
+    for (int k = 0; k <= task.effort.direct_tries && left > task.enough; ++k) {
+        left = k < task.effort.direct_tries ? try_directly(rows, bodies, work, left) : left;
+        if (left > task.enough) {
+            alternating_directions(rows, bodies, work, {task.effort.alternations, task.enough});
+            left = residual(rows, bodies);
+        }
+    }
+    return left;
+}
 
 // Sweeps, and the gradient method where they stall.
 double solve_large(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                    const Task& task)
 {
-    const Sweeps sweeps{sweeps_at_once, std::max(task.effort.enough * task.asked, solved_speed)};
+    const Sweeps sweeps{sweeps_at_once, task.enough};
     double left = gauss_seidel(rows, bodies, sweeps);
     if (task.effort.gradient_passes > 0 && left > far_from_solved * task.asked) {
         projected_gradient(rows, bodies, work, task.effort.gradient_passes);
@@ -132,7 +146,8 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         change_of(rows[0], bodies);
         return 0;
     }
-    if (rows.size() <= few_contacts && one_body(rows, bodies)) {
+    const bool alone = rows.size() <= few_contacts && one_body(rows, bodies);
+    if (alone) {
         const double change = gauss_seidel(rows, bodies, {few_sweeps, settled_speed});
         if (change <= solved_speed) {
             return change;
@@ -143,21 +158,14 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         return left;
     }
     const double asked = change_asked(rows);
-    const double enough = std::max(effort.enough * asked, solved_speed);
+    const double enough = alone ? solved_speed : std::max(effort.enough * asked, solved_speed);
     if (cold(rows)) {
         left = gauss_seidel(rows, bodies, {sweeps_at_once, enough});
     }
     if (rows.size() > dense_contacts) {
-        return left > enough ? solve_large(rows, bodies, work, {effort, asked}) : left;
+        return left > enough ? solve_large(rows, bodies, work, {effort, asked, enough}) : left;
     }
-    for (int k = 0; k < effort.direct_tries && left > enough; ++k) {
-        left = try_directly(rows, bodies, work, left);
-        if (left > enough) {
-            alternating_directions(rows, bodies, work, {alternations, enough});
-            left = residual(rows, bodies);
-        }
-    }
-    return left;
+    return left > enough ? solve_small(rows, bodies, work, {effort, asked, enough}) : left;
 }
 
 } // namespace hyoryu

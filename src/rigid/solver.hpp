@@ -40,6 +40,7 @@ struct Effort {
     /// Left as a part of the largest change of speed that is asked for [1].
     double enough = 1e-6;
     int direct_tries = 2;    // direct solutions of a small island, each before an iteration
+    int alternations = 60;   // of a small island, in each iteration
     int gradient_passes = 4; // for a large island, if sweeps stall
 };
 

@@ -6,10 +6,10 @@
 
 namespace hyoryu {
 
-/// Contacts that the impacts of a cluster may solve in one step, round by round, before its events
-/// are closed early and the rest of the step goes without location: it bounds what a step may cost,
-/// far above what single bodies, stacks and chains of balls need.
-inline constexpr std::size_t worth_rounds = 100;
+/// Contacts that the events of a cluster may look at and solve in one step, round by round, before
+/// they are closed early and the rest of the step goes without location: it bounds what a step may
+/// cost, above what single bodies, stacks and chains of balls need.
+inline constexpr std::size_t worth_rounds = 300;
 
 /// How a sub-step treats a cluster.
 struct SubStep {
