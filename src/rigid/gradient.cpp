@@ -9,7 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr int inner_steps = 300;
 constexpr int power_steps = 12; // enough for a bound within the safety factor
 constexpr double safety = 1.3;
 
@@ -60,9 +59,14 @@ double stiffness(std::span<Row> rows, std::vector<Response>& bodies, SolverWork&
     return safety * std::max(largest, 1.0);
 }
 
+struct Pace {
+    double L = 1; // bound of the curvature
+    int steps = 0;
+};
+
 // One pass with the De Saxce term mu |u_t| held fixed.
 void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
-                      double L)
+                      const Pace& pace)
 {
     const std::size_t n = rows.size();
     std::vector<double> lift(n);
@@ -79,7 +83,7 @@ void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, Solver
         work.impulses[k] = previous[k];
     }
     double theta = 1;
-    for (int step = 0; step < inner_steps; ++step) {
+    for (int step = 0; step < pace.steps; ++step) {
         for (std::size_t k = 0; k < n; ++k) {
             set_impulse(rows[k], scale_of(rows[k]) * work.impulses[k], bodies);
         }
@@ -93,8 +97,8 @@ void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, Solver
         const double theta_next = 0.5 * (std::sqrt(sq(sq(theta)) + 4 * sq(theta)) - sq(theta));
         const double beta = theta * (1 - theta) / (sq(theta) + theta_next);
         for (std::size_t k = 0; k < n; ++k) {
-            const Vec3 next =
-                onto_cone(work.impulses[k] - gradient[k] / L, rows[k].cone.mu, rows[k].cone.size);
+            const Vec3 next = onto_cone(work.impulses[k] - gradient[k] / pace.L, rows[k].cone.mu,
+                                        rows[k].cone.size);
             uphill += gradient[k].dot(next - previous[k]);
             moved = std::max(moved, (next - work.impulses[k]).norm() / scale_of(rows[k]));
             work.impulses[k] = next + beta * (next - previous[k]);
@@ -105,7 +109,7 @@ void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, Solver
             theta = 1;
             work.impulses = previous;
         }
-        if (moved * L < solved_speed) {
+        if (moved * pace.L < solved_speed) {
             break;
         }
     }
@@ -118,11 +122,11 @@ void accelerated_pass(std::span<Row> rows, std::vector<Response>& bodies, Solver
 
 // Each pass renews the De Saxce correction, which settles like mu^k.
 void projected_gradient(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
-                        int passes)
+                        const Effort& effort)
 {
     const double L = stiffness(rows, bodies, work);
-    for (int pass = 0; pass < passes; ++pass) {
-        accelerated_pass(rows, bodies, work, L);
+    for (int pass = 0; pass < effort.gradient_passes; ++pass) {
+        accelerated_pass(rows, bodies, work, {L, effort.gradient_steps});
     }
 }
 

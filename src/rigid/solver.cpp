@@ -131,7 +131,7 @@ double solve_large(std::span<Row> rows, std::vector<Response>& bodies, SolverWor
     const Sweeps sweeps{sweeps_at_once, task.enough};
     double left = gauss_seidel(rows, bodies, sweeps);
     if (task.effort.gradient_passes > 0 && left > far_from_solved * task.asked) {
-        projected_gradient(rows, bodies, work, task.effort.gradient_passes);
+        projected_gradient(rows, bodies, work, task.effort);
         left = gauss_seidel(rows, bodies, sweeps);
     }
     return left;

@@ -39,9 +39,10 @@ struct SolverWork {
 struct Effort {
     /// Left as a part of the largest change of speed that is asked for [1].
     double enough = 1e-6;
-    int direct_tries = 2;    // direct solutions of a small island, each before an iteration
-    int alternations = 60;   // of a small island, in each iteration
-    int gradient_passes = 4; // for a large island, if sweeps stall
+    int direct_tries = 2;     // direct solutions of a small island, each before an iteration
+    int alternations = 60;    // of a small island, in each iteration
+    int gradient_passes = 4;  // of a large island, if sweeps stall
+    int gradient_steps = 300; // in each pass
 };
 
 /// Solves normal velocity >= target, impulse >= 0, Coulomb friction for all rows together, from the
@@ -73,7 +74,7 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 void alternating_directions(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                             const Sweeps& steps);
 void projected_gradient(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
-                        int passes);
+                        const Effort& effort);
 
 /// The speed by which a solved problem may still want to change [m/s]: g h of a step of a
 /// microsecond is a million times more.
