@@ -36,6 +36,8 @@ struct Persistent {
     TwoTouches touches;        // at the middle and the end
     double effective_mass = 0; // [kg]
     double dissipated = 0;     // [J]
+    Vec3 slip_before{0, 0, 0}; // relative tangential velocity at the start [m/s]
+    Vec3 slip_after{0, 0, 0};  // and at the end of the sub-step
 };
 
 /// What a persistent contact did over a sub-step.

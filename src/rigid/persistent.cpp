@@ -211,6 +211,9 @@ void book_dissipation(const StepContext& context, const std::vector<Vec3>& befor
         Persistent& p = memory.persistent[row.contact];
         const Vec3 after = row.D * velocity(row, memory.responses);
         p.dissipated = std::max(0.0, -0.5 * p.impulse.dot(before[row.contact] + after));
+        const auto tangential = [](const Vec3& u, const Vec3& n) { return Vec3(u - n * n.dot(u)); };
+        p.slip_before = tangential(before[row.contact], p.candidate.touch.normal);
+        p.slip_after = tangential(after, p.touches.see.normal);
         context.rigid.counters.tangential_impacts += row.tangential ? 1 : 0;
     }
 }

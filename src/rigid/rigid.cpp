@@ -99,12 +99,13 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
     while (done < context.dt && context.memory.solved_contacts < worth_rounds) {
         const double rest = context.dt - done;
         const double h = sub_step_length(context, cluster, rest);
-        const SubStep sub{cluster, context.start + done, h, slow, most_rounds};
+        SubStep sub{cluster, context.start + done, h, slow, most_rounds};
         plan_motion(context, sub);
+        end_with_slip(context, sub);
         const double s = first_event(context, sub);
         const double now = sub.time + s;
         move_to(context, sub, s);
-        remember(context.memory, h);
+        remember(context.memory, sub.h);
         find_contacts(context, cluster, now);
         project_gaps(context, sub, now);
         if (s < sub.h) {

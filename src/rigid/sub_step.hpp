@@ -49,6 +49,10 @@ void predict_free_motion(const StepContext& context, const SubStep& sub);
 /// which makes the scheme second order.
 void plan_motion(const StepContext& context, const SubStep& sub);
 
+/// Where a sliding contact stops or turns back within the planned sub-step, shortens it to that
+/// time and plans it again.
+void end_with_slip(const StepContext& context, SubStep& sub);
+
 /// The first time within the sub-step at which a contact that is not held closes; h if none does.
 double first_event(const StepContext& context, const SubStep& sub);
 
