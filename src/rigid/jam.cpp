@@ -22,11 +22,8 @@ constexpr int most_rounds = 4;
 constexpr Effort impact_effort{
     .enough = 1e-3, .direct_tries = 0, .alternations = 20, .gradient_passes = 0};
 // Nor do contacts that are asked for more than gravity brings about.
-constexpr Effort contact_effort{.enough = 1e-4,
-                                .direct_tries = 0,
-                                .alternations = 40,
-                                .gradient_passes = 1,
-                                .gradient_steps = 40};
+constexpr Effort contact_effort{
+    .enough = 1e-4, .direct_tries = 0, .alternations = 40, .gradient_passes = 0};
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
 

@@ -110,6 +110,8 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
         project_gaps(context, sub, now);
         if (s < sub.h) {
             count_event(context);
+        }
+        if (s < h) {
             context.memory.solved_contacts += context.memory.candidates.size();
         }
         solve_impacts(context, sub, now);
