@@ -21,7 +21,7 @@ constexpr double sub_steps_of_rest = 2;
 constexpr int most_rounds = 4;
 constexpr Effort impact_effort{
     .enough = 1e-3, .direct_tries = 0, .alternations = 20, .gradient_passes = 0};
-// Nor do contacts that are asked for more than gravity brings about.
+// What is left of the contacts is made good by the next step, which starts from their impulses.
 constexpr Effort contact_effort{
     .enough = 1e-4, .direct_tries = 0, .alternations = 40, .gradient_passes = 0};
 // Pairs that share a list of found contacts, whatever the number of threads.
