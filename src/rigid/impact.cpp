@@ -117,7 +117,7 @@ void book(const std::vector<Row>& rows, const StepContext& context, double time)
 
 } // namespace
 
-void solve_impacts(const StepContext& context, const SubStep& sub, double time)
+double solve_impacts(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
     RigidCounters& counters = context.rigid.counters;
@@ -143,8 +143,8 @@ void solve_impacts(const StepContext& context, const SubStep& sub, double time)
         const bool enough = count >= sub.most_rounds || memory.solved_contacts > worth_rounds;
         round.least = enough ? infinity : std::max(round.least, rattle * fastest(memory.rows));
     }
-    counters.worst_residual = std::max(counters.worst_residual, left);
     counters.impacts += static_cast<long long>(context.log.size() - first);
+    return left;
 }
 
 } // namespace hyoryu

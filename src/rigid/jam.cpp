@@ -146,7 +146,7 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
                           impact_effort, contact_effort};
         predict_free_motion(context, sub);
         find_all_closing(context, sub);
-        solve_impacts(context, sub, sub.time);
+        solve_impacts(context, sub, sub.time); // what it leaves, the contacts of the motion take up
         plan_motion(context, sub);
         move_to(context, sub, h);
         remember(memory, h);

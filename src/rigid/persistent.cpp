@@ -159,7 +159,8 @@ void build_rows(const StepContext& context, const SubStep& sub)
         if (row.cone.K(0, 0) > 0) {
             p.effective_mass = 1 / row.cone.K(0, 0);
             row.before = velocity(row, memory.responses);
-            // A gap that the projection closes is no freedom: v = gap / h of its noise would rattle.
+            // A gap that the projection closes is no freedom: v = gap / h of its noise would
+            // rattle.
             const double gap = p.candidate.touch.gap;
             row.target = gap > clearly_apart ? -gap / sub.h : 0;
             memory.rows.push_back(row);

@@ -95,7 +95,9 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
     const double slow = context.rigid.settings.resting_speed;
     double done = 0;
     find_contacts(context, cluster, context.start);
-    solve_impacts(context, {cluster, context.start, 0, slow, most_rounds}, context.start);
+    double& worst = context.rigid.counters.worst_residual;
+    const SubStep start{cluster, context.start, 0, slow, most_rounds};
+    worst = std::max(worst, solve_impacts(context, start, context.start));
     while (done < context.dt && context.memory.solved_contacts < worth_rounds) {
         const double rest = context.dt - done;
         const double h = sub_step_length(context, cluster, rest);
@@ -114,7 +116,7 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
         if (s < h) {
             context.memory.solved_contacts += context.memory.candidates.size();
         }
-        solve_impacts(context, sub, now);
+        worst = std::max(worst, solve_impacts(context, sub, now));
         done = s < rest ? done + s : context.dt;
     }
     return done;

@@ -38,8 +38,9 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
 
 /// Impact rounds: while any touching contacts approach, all of them are solved together, each with
 /// the restitution of its own approach; then looked at again. The clamp of the energy (Kane and
-/// Levinson 1985) keeps every round dissipative.
-void solve_impacts(const StepContext& context, const SubStep& sub, double time);
+/// Levinson 1985) keeps every round dissipative. Returns the speed by which a contact of the last
+/// round still wants to change [m/s].
+double solve_impacts(const StepContext& context, const SubStep& sub, double time);
 
 /// Plans the paths without contacts and sets the poses at their ends.
 void predict_free_motion(const StepContext& context, const SubStep& sub);
