@@ -42,13 +42,6 @@ double dissipative_share(double work0, double work_half, double work1)
     return std::clamp(s, 0.0, 1.0);
 }
 
-void set_impulses(std::vector<Row>& rows, const std::vector<Vec3>& p, std::vector<Response>& bodies)
-{
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        push(rows[k], p[k] - rows[k].p, bodies);
-    }
-}
-
 } // namespace
 
 void collect(const StepContext& context, const Round& round, double slower, std::vector<Row>& rows)

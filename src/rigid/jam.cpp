@@ -135,6 +135,7 @@ double sub_step_length(const StepContext& context, const Cluster& cluster, doubl
 void advance_jam(const StepContext& context, const Cluster& cluster, double done)
 {
     ContactMemory& memory = context.memory;
+    memory.jammed = true;
     const double change = fastest_change(context, cluster);
     while (done < context.dt) {
         set_responses(context, cluster);

@@ -54,10 +54,17 @@ void prepare(Rigid& rigid)
         memory.responses[k].movable = memory.rotors[k].movable;
     }
     memory.fresh.clear();
+    memory.jammed = false;
     memory.trial = memory.poses;
     memory.middle = memory.poses;
     memory.end = memory.poses;
     memory.events.assign(n, 0);
+}
+
+void sort_by_feature(std::vector<Remembered>& forces)
+{
+    std::sort(forces.begin(), forces.end(),
+              [](const Remembered& a, const Remembered& b) { return a.feature < b.feature; });
 }
 
 Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses,

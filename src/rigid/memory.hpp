@@ -23,6 +23,8 @@ struct Remembered {
     Vec3 force{0, 0, 0}; // on a [N]
 };
 
+void sort_by_feature(std::vector<Remembered>& forces);
+
 /// Bodies that may meet within a step, with all their pairs.
 struct Cluster {
     std::vector<int> bodies;
@@ -70,6 +72,7 @@ struct ContactMemory {
     std::vector<Resting> resting;
     std::vector<Feature> pressed;
     std::vector<Row> rows, group;
+    bool jammed = false;             // a cluster of this step went on without location
     std::size_t solved_contacts = 0; // by the impacts of the cluster in this step, round by round
     std::vector<int> entries;        // in the log, of each candidate; -1 if none
     std::vector<int> parents, island_of_root, island_of_row;

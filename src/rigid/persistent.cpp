@@ -251,8 +251,7 @@ void remember(ContactMemory& memory, double h)
     for (const Persistent& p : memory.persistent) {
         memory.recent.push_back({p.candidate.feature, p.impulse / h});
     }
-    std::sort(memory.recent.begin(), memory.recent.end(),
-              [](const Remembered& a, const Remembered& b) { return a.feature < b.feature; });
+    sort_by_feature(memory.recent);
     memory.known = memory.recent;
 }
 

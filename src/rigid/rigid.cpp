@@ -74,8 +74,7 @@ void close_cluster(const StepContext& context)
 void close_step(Rigid& rigid)
 {
     ContactMemory& memory = *rigid.memory;
-    std::sort(memory.fresh.begin(), memory.fresh.end(),
-              [](const Remembered& a, const Remembered& b) { return a.feature < b.feature; });
+    sort_by_feature(memory.fresh);
     memory.forces.swap(memory.fresh);
     for (std::size_t k = 0; k < rigid.bodies.size(); ++k) {
         if (memory.rotors[k].movable) {
@@ -83,8 +82,9 @@ void close_step(Rigid& rigid)
             rigid.bodies[k].orientation = memory.poses[k].q;
         }
     }
-    const bool capped = std::any_of(memory.events.begin(), memory.events.end(),
-                                    [](int events) { return events > event_limit; });
+    const bool capped =
+        memory.jammed || std::any_of(memory.events.begin(), memory.events.end(),
+                                     [](int events) { return events > event_limit; });
     rigid.counters.capped_steps += capped ? 1 : 0;
 }
 

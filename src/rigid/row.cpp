@@ -122,4 +122,11 @@ void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)
     }
 }
 
+void set_impulses(std::span<Row> rows, const std::vector<Vec3>& p, std::vector<Response>& bodies)
+{
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        push(rows[k], p[k] - rows[k].p, bodies);
+    }
+}
+
 } // namespace hyoryu

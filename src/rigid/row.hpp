@@ -5,6 +5,7 @@
 #include "cone.hpp"
 #include "feature.hpp"
 
+#include <span>
 #include <vector>
 
 namespace hyoryu {
@@ -59,5 +60,8 @@ Vec3 velocity(const Row& row, const std::vector<Response>& bodies);
 
 /// Adds dp to the impulse of the row and to the bodies.
 void push(Row& row, const Vec3& dp, std::vector<Response>& bodies);
+
+/// Sets the impulses of the rows, and the bodies accordingly.
+void set_impulses(std::span<Row> rows, const std::vector<Vec3>& p, std::vector<Response>& bodies);
 
 } // namespace hyoryu

@@ -12,8 +12,6 @@ namespace {
 constexpr std::size_t few_contacts = 24;
 constexpr int few_sweeps = 60;
 constexpr int sweeps_at_once = 20;
-// What round-off leaves of the direct solution of an ill-conditioned stack [m/s].
-constexpr double directly_solved = 10 * solved_speed;
 // More than this part left means that sweeps stall, as they do in high piles and at mass ratios.
 constexpr double far_from_solved = 1e-3;
 // Contacts above which a dense direct solution costs more than the iteration.
@@ -24,13 +22,6 @@ bool one_body(std::span<const Row> rows, const std::vector<Response>& bodies)
     return std::all_of(rows.begin(), rows.end(), [&](const Row& row) {
         return row.a == rows[0].a && (row.b < 0 || !bodies[row.b].movable);
     });
-}
-
-void set_impulses(std::span<Row> rows, const std::vector<Vec3>& p, std::vector<Response>& bodies)
-{
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        push(rows[k], p[k] - rows[k].p, bodies);
-    }
 }
 
 // The largest change of speed that the contacts are asked for.

@@ -46,7 +46,7 @@ struct RigidCounters {
     long long rounds = 0;             // impact rounds
     long long events = 0;             // located sub-steps
     long long tangential_impacts = 0; // Painleve configurations met
-    long long capped_steps = 0;       // steps that ran into the limit of events
+    long long capped_steps = 0;       // steps in which not every impact was located in time
     double worst_residual = 0;        // largest remaining approach speed of a solve [m/s]
     double worst_penetration = 0;     // [m]
 };
