@@ -19,14 +19,9 @@ constexpr int most_sub_steps = 2000;
 constexpr double sub_steps_of_rest = 2;
 // Impacts that are not located do not deserve more.
 constexpr int most_rounds = 4;
-constexpr Effort impact_effort{
-    .enough = 1e-3, .direct_tries = 0, .alternations = 20, .gradient_passes = 0};
+constexpr Effort impact_effort{.enough = 1e-3, .direct_tries = 0, .sweeps = 40};
 // What is left of the contacts is made good by the next step, which starts from their impulses.
-constexpr Effort contact_effort{.enough = 1e-4,
-                                .direct_tries = 0,
-                                .alternations = 40,
-                                .gradient_passes = 1,
-                                .gradient_steps = 60};
+constexpr Effort contact_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 200};
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
 

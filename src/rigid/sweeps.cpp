@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Gauss-Seidel sweeps with exact local solutions, plain and with momentum.
+#include "solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+double change_of(Row& row, std::vector<Response>& bodies)
+{
+    Vec3 b = velocity(row, bodies) - row.cone.K * row.p;
+    b[0] -= row.target;
+    const ConeImpulse best = cone_impulse(row.cone, b, row.p);
+    row.tangential = best.tangential;
+    const Vec3 dp = best.p - row.p;
+    push(row, dp, bodies);
+    return (row.cone.K * dp).cwiseAbs().maxCoeff();
+}
+
+// The sequence of Nesterov (1983): theta of the next step, from 1.
+double next_theta(double theta)
+{
+    const double square = sq(theta);
+    return 0.5 * (std::sqrt(sq(square) + 4 * square) - square);
+}
+
+} // namespace
+
+double residual(std::span<Row> rows, const std::vector<Response>& bodies)
+{
+    double worst = 0;
+    for (const Row& row : rows) {
+        Vec3 b = velocity(row, bodies) - row.cone.K * row.p;
+        b[0] -= row.target;
+        const Vec3 dp = cone_impulse(row.cone, b, row.p).p - row.p;
+        worst = std::max(worst, (row.cone.K * dp).cwiseAbs().maxCoeff());
+    }
+    return worst;
+}
+
+double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sweeps& sweeps)
+{
+    const std::size_t n = rows.size();
+    double change = infinity;
+    for (int sweep = 0; sweep < sweeps.most && change > sweeps.settled; ++sweep) {
+        change = 0;
+        for (std::size_t k = 0; k < n; ++k) { // to and fro, so that no end is favoured
+            Row& row = rows[sweep % 2 == 0 ? k : n - 1 - k];
+            change = std::max(change, change_of(row, bodies));
+        }
+    }
+    return change;
+}
+
+double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                          const Sweeps& sweeps)
+{
+    std::vector<Vec3>& previous = work.impulses; // after the last sweep
+    std::vector<Vec3>& start = work.start;       // of this sweep, momentum included
+    previous.clear();
+    for (const Row& row : rows) {
+        previous.push_back(row.p);
+    }
+    start = previous;
+    double theta = 1;
+    double change = infinity;
+    for (int sweep = 0; sweep < sweeps.most && change > sweeps.settled; ++sweep) {
+        change = 0;
+        double uphill = 0;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            Row& row = rows[k];
+            change = std::max(change, change_of(row, bodies));
+            uphill += (row.cone.K * (start[k] - row.p)).dot(row.p - previous[k]);
+        }
+        const double next = next_theta(theta);
+        const double beta = uphill > 0 ? 0 : theta * (1 - theta) / (sq(theta) + next);
+        theta = uphill > 0 ? 1 : next; // a fresh start where momentum carries past the solution
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const Vec3 solved = rows[k].p;
+            if (change > sweeps.settled) {
+                push(rows[k], beta * (solved - previous[k]), bodies);
+            }
+            previous[k] = solved;
+            start[k] = rows[k].p;
+        }
+    }
+    return change;
+}
+
+} // namespace hyoryu
