@@ -9,8 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-// Both passes predict the arms with the impulses known so far; the second makes them second order.
-constexpr int passes = 2;
 // More coplanar contacts of a pair than this are thinned out to the outermost ones.
 constexpr std::size_t most_contacts = 8;
 
@@ -265,7 +263,7 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     }
     const std::vector<Vec3> before = contact_velocities(memory, sub.time);
     add_known_impulses(memory);
-    for (int pass = 0; pass < passes; ++pass) {
+    for (int pass = 0; pass < sub.passes; ++pass) {
         solve_pass(context, sub);
     }
     book_dissipation(context, before);

@@ -20,6 +20,7 @@ struct SubStep {
     int most_rounds = 0; // of impacts, before the one that closes the event
     Effort impact_effort{};
     Effort contact_effort{};
+    int passes = 2; // each predicts the arms with the impulses known so far; two are second order
 };
 
 /// Short enough that no body of the cluster turns too far for the scheme, and not longer than

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hyoryu {
 
@@ -67,20 +68,22 @@ double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, So
     start = previous;
     double theta = 1;
     double change = infinity;
-    for (int sweep = 0; sweep < sweeps.most && change > sweeps.settled; ++sweep) {
-        change = 0;
+    for (int sweep = 1; sweep <= sweeps.most && change > sweeps.settled; ++sweep) {
+        const double last = std::exchange(change, 0);
         double uphill = 0;
         for (std::size_t k = 0; k < rows.size(); ++k) {
             Row& row = rows[k];
             change = std::max(change, change_of(row, bodies));
             uphill += (row.cone.K * (start[k] - row.p)).dot(row.p - previous[k]);
         }
+        // Friction is no gradient: momentum that carries past the solution, or away from it, ends.
+        const bool astray = uphill > 0 || change > last;
         const double next = next_theta(theta);
-        const double beta = uphill > 0 ? 0 : theta * (1 - theta) / (sq(theta) + next);
-        theta = uphill > 0 ? 1 : next; // a fresh start where momentum carries past the solution
+        const double beta = astray ? 0 : theta * (1 - theta) / (sq(theta) + next);
+        theta = astray ? 1 : next;
         for (std::size_t k = 0; k < rows.size(); ++k) {
             const Vec3 solved = rows[k].p;
-            if (change > sweeps.settled) {
+            if (sweep < sweeps.most && change > sweeps.settled) {
                 push(rows[k], beta * (solved - previous[k]), bodies);
             }
             previous[k] = solved;
