@@ -138,8 +138,8 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
         const double h = sub_step_length(context, cluster, rest);
         const double slow =
             std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
-        const SubStep sub{cluster,       context.start + done, h, slow, most_rounds,
-                          impact_effort, contact_effort,       1};
+        const SubStep sub{cluster,       context.start + done, h,        slow, most_rounds,
+                          impact_effort, contact_effort,       Arms::now};
         predict_free_motion(context, sub);
         find_all_closing(context, sub);
         solve_impacts(context, sub, sub.time); // what it leaves, the contacts of the motion take up

@@ -113,16 +113,16 @@ void add_impulse(ContactMemory& memory, int k, const Vec3& arm, const Vec3& P)
     }
 }
 
-// Poses at the middle and the end of the paths as they are planned now.
-void predict(ContactMemory& memory, const SubStep& sub)
+// Poses halfway and `ahead` of the start on the paths as they are planned now.
+void predict(ContactMemory& memory, const SubStep& sub, double ahead)
 {
     for (const int k : sub.cluster.bodies) {
-        memory.middle[k] = pose_at(memory.paths[k], memory.rotors[k], 0.5 * sub.h);
-        memory.end[k] = pose_at(memory.paths[k], memory.rotors[k], sub.h);
+        memory.middle[k] = pose_at(memory.paths[k], memory.rotors[k], 0.5 * ahead);
+        memory.end[k] = pose_at(memory.paths[k], memory.rotors[k], ahead);
     }
 }
 
-// Free velocities at the end of the sub-step, with the inertia there.
+// Free velocities at the end of the sub-step, with the inertia of the predicted end.
 void set_end_responses(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
@@ -135,15 +135,16 @@ void set_end_responses(const StepContext& context, const SubStep& sub)
     }
 }
 
-void build_rows(const StepContext& context, const SubStep& sub)
+void build_rows(const StepContext& context, const SubStep& sub, double ahead)
 {
     ContactMemory& memory = context.memory;
+    const Configuration middle = configuration(memory, memory.middle, sub.time + 0.5 * ahead);
+    const Configuration end = configuration(memory, memory.end, sub.time + ahead);
     memory.rows.clear();
     for (std::size_t k = 0; k < memory.persistent.size(); ++k) {
         Persistent& p = memory.persistent[k];
         const Feature& f = p.candidate.feature;
-        p.touches.push = touch_of(f, configuration(memory, memory.middle, sub.time + 0.5 * sub.h));
-        p.touches.see = touch_of(f, configuration(memory, memory.end, sub.time + sub.h));
+        p.touches = {touch_of(f, middle), touch_of(f, end)};
         Row row;
         row.a = f.a;
         row.b = std::max(f.b, -1);
@@ -166,12 +167,12 @@ void build_rows(const StepContext& context, const SubStep& sub)
     }
 }
 
-void solve_pass(const StepContext& context, const SubStep& sub)
+void solve_pass(const StepContext& context, const SubStep& sub, double ahead)
 {
     ContactMemory& memory = context.memory;
-    predict(memory, sub);
+    predict(memory, sub, ahead);
     set_end_responses(context, sub);
-    build_rows(context, sub);
+    build_rows(context, sub, ahead);
     for (Row& row : memory.rows) {
         const Vec3& P = memory.persistent[row.contact].impulse;
         Vec3 p = row.B.transpose() * P;
@@ -240,7 +241,7 @@ std::vector<Vec3> contact_velocities(const ContactMemory& memory, double time)
 void predict_free_motion(const StepContext& context, const SubStep& sub)
 {
     plan_free_motion(context, sub);
-    predict(context.memory, sub);
+    predict(context.memory, sub, sub.h);
 }
 
 void remember(ContactMemory& memory, double h)
@@ -262,9 +263,12 @@ void plan_motion(const StepContext& context, const SubStep& sub)
         return;
     }
     const std::vector<Vec3> before = contact_velocities(memory, sub.time);
-    add_known_impulses(memory);
-    for (int pass = 0; pass < sub.passes; ++pass) {
-        solve_pass(context, sub);
+    if (sub.arms == Arms::now) {
+        solve_pass(context, sub, 0);
+    } else {
+        add_known_impulses(memory);
+        solve_pass(context, sub, sub.h);
+        solve_pass(context, sub, sub.h); // with the impulses of the first
     }
     book_dissipation(context, before);
 }

@@ -11,6 +11,12 @@ namespace hyoryu {
 /// cost, above what single bodies, stacks and chains of balls need.
 inline constexpr std::size_t worth_rounds = 300;
 
+/// Where smooth contacts take their arms and normals: at the middle and the end of the planned
+/// motion, in two passes, which is of second order; or as they are at the start, which is of first
+/// order but keeps the contact problem symmetric, so that no solution of it, however rough, gains
+/// energy.
+enum class Arms { ahead, now };
+
 /// How a sub-step treats a cluster.
 struct SubStep {
     const Cluster& cluster;
@@ -20,7 +26,7 @@ struct SubStep {
     int most_rounds = 0; // of impacts, before the one that closes the event
     Effort impact_effort{};
     Effort contact_effort{};
-    int passes = 2; // each predicts the arms with the impulses known so far; two are second order
+    Arms arms = Arms::ahead;
 };
 
 /// Short enough that no body of the cluster turns too far for the scheme, and not longer than
