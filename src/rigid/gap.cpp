@@ -3,16 +3,15 @@
 #include "compound.hpp"
 #include "feature.hpp"
 #include "mesh_contact.hpp"
+#include "rod_touch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace hyoryu {
 
 namespace {
 
-constexpr int rim_points = 8;
 // Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
 constexpr double no_direction = 1e-9;
 
@@ -28,22 +27,6 @@ Plane plane_of(const Wall& wall, int side)
     return {found->point, found->normal};
 }
 
-Vec3 rim_point(const Feature& feature, const Placed& rod, const Vec3& normal)
-{
-    const Mat3& R = rod.pose.R;
-    const Vec3 axis = R.col(0);
-    const Vec3 centre = rod.pose.x + (feature.i == 0 ? -1 : 1) * rod.solid.half_length * axis;
-    if (feature.kind == FeatureKind::rim_fixed) {
-        const double angle = 2 * std::numbers::pi * feature.j / rim_points;
-        return centre +
-               rod.solid.radius * (std::cos(angle) * R.col(1) + std::sin(angle) * R.col(2));
-    }
-    const Vec3 down = axis * axis.dot(normal) - normal;
-    const double length = down.norm();
-    return centre +
-           rod.solid.radius * (length > no_direction ? Vec3(down / length) : Vec3(R.col(1)));
-}
-
 Touch plane_touch(const Feature& feature, const Configuration& at)
 {
     const Wall& wall = at.geometry.walls[-1 - feature.b];
@@ -56,7 +39,7 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
     } else if (feature.kind == FeatureKind::ball_plane) {
         touch.point = body.pose.x - body.solid.radius * plane.normal;
     } else {
-        touch.point = rim_point(feature, body, plane.normal);
+        touch.point = low_point(body, feature.i, plane.normal);
     }
     touch.gap = plane.normal.dot(touch.point - plane.point - displacement(wall.motion, at.time));
     return touch;
@@ -90,21 +73,15 @@ Touch face_touch(const Feature& feature, const Configuration& at)
     const Placed owner = placed(at, owner_is_a ? feature.a : feature.b);
     const Placed other = placed(at, owner_is_a ? feature.b : feature.a);
     const Face& face = other.solid.faces[feature.f];
-    Vec3 c = owner.solid.corners[feature.i];
-    if (feature.kind == FeatureKind::crossing) {
-        // where the edge passes the side k-l of the face, both seen along the normal of the face
-        const Vec3 n = other.pose.R * face.normal;
-        const Vec3 k = other.pose.x + other.pose.R * other.solid.corners[feature.k];
-        const Vec3 l = other.pose.x + other.pose.R * other.solid.corners[feature.l];
-        const Vec3 side = (l - k).cross(n);
-        const Vec3 d = owner.solid.corners[feature.j] - c;
-        const double along = side.dot(owner.pose.R * d);
-        const double from = side.dot(k - owner.pose.x - owner.pose.R * c);
-        const double t = std::abs(along) > 0 ? std::clamp(from / along, 0.0, 1.0) : 0.5;
-        c += t * d;
-    }
-    const Vec3 point = owner.pose.x + owner.pose.R * c;
+    const auto corner = [](const Placed& body, int k) {
+        return Vec3(body.pose.x + body.pose.R * body.solid.corners[k]);
+    };
     const Vec3 n = other.pose.R * face.normal;
+    Vec3 point = corner(owner, feature.i);
+    if (feature.kind == FeatureKind::crossing) {
+        point = crossing_point(point, corner(owner, feature.j), corner(other, feature.k),
+                               corner(other, feature.l), n);
+    }
     const double gap = n.dot(point - other.pose.x) - face.offset;
     return {point, owner_is_a ? n : Vec3(-n), gap};
 }
@@ -160,13 +137,20 @@ Placed placed(const Configuration& at, int index)
     return {wall.solid, pose};
 }
 
+Vec3 crossing_point(const Vec3& p, const Vec3& q, const Vec3& k, const Vec3& l, const Vec3& n)
+{
+    const Vec3 side = (l - k).cross(n);
+    const double along = side.dot(q - p);
+    const double t = std::abs(along) > 0 ? std::clamp(side.dot(k - p) / along, 0.0, 1.0) : 0.5;
+    return p + t * (q - p);
+}
+
 Touch touch_of(const Feature& feature, const Configuration& at)
 {
     switch (feature.kind) {
     case FeatureKind::corner_plane:
     case FeatureKind::ball_plane:
     case FeatureKind::rim_low:
-    case FeatureKind::rim_fixed:
         return plane_touch(feature, at);
     case FeatureKind::round:
         return round_touch(feature, at);
@@ -175,6 +159,13 @@ Touch touch_of(const Feature& feature, const Configuration& at)
         return face_touch(feature, at);
     case FeatureKind::edge_edge:
         return edge_touch(feature, at);
+    case FeatureKind::rim_face:
+    case FeatureKind::side_cap:
+    case FeatureKind::rod_corner:
+    case FeatureKind::side_line:
+    case FeatureKind::rim_line:
+    case FeatureKind::rim_rim:
+        return rod_touch(feature, at).touch;
     case FeatureKind::edge_crease:
     case FeatureKind::face_corner:
     case FeatureKind::round_crease:
