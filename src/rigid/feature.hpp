@@ -53,7 +53,8 @@ enum class FeatureKind {
     crossing,     // edge i-j of the owner over the side k-l of face f of the other
     edge_edge,    // edge i-j of a, edge k-l of b
     rim_face,     // the point of rim i of the owner, a rod, nearest to face f of the other
-    side_cap,     // the side of the owner, a rod, over the chord k-l of cap f of the other rod
+    cap_line,     // end j of the chord of cap i of the owner, a rod, along what side_line meets
+    cap_cap,      // end j of the chord that cap i of the owner and cap k of the other share
     rod_corner,   // the owner, a rod, and corner k of the other
     side_line,    // the side of the owner, a rod; edge k-l, crease k or the side of the other
     rim_line,     // rim i of the owner, a rod; edge k-l, crease k or the side of the other
@@ -111,10 +112,6 @@ Placed placed(const Configuration& at, int index);
 
 /// The touch of known features at these poses.
 Touch touch_of(const Feature& feature, const Configuration& at);
-
-/// Where the line p-q passes the side k-l of a face of unit normal n, both seen along n; kept
-/// between p and q.
-Vec3 crossing_point(const Vec3& p, const Vec3& q, const Vec3& k, const Vec3& l, const Vec3& n);
 
 /// The nearest point of a solid's surface to p, both in its body frame.
 Touch nearest(const Solid& solid, const Vec3& p);

@@ -73,15 +73,21 @@ Touch face_touch(const Feature& feature, const Configuration& at)
     const Placed owner = placed(at, owner_is_a ? feature.a : feature.b);
     const Placed other = placed(at, owner_is_a ? feature.b : feature.a);
     const Face& face = other.solid.faces[feature.f];
-    const auto corner = [](const Placed& body, int k) {
-        return Vec3(body.pose.x + body.pose.R * body.solid.corners[k]);
-    };
-    const Vec3 n = other.pose.R * face.normal;
-    Vec3 point = corner(owner, feature.i);
+    Vec3 c = owner.solid.corners[feature.i];
     if (feature.kind == FeatureKind::crossing) {
-        point = crossing_point(point, corner(owner, feature.j), corner(other, feature.k),
-                               corner(other, feature.l), n);
+        // where the edge passes the side k-l of the face, both seen along the normal of the face
+        const Vec3 n = other.pose.R * face.normal;
+        const Vec3 k = other.pose.x + other.pose.R * other.solid.corners[feature.k];
+        const Vec3 l = other.pose.x + other.pose.R * other.solid.corners[feature.l];
+        const Vec3 side = (l - k).cross(n);
+        const Vec3 d = owner.solid.corners[feature.j] - c;
+        const double along = side.dot(owner.pose.R * d);
+        const double from = side.dot(k - owner.pose.x - owner.pose.R * c);
+        const double t = std::abs(along) > 0 ? std::clamp(from / along, 0.0, 1.0) : 0.5;
+        c += t * d;
     }
+    const Vec3 point = owner.pose.x + owner.pose.R * c;
+    const Vec3 n = other.pose.R * face.normal;
     const double gap = n.dot(point - other.pose.x) - face.offset;
     return {point, owner_is_a ? n : Vec3(-n), gap};
 }
@@ -137,14 +143,6 @@ Placed placed(const Configuration& at, int index)
     return {wall.solid, pose};
 }
 
-Vec3 crossing_point(const Vec3& p, const Vec3& q, const Vec3& k, const Vec3& l, const Vec3& n)
-{
-    const Vec3 side = (l - k).cross(n);
-    const double along = side.dot(q - p);
-    const double t = std::abs(along) > 0 ? std::clamp(side.dot(k - p) / along, 0.0, 1.0) : 0.5;
-    return p + t * (q - p);
-}
-
 Touch touch_of(const Feature& feature, const Configuration& at)
 {
     switch (feature.kind) {
@@ -160,7 +158,8 @@ Touch touch_of(const Feature& feature, const Configuration& at)
     case FeatureKind::edge_edge:
         return edge_touch(feature, at);
     case FeatureKind::rim_face:
-    case FeatureKind::side_cap:
+    case FeatureKind::cap_line:
+    case FeatureKind::cap_cap:
     case FeatureKind::rod_corner:
     case FeatureKind::side_line:
     case FeatureKind::rim_line:

@@ -171,14 +171,6 @@ Meeting meeting(const Pair& pair, const PartPair& parts, const Separation& axis,
 
 } // namespace
 
-void add_overlap(const Pair& pair, const PartPair& parts, const Separation& axis,
-                 const Configuration& at, std::size_t first, std::vector<Candidate>& found)
-{
-    const Meeting m = meeting(pair, parts, axis, at);
-    add_corners(m, first, found);
-    add_crossings(m, first, found);
-}
-
 void add_manifold(const Pair& pair, const PartPair& parts, const Separation& axis,
                   const Configuration& at, std::vector<Candidate>& found)
 {

@@ -157,9 +157,14 @@ private:
         Feature f = feature(FeatureKind::side_line);
         f.k = k;
         add_curve(f, crease);
-        f.kind = FeatureKind::rim_line;
         for (f.i = 0; f.i < 2; ++f.i) {
+            f.kind = FeatureKind::rim_line;
             add_curve(f, crease);
+            f.kind = FeatureKind::cap_line;
+            for (f.j = 0; f.j < 2; ++f.j) {
+                add_curve(f, crease);
+            }
+            f.j = 0;
         }
     }
 

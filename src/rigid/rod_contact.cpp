@@ -63,7 +63,7 @@ struct Look {
     std::vector<FaceAxis> faces;
     std::vector<Meeting> meetings;
     double distance = -infinity;
-    int best_face = -1;
+    FaceAxis best_face;
     int best_meeting = -1; // before the face, if there is one
 
     const Placed& part(int owner) const { return owner == 0 ? parts.a : parts.b; }
@@ -79,7 +79,7 @@ void add_faces(Look& look, int owner)
         look.faces.push_back({owner, f, distance_along(look.parts, n)});
         if (look.faces.back().distance > look.distance) {
             look.distance = look.faces.back().distance;
-            look.best_face = static_cast<int>(look.faces.size()) - 1;
+            look.best_face = look.faces.back();
         }
     }
 }
@@ -200,14 +200,38 @@ Candidate rim_on_face(const Look& look, const FaceAxis& axis, int rim)
     return {f, touch_of(f, look.at)};
 }
 
-// The ends of what a rod that lies on the cap of another covers of it.
-void add_side_over_cap(const Look& look, const FaceAxis& axis, std::vector<Candidate>& over)
+// The ends of the chords of a cap along the edges or the side of the other solid, or where the rims
+// of two caps cross.
+void add_chords(Look& look, const FaceAxis& axis)
 {
-    Feature f = look.feature(FeatureKind::side_cap, 1 - axis.owner);
-    f.f = axis.face;
-    for (const Side& side : look.part(axis.owner).solid.faces[axis.face].sides) {
-        f.k = side.i;
-        f.l = side.j;
+    Feature f = look.feature(FeatureKind::cap_line, axis.owner);
+    f.i = axis.face;
+    const Solid& other = look.part(1 - axis.owner).solid;
+    for (f.j = 0; f.j < 2; ++f.j) {
+        if (other.form == Form::rod) {
+            add_meeting(look, f, nullptr);
+            Feature caps = f;
+            caps.kind = FeatureKind::cap_cap;
+            for (const int cap : {0, 1}) {
+                caps.k = cap;
+                add_meeting(look, caps, nullptr);
+            }
+        }
+        for (const Edge& edge : other.edges) {
+            f.k = other.first_corner + edge.i;
+            f.l = other.first_corner + edge.j;
+            add_meeting(look, f, &edge);
+        }
+    }
+}
+
+// Points of the rim of a cap that stands on a face.
+void add_cap(const Look& look, const FaceAxis& axis, int cap, std::vector<Candidate>& over)
+{
+    Feature f = look.feature(FeatureKind::corner_face, 1 - axis.owner);
+    f.f = look.part(axis.owner).solid.first_face + axis.face;
+    for (const int corner : look.part(1 - axis.owner).solid.faces[cap].corners) {
+        f.i = corner;
         const Touch touch = touch_of(f, look.at);
         if (is_over(look, axis, touch.point)) {
             over.push_back({f, touch});
@@ -215,30 +239,25 @@ void add_side_over_cap(const Look& look, const FaceAxis& axis, std::vector<Candi
     }
 }
 
-// What of the other solid lies over a face.
+// What of a rod lies over a face of the other solid.
 std::vector<Candidate> over_face(const Look& look, const FaceAxis& axis)
 {
     std::vector<Candidate> over;
-    const int owner = 1 - axis.owner;
-    const Placed& body = look.part(owner);
-    const Placed& under = look.part(axis.owner);
-    bool lies = false;
-    if (look.is_rod(owner)) {
-        const Vec3 n = under.pose.R * under.solid.faces[axis.face].normal;
-        lies = std::abs(body.pose.R.col(0).dot(n)) < standing;
-        for (const int i : {0, 1}) {
-            const Candidate rim = rim_on_face(look, axis, i);
-            if (is_over(look, axis, rim.touch.point)) {
-                over.push_back(rim);
-            }
+    if (!look.is_rod(1 - axis.owner)) {
+        return over;
+    }
+    for (const int i : {0, 1}) {
+        const Candidate rim = rim_on_face(look, axis, i);
+        if (is_over(look, axis, rim.touch.point)) {
+            over.push_back(rim);
         }
     }
-    if (!lies) {
-        const AxisKind kind = axis.owner == 0 ? AxisKind::face_of_a : AxisKind::face_of_b;
-        const Separation along{axis.distance, kind, axis.face, axis.face};
-        add_overlap(look.pair, look.parts, along, look.at, 0, over);
-    } else if (look.is_rod(axis.owner)) {
-        add_side_over_cap(look, axis, over);
+    const Placed& under = look.part(axis.owner);
+    const double upright = look.part(1 - axis.owner)
+                               .pose.R.col(0)
+                               .dot(under.pose.R * under.solid.faces[axis.face].normal);
+    if (std::abs(upright) > standing) {
+        add_cap(look, axis, upright > 0 ? 0 : 1, over);
     }
     return over;
 }
@@ -250,7 +269,7 @@ Candidate nearest_feature(const Look& look)
         const Meeting& best = look.meetings[look.best_meeting];
         return {best.feature, best.at.touch};
     }
-    const FaceAxis& axis = look.faces[look.best_face];
+    const FaceAxis& axis = look.best_face;
     if (look.is_rod(1 - axis.owner)) {
         const Candidate low = rim_on_face(look, axis, 0);
         const Candidate high = rim_on_face(look, axis, 1);
@@ -270,11 +289,14 @@ Candidate nearest_feature(const Look& look)
 }
 
 // Appends what is no deeper than the solids overlap, each point once.
+// Appends what is neither deeper than the solids overlap nor more than `near` farther apart than
+// they are, each point once.
 class Collection {
 public:
-    Collection(const Look& look, std::vector<Candidate>& found)
-        : deepest_(2 * std::min(look.distance, 0.0) + no_overlap), tolerance_(2 * look.tolerance),
-          first_(static_cast<std::ptrdiff_t>(found.size())), found_(found)
+    Collection(const Look& look, double near, std::vector<Candidate>& found)
+        : deepest_(2 * std::min(look.distance, 0.0) + no_overlap), highest_(look.distance + near),
+          tolerance_(2 * look.tolerance), first_(static_cast<std::ptrdiff_t>(found.size())),
+          found_(found)
     {
     }
 
@@ -285,7 +307,7 @@ public:
                 const Vec3 d = k.touch.point - c.touch.point;
                 return (d - c.touch.normal * c.touch.normal.dot(d)).norm() < tolerance_;
             });
-        if (!known && c.touch.gap >= deepest_) {
+        if (!known && c.touch.gap >= deepest_ && c.touch.gap <= highest_) {
             lowest_ = std::min(lowest_, c.touch.gap);
             found_.push_back(c);
         }
@@ -295,11 +317,20 @@ public:
 
 private:
     double deepest_;
+    double highest_;
     double tolerance_;
     std::ptrdiff_t first_;
     std::vector<Candidate>& found_;
     double lowest_ = infinity;
 };
+
+// Whether the solids lie on either side of the touch.
+bool separates(const Look& look, const Meeting& meeting, double near)
+{
+    const Touch& touch = meeting.at.touch;
+    return meeting.at.past <= look.tolerance && touch.gap <= look.distance + near &&
+           distance_along(look.parts, touch.normal) >= touch.gap - near;
+}
 
 } // namespace
 
@@ -311,34 +342,31 @@ double rod_distance(const Pair& pair, const PartPair& parts, const Configuration
 void add_rod_contacts(const Pair& pair, const PartPair& parts, const Configuration& at, double near,
                       std::vector<Candidate>& found)
 {
-    const Look look = look_at(pair, parts, at, near);
+    Look look = look_at(pair, parts, at, near);
     if (look.distance > near) {
         return;
     }
-    Collection collection(look, found);
-    bool covered = false;
-    for (const FaceAxis& axis : look.faces) {
-        if (axis.distance < look.distance - near) {
-            continue;
+    Collection collection(look, near, found);
+    bool covered = false; // by another part of a compound
+    const auto add = [&](bool open, const Candidate& c) {
+        covered = covered || !open;
+        if (open) {
+            collection.add(c);
         }
+    };
+    std::erase_if(look.faces,
+                  [&](const FaceAxis& axis) { return axis.distance < look.distance - near; });
+    for (const FaceAxis& axis : look.faces) {
         for (const Candidate& c : over_face(look, axis)) {
-            if (is_open(look, axis, c.touch.point)) {
-                collection.add(c);
-            } else {
-                covered = true;
-            }
+            add(is_open(look, axis, c.touch.point), c);
+        }
+        if (look.is_rod(axis.owner)) {
+            add_chords(look, axis);
         }
     }
     for (const Meeting& meeting : look.meetings) {
-        const Touch& touch = meeting.at.touch;
-        if (meeting.at.past > look.tolerance || touch.gap > look.distance + near ||
-            distance_along(look.parts, touch.normal) < touch.gap - near) {
-            continue;
-        }
-        if (is_open(look, meeting)) {
-            collection.add({meeting.feature, touch});
-        } else {
-            covered = true;
+        if (separates(look, meeting, near)) {
+            add(is_open(look, meeting), {meeting.feature, meeting.at.touch});
         }
     }
     if (!covered && collection.lowest() > look.distance + look.tolerance) {

@@ -16,9 +16,13 @@ constexpr double no_direction = 1e-9;
 // Newton steps and halvings of one of them; a handful is the rule.
 constexpr int most_steps = 40;
 constexpr int most_halvings = 20;
-// Two rims whose tangents at the contact are this near to parallel (sine squared) meet in no point.
-constexpr double tangent_rims = 1e-12;
-// Round-off, as a part of the lengths or of the unit normal.
+// Tangents of two rims are parallel below this sine: the rims meet in no single point.
+constexpr double parallel_tangents = 1e-6;
+// A normal nearer to the axis than this is that of the cap, and the rim has no one point (unit
+// vectors).
+constexpr double flat = 1e-5;
+constexpr double longest_step = 0.4; // about what lies between two samples [rad]
+// Round-off of an angle, and as a part of a length.
 constexpr double round_off = 1e-14;
 
 // An edge, or the axis of a rod with its radius.
@@ -51,6 +55,11 @@ Vec3 any_square_to(const Vec3& n)
     return n.cross(Vec3::Unit(smallest)).normalized();
 }
 
+Vec3 direction(const Vec3& v)
+{
+    return v.squaredNorm() > 0 ? Vec3(v.normalized()) : Vec3(Vec3::UnitZ());
+}
+
 Line side_of(const Placed& rod)
 {
     const Vec3 axis = rod.pose.R.col(0);
@@ -77,7 +86,7 @@ RodTouch side_on_line(const Line& side, const Line& line)
     const Vec3 r = side.from - line.from;
     if (sine <= no_direction) {
         const Vec3 away = r - line.along * line.along.dot(r);
-        const Vec3 n = away.normalized();
+        const Vec3 n = direction(away);
         return {{line.from + line.radius * n, n, away.norm() - side.radius - line.radius},
                 infinity};
     }
@@ -126,68 +135,133 @@ RodTouch rim_on_line(const Rim& rim, const Line& line)
     const Eigen::Vector2d normal = ellipse_normal(std::abs(x), std::abs(y), beta, sq(sine));
     const Vec3 out = (std::copysign(normal.x(), x) * major + std::copysign(normal.y(), y) * minor)
                          .normalized(); // towards the line
-    const double gap = out.dot(r) - rim.radius * rim.axis.cross(out).norm() - line.radius;
+    const double across = rim.axis.cross(out).norm();
+    const double gap = out.dot(r) - rim.radius * across - line.radius;
     const Vec3 on_rim = rim.centre + rim.towards(out);
-    const double past = line.past(line.along.dot(on_rim - line.from));
+    const double past = across > flat ? line.past(line.along.dot(on_rim - line.from)) : infinity;
     return {{on_rim + 0.5 * gap * out, -out, gap}, past};
 }
 
-// The direction from rim a to rim b along which they are farthest apart, by Newton's method on the
-// unit sphere from a guess: the gap falls off with r/|n x u| across each tangent n x u.
-Vec3 farthest_apart(const Rim& a, const Rim& b, Vec3 n)
+// Where the line leaves the cap (end 1) or comes over it (end -1), seen along the axis. Where the
+// line ends over the cap its end has a touch of its own.
+RodTouch line_over_cap(const Rim& rim, int side, const Line& line, int end)
 {
-    const Vec3 d = b.centre - a.centre;
-    const auto gap = [&](const Vec3& m) {
-        return m.dot(d) - a.radius * a.axis.cross(m).norm() - b.radius * b.axis.cross(m).norm();
-    };
-    for (int k = 0; k < most_steps; ++k) {
-        Eigen::Matrix<double, 3, 2> plane;
-        plane.col(0) = any_square_to(n);
-        plane.col(1) = n.cross(plane.col(0));
-        const Vec3 apart = d - a.towards(n) - b.towards(n); // of the two nearest points
-        const Eigen::Vector2d slope = plane.transpose() * apart;
-        Eigen::Matrix2d bend = Eigen::Matrix2d::Zero();
-        for (const Rim& rim : {a, b}) {
-            const Vec3 across = rim.axis.cross(n);
-            const double sine = std::max(across.norm(), no_direction);
-            const Eigen::Vector2d w = plane.transpose() * across;
-            bend += rim.radius / (sine * sq(sine)) * (w * w.transpose());
-        }
-        const double size = bend.trace();
-        const Eigen::Matrix2d falling = bend + apart.dot(n) * Eigen::Matrix2d::Identity();
-        if (falling.determinant() > tangent_rims * sq(size)) {
-            bend = falling;
-        } else {
-            bend += 1e-3 * size * Eigen::Matrix2d::Identity();
-        }
-        const Vec3 step = plane * (bend.inverse() * slope);
-        const double enough = gap(n) - round_off * d.norm();
-        double part = 1;
-        Vec3 next = (n + step).normalized();
-        for (int h = 0; h < most_halvings && gap(next) < enough; ++h) {
-            part *= 0.5;
-            next = (n + part * step).normalized();
-        }
-        n = next;
-        if (step.norm() <= round_off) {
-            break;
-        }
+    const Vec3 n = side * rim.axis;
+    const Vec3 facing = n - line.along * line.along.dot(n);
+    const Vec3 r = line.from - line.radius * direction(facing) - rim.centre;
+    const Vec3 across = r - n * n.dot(r);
+    const Vec3 along = line.along - n * n.dot(line.along);
+    const double a = along.squaredNorm();
+    const double b = along.dot(across);
+    const double root = sq(b) - a * (across.squaredNorm() - sq(rim.radius));
+    if (a <= sq(no_direction) || root < 0) {
+        return {{rim.centre + r, -n, n.dot(r)}, infinity};
     }
-    return n;
+    const double t = (end * std::sqrt(root) - b) / a;
+    const Vec3 p = r + t * line.along;
+    return {{rim.centre + p, -n, n.dot(p)}, line.past(t)};
 }
 
-RodTouch rim_on_rim(const Rim& a, const Rim& b)
+// Where the rims of two caps cross, seen along the axis of the first: on the line of equal power to
+// both circles.
+RodTouch cap_on_cap(const Rim& rim, int side, const Rim& other, int end)
 {
-    const auto axis = [](const Rim& rim) { return Line{rim.centre, rim.axis, 0, rim.radius}; };
-    // from a to b past the side of either
-    const Vec3 guess = rim_on_line(b, axis(a)).touch.normal - rim_on_line(a, axis(b)).touch.normal;
-    const double length = guess.norm();
-    const Vec3 n =
-        farthest_apart(a, b, length > no_direction ? Vec3(guess / length) : any_square_to(a.axis));
-    const Vec3 p = a.centre + a.towards(n);
-    const Vec3 q = b.centre - b.towards(n);
-    const double gap = n.dot(q - p);
-    return {{0.5 * (p + q), -n, gap}, (q - p - gap * n).norm()};
+    const Vec3 n = side * rim.axis;
+    const Vec3 d = other.centre - rim.centre;
+    const Vec3 apart = d - n * n.dot(d);
+    const double distance = apart.norm();
+    const double power =
+        0.5 * (distance + (sq(rim.radius) - sq(other.radius)) / std::max(distance, no_direction));
+    const double root = sq(rim.radius) - sq(power);
+    const Vec3 towards = direction(apart);
+    const Vec3 p = power * towards + end * std::sqrt(std::max(root, 0.0)) * n.cross(towards);
+    const Vec3 into = (other.axis.dot(n) < 0 ? -1 : 1) * other.axis;
+    return {{rim.centre + p, -into, into.dot(d - p)}, root > 0 ? 0 : infinity};
+}
+
+// A point of a rim, by the arm from its centre.
+struct RimPoint {
+    Rim rim;
+    Vec3 arm{0, 0, 0};
+
+    Vec3 at() const { return rim.centre + arm; }
+    Vec3 tangent() const { return rim.axis.cross(arm); } // the change with the angle
+    void turn(double angle) { arm = std::cos(angle) * arm + std::sin(angle) * tangent(); }
+};
+
+// Of some points of rim j of rod b, the one nearest to rod a.
+RimPoint nearest_sample(const Placed& a, const Placed& b, int j)
+{
+    RimPoint best{rim_of(b, j)};
+    double smallest = infinity;
+    for (const int corner : b.solid.faces[j].corners) {
+        const Vec3 arm = b.pose.R * b.solid.corners[corner] + b.pose.x - best.rim.centre;
+        const Vec3 p = a.pose.R.transpose() * (best.rim.centre + arm - a.pose.x);
+        const double gap = nearest(a.solid, p).gap;
+        if (gap < smallest) {
+            smallest = gap;
+            best.arm = arm;
+        }
+    }
+    return best;
+}
+
+// Turns both points to where they are nearest to each other: Newton's method for half the square of
+// their distance, by Gauss and Newton where that is not convex.
+void approach(RimPoint& p, RimPoint& q)
+{
+    for (int k = 0; k < most_steps; ++k) {
+        const Vec3 d = q.at() - p.at();
+        const Vec3 u = p.tangent();
+        const Vec3 w = q.tangent();
+        const Eigen::Vector2d slope(-d.dot(u), d.dot(w));
+        Eigen::Matrix2d bend;
+        bend << u.squaredNorm() + d.dot(p.arm), -u.dot(w), -u.dot(w),
+            w.squaredNorm() - d.dot(q.arm);
+        if (bend.determinant() <= 0 || bend.trace() <= 0) {
+            bend << u.squaredNorm(), -u.dot(w), -u.dot(w), w.squaredNorm();
+            bend += parallel_tangents * bend.trace() * Eigen::Matrix2d::Identity();
+        }
+        Eigen::Vector2d step = -(bend.inverse() * slope);
+        step *= std::min(1.0, longest_step / step.norm());
+        for (int h = 0; h < most_halvings; ++h, step *= 0.5) {
+            RimPoint p_next = p;
+            RimPoint q_next = q;
+            p_next.turn(step[0]);
+            q_next.turn(step[1]);
+            if ((q_next.at() - p_next.at()).norm() <= d.norm() + round_off * p.rim.radius) {
+                p = p_next;
+                q = q_next;
+                break;
+            }
+        }
+        if (step.norm() <= round_off) {
+            return;
+        }
+    }
+}
+
+// The normal is square to both tangents, towards b from the edge of a that the rim is.
+RodTouch rim_on_rim(const Placed& a, int i, const Placed& b, int j)
+{
+    RimPoint q = nearest_sample(a, b, j);
+    RimPoint p{rim_of(a, i)};
+    p.arm = p.rim.towards(q.at() - p.rim.centre);
+    approach(p, q);
+    const auto outwards = [](const RimPoint& x, int end) {
+        return Vec3(x.arm / x.rim.radius + (end == 0 ? -1 : 1) * x.rim.axis);
+    };
+    const Vec3 d = q.at() - p.at();
+    const Vec3 cross = p.tangent().cross(q.tangent());
+    const double length = cross.norm();
+    if (length <= parallel_tangents * p.rim.radius * q.rim.radius) {
+        return {{0.5 * (p.at() + q.at()), -direction(d), d.norm()}, infinity};
+    }
+    const double sign = cross.dot(outwards(p, i) - outwards(q, j)) < 0 ? -1 : 1;
+    const Vec3 n = sign / length * cross;
+    const double gap = n.dot(d);
+    const bool on_cap = std::min(p.rim.axis.cross(n).norm(), q.rim.axis.cross(n).norm()) < flat;
+    return {{0.5 * (p.at() + q.at()), -n, gap}, on_cap ? infinity : (d - gap * n).norm()};
 }
 
 Touch over_face(const Vec3& point, const Placed& other, int f)
@@ -195,17 +269,6 @@ Touch over_face(const Vec3& point, const Placed& other, int f)
     const Face& face = other.solid.faces[f];
     const Vec3 n = other.pose.R * face.normal;
     return {point, n, n.dot(point - other.pose.x) - face.offset};
-}
-
-Touch side_over_cap(const Feature& feature, const Placed& rod, const Placed& other)
-{
-    const Vec3 n = other.pose.R * other.solid.faces[feature.f].normal;
-    const auto corner = [&](int k) {
-        return Vec3(other.pose.x + other.pose.R * other.solid.corners[k]);
-    };
-    const Vec3 p = crossing_point(low_point(rod, 0, n), low_point(rod, 1, n), corner(feature.k),
-                                  corner(feature.l), n);
-    return over_face(p, other, feature.f);
 }
 
 // What a rod meets: another solid, or the creases and corners of a mesh.
@@ -254,8 +317,12 @@ RodTouch touch_on_rod(const Feature& feature, const Placed& rod, const Partner& 
         const Vec3 n = other.solid.pose.R * other.solid.solid.faces[feature.f].normal;
         return {over_face(low_point(rod, feature.i, n), other.solid, feature.f)};
     }
-    case FeatureKind::side_cap:
-        return {side_over_cap(feature, rod, other.solid)};
+    case FeatureKind::cap_line:
+        return line_over_cap(rim_of(rod, feature.i), feature.i == 0 ? -1 : 1, other.line(feature),
+                             feature.j == 0 ? -1 : 1);
+    case FeatureKind::cap_cap:
+        return cap_on_cap(rim_of(rod, feature.i), feature.i == 0 ? -1 : 1,
+                          rim_of(other.solid, feature.k), feature.j == 0 ? -1 : 1);
     case FeatureKind::rod_corner:
         return corner_touch(rod, other.corner(feature.k));
     case FeatureKind::side_line:
@@ -263,7 +330,7 @@ RodTouch touch_on_rod(const Feature& feature, const Placed& rod, const Partner& 
     case FeatureKind::rim_line:
         return rim_on_line(rim_of(rod, feature.i), other.line(feature));
     default:
-        return rim_on_rim(rim_of(rod, feature.i), rim_of(other.solid, feature.j));
+        return rim_on_rim(rod, feature.i, other.solid, feature.j);
     }
 }
 

@@ -12,8 +12,8 @@ struct RodTouch {
     double past = 0;
 };
 
-/// The touch of rim_face, side_cap, rod_corner, side_line, rim_line and rim_rim; the edges and
-/// corners of a mesh are its creases and corners.
+/// The touch of rim_face, cap_line, cap_cap, rod_corner, side_line, rim_line and rim_rim; the edges
+/// and corners of a mesh are its creases and corners.
 RodTouch rod_touch(const Feature& feature, const Configuration& at);
 
 /// The point of rim i of a rod nearest to a plane of unit normal n.
