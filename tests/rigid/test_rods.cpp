@@ -203,6 +203,28 @@ TEST(RodRests, AlongAnotherAndOnItsEnd)
     }
 }
 
+TEST(RodRests, InAGrooveThatItHitsNearlyParallel)
+{
+    // where it touches runs along the rods faster than they turn, until both ends lie
+    for (const double yaw : {1e-6, 1e-4, 1e-2}) {
+        Rigid rigid = scene(0.3, 0.5);
+        rigid.boundaries.push_back({"left", Obstacle{Rod{0.08, 0.6}, {0, -0.08, 0}}});
+        rigid.boundaries.push_back({"right", Obstacle{Rod{0.08, 0.6}, {0.05, 0.08, 0}}});
+        rigid.bodies.push_back(body_of(Rod{0.08, 0.4}, 500, {0.02, 0, 0.15}));
+        Body& body = rigid.bodies[0];
+        body.orientation = Quat(Eigen::AngleAxisd(yaw, Vec3::UnitZ())) *
+                           Quat(Eigen::AngleAxisd(1e-2, Vec3::UnitY()));
+        double last = energy(rigid);
+        run(rigid, 1e-3, 600, [&](double) {
+            EXPECT_LE(energy(rigid), last + 1e-7 * body.mass.mass * g) << yaw;
+            last = energy(rigid);
+        });
+        EXPECT_LE(rigid.counters.worst_penetration, 1e-5) << yaw;
+        EXPECT_LE(body.velocity.norm(), 1e-9) << yaw;
+        EXPECT_NEAR(body.position.z(), 0.08 * std::sqrt(3.0), 1e-9) << yaw;
+    }
+}
+
 TEST(RodTips, AboutTheEdgeOfABox)
 {
     // on end, its middle 1 cm past the edge: I_p omega^2 / 2 = M g times what the middle has sunk
