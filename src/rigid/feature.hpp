@@ -48,19 +48,25 @@ enum class FeatureKind {
     corner_plane, // corner i of a, half-space or patch f
     ball_plane,   // ball a, half-space or patch f
     rim_low,      // the point of rim i of rod a nearest to half-space or patch f
-    rim_fixed,    // point j of rim i of rod a, half-space or patch f
     round,        // a ball and its nearest point on part f of the partner; on face k - 1 if k > 0
     corner_face,  // corner i of the owner, face f of the other
     crossing,     // edge i-j of the owner over the side k-l of face f of the other
     edge_edge,    // edge i-j of a, edge k-l of b
+    rim_face,     // the point of rim i of the owner, a rod, nearest to face f of the other
+    cap_line,     // end j of the chord of cap i of the owner, a rod, along what side_line meets
+    cap_cap,      // end j of the chord that cap i of the owner and cap k of the other share
+    rod_corner,   // the owner, a rod, and corner k of the other
+    side_line,    // the side of the owner, a rod; edge k-l, crease k or the side of the other
+    rim_line,     // rim i of the owner, a rod; edge k-l, crease k or the side of the other
+    rim_rim,      // rim i of rod a, rim j of rod b
     edge_crease,  // edge i-j of a, crease k of a mesh
     face_corner,  // face f of a, corner i of a mesh
-    round_crease, // ball or rod a, the nearest point of crease k of a mesh
+    round_crease, // ball a, the nearest point of crease k of a mesh
     round_corner  // ball a, corner i of a mesh
 };
 
 /// Bodies a and b (b as in Contact) and what touches. `owner` 0: i, j belong to a; 1: to b. Corners
-/// and faces of a compound are numbered through all parts.
+/// and faces of a compound are numbered through all parts; the rims of a rod are those of its caps.
 struct Feature {
     int a = 0, b = 0;
     FeatureKind kind = FeatureKind::corner_plane;

@@ -3,16 +3,15 @@
 #include "compound.hpp"
 #include "feature.hpp"
 #include "mesh_contact.hpp"
+#include "rod_touch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace hyoryu {
 
 namespace {
 
-constexpr int rim_points = 8;
 // Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
 constexpr double no_direction = 1e-9;
 
@@ -28,22 +27,6 @@ Plane plane_of(const Wall& wall, int side)
     return {found->point, found->normal};
 }
 
-Vec3 rim_point(const Feature& feature, const Placed& rod, const Vec3& normal)
-{
-    const Mat3& R = rod.pose.R;
-    const Vec3 axis = R.col(0);
-    const Vec3 centre = rod.pose.x + (feature.i == 0 ? -1 : 1) * rod.solid.half_length * axis;
-    if (feature.kind == FeatureKind::rim_fixed) {
-        const double angle = 2 * std::numbers::pi * feature.j / rim_points;
-        return centre +
-               rod.solid.radius * (std::cos(angle) * R.col(1) + std::sin(angle) * R.col(2));
-    }
-    const Vec3 down = axis * axis.dot(normal) - normal;
-    const double length = down.norm();
-    return centre +
-           rod.solid.radius * (length > no_direction ? Vec3(down / length) : Vec3(R.col(1)));
-}
-
 Touch plane_touch(const Feature& feature, const Configuration& at)
 {
     const Wall& wall = at.geometry.walls[-1 - feature.b];
@@ -56,7 +39,7 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
     } else if (feature.kind == FeatureKind::ball_plane) {
         touch.point = body.pose.x - body.solid.radius * plane.normal;
     } else {
-        touch.point = rim_point(feature, body, plane.normal);
+        touch.point = low_point(body, feature.i, plane.normal);
     }
     touch.gap = plane.normal.dot(touch.point - plane.point - displacement(wall.motion, at.time));
     return touch;
@@ -166,7 +149,6 @@ Touch touch_of(const Feature& feature, const Configuration& at)
     case FeatureKind::corner_plane:
     case FeatureKind::ball_plane:
     case FeatureKind::rim_low:
-    case FeatureKind::rim_fixed:
         return plane_touch(feature, at);
     case FeatureKind::round:
         return round_touch(feature, at);
@@ -175,6 +157,14 @@ Touch touch_of(const Feature& feature, const Configuration& at)
         return face_touch(feature, at);
     case FeatureKind::edge_edge:
         return edge_touch(feature, at);
+    case FeatureKind::rim_face:
+    case FeatureKind::cap_line:
+    case FeatureKind::cap_cap:
+    case FeatureKind::rod_corner:
+    case FeatureKind::side_line:
+    case FeatureKind::rim_line:
+    case FeatureKind::rim_rim:
+        return rod_touch(feature, at).touch;
     case FeatureKind::edge_crease:
     case FeatureKind::face_corner:
     case FeatureKind::round_crease:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_round.hpp"
 #include "mesh_contact.hpp"
+#include "rod_touch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,11 @@ namespace {
 constexpr double deep = 1e-5;
 // Rounding of a foot on the border of a triangle, as a part of the size of the body.
 constexpr double rim_tolerance = 1e-6;
-constexpr int rim_points = 8; // as in gap.cpp
 // A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
 constexpr double standing = 0.995;
+
+// What round-off does to the normal of a rim that lies flat (unit vectors).
+constexpr double lying_flat = 1e-6;
 
 std::size_t number(int k)
 {
@@ -116,23 +119,24 @@ private:
 
     void rod_over(const FlatTriangle& triangle, const Patch& patch)
     {
-        const double upright = pose_.R.col(0).dot(patch.normal);
         Feature f = feature(FeatureKind::rim_low);
         f.f = triangle.patch;
         for (f.i = 0; f.i < 2; ++f.i) {
-            f.kind = FeatureKind::rim_low;
-            f.j = 0;
             add_rim(f, triangle);
-            const bool lower_end = (upright > 0) == (f.i == 0);
-            f.kind = FeatureKind::rim_fixed;
-            for (f.j = 0; std::abs(upright) > standing && lower_end && f.j < rim_points; ++f.j) {
+        }
+        const double upright = pose_.R.col(0).dot(patch.normal);
+        if (std::abs(upright) > standing) {
+            f.kind = FeatureKind::corner_plane;
+            for (const int corner : solid_.faces[upright > 0 ? 0 : 1].corners) {
+                f.i = corner;
                 add_rim(f, triangle);
             }
         }
-        for (const int crease : triangle.crease) {
-            if (crease >= 0) {
-                rod_on(mesh_.creases[number(crease)], crease);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (triangle.crease[k] >= 0) {
+                rod_on(mesh_.creases[number(triangle.crease[k])], triangle.crease[k]);
             }
+            rod_at(mesh_.corners[number(triangle.corner[k])], triangle.corner[k]);
         }
     }
 
@@ -150,21 +154,42 @@ private:
 
     void rod_on(const Crease& crease, int k)
     {
-        Feature f = feature(FeatureKind::round_crease);
+        Feature f = feature(FeatureKind::side_line);
         f.k = k;
-        const Touch touch = mesh_touch(f, at_);
-        const Vec3 point = touch.point - displacement(wall_.motion, at_.time);
-        const auto is_at = [&](int corner) {
-            return (mesh_.corners[number(corner)].point - point).norm() <
-                   rim_tolerance * solid_.reach;
-        };
-        const bool first = is_at(crease.i);
-        const bool valid =
-            first || is_at(crease.j)
-                ? in_cone(mesh_, mesh_.corners[number(first ? crease.i : crease.j)], touch.normal)
-                : in_cone(crease, touch.normal);
-        if (valid && touch.gap > -solid_.thickness) {
+        add_curve(f, crease);
+        for (f.i = 0; f.i < 2; ++f.i) {
+            f.kind = FeatureKind::rim_line;
+            add_curve(f, crease);
+            f.kind = FeatureKind::cap_line;
+            for (f.j = 0; f.j < 2; ++f.j) {
+                add_curve(f, crease);
+            }
+            f.j = 0;
+        }
+    }
+
+    // A rim has the normals between its cap and the side only.
+    void add_curve(const Feature& f, const Crease& crease)
+    {
+        const RodTouch found = rod_touch(f, at_);
+        const Vec3& n = found.touch.normal;
+        const double outward = (f.i == 0 ? 1 : -1) * pose_.R.col(0).dot(n);
+        const bool of_rod = f.kind == FeatureKind::side_line || outward >= -lying_flat;
+        if (of_rod && found.past <= rim_tolerance * solid_.reach && in_cone(crease, n) &&
+            found.touch.gap > -solid_.thickness) {
             add(f);
+        }
+    }
+
+    void rod_at(const MeshCorner& corner, int k)
+    {
+        Feature f = feature(FeatureKind::rod_corner);
+        f.k = k;
+        if (corner.sharp) {
+            const Touch touch = touch_of(f, at_);
+            if (in_cone(mesh_, corner, touch.normal) && touch.gap > -solid_.thickness) {
+                add(f);
+            }
         }
     }
 

@@ -9,8 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-// Steps of the golden section: the point is then known to 1e-10 of the crease.
-constexpr int golden_steps = 48;
 // Shorter than this a direction is noise (unit vectors).
 constexpr double no_direction = 1e-9;
 
@@ -53,40 +51,6 @@ Touch edge_on_crease(const Feature& feature, const Placed& a, const Line& line,
     return {0.5 * (on_a + on_b), n, n.dot(on_a - on_b)};
 }
 
-// The distance of a point from a convex solid is a convex function along a line.
-Touch rod_on_crease(const Placed& rod, const Line& line)
-{
-    const auto local = [&](double t) {
-        return nearest(rod.solid,
-                       rod.pose.R.transpose() * (line.from + t * line.along - rod.pose.x));
-    };
-    const double ratio = (std::sqrt(5.0) - 1) / 2;
-    double low = 0;
-    double high = 1;
-    double left = high - ratio;
-    double right = low + ratio;
-    double f_left = local(left).gap;
-    double f_right = local(right).gap;
-    for (int k = 0; k < golden_steps; ++k) {
-        if (f_left <= f_right) {
-            high = right;
-            right = left;
-            f_right = f_left;
-            left = high - ratio * (high - low);
-            f_left = local(left).gap;
-        } else {
-            low = left;
-            left = right;
-            f_left = f_right;
-            right = low + ratio * (high - low);
-            f_right = local(right).gap;
-        }
-    }
-    const double t = 0.5 * (low + high);
-    const Touch touch = local(t);
-    return {line.from + t * line.along, -(rod.pose.R * touch.normal), touch.gap};
-}
-
 Touch ball_on_point(const Placed& ball, const Vec3& point)
 {
     const Vec3 out = ball.pose.x - point;
@@ -115,9 +79,6 @@ Touch mesh_touch(const Feature& feature, const Configuration& at)
     const Line line = line_of(wall.mesh, crease, shift);
     if (feature.kind == FeatureKind::edge_crease) {
         return edge_on_crease(feature, a, line, crease);
-    }
-    if (a.solid.form == Form::rod) {
-        return rod_on_crease(a, line);
     }
     const double t =
         std::clamp(line.along.dot(a.pose.x - line.from) / line.along.squaredNorm(), 0.0, 1.0);

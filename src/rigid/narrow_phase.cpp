@@ -3,6 +3,7 @@
 #include "compound.hpp"
 #include "manifold.hpp"
 #include "mesh_contact.hpp"
+#include "rod_contact.hpp"
 #include "separation.hpp"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace {
 
 // A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
 constexpr double standing = 0.995;
-constexpr int rim_points = 8; // as in gap.cpp
 
 // A point that a thin side does not hold: past its extent, or so far behind that it is outside.
 bool past(const HalfSpace& plane, const Wall& wall, const Vec3& point, double time)
@@ -37,15 +37,15 @@ void add_to_plane(const Feature& feature, const HalfSpace& plane, const Configur
 void rod_on_plane(Feature feature, const HalfSpace& plane, const Configuration& at,
                   std::vector<Candidate>& found)
 {
-    const double upright = at.poses[feature.a].R.col(0).dot(plane.normal);
+    feature.kind = FeatureKind::rim_low;
     for (feature.i = 0; feature.i < 2; ++feature.i) {
-        feature.kind = FeatureKind::rim_low;
-        feature.j = 0;
         add_to_plane(feature, plane, at, found);
-        const bool lower_end = (upright > 0) == (feature.i == 0);
-        feature.kind = FeatureKind::rim_fixed;
-        for (feature.j = 0; std::abs(upright) > standing && lower_end && feature.j < rim_points;
-             ++feature.j) {
+    }
+    const double upright = at.poses[feature.a].R.col(0).dot(plane.normal);
+    if (std::abs(upright) > standing) {
+        feature.kind = FeatureKind::corner_plane;
+        for (const int corner : at.geometry.solids[feature.a].faces[upright > 0 ? 0 : 1].corners) {
+            feature.i = corner;
             add_to_plane(feature, plane, at, found);
         }
     }
@@ -128,10 +128,19 @@ bool is_open(const Candidate& c, const Separation& axis, const PartPair& parts,
                         in_frame(face.pose, c.touch.point));
 }
 
+bool has_rod(const PartPair& parts)
+{
+    return parts.a.solid.form == Form::rod || parts.b.solid.form == Form::rod;
+}
+
 void between_parts(const Pair& pair, const Configuration& at, double near,
                    std::vector<Candidate>& found)
 {
     for_each_part_pair(pair, at, near, [&](const PartPair& parts) {
+        if (has_rod(parts)) {
+            add_rod_contacts(pair, parts, at, near, found);
+            return;
+        }
         const Separation axis = separation(parts.a, parts.b, near);
         if (axis.distance > near) {
             return;
@@ -197,7 +206,10 @@ double axis_distance(const Pair& pair, const Configuration& at)
     }
     double smallest = infinity;
     for_each_part_pair(pair, at, clearly_apart, [&](const PartPair& parts) {
-        smallest = std::min(smallest, separation(parts.a, parts.b, clearly_apart).distance);
+        const double distance = has_rod(parts)
+                                    ? rod_distance(pair, parts, at, clearly_apart)
+                                    : separation(parts.a, parts.b, clearly_apart).distance;
+        smallest = std::min(smallest, distance);
     });
     return smallest;
 }

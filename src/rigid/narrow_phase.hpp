@@ -14,15 +14,16 @@ struct Pair {
     auto operator<=>(const Pair&) const = default;
 };
 
-/// A pair of polytopes farther apart than this has no contact that a located impact needs [m].
+/// A pair of polytopes or rods farther apart than this has no contact that a located impact needs
+/// [m].
 inline constexpr double clearly_apart = 1e-5;
 
-/// Appends the features of the pair that face each other, in a fixed order. Of two polytopes that
-/// are more than `near` apart there are none.
+/// Appends the features of the pair that face each other, in a fixed order. Of polytopes and
+/// rods that are more than `near` apart there are none.
 void find_candidates(const Pair& pair, const Configuration& at, double near,
                      std::vector<Candidate>& found);
 
-/// Whether the pair is made of polytopes (rods as prisms) or of polytopes and a mesh, which have
+/// Whether the pair is made of polytopes and rods, or of polytopes and a mesh, which have
 /// separating axes.
 bool has_axis(const Pair& pair, const Geometry& geometry);
 

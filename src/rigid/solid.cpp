@@ -12,9 +12,8 @@ namespace hyoryu {
 
 namespace {
 
-// Sides of the prism that stands for a rod against polytopes: its normals are within 11 degrees of
-// the true ones, at a cost near that of a box.
-constexpr int prism_sides = 16;
+// Corners of the polygon inscribed in each cap of a rod.
+constexpr int cap_corners = 16;
 // Two faces are one plane if their unit normals differ by less (the faces of a mesh in single
 // precision).
 constexpr double coplanar_angle = 1e-5;
@@ -181,28 +180,21 @@ void add_polytope(Solid& solid, const Polytope& shape, int dimensions)
     }
 }
 
-// The prism whose cross-section has the area of the circle.
-Polytope prism_of(const Rod& rod)
+// The two caps of a rod, as the polygons inscribed in their rims.
+Polytope caps_of(const Rod& rod)
 {
-    const double step = 2 * std::numbers::pi / prism_sides;
-    const double radius = rod.radius * std::sqrt(step / std::sin(step));
-    Polytope prism;
-    std::vector<int> left;
-    std::vector<int> right;
-    for (int k = 0; k < prism_sides; ++k) {
-        const double angle = (k + 0.5) * step;
-        const double y = radius * std::cos(angle);
-        const double z = radius * std::sin(angle);
-        left.push_back(2 * k);
-        right.push_back(2 * k + 1);
-        prism.corners.emplace_back(-rod.length / 2, y, z);
-        prism.corners.emplace_back(rod.length / 2, y, z);
-        const int next = 2 * ((k + 1) % prism_sides);
-        prism.faces.push_back({2 * k, 2 * k + 1, next + 1, next});
+    Polytope caps;
+    caps.faces.resize(2);
+    for (int k = 0; k < cap_corners; ++k) {
+        const double angle = 2 * std::numbers::pi * k / cap_corners;
+        const double y = rod.radius * std::cos(angle);
+        const double z = rod.radius * std::sin(angle);
+        caps.corners.emplace_back(-rod.length / 2, y, z);
+        caps.corners.emplace_back(rod.length / 2, y, z);
+        caps.faces[0].push_back(2 * k);
+        caps.faces[1].push_back(2 * k + 1);
     }
-    prism.faces.push_back(left);
-    prism.faces.push_back(right);
-    return prism;
+    return caps;
 }
 
 } // namespace
@@ -238,10 +230,8 @@ Solid solid_of(const ContactShape& shape, int dimensions)
         solid.form = Form::rod;
         solid.radius = rod->radius;
         solid.half_length = rod->length / 2;
-        add_polytope(solid, prism_of(*rod), dimensions);
-        // the flats of the prism are within the round surface
-        solid.box_half =
-            solid.box_half.cwiseMax(Vec3(solid.half_length, solid.radius, solid.radius));
+        add_polytope(solid, caps_of(*rod), dimensions);
+        solid.thickness = std::min(solid.radius, solid.half_length);
     } else if (const auto* polytope = std::get_if<Polytope>(&shape)) {
         solid.form = Form::polytope;
         add_polytope(solid, *polytope, dimensions);

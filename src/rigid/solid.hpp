@@ -33,9 +33,9 @@ struct Edge {
     Vec3 arc{0, 0, 0};
 };
 
-/// A shape in its body frame. A rod carries a prism in `corners`, `faces` and `edges`: against
-/// planes and balls it is exact, against polytopes and other rods it is the prism of the same
-/// cross-section. A compound has the corners and faces of all its parts, one part after another.
+/// A shape in its body frame. A rod has its two caps as `faces`, at -x and +x: the planes are
+/// exact, the corners are points of the rims that bound what a cap covers when it stands flat. A
+/// compound has the corners and faces of all its parts, one part after another.
 struct Solid {
     Form form = Form::ball;
     double radius = 0;      // ball, rod [m]

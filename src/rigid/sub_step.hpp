@@ -58,7 +58,7 @@ void predict_free_motion(const StepContext& context, const SubStep& sub);
 void plan_motion(const StepContext& context, const SubStep& sub);
 
 /// Where a sliding contact stops or turns back within the planned sub-step, shortens it to that
-/// time and plans it again.
+/// time and plans it again. Before that, shortens it until no contact between curves turns too far.
 void end_with_slip(const StepContext& context, SubStep& sub);
 
 /// The first time within the sub-step at which a contact that is not held closes; h if none does.

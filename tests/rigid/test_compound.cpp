@@ -227,34 +227,45 @@ std::vector<Boundary> grounds()
             {"mesh spike", spike(0.5, 0.2), 0, {Vec3::Zero(), {}, {}}}};
 }
 
-void expect_gentle(Rigid& rigid, const std::string& name)
+double weight(const Rigid& rigid)
 {
-    const bool rod =
-        name.find("rod") != std::string::npos || name.find("cylinder") != std::string::npos;
+    double sum = 0;
+    for (const Body& body : rigid.bodies) {
+        sum += body.locks[0] ? 0 : body.mass.mass * g;
+    }
+    return sum;
+}
+
+// How far the momentum of any body changed by more than the log and gravity say [m/s].
+double open_ledger(const Rigid& rigid, const std::vector<Body>& before,
+                   const std::vector<Contact>& log, double dt)
+{
+    double worst = 0;
+    for (std::size_t m = 0; m < before.size(); ++m) {
+        const Body& now = rigid.bodies[m];
+        Vec3 sum = dt * now.mass.mass * rigid.settings.gravity;
+        for (const Contact& c : log) {
+            const Vec3 P = c.normal_impulse * c.normal + c.tangential_impulse;
+            const int own = static_cast<int>(m);
+            sum += (c.a == own ? 1 : c.b == own ? -1 : 0) * P;
+        }
+        const Vec3 change = now.mass.mass * (now.velocity - before[m].velocity);
+        worst = std::max(worst, (change - sum).norm() / now.mass.mass);
+    }
+    return worst;
+}
+
+void expect_gentle(Rigid& rigid, int steps, const std::string& name)
+{
     double last = energy(rigid);
     double gained = 0;
-    double open_ledger = 0;
-    std::vector<Wrench> loads(rigid.bodies.size());
-    for (int k = 0; k < 800; ++k) {
+    double worst = 0;
+    const std::vector<Wrench> loads(rigid.bodies.size());
+    for (int k = 0; k < steps; ++k) {
         const std::vector<Body> before = rigid.bodies;
         std::vector<Contact> log;
-        const double dt = 1e-3;
-        step(rigid, k * dt, dt, loads, log);
-        for (std::size_t m = 0; m < before.size(); ++m) {
-            const Body& now = rigid.bodies[m];
-            if (now.locks[0]) {
-                continue;
-            }
-            Vec3 sum = dt * now.mass.mass * rigid.settings.gravity;
-            for (const Contact& c : log) {
-                const Vec3 P = c.normal_impulse * c.normal + c.tangential_impulse;
-                const int own = static_cast<int>(m);
-                sum += (c.a == own ? 1 : c.b == own ? -1 : 0) * P;
-            }
-            open_ledger = std::max(
-                open_ledger,
-                (now.mass.mass * (now.velocity - before[m].velocity) - sum).norm() / now.mass.mass);
-        }
+        step(rigid, k * 1e-3, 1e-3, loads, log);
+        worst = std::max(worst, open_ledger(rigid, before, log, 1e-3));
         const double E = energy(rigid);
         gained = std::max(gained, E - last);
         last = E;
@@ -262,16 +273,34 @@ void expect_gentle(Rigid& rigid, const std::string& name)
     for (const Body& body : rigid.bodies) {
         EXPECT_TRUE(body.position.allFinite()) << name;
     }
-    double weight = 0;
+    EXPECT_LE(worst, 1e-12) << name;
+    // Rolling contacts leave the surface to second order in the step and are put back by position.
+    EXPECT_LE(gained, 1e-5 * weight(rigid)) << name;
+    EXPECT_LE(rigid.counters.worst_penetration, 1e-5) << name;
+}
+
+// What moves has less energy than lifts it by the play of 1e-6 m that one contact has between two
+// descriptions by features.
+void expect_rest(const Rigid& rigid, const std::string& name)
+{
+    double moving = 0;
     for (const Body& body : rigid.bodies) {
-        weight += body.locks[0] ? 0 : body.mass.mass * g;
+        moving += kinetic_energy(body);
     }
-    EXPECT_LE(open_ledger, 1e-12) << name;
-    // Rolling contacts leave the surface to second order in the step and are put back by position;
-    // the prism that stands for a rod has edges instead of a surface.
-    const double depth = rod ? 3e-4 : 1e-5;
-    EXPECT_LE(gained, depth * weight) << name;
-    EXPECT_LE(rigid.counters.worst_penetration, depth) << name;
+    EXPECT_LE(moving, 1e-6 * weight(rigid)) << name;
+}
+
+// Rolling may go on for ever; sliding and rocking have ended when nothing takes energy any more.
+void expect_rolling_at_most(Rigid& rigid, int steps, const std::string& name)
+{
+    const double before = energy(rigid);
+    run(rigid, 1e-3, 100, {}, 1e-3 * steps);
+    EXPECT_NEAR(energy(rigid), before, 1e-8 * weight(rigid)) << name;
+}
+
+bool is_round(const ContactShape& shape)
+{
+    return std::holds_alternative<Ball>(shape) || std::holds_alternative<Rod>(shape);
 }
 
 TEST(Matrix, EveryShapeOnEveryGround)
@@ -282,20 +311,34 @@ TEST(Matrix, EveryShapeOnEveryGround)
             rigid.boundaries.push_back(ground);
             rigid.bodies.push_back(body_of(shape, 500, {0.02, 0.01, 0.4}));
             rigid.bodies[0].orientation = turn_about(Vec3(1, 2, 3).normalized(), 10);
-            expect_gentle(rigid, name + " on " + ground.name);
+            const std::string pair = name + " on " + ground.name;
+            expect_gentle(rigid, 2000, pair);
+            const bool level = std::holds_alternative<Plane>(ground.surface) ||
+                               std::holds_alternative<Basin>(ground.surface) ||
+                               ground.name == "box wall" || ground.name == "mesh wall";
+            if (level) { // round shapes have no sideways push here that would set them rolling
+                expect_rest(rigid, pair);
+            }
         }
     }
 }
 
 TEST(Matrix, EveryShapeOnEveryShape)
 {
+    constexpr int steps = 4000;
     for (const auto& [lower, below] : shapes()) {
         for (const auto& [upper, above] : shapes()) {
             Rigid rigid = on_floor(0.3, 0.4);
             rigid.bodies.push_back(body_of(below, 700, {0, 0, 0.3}));
             rigid.bodies.push_back(body_of(above, 500, {0.03, 0.02, 0.8}));
             rigid.bodies[1].orientation = turn_about(Vec3(1, 2, 3).normalized(), 10);
-            expect_gentle(rigid, upper + " on " + lower);
+            const std::string pair = upper + " on " + lower;
+            expect_gentle(rigid, steps, pair);
+            if (is_round(below) || is_round(above)) {
+                expect_rolling_at_most(rigid, steps, pair);
+            } else {
+                expect_rest(rigid, pair);
+            }
         }
     }
 }

@@ -19,9 +19,8 @@ namespace hyoryu {
 struct Ball {
     double radius = 0; // [m]
 };
-/// A circular cylinder about the body's x axis. Contact with planes and balls is exact; against
-/// polytopes and other rods it is a prism of 16 sides of the same cross-section. In two dimensions
-/// it is the rectangle of its lengthwise section.
+/// A circular cylinder about the body's x axis; contact is exact. In two dimensions it is the
+/// rectangle of its lengthwise section.
 struct Rod {
     double radius = 0; // [m]
     double length = 0; // [m]

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+#include "rod_contact.hpp"
+#include "compound.hpp"
+#include "rod_touch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Points this part of the size of a pair past the end of a feature still count as on it, and points
+// nearer to each other than that are one.
+constexpr double rim_tolerance = 1e-6;
+// A rod stands on a face rather than lies if its axis is nearer to the normal than acos of this.
+constexpr double standing = 0.995;
+// A gap below this and twice the overlap of the solids belongs to features that do not face each
+// other [m].
+constexpr double no_overlap = -1e-9;
+
+// max n . (x - origin of the body)
+double support(const Placed& body, const Vec3& n)
+{
+    const Vec3 local = body.pose.R.transpose() * n;
+    if (body.solid.form == Form::rod) {
+        return body.solid.half_length * std::abs(local.x()) +
+               body.solid.radius * std::hypot(local.y(), local.z());
+    }
+    double farthest = -infinity;
+    for (const Vec3& corner : body.solid.corners) {
+        farthest = std::max(farthest, local.dot(corner));
+    }
+    return farthest;
+}
+
+// The distance of two solids along a direction from b to a.
+double distance_along(const PartPair& parts, const Vec3& n)
+{
+    return n.dot(parts.a.pose.x - parts.b.pose.x) - support(parts.a, -n) - support(parts.b, n);
+}
+
+// A face and the distance of the other solid along its normal.
+struct FaceAxis {
+    int owner = 0; // of the face: 0 if a
+    int face = 0;
+    double distance = -infinity; // [m]
+};
+
+// Two features of which one at least is curved, or a rod and a corner.
+struct Meeting {
+    Feature feature;
+    const Edge* edge = nullptr; // of the polytope, if it meets with an edge
+    RodTouch at;
+};
+
+// All that may face each other, and the largest distance along a normal so far.
+struct Look {
+    const Pair& pair;
+    const PartPair& parts;
+    const Configuration& at;
+    double tolerance = 0; // [m]
+    std::vector<FaceAxis> faces;
+    std::vector<Meeting> meetings;
+    double distance = -infinity;
+    FaceAxis best_face;
+    int best_meeting = -1; // before the face, if there is one
+
+    const Placed& part(int owner) const { return owner == 0 ? parts.a : parts.b; }
+    bool is_rod(int owner) const { return part(owner).solid.form == Form::rod; }
+    Feature feature(FeatureKind kind, int owner) const { return {pair.a, pair.b, kind, owner}; }
+};
+
+void add_faces(Look& look, int owner)
+{
+    const Placed& body = look.part(owner);
+    for (int f = 0; f < static_cast<int>(body.solid.faces.size()); ++f) {
+        const Vec3 n = (owner == 0 ? -1 : 1) * (body.pose.R * body.solid.faces[f].normal);
+        look.faces.push_back({owner, f, distance_along(look.parts, n)});
+        if (look.faces.back().distance > look.distance) {
+            look.distance = look.faces.back().distance;
+            look.best_face = look.faces.back();
+        }
+    }
+}
+
+void add_meeting(Look& look, const Feature& feature, const Edge* edge)
+{
+    look.meetings.push_back({feature, edge, rod_touch(feature, look.at)});
+    const Touch& touch = look.meetings.back().at.touch;
+    if (touch.gap <= look.distance) { // solids are not farther apart than what belongs to them
+        return;
+    }
+    const double distance = distance_along(look.parts, touch.normal);
+    if (distance > look.distance) {
+        look.distance = distance;
+        look.best_meeting = static_cast<int>(look.meetings.size()) - 1;
+    }
+}
+
+void add_meetings_of_rods(Look& look)
+{
+    add_meeting(look, look.feature(FeatureKind::side_line, 0), nullptr);
+    for (const int i : {0, 1}) {
+        for (const int j : {0, 1}) {
+            Feature rim = look.feature(FeatureKind::rim_line, i);
+            rim.i = j;
+            add_meeting(look, rim, nullptr);
+            Feature rims = look.feature(FeatureKind::rim_rim, 0);
+            rims.i = i;
+            rims.j = j;
+            add_meeting(look, rims, nullptr);
+        }
+    }
+}
+
+void add_meetings_with_polytope(Look& look, int rod)
+{
+    const Solid& polytope = look.part(1 - rod).solid;
+    for (int k = 0; k < static_cast<int>(polytope.corners.size()); ++k) {
+        Feature corner = look.feature(FeatureKind::rod_corner, rod);
+        corner.k = polytope.first_corner + k;
+        add_meeting(look, corner, nullptr);
+    }
+    for (const Edge& edge : polytope.edges) {
+        Feature side = look.feature(FeatureKind::side_line, rod);
+        side.k = polytope.first_corner + edge.i;
+        side.l = polytope.first_corner + edge.j;
+        add_meeting(look, side, &edge);
+        for (const int i : {0, 1}) {
+            Feature rim = side;
+            rim.kind = FeatureKind::rim_line;
+            rim.i = i;
+            add_meeting(look, rim, &edge);
+        }
+    }
+}
+
+Look look_at(const Pair& pair, const PartPair& parts, const Configuration& at, double enough)
+{
+    Look look{pair, parts, at, rim_tolerance * std::min(parts.a.solid.reach, parts.b.solid.reach)};
+    add_faces(look, 0);
+    add_faces(look, 1);
+    if (look.distance > enough) {
+        return look;
+    }
+    if (look.is_rod(0) && look.is_rod(1)) {
+        add_meetings_of_rods(look);
+    } else {
+        add_meetings_with_polytope(look, look.is_rod(0) ? 0 : 1);
+    }
+    return look;
+}
+
+Vec3 in_frame(const Pose& pose, const Vec3& p)
+{
+    return pose.R.transpose() * (p - pose.x);
+}
+
+// Whether a point is over a face, past its rim by the tolerance at most.
+bool is_over(const Look& look, const FaceAxis& axis, const Vec3& point)
+{
+    const Placed& body = look.part(axis.owner);
+    const Vec3 p = in_frame(body.pose, point);
+    if (body.solid.form == Form::rod) {
+        return std::hypot(p.y(), p.z()) <= body.solid.radius + look.tolerance;
+    }
+    const auto& sides = body.solid.faces[axis.face].sides;
+    return std::all_of(sides.begin(), sides.end(), [&](const Side& side) {
+        return side.normal.dot(p) - side.offset <= look.tolerance;
+    });
+}
+
+// Whether the surface of a compound goes through the feature at the touch.
+bool is_open(const Look& look, const Meeting& meeting)
+{
+    const int other = 1 - meeting.feature.owner;
+    const Solid& whole = placed(look.at, other == 0 ? look.pair.a : look.pair.b).solid;
+    if (whole.form != Form::compound) {
+        return true;
+    }
+    const Placed& part = look.part(other);
+    const Vec3 p = in_frame(part.pose, meeting.at.touch.point);
+    return meeting.edge != nullptr ? edge_is_open(whole, part.solid, *meeting.edge, p)
+                                   : rim_is_open(whole, part.solid, p);
+}
+
+bool is_open(const Look& look, const FaceAxis& axis, const Vec3& point)
+{
+    const Placed& part = look.part(axis.owner);
+    const Solid& whole = placed(look.at, axis.owner == 0 ? look.pair.a : look.pair.b).solid;
+    return face_is_open(whole, part.solid, axis.face, in_frame(part.pose, point));
+}
+
+Candidate rim_on_face(const Look& look, const FaceAxis& axis, int rim)
+{
+    Feature f = look.feature(FeatureKind::rim_face, 1 - axis.owner);
+    f.i = rim;
+    f.f = look.part(axis.owner).solid.first_face + axis.face;
+    return {f, touch_of(f, look.at)};
+}
+
+// The ends of the chords of a cap along the edges or the side of the other solid, or where the rims
+// of two caps cross.
+void add_chords(Look& look, const FaceAxis& axis)
+{
+    Feature f = look.feature(FeatureKind::cap_line, axis.owner);
+    f.i = axis.face;
+    const Solid& other = look.part(1 - axis.owner).solid;
+    for (f.j = 0; f.j < 2; ++f.j) {
+        if (other.form == Form::rod) {
+            add_meeting(look, f, nullptr);
+            Feature caps = f;
+            caps.kind = FeatureKind::cap_cap;
+            for (const int cap : {0, 1}) {
+                caps.k = cap;
+                add_meeting(look, caps, nullptr);
+            }
+        }
+        for (const Edge& edge : other.edges) {
+            f.k = other.first_corner + edge.i;
+            f.l = other.first_corner + edge.j;
+            add_meeting(look, f, &edge);
+        }
+    }
+}
+
+// Points of the rim of a cap that stands on a face.
+void add_cap(const Look& look, const FaceAxis& axis, int cap, std::vector<Candidate>& over)
+{
+    Feature f = look.feature(FeatureKind::corner_face, 1 - axis.owner);
+    f.f = look.part(axis.owner).solid.first_face + axis.face;
+    for (const int corner : look.part(1 - axis.owner).solid.faces[cap].corners) {
+        f.i = corner;
+        const Touch touch = touch_of(f, look.at);
+        if (is_over(look, axis, touch.point)) {
+            over.push_back({f, touch});
+        }
+    }
+}
+
+// What of a rod lies over a face of the other solid.
+std::vector<Candidate> over_face(const Look& look, const FaceAxis& axis)
+{
+    std::vector<Candidate> over;
+    if (!look.is_rod(1 - axis.owner)) {
+        return over;
+    }
+    for (const int i : {0, 1}) {
+        const Candidate rim = rim_on_face(look, axis, i);
+        if (is_over(look, axis, rim.touch.point)) {
+            over.push_back(rim);
+        }
+    }
+    const Placed& under = look.part(axis.owner);
+    const double upright = look.part(1 - axis.owner)
+                               .pose.R.col(0)
+                               .dot(under.pose.R * under.solid.faces[axis.face].normal);
+    if (std::abs(upright) > standing) {
+        add_cap(look, axis, upright > 0 ? 0 : 1, over);
+    }
+    return over;
+}
+
+// The feature that has the best separation as its gap.
+Candidate nearest_feature(const Look& look)
+{
+    if (look.best_meeting >= 0) {
+        const Meeting& best = look.meetings[look.best_meeting];
+        return {best.feature, best.at.touch};
+    }
+    const FaceAxis& axis = look.best_face;
+    if (look.is_rod(1 - axis.owner)) {
+        const Candidate low = rim_on_face(look, axis, 0);
+        const Candidate high = rim_on_face(look, axis, 1);
+        return low.touch.gap < high.touch.gap ? low : high;
+    }
+    Candidate lowest;
+    lowest.touch.gap = infinity;
+    Feature f = look.feature(FeatureKind::corner_face, 1 - axis.owner);
+    f.f = look.part(axis.owner).solid.first_face + axis.face;
+    const Solid& body = look.part(1 - axis.owner).solid;
+    for (int k = 0; k < static_cast<int>(body.corners.size()); ++k) {
+        f.i = body.first_corner + k;
+        const Touch touch = touch_of(f, look.at);
+        lowest = touch.gap < lowest.touch.gap ? Candidate{f, touch} : lowest;
+    }
+    return lowest;
+}
+
+// Appends what is no deeper than the solids overlap, each point once.
+// Appends what is neither deeper than the solids overlap nor more than `near` farther apart than
+// they are, each point once.
+class Collection {
+public:
+    Collection(const Look& look, double near, std::vector<Candidate>& found)
+        : deepest_(2 * std::min(look.distance, 0.0) + no_overlap), highest_(look.distance + near),
+          tolerance_(2 * look.tolerance), first_(static_cast<std::ptrdiff_t>(found.size())),
+          found_(found)
+    {
+    }
+
+    void add(const Candidate& c)
+    {
+        const bool known =
+            std::any_of(found_.begin() + first_, found_.end(), [&](const Candidate& k) {
+                const Vec3 d = k.touch.point - c.touch.point;
+                return (d - c.touch.normal * c.touch.normal.dot(d)).norm() < tolerance_;
+            });
+        if (!known && c.touch.gap >= deepest_ && c.touch.gap <= highest_) {
+            lowest_ = std::min(lowest_, c.touch.gap);
+            found_.push_back(c);
+        }
+    }
+
+    double lowest() const { return lowest_; }
+
+private:
+    double deepest_;
+    double highest_;
+    double tolerance_;
+    std::ptrdiff_t first_;
+    std::vector<Candidate>& found_;
+    double lowest_ = infinity;
+};
+
+// Whether the solids lie on either side of the touch.
+bool separates(const Look& look, const Meeting& meeting, double near)
+{
+    const Touch& touch = meeting.at.touch;
+    return meeting.at.past <= look.tolerance && touch.gap <= look.distance + near &&
+           distance_along(look.parts, touch.normal) >= touch.gap - near;
+}
+
+} // namespace
+
+double rod_distance(const Pair& pair, const PartPair& parts, const Configuration& at, double enough)
+{
+    return look_at(pair, parts, at, enough).distance;
+}
+
+void add_rod_contacts(const Pair& pair, const PartPair& parts, const Configuration& at, double near,
+                      std::vector<Candidate>& found)
+{
+    Look look = look_at(pair, parts, at, near);
+    if (look.distance > near) {
+        return;
+    }
+    Collection collection(look, near, found);
+    bool covered = false; // by another part of a compound
+    const auto add = [&](bool open, const Candidate& c) {
+        covered = covered || !open;
+        if (open) {
+            collection.add(c);
+        }
+    };
+    std::erase_if(look.faces,
+                  [&](const FaceAxis& axis) { return axis.distance < look.distance - near; });
+    for (const FaceAxis& axis : look.faces) {
+        for (const Candidate& c : over_face(look, axis)) {
+            add(is_open(look, axis, c.touch.point), c);
+        }
+        if (look.is_rod(axis.owner)) {
+            add_chords(look, axis);
+        }
+    }
+    for (const Meeting& meeting : look.meetings) {
+        if (separates(look, meeting, near)) {
+            add(is_open(look, meeting), {meeting.feature, meeting.at.touch});
+        }
+    }
+    if (!covered && collection.lowest() > look.distance + look.tolerance) {
+        found.push_back(nearest_feature(look));
+    }
+}
+
+} // namespace hyoryu

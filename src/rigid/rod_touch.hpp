@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Gap functions of the side and the rims of a rod.
+#pragma once
+
+#include "feature.hpp"
+
+namespace hyoryu {
+
+/// A touch, and how far its point lies past the ends of what touches [m].
+struct RodTouch {
+    Touch touch;
+    double past = 0;
+};
+
+/// The touch of rim_face, cap_line, cap_cap, rod_corner, side_line, rim_line and rim_rim; the edges
+/// and corners of a mesh are its creases and corners.
+RodTouch rod_touch(const Feature& feature, const Configuration& at);
+
+/// The point of rim i of a rod nearest to a plane of unit normal n.
+Vec3 low_point(const Placed& rod, int i, const Vec3& n);
+
+} // namespace hyoryu
