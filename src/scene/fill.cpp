@@ -2,6 +2,7 @@
 #include "hyoryu/scene/fill.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/formula.hpp"
 #include "walls.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace hyoryu {
 
@@ -139,12 +141,14 @@ void take_out(const Placed& shape, double spacing, Filling& filling)
             filling.fluid[kept] = filling.fluid[k];
             filling.fluid_velocity[kept] = filling.fluid_velocity[k];
             filling.fluid_depth[kept] = filling.fluid_depth[k];
+            filling.fluid_pressure[kept] = filling.fluid_pressure[k];
             ++kept;
         }
     }
     filling.fluid.resize(kept);
     filling.fluid_velocity.resize(kept);
     filling.fluid_depth.resize(kept);
+    filling.fluid_pressure.resize(kept);
 }
 
 bool behind_a_wall(const Scene& scene, const Vec3& p)
@@ -154,6 +158,45 @@ bool behind_a_wall(const Scene& scene, const Vec3& p)
     });
 }
 
+// Velocity and pressure of a block at the start.
+class StartField {
+public:
+    StartField(const FluidBlock& block, int dimensions)
+        : uniform_(block.velocity), dimensions_(dimensions)
+    {
+        for (const std::string& text : block.velocity_field) {
+            velocity_.emplace_back(text);
+        }
+        if (!block.pressure_field.empty()) {
+            pressure_.emplace(block.pressure_field);
+        }
+    }
+
+    Vec3 velocity(const Vec3& p) const
+    {
+        if (velocity_.empty()) {
+            return uniform_;
+        }
+        return {at(velocity_[0], p), dimensions_ == 2 ? 0.0 : at(velocity_[1], p),
+                at(velocity_[2], p)};
+    }
+    double pressure(const Vec3& p) const { return pressure_ ? at(*pressure_, p) : 0; }
+
+private:
+    static double at(const Formula& formula, const Vec3& p)
+    {
+        std::vector<double> numbers;
+        for (const std::string& name : formula.names()) {
+            numbers.push_back(name == "x" ? p.x() : (name == "y" ? p.y() : p.z()));
+        }
+        return formula.value(numbers);
+    }
+    Vec3 uniform_;
+    int dimensions_;
+    std::vector<Formula> velocity_;
+    std::optional<Formula> pressure_;
+};
+
 void fill_fluid(const Scene& scene, Filling& filling)
 {
     std::vector<BlockPoints> blocks;
@@ -162,6 +205,7 @@ void fill_fluid(const Scene& scene, Filling& filling)
     }
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         const FluidBlock& block = scene.fluid->blocks[b];
+        const StartField start(block, scene.dimensions);
         Index behind = 0;
         for (const Vec3& p : blocks[b].points) {
             const bool taken = std::any_of(
@@ -177,7 +221,8 @@ void fill_fluid(const Scene& scene, Filling& filling)
             }
             const double surface = surface_above(scene, blocks, b, p);
             filling.fluid.push_back(p);
-            filling.fluid_velocity.push_back(block.velocity);
+            filling.fluid_velocity.push_back(start.velocity(p));
+            filling.fluid_pressure.push_back(start.pressure(p));
             filling.fluid_depth.push_back(scene.gravity.norm() > 0 ? surface - height(scene, p)
                                                                    : 0);
         }

@@ -152,5 +152,34 @@ TEST(RigidScene, AMeshMeetsOthersByItsHull)
     }
 }
 
+TEST(Fill, FieldsOfVelocityAndPressureAreThoseOfThePlace)
+{
+    const std::string text = R"(
+dimensions = 2
+[time]
+end = 1.0
+[particles]
+spacing = 0.1
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 1.0]
+velocity_field = ["-2*x", "7", "2*z + x^2"]
+pressure_field = "100*x*z"
+)";
+    const Scene scene = parse_case(text, "test.toml");
+    const Filling filling = fill(scene);
+    ASSERT_EQ(filling.fluid.size(), 100u);
+    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
+        const Vec3& x = filling.fluid[k];
+        EXPECT_EQ(filling.fluid_velocity[k], Vec3(-2 * x.x(), 0, 2 * x.z() + x.x() * x.x()));
+        EXPECT_EQ(filling.fluid_pressure[k], 100 * x.x() * x.z());
+    }
+    const Filling again = fill(parse_case(to_toml(scene), "resolved.toml"));
+    EXPECT_EQ(again.fluid_velocity, filling.fluid_velocity);
+    EXPECT_EQ(again.fluid_pressure, filling.fluid_pressure);
+}
+
 } // namespace
 } // namespace hyoryu
