@@ -24,7 +24,35 @@ Pair<real> pair_at(const Fluid& fluid, const Vec3& r)
     return fluid.kernel(Vec<real>{r.x(), r.y(), r.z()});
 }
 
-// Fraction of space that fluid fills about a point: sum V W.
+// Particles about a vertical line.
+struct Column {
+    std::vector<Index> fluid, solid;
+    double top = -infinity; // of the fluid [m]
+    double bottom = infinity;
+};
+
+Column column_about(const Fluid& fluid, const Vec3& place)
+{
+    const auto x = fluid.particles[field::position];
+    const Index fluid_rows = fluid.particles.fluid().end;
+    Column column;
+    for (Index j = 0; j < fluid.particles.size(); ++j) {
+        const Vec3 r = x[at(j)] - place;
+        if (std::hypot(r.x(), r.y()) >= fluid.kernel.support) {
+            continue;
+        }
+        if (j >= fluid_rows) {
+            column.solid.push_back(j);
+            continue;
+        }
+        column.fluid.push_back(j);
+        column.top = std::max(column.top, x[at(j)].z());
+        column.bottom = std::min(column.bottom, x[at(j)].z());
+    }
+    return column;
+}
+
+// Part of space about a point that particles fill: sum V W.
 double filled(const Fluid& fluid, const std::vector<Index>& near, const Vec3& point)
 {
     const auto x = fluid.particles[field::position];
@@ -36,27 +64,19 @@ double filled(const Fluid& fluid, const std::vector<Index>& near, const Vec3& po
     return sum_;
 }
 
-// Highest place of the vertical through (x, y) that is half filled, from above in steps of a
-// quarter spacing, then by the line between two of them.
+// Highest place of the vertical through (x, y) where fluid fills half of what solids leave, from
+// above in steps of a quarter spacing, then by the line between two of them.
 double elevation(const Fluid& fluid, const Vec3& place)
 {
-    const auto x = fluid.particles[field::position];
-    const Rows rows = fluid.particles.fluid();
+    constexpr double least_open = 0.2; // less is the inside of a solid
     const double step = fluid.parameters.spacing / 4;
-    std::vector<Index> near;
-    double top = -infinity;
-    double bottom = infinity;
-    for (Index j = rows.begin; j < rows.end; ++j) {
-        const Vec3 r = x[at(j)] - place;
-        if (std::hypot(r.x(), r.y()) < fluid.kernel.support) {
-            near.push_back(j);
-            top = std::max(top, x[at(j)].z());
-            bottom = std::min(bottom, x[at(j)].z());
-        }
-    }
+    const Column column = column_about(fluid, place);
     double above = 0;
-    for (double z = top + fluid.kernel.support; z > bottom - fluid.kernel.support; z -= step) {
-        const double here = filled(fluid, near, {place.x(), place.y(), z});
+    for (double z = column.top + fluid.kernel.support; z > column.bottom - fluid.kernel.support;
+         z -= step) {
+        const Vec3 point{place.x(), place.y(), z};
+        const double open = 1 - filled(fluid, column.solid, point);
+        const double here = open > least_open ? filled(fluid, column.fluid, point) / open : 0;
         if (here >= 0.5) {
             return z + step * (here - 0.5) / (here - above);
         }

@@ -121,7 +121,8 @@ TEST(Gauges, StillWaterHasTheHydrostaticPressureOnEveryFaceAndAirHasNone)
                           gauge("side", "type = \"pressure\"\nat = [0.0, 0.0, 0.1]\narea = 0.05\n"
                                         "normal = [1.0, 0.0, 0.0]") +
                           gauge("air", "type = \"pressure\"\nat = [0.25, 0.0, 0.45]") +
-                          gauge("level", "type = \"elevation\"\nat = [0.25, 0.0]"));
+                          gauge("level", "type = \"elevation\"\nat = [0.25, 0.0]") +
+                          gauge("level_at_wall", "type = \"elevation\"\nat = [0.0, 0.0]"));
     // The start is hydrostatic, p = rho0 c0^2 (exp(g d/c0^2) - 1): 0.3 % above rho0 g d at most.
     const double g = 9.81;
     EXPECT_NEAR(read(sim, "point"), 1000 * g * 0.3, 0.005 * 1000 * g * 0.3);
@@ -129,6 +130,7 @@ TEST(Gauges, StillWaterHasTheHydrostaticPressureOnEveryFaceAndAirHasNone)
     EXPECT_NEAR(read(sim, "side"), 1000 * g * 0.3, 0.005 * 1000 * g * 0.3);
     EXPECT_EQ(read(sim, "air"), 0);
     EXPECT_NEAR(read(sim, "level"), 0.4, 0.02 * 0.02); // a fiftieth of a spacing
+    EXPECT_NEAR(read(sim, "level_at_wall"), 0.4, 0.02 * 0.02);
 }
 
 TEST(Gauges, ForcesAddUpToTheImpulsesOfTheBooks)

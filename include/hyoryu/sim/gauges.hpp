@@ -47,11 +47,12 @@ std::vector<Table::Head> gauge_heads(const Scene& scene);
 void book_forces(Simulation& sim, double dt);
 
 /// Raw readings, gauge after gauge. elevation: height at which the kernel sum of the fluid reaches
-/// one half, NaN where there is none; pressure: kernel average of p + rho g . (x - x_f) over the
-/// fluid about each point of the face, as walls take it over (Adami, Hu & Adams 2012, eq. 27), at
-/// least 0, the pressure of the air; velocity: kernel average, NaN if dry; front: farthest place of
-/// the fluid along the axis; flux: sum of V v.n over the fluid, weighted with its distance from the
-/// plane by a hat of half width 2 dp, which is the exact flux of a uniform stream on a lattice.
+/// half of what solids leave, NaN where there is none; pressure: kernel average of p + rho g . (x -
+/// x_f) over the fluid about each point of the face, as walls take it over (Adami, Hu & Adams 2012,
+/// eq. 27), at least 0, the pressure of the air; velocity: kernel average, NaN if dry; front:
+/// farthest place of the fluid along the axis; flux: sum of V v.n over the fluid, weighted with its
+/// distance from the plane by a hat of half width 2 dp, which is the exact flux of a uniform stream
+/// on a lattice.
 std::vector<double> read_gauges(const Simulation& sim);
 
 /// The next row of `gauges.csv` behind the time: raw and filtered readings.
