@@ -16,7 +16,7 @@ constexpr double measured_rate = 0.55e6;
 
 // Particles that a gauge looks at in a second; measured on the same machine with one thread. Gauges
 // run side by side, but a single one does not.
-constexpr double gauge_rate = 0.4e9;
+constexpr double gauge_rate = 0.15e9;
 
 double gauge_seconds(const Plan& plan)
 {

@@ -46,15 +46,20 @@ std::string what_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
     return {};
 }
 
-// Points at which a gauge looks at every particle of the fluid, in one row.
-double points_of(const Scene& scene, const Gauge& gauge)
+// Particles that a gauge looks at for one row: all of the fluid from each of its points, and for
+// the level those of solids as well.
+double looks_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
 {
+    const auto fluid = static_cast<double>(plan.counts.fluid);
     if (gauge.type == GaugeType::force) {
         return 0;
     }
+    if (gauge.type == GaugeType::elevation) {
+        return static_cast<double>(plan.counts.particles());
+    }
     constexpr double most = 64; // as the readings have it
     const double cell = std::pow(scene.spacing / 2, scene.dimensions - 1);
-    return gauge.area > 0 ? std::clamp(std::ceil(gauge.area / cell), 1.0, most) : 1;
+    return fluid * (gauge.area > 0 ? std::clamp(std::ceil(gauge.area / cell), 1.0, most) : 1);
 }
 
 bool has_place(const Gauge& gauge)
@@ -83,7 +88,7 @@ void list_gauges(const Scene& scene, Plan& plan)
             columns += (columns.empty() ? "" : ", ") + head.name;
         }
         plan.gauges.push_back({gauge.name, what_of(scene, plan, gauge), columns});
-        plan.gauge_looks += points_of(scene, gauge) * static_cast<double>(plan.counts.fluid);
+        plan.gauge_looks += looks_of(scene, plan, gauge);
     }
     const double every = std::max(scene.output.gauge_every, plan.first_step);
     plan.gauge_rows = scene.gauges.empty() ? 0 : std::floor(scene.time.end / every) + 1;
