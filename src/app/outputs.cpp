@@ -88,6 +88,10 @@ void Outputs::update(Simulation& sim)
         write_histories(sim);
         sim.clock.history += 1;
     }
+    if (gauges_ && gauge_due(sim.clock, sim.scene)) {
+        write_gauges(sim);
+        sim.clock.gauge += 1;
+    }
     if (frame_due(sim.clock, sim.scene)) {
         write_resting(sim);
         write_frame(sim);
@@ -99,13 +103,17 @@ void Outputs::write_histories(const Simulation& sim)
 {
     write_bodies(sim);
     write_energy(sim);
-    if (gauges_) {
-        std::vector<std::string> row = cells({sim.clock.time});
-        for (const double reading : read_gauges(sim)) {
-            row.push_back(cell(reading));
-        }
-        gauges_->append(row);
+}
+
+void Outputs::write_gauges(Simulation& sim)
+{
+    sim.timer.begin("gauges");
+    std::vector<std::string> row = cells({sim.clock.time});
+    for (const double reading : next_gauge_row(sim)) {
+        row.push_back(cell(reading));
     }
+    gauges_->append(row);
+    sim.timer.end();
 }
 
 void Outputs::write_bodies(const Simulation& sim)

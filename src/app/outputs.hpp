@@ -37,6 +37,7 @@ private:
     void write_histories(const Simulation& sim);
     void write_bodies(const Simulation& sim);
     void write_energy(const Simulation& sim);
+    void write_gauges(Simulation& sim);
     void log_contacts(const Simulation& sim);
     void write_contact(const Simulation& sim, const Contact& contact);
     void write_resting(const Simulation& sim);

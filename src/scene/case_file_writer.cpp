@@ -142,7 +142,10 @@ std::string fluid_text(const FluidSettings& fluid)
     text += "\n[fluid.shifting]\nmodel = \"none\"\n";
     for (const FluidBlock& block : fluid.blocks) {
         text += "\n[[fluid.block]]\n" + shape_lines(block.shape) + line("position", block.centre) +
-                line("rotation", block.rotation) + line("velocity", block.velocity);
+                line("rotation", block.rotation);
+        text += block.velocity_field.empty() ? line("velocity", block.velocity)
+                                             : line("velocity_field", block.velocity_field);
+        text += block.pressure_field.empty() ? "" : line("pressure_field", block.pressure_field);
     }
     return text;
 }
@@ -219,16 +222,27 @@ std::string contact_text(const ContactSettings& contact)
 
 std::string gauge_text(const Gauge& gauge)
 {
-    constexpr std::array<const char*, 5> types{"elevation", "pressure", "velocity", "force",
-                                               "front"};
+    constexpr std::array<const char*, 6> types{"elevation", "pressure", "velocity",
+                                               "force",     "front",    "flux"};
+    constexpr std::array<const char*, 4> filters{"none", "mean", "median", "exponential"};
     constexpr std::array<const char*, 3> axes{"x", "y", "z"};
     std::string text = "\n[[gauge]]\n" + line("name", gauge.name) +
                        line("type", std::string(types[static_cast<std::size_t>(gauge.type)]));
+    if (gauge.filter != GaugeFilter::none) {
+        text += line("filter", std::string(filters[static_cast<std::size_t>(gauge.filter)])) +
+                line("window", gauge.window);
+    }
     if (gauge.type == GaugeType::force) {
         return text + line("on", gauge.on);
     }
     if (gauge.type == GaugeType::front) {
         return text + line("axis", std::string(axes[static_cast<std::size_t>(gauge.axis)]));
+    }
+    if (gauge.area > 0) {
+        text += line("area", gauge.area);
+    }
+    if (gauge.area > 0 || gauge.type == GaugeType::flux) {
+        text += line("normal", gauge.normal);
     }
     return text + line("at", gauge.at);
 }
@@ -236,8 +250,8 @@ std::string gauge_text(const Gauge& gauge)
 std::string output_text(const OutputSettings& output)
 {
     return "\n[output]\n" + line("every", output.every) +
-           line("history_every", output.history_every) + line("fields", output.fields) +
-           line("checkpoint_every", output.checkpoint_every);
+           line("history_every", output.history_every) + line("gauge_every", output.gauge_every) +
+           line("fields", output.fields) + line("checkpoint_every", output.checkpoint_every);
 }
 
 } // namespace

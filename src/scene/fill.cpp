@@ -2,6 +2,7 @@
 #include "hyoryu/scene/fill.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/formula.hpp"
 #include "walls.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 namespace hyoryu {
 
@@ -107,44 +110,96 @@ double covered(const Placed& shape, const Vec3& p, double spacing)
     return static_cast<double>(inside) / (n * n * ny);
 }
 
-// Takes out as many particles as the shape displaces, deepest first: an excess of a quarter of a
-// layer would start the water with a jolt.
+// A particle whose cell the surface of a shape cuts.
+struct CutCell {
+    std::size_t row = 0;
+    double distance = 0;     // of its centre from the surface, negative inside [m]
+    double covered = 0;      // part of the cell that the shape displaces
+    std::uint64_t place = 0; // along a curve on which neighbours are near (Morton 1966)
+};
+
+// The bits of the cell numbers in turns.
+std::uint64_t morton(const Vec3& cells)
+{
+    constexpr int bits = 20;
+    std::uint64_t place = 0;
+    for (int bit = 0; bit < bits; ++bit) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto number = static_cast<std::uint64_t>(cells[axis]);
+            place |= ((number >> bit) & 1U) << (3 * bit + axis);
+        }
+    }
+    return place;
+}
+
+// Marks as many cut cells as the shape displaces, group after group of neighbours, the deepest of
+// each first; what a group is over or short of whole particles goes to the next one. One count for
+// all of them could take its last particles from one side, which sets the body turning.
+void choose(std::vector<CutCell>& cut, std::vector<bool>& gone)
+{
+    constexpr std::size_t group = 8;
+    std::sort(cut.begin(), cut.end(), [](const CutCell& a, const CutCell& b) {
+        return std::pair(a.place, a.row) < std::pair(b.place, b.row);
+    });
+    double displaced = 0;
+    std::size_t taken = 0;
+    for (std::size_t first = 0; first < cut.size(); first += group) {
+        const auto begin = cut.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end =
+            cut.begin() + static_cast<std::ptrdiff_t>(std::min(first + group, cut.size()));
+        std::sort(begin, end, [](const CutCell& a, const CutCell& b) {
+            return std::pair(a.distance, a.row) < std::pair(b.distance, b.row);
+        });
+        for (auto cell = begin; cell != end; ++cell) {
+            displaced += cell->covered;
+        }
+        const auto wanted = static_cast<std::size_t>(std::llround(displaced));
+        for (auto cell = begin; cell != end && taken < wanted; ++cell) {
+            gone[cell->row] = true;
+            taken += 1;
+        }
+    }
+}
+
+// Takes out as many particles as the shape displaces, everywhere about its surface: an excess of a
+// quarter of a layer would start the water with a jolt.
 void take_out(const Placed& shape, double spacing, Filling& filling)
 {
     Bounds box = bounds(shape);
     box.min -= Vec3::Constant(spacing);
     box.max += Vec3::Constant(spacing);
-    std::vector<std::pair<double, std::size_t>> near;
-    double displaced = 0;
+    std::vector<bool> gone(filling.fluid.size(), false);
+    std::vector<CutCell> cut;
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
         const Vec3& p = filling.fluid[k];
         if (((p - box.min).array() < 0).any() || ((box.max - p).array() < 0).any()) {
             continue;
         }
         const double distance = signed_distance(shape, p);
-        if (distance < spacing) {
-            displaced += distance < -spacing ? 1.0 : covered(shape, p, spacing);
-            near.emplace_back(distance, k);
+        if (distance >= spacing) {
+            continue;
+        }
+        const double part = distance < -spacing ? 1.0 : covered(shape, p, spacing);
+        gone[k] = part == 1;
+        if (part > 0 && part < 1) {
+            cut.push_back({k, distance, part, morton((p - box.min) / spacing)});
         }
     }
-    std::sort(near.begin(), near.end());
-    const auto count = std::min(near.size(), static_cast<std::size_t>(std::llround(displaced)));
-    std::vector<bool> gone(filling.fluid.size(), false);
-    for (std::size_t k = 0; k < count; ++k) {
-        gone[near[k].second] = true;
-    }
+    choose(cut, gone);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
         if (!gone[k]) {
             filling.fluid[kept] = filling.fluid[k];
             filling.fluid_velocity[kept] = filling.fluid_velocity[k];
             filling.fluid_depth[kept] = filling.fluid_depth[k];
+            filling.fluid_pressure[kept] = filling.fluid_pressure[k];
             ++kept;
         }
     }
     filling.fluid.resize(kept);
     filling.fluid_velocity.resize(kept);
     filling.fluid_depth.resize(kept);
+    filling.fluid_pressure.resize(kept);
 }
 
 bool behind_a_wall(const Scene& scene, const Vec3& p)
@@ -154,6 +209,45 @@ bool behind_a_wall(const Scene& scene, const Vec3& p)
     });
 }
 
+// Velocity and pressure of a block at the start.
+class StartField {
+public:
+    StartField(const FluidBlock& block, int dimensions)
+        : uniform_(block.velocity), dimensions_(dimensions)
+    {
+        for (const std::string& text : block.velocity_field) {
+            velocity_.emplace_back(text);
+        }
+        if (!block.pressure_field.empty()) {
+            pressure_.emplace(block.pressure_field);
+        }
+    }
+
+    Vec3 velocity(const Vec3& p) const
+    {
+        if (velocity_.empty()) {
+            return uniform_;
+        }
+        return {at(velocity_[0], p), dimensions_ == 2 ? 0.0 : at(velocity_[1], p),
+                at(velocity_[2], p)};
+    }
+    double pressure(const Vec3& p) const { return pressure_ ? at(*pressure_, p) : 0; }
+
+private:
+    static double at(const Formula& formula, const Vec3& p)
+    {
+        std::vector<double> numbers;
+        for (const std::string& name : formula.names()) {
+            numbers.push_back(name == "x" ? p.x() : (name == "y" ? p.y() : p.z()));
+        }
+        return formula.value(numbers);
+    }
+    Vec3 uniform_;
+    int dimensions_;
+    std::vector<Formula> velocity_;
+    std::optional<Formula> pressure_;
+};
+
 void fill_fluid(const Scene& scene, Filling& filling)
 {
     std::vector<BlockPoints> blocks;
@@ -162,6 +256,7 @@ void fill_fluid(const Scene& scene, Filling& filling)
     }
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         const FluidBlock& block = scene.fluid->blocks[b];
+        const StartField start(block, scene.dimensions);
         Index behind = 0;
         for (const Vec3& p : blocks[b].points) {
             const bool taken = std::any_of(
@@ -177,7 +272,8 @@ void fill_fluid(const Scene& scene, Filling& filling)
             }
             const double surface = surface_above(scene, blocks, b, p);
             filling.fluid.push_back(p);
-            filling.fluid_velocity.push_back(block.velocity);
+            filling.fluid_velocity.push_back(start.velocity(p));
+            filling.fluid_pressure.push_back(start.pressure(p));
             filling.fluid_depth.push_back(scene.gravity.norm() > 0 ? surface - height(scene, p)
                                                                    : 0);
         }

@@ -18,6 +18,16 @@ Parameter smoothing_row()
     return row;
 }
 
+Parameter velocity_field_row()
+{
+    Parameter row =
+        texts_row("fluid.block[].velocity_field", {}, "[]",
+                  "Velocity at the start where it is not the same everywhere: three expressions of "
+                  "x, y and z in metres that give m/s, for instance [\"-2*x\", \"0\", \"2*z\"].");
+    row.shortest = row.longest = 3;
+    return row;
+}
+
 std::vector<Parameter> model_parameters()
 {
     return {
@@ -84,6 +94,11 @@ std::vector<Parameter> fluid_parameters()
          .shortest = 4,
          .longest = 4},
         vector_row("fluid.block[].velocity", "m/s", "[0.0, 0.0, 0.0]", "Velocity at the start."),
+        velocity_field_row(),
+        text_row(
+            "fluid.block[].pressure_field", "",
+            "Pressure at the start above the hydrostatic one, in Pa: an expression of x, y and "
+            "z in metres."),
     };
     rows.insert(rows.end(), blocks.begin(), blocks.end());
     return rows;

@@ -31,12 +31,40 @@ Parameter seed_row()
 
 Parameter gauge_place_row()
 {
-    Parameter row =
-        vector_row("gauge[].at", "m", "",
-                   "Where it measures: a point, or the x and y of the vertical line of an "
-                   "elevation gauge.");
+    Parameter row = vector_row("gauge[].at", "m", "",
+                               "Where it measures: a point, the x and y of the vertical line of an "
+                               "elevation gauge, or any point of the plane of a flux gauge.");
     row.shortest = 2;
     return row;
+}
+
+std::vector<Parameter> gauge_parameters()
+{
+    return {
+        tables_row("gauge", "An instrument: columns of gauges.csv."),
+        text_row("gauge[].name", "gauge.1, gauge.2 ...", "Name of the column; unique."),
+        choice_row(
+            "gauge[].type", {"elevation", "pressure", "velocity", "force", "front", "flux"},
+            required,
+            "What is measured: the water level over a place (at), pressure or velocity at a "
+            "point (at), the force on a wall or body (on), how far the water has come along an "
+            "axis (axis), or the volume that passes a plane in a second (at, normal)."),
+        gauge_place_row(),
+        positive("gauge[].area", "", "",
+                 "Area of the face of a pressure sensor, over which it averages [m2]; its length "
+                 "[m] in 2-D. Without it the pressure is that at a point."),
+        vector_row("gauge[].normal", "", "",
+                   "Direction that the face of a pressure sensor looks in, or in which a flux "
+                   "counts as positive; of any length."),
+        text_row("gauge[].on", "", "The wall or body whose force is measured, by its name."),
+        choice_row("gauge[].axis", {"x", "y", "z"}, "x",
+                   "The axis along which the front is followed."),
+        choice_row("gauge[].filter", {"none", "mean", "median", "exponential"}, "none",
+                   "A column of filtered readings beside the raw ones, named NAME_mean and so on: "
+                   "mean or median of the last `window` seconds, or the mean with weights that "
+                   "fall as exp(-age/window)."),
+        positive("gauge[].window", "s", "", "Window of the filter."),
+    };
 }
 
 } // namespace
@@ -75,22 +103,14 @@ std::vector<Parameter> general_parameters()
 
 std::vector<Parameter> output_parameters()
 {
-    return {
-        tables_row("gauge", "An instrument: a column of gauges.csv."),
-        text_row("gauge[].name", "gauge.1, gauge.2 ...", "Name of the column; unique."),
-        choice_row(
-            "gauge[].type", {"elevation", "pressure", "velocity", "force", "front"}, required,
-            "What is measured: the water level over a place (at), pressure or velocity at a "
-            "point (at), the force on a wall or body (on), or how far the water has come along "
-            "an axis (axis)."),
-        gauge_place_row(),
-        text_row("gauge[].on", "", "The wall or body whose force is measured, by its name."),
-        choice_row("gauge[].axis", {"x", "y", "z"}, "x",
-                   "The axis along which the front is followed."),
+    std::vector<Parameter> rows = gauge_parameters();
+    const std::vector<Parameter> output = {
         table_row("output", "What is written, and how often."),
         positive("output.every", "s", "time.end / 100", "Simulated time between two frames."),
         not_negative("output.history_every", "s", "0",
                      "Simulated time between two rows of the CSV histories; 0 is every step."),
+        not_negative("output.gauge_every", "s", "output.history_every",
+                     "Simulated time between two rows of gauges.csv; 0 is every step."),
         texts_row("output.fields",
                   {"velocity", "pressure", "density", "volume", "id", "kind", "body"}, "[]",
                   "What each particle of a frame carries besides its place; an empty list is the "
@@ -98,6 +118,8 @@ std::vector<Parameter> output_parameters()
         positive("output.checkpoint_every", "s", "600",
                  "Wall-clock time between two checkpoints, from which `run --resume` goes on."),
     };
+    rows.insert(rows.end(), output.begin(), output.end());
+    return rows;
 }
 
 } // namespace hyoryu

@@ -5,6 +5,7 @@
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_checks.hpp"
 #include "plan_contact.hpp"
+#include "plan_gauges.hpp"
 
 #include <fmt/format.h>
 
@@ -56,8 +57,8 @@ double expected_speed(const Scene& scene, const Filling& filling)
         }
         speed = 2 * std::sqrt(g * std::max(top - lowest(scene, filling), scene.spacing));
     }
-    for (const FluidBlock& block : scene.fluid->blocks) {
-        speed = std::max(speed, block.velocity.norm());
+    for (const Vec3& v : filling.fluid_velocity) {
+        speed = std::max(speed, v.norm());
     }
     for (const BodySettings& body : scene.bodies) {
         speed = std::max(speed, body.velocity.norm());
@@ -289,6 +290,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     plan.first_step = scene.time.step.value_or(shortest(plan.limits).dt);
     list_effects(scene, plan);
     list_contact(scene, filling, plan);
+    list_gauges(scene, plan);
     list_pairs(plan);
     list_fields(plan);
     estimate_cost(scene, plan);

@@ -3,6 +3,7 @@
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
+#include "plan_gauges.hpp"
 
 #include <fmt/format.h>
 
@@ -269,6 +270,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     std::vector<Diagnostic> errors;
     check_overlaps(scene, errors);
     check_step(scene, plan, errors);
+    check_gauges(scene, filling, plan, errors);
     if (scene.fluid && filling.fluid.empty()) {
         errors.push_back(diagnostic_at(
             scene, {}, "fluid", "no fluid particle fits into the blocks",

@@ -2,6 +2,8 @@
 // The whole case and its fluid.
 #include "reader.hpp"
 
+#include "hyoryu/scene/formula.hpp"
+
 #include <fmt/format.h>
 
 namespace hyoryu {
@@ -35,6 +37,22 @@ void read_diffusion(TableReader table, FluidSettings& fluid)
     table.finish();
 }
 
+// An expression of the place alone.
+void check_field(TableReader& table, std::string_view key, const std::string& text)
+{
+    try {
+        const Formula formula(text);
+        for (const std::string& name : formula.names()) {
+            if (name != "x" && name != "y" && name != "z") {
+                table.error(key, fmt::format("nothing is named \"{}\" in \"{}\"", name, text),
+                            "there are x, y and z, in metres");
+            }
+        }
+    } catch (const FormulaError& fault) {
+        table.error(key, fault.what());
+    }
+}
+
 FluidBlock read_block(TableReader& table)
 {
     FluidBlock block;
@@ -47,6 +65,17 @@ FluidBlock read_block(TableReader& table)
         block.rotation = placed.rotation;
     }
     block.velocity = table.planar("velocity");
+    block.velocity_field = table.texts("velocity_field");
+    block.pressure_field = table.text("pressure_field");
+    for (const std::string& text : block.velocity_field) {
+        check_field(table, "velocity_field", text);
+    }
+    if (!block.pressure_field.empty()) {
+        check_field(table, "pressure_field", block.pressure_field);
+    }
+    if (table.has("velocity") && table.has("velocity_field")) {
+        table.error("velocity", "stands beside `velocity_field`", "give one of them");
+    }
     table.finish();
     return block;
 }

@@ -2,6 +2,7 @@
 // Gauges and output.
 #include "reader.hpp"
 
+#include "hyoryu/scene/gauge_columns.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ GaugeType gauge_type(const std::string& name)
     static const std::map<std::string, GaugeType, std::less<>> types = {
         {"elevation", GaugeType::elevation}, {"pressure", GaugeType::pressure},
         {"velocity", GaugeType::velocity},   {"force", GaugeType::force},
-        {"front", GaugeType::front},
+        {"front", GaugeType::front},         {"flux", GaugeType::flux},
     };
     const auto at = types.find(name);
     return at == types.end() ? GaugeType::elevation : at->second;
@@ -56,6 +57,39 @@ void read_point_gauge(TableReader& table, Gauge& gauge)
     }
 }
 
+Vec3 read_normal(TableReader& table)
+{
+    const Vec3 normal = table.planar("normal");
+    if (table.has("normal") && !(normal.norm() > 0)) {
+        table.error("normal", "has no direction");
+        return Vec3::UnitX();
+    }
+    return normal.normalized();
+}
+
+void read_face(TableReader& table, Gauge& gauge)
+{
+    gauge.area = table.find_number("area").value_or(0);
+    if (table.has("area") || table.has("normal")) {
+        table.require("area");
+        table.require("normal");
+        gauge.normal = read_normal(table);
+    }
+}
+
+void read_filter(TableReader& table, Gauge& gauge)
+{
+    const std::string name = table.choice("filter");
+    gauge.filter = name == "mean"          ? GaugeFilter::mean
+                   : name == "median"      ? GaugeFilter::median
+                   : name == "exponential" ? GaugeFilter::exponential
+                                           : GaugeFilter::none;
+    if (gauge.filter != GaugeFilter::none) {
+        table.require("window");
+        gauge.window = table.number("window");
+    }
+}
+
 Gauge read_gauge(TableReader& table, const Scene& scene, std::size_t number)
 {
     Gauge gauge;
@@ -72,6 +106,12 @@ Gauge read_gauge(TableReader& table, const Scene& scene, std::size_t number)
     } else if (!type.empty()) {
         read_point_gauge(table, gauge);
     }
+    if (type == "pressure") {
+        read_face(table, gauge);
+    } else if (type == "flux") {
+        gauge.normal = read_normal(table);
+    }
+    read_filter(table, gauge);
     if (!scene.fluid && !type.empty() && type != "force") {
         table.error("type", fmt::format("\"{}\" has no meaning in a case without fluid", type),
                     "only gauges of type \"force\" have");
@@ -85,15 +125,21 @@ Gauge read_gauge(TableReader& table, const Scene& scene, std::size_t number)
 void read_gauges(TableReader& root, Scene& scene)
 {
     std::size_t number = 0;
-    std::map<std::string, int> seen;
+    std::map<std::string, int> columns;
     for (TableReader& table : root.tables("gauge")) {
         scene.gauges.push_back(read_gauge(table, scene, ++number));
         const Gauge& gauge = scene.gauges.back();
         if (gauge.name.find_first_of(",;\"\n\r#") != std::string::npos || gauge.name.empty()) {
             table.error("name", "is no name of a column", "use letters, digits, `_`, `-` and `.`");
-        } else if (!seen.emplace(gauge.name, gauge.place.line).second) {
-            table.error("name", fmt::format("the gauge \"{}\" stands twice, first in line {}",
-                                            gauge.name, seen[gauge.name]));
+        }
+        for (const Table::Head& head : gauge_columns(gauge, scene.dimensions)) {
+            const auto [earlier, is_new] = columns.emplace(head.name, gauge.place.line);
+            if (!is_new) {
+                table.error("name", fmt::format("the column \"{}\" stands twice, first of the "
+                                                "gauge in line {}",
+                                                head.name, earlier->second));
+                break;
+            }
         }
     }
 }
@@ -102,6 +148,8 @@ void read_output(TableReader table, Scene& scene)
 {
     scene.output.every = table.find_number("every").value_or(scene.time.end / 100);
     scene.output.history_every = table.number("history_every");
+    scene.output.gauge_every =
+        table.find_number("gauge_every").value_or(scene.output.history_every);
     scene.output.fields = table.texts("fields");
     scene.output.checkpoint_every = table.number("checkpoint_every");
     table.finish();

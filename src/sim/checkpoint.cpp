@@ -263,6 +263,11 @@ Snapshot save(const Simulation& sim)
         put(loads, load.torque);
     }
     add(snapshot, "loads", std::move(loads));
+    if (!sim.scene.gauges.empty()) {
+        Numbers gauges = numbers_of(sim.gauges);
+        put(gauges, static_cast<double>(c.gauge));
+        add(snapshot, "gauges", std::move(gauges));
+    }
     save_rigid(sim.rigid, snapshot);
     if (sim.fluid) {
         save_fluid(*sim.fluid, snapshot);
@@ -283,6 +288,12 @@ void restore(Simulation& sim, const Snapshot& snapshot)
     for (Wrench& load : sim.loads.bodies) {
         load.force = loads.vector();
         load.torque = loads.vector();
+    }
+    if (!sim.scene.gauges.empty()) {
+        const Reader gauges(snapshot, "gauges");
+        const std::span<const double> numbers(gauges.all());
+        restore(sim.gauges, numbers.first(std::max<std::size_t>(numbers.size(), 1) - 1));
+        sim.clock.gauge = static_cast<std::int64_t>(numbers.back());
     }
     restore_rigid(sim.rigid, snapshot);
     if (sim.fluid) {

@@ -16,6 +16,12 @@ double frame_time(const Clock& clock, const Scene& scene)
     return static_cast<double>(clock.frame) * scene.output.every;
 }
 
+// Rows that are not spaced in time are due after every step.
+bool row_due(double time, std::int64_t number, double every)
+{
+    return every <= 0 || time >= static_cast<double>(number) * every - rounding * every;
+}
+
 } // namespace
 
 bool finished(const Clock& clock, const Scene& scene)
@@ -30,9 +36,12 @@ bool frame_due(const Clock& clock, const Scene& scene)
 
 bool history_due(const Clock& clock, const Scene& scene)
 {
-    const double every = scene.output.history_every;
-    return every <= 0 ||
-           clock.time >= static_cast<double>(clock.history) * every - rounding * every;
+    return row_due(clock.time, clock.history, scene.output.history_every);
+}
+
+bool gauge_due(const Clock& clock, const Scene& scene)
+{
+    return row_due(clock.time, clock.gauge, scene.output.gauge_every);
 }
 
 NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limit)

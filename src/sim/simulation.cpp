@@ -31,7 +31,8 @@ void fill_fluid_rows(const Filling& filling, Fluid& fluid)
     for (std::size_t i = 0; i < filling.fluid.size(); ++i) {
         x[i] = filling.fluid[i];
         v[i] = filling.fluid_velocity[i];
-        rho[i] = hydrostatic_density(fluid.parameters, filling.fluid_depth[i]);
+        rho[i] = hydrostatic_density(fluid.parameters, filling.fluid_depth[i]) +
+                 filling.fluid_pressure[i] / sq(fluid.parameters.eos.c0);
     }
 }
 
@@ -114,6 +115,7 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
 {
     Simulation sim{.scene = scene, .plan = plan};
     sim.rigid = make_rigid(scene);
+    sim.gauges = make_gauge_memory(scene);
     for (const Aggregate& body : filling.bodies) {
         const auto begin = static_cast<Index>(sim.body_particles.points.size());
         sim.body_particles.points.insert(sim.body_particles.points.end(), body.points.begin(),
@@ -175,6 +177,10 @@ void step(Simulation& sim)
     if (sim.plan.rigid) {
         sim.timer.begin("bodies");
         step(sim.rigid, sim.clock.time, dt, sim.loads.bodies, sim.contacts);
+    }
+    if (!sim.gauges.forces.empty()) {
+        sim.timer.begin("gauges");
+        book_forces(sim, dt);
     }
     if (sim.fluid) {
         Fluid& fluid = *sim.fluid;

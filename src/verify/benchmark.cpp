@@ -85,6 +85,7 @@ Benchmark read_root(Section& root)
     benchmark.title = root.text("title");
     benchmark.group = root.text("group");
     benchmark.source = root.text("source");
+    benchmark.uncertainty = root.text("uncertainty");
     const Tier tier = read_tier(root, Tier::quick);
     benchmark.constants = read_constants(root);
     benchmark.columns = read_columns(root);

@@ -33,6 +33,10 @@ constexpr std::array measures{
     MeasureName{"peak_time", Measure::peak_time},
     MeasureName{"trough", Measure::trough},
     MeasureName{"crossing", Measure::crossing},
+    MeasureName{"integral", Measure::integral},
+    MeasureName{"period", Measure::period},
+    MeasureName{"decay", Measure::decay},
+    MeasureName{"share_within", Measure::share_within},
     MeasureName{"rms_error", Measure::rms_error},
     MeasureName{"largest_error", Measure::largest_error},
 };
@@ -59,6 +63,15 @@ Quantity read_quantity(Section& check)
     Quantity quantity;
     quantity.series = read_series(check, "value");
     quantity.measure = read_measure(check);
+    if (auto band = check.table("band")) {
+        quantity.band = Band{read_series(*band, "lower"), band->expression("upper")};
+        band->require("file");
+        band->require("upper");
+        band->finish();
+    }
+    if (quantity.band.has_value() != (quantity.measure == Measure::share_within)) {
+        check.error("band", "belongs to the measure \"share_within\", and that measure to it");
+    }
     quantity.index = static_cast<int>(check.integer("index", 1));
     quantity.time = check.expression("time");
     quantity.level = check.expression("level");
@@ -164,6 +177,10 @@ Series read_series(Section& section, std::string_view key)
     Series series;
     section.require(key);
     series.file = section.text("file", series.file);
+    series.frame = section.expression("frame");
+    if (!series.frame.empty() && series.file != "fluid") {
+        section.error("frame", "has a meaning for `file = \"fluid\"` only");
+    }
     series.filter = section.expression("filter");
     series.value = section.expression(key);
     for (const TomlEntry* entry : section.entries("where")) {

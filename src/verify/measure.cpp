@@ -105,6 +105,79 @@ Measured crossing(const Samples& s, double level, int index)
     return {none, fmt::format("it passes {} only {} times", level, seen)};
 }
 
+double integral(const Samples& s)
+{
+    double sum = 0;
+    for (std::size_t k = 1; k < s.t.size(); ++k) {
+        sum += (s.t[k] - s.t[k - 1]) * (s.values[k] + s.values[k - 1]) / 2;
+    }
+    return sum;
+}
+
+/// Times at which the values pass the level.
+std::vector<double> passes(const Samples& s, double level)
+{
+    std::vector<double> times;
+    for (int index = 1;; ++index) {
+        const Measured next = crossing(s, level, index);
+        if (std::isnan(next.value)) {
+            return times;
+        }
+        times.push_back(next.value);
+    }
+}
+
+Measured period(const Samples& s, double level)
+{
+    const std::vector<double> times = passes(s, level);
+    if (times.size() < 3) {
+        return {none, fmt::format("it passes {} only {} times", level, times.size())};
+    }
+    return {2 * (times.back() - times.front()) / static_cast<double>(times.size() - 1), ""};
+}
+
+/// The farthest point from the level between each two passes.
+std::vector<Extremum> swings(const Samples& s, double level)
+{
+    const std::vector<double> times = passes(s, level);
+    std::vector<Extremum> all;
+    for (std::size_t pass = 1; pass < times.size(); ++pass) {
+        Extremum farthest;
+        for (std::size_t k = 0; k < s.t.size(); ++k) {
+            const double distance = std::abs(s.values[k] - level);
+            if (s.t[k] > times[pass - 1] && s.t[k] < times[pass] && distance > farthest.value) {
+                farthest = {s.t[k], distance};
+            }
+        }
+        if (farthest.value > 0) {
+            all.push_back(farthest);
+        }
+    }
+    return all;
+}
+
+Measured decay(const Samples& s, double level)
+{
+    const std::vector<Extremum> all = swings(s, level);
+    if (all.size() < 2) {
+        return {none, "fewer than two extrema"};
+    }
+    const auto n = static_cast<double>(all.size());
+    double t_mean = 0;
+    double y_mean = 0;
+    for (const Extremum& e : all) {
+        t_mean += e.t / n;
+        y_mean += std::log(e.value) / n;
+    }
+    double ty = 0;
+    double tt = 0;
+    for (const Extremum& e : all) {
+        ty += (e.t - t_mean) * (std::log(e.value) - y_mean);
+        tt += (e.t - t_mean) * (e.t - t_mean);
+    }
+    return {-ty / tt, ""};
+}
+
 double largest_gain(const std::vector<double>& values)
 {
     double lowest = values.front();
@@ -203,6 +276,14 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
     case Measure::peak_time:
     case Measure::trough:
         return number_of_extremum(quantity, s);
+    case Measure::integral:
+        return {integral(s), ""};
+    case Measure::period:
+    case Measure::decay: {
+        const double level = quantity.level.empty() ? number_of_all(Measure::mean, s.values)
+                                                    : evaluate(quantity.level, scope);
+        return quantity.measure == Measure::period ? period(s, level) : decay(s, level);
+    }
     case Measure::crossing:
         return crossing(s, evaluate(quantity.level, scope), quantity.index);
     default:
@@ -237,6 +318,27 @@ Measured error_from(const Quantity& quantity, const Series& reference, const Sco
         differences.push_back(*value - right.values[k]);
     }
     return error_of(quantity.measure, differences);
+}
+
+Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& files)
+{
+    const Samples run = samples(quantity.series, scope, files);
+    const Samples lower = within(quantity, scope, samples(quantity.band->lower, scope, files));
+    Series above = quantity.band->lower;
+    above.value = quantity.band->upper;
+    const Samples upper = within(quantity, scope, samples(above, scope, files));
+    if (run.values.empty() || lower.values.empty()) {
+        return {none, "no row fits"};
+    }
+    double inside = 0;
+    for (std::size_t k = 0; k < lower.t.size(); ++k) {
+        const auto value = interpolate(run, lower.t[k]);
+        if (!value) {
+            return {none, fmt::format("the run has no value at t = {} s of the band", lower.t[k])};
+        }
+        inside += *value >= lower.values[k] && *value <= upper.values[k] ? 1 : 0;
+    }
+    return {inside / static_cast<double>(lower.t.size()), ""};
 }
 
 } // namespace hyoryu

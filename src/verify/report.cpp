@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 
 namespace hyoryu {
 
@@ -100,10 +101,28 @@ std::string markdown_row(const RunResult& run, const CheckResult& check, bool fi
                        to_string(check.verdict), in_cell(note), first ? cost_text(run.cost) : "");
 }
 
+/// Where the section of a benchmark stands in its document, as GitHub names it.
+std::string anchor(const Benchmark& benchmark)
+{
+    std::string name;
+    for (const char letter : benchmark.name + "-" + benchmark.title) {
+        const auto code = static_cast<unsigned char>(letter);
+        if (std::isalnum(code) != 0 || letter == '_' || letter == '-') {
+            name += static_cast<char>(std::tolower(code));
+        } else if (letter == ' ') {
+            name += '-';
+        }
+    }
+    return name;
+}
+
 std::string markdown_section(const BenchmarkResult& result)
 {
     std::string text = fmt::format("## {}: {}\n\nReference: {}\n\n", result.benchmark.name,
                                    result.benchmark.title, result.benchmark.source);
+    if (!result.benchmark.uncertainty.empty()) {
+        text += fmt::format("Uncertainty of the reference: {}\n\n", result.benchmark.uncertainty);
+    }
     text += "| run | check | expected | got | tolerance | verdict | why | cost |\n"
             "|---|---|---|---|---|---|---|---|\n";
     for (const RunResult& run : result.runs) {
@@ -117,6 +136,27 @@ std::string markdown_section(const BenchmarkResult& result)
                                 run.error.empty() ? "" : "FAIL", in_cell(run.error),
                                 cost_text(run.cost));
         }
+    }
+    return text + "\n";
+}
+
+/// One line a case: what came out and what it cost.
+std::string markdown_overview(const std::vector<BenchmarkResult>& results)
+{
+    std::string text = "| case | group | tier | runs | passed | failed | known to fail | cost |\n"
+                       "|---|---|---|---|---|---|---|---|\n";
+    for (const BenchmarkResult& result : results) {
+        const Tally count = tally({result});
+        Tier lowest = Tier::release;
+        double seconds = 0;
+        for (const RunResult& run : result.runs) {
+            lowest = std::min(lowest, run.run.tier);
+            seconds += run.cost.wall_seconds;
+        }
+        text += fmt::format("| [{}](#{}) | {} | {} | {} | {} | {} | {} | {:.3g} s |\n",
+                            result.benchmark.name, anchor(result.benchmark), result.benchmark.group,
+                            to_string(lowest), result.runs.size(), count.pass,
+                            count.fail + count.xpass, count.xfail, seconds);
     }
     return text + "\n";
 }
@@ -205,6 +245,7 @@ std::string verify_json(const std::vector<BenchmarkResult>& results, const Verif
                                  {"title", result.benchmark.title},
                                  {"group", result.benchmark.group},
                                  {"source", result.benchmark.source},
+                                 {"uncertainty", result.benchmark.uncertainty},
                                  {"runs", std::move(runs)}});
     }
     return json.dump(2) + "\n";
@@ -217,6 +258,7 @@ std::string verify_markdown(const std::vector<BenchmarkResult>& results, const V
         "# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: **{}**.\n\n",
         info.version, info.commit, info.build, to_string(info.tier), info.threads,
         info.wall_seconds, summary_line(tally(results)));
+    text += markdown_overview(results);
     for (const BenchmarkResult& result : results) {
         text += markdown_section(result);
         const auto drawn = figures.find(result.benchmark.name);

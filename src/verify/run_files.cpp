@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
+#include <limits>
 
 namespace hyoryu {
 
@@ -78,6 +82,39 @@ CsvTable rows_where(const CsvTable& table, const std::map<std::string, std::stri
     return kept;
 }
 
+/// Every `stride`-th number from the `first`-th on.
+CsvTable::Column part(const std::string& name, const std::vector<float>& numbers, std::size_t first,
+                      std::size_t stride)
+{
+    CsvTable::Column column{name, {}, {}};
+    for (std::size_t k = first; k < numbers.size(); k += stride) {
+        column.numbers.push_back(static_cast<double>(numbers[k]));
+    }
+    return column;
+}
+
+CsvTable table_of(const Cloud& cloud)
+{
+    CsvTable table;
+    table.rows = cloud.points.size() / 3;
+    table.columns.push_back({"time", std::vector<double>(table.rows, cloud.time), {}});
+    constexpr std::array axes{"x", "y", "z"};
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        table.columns.push_back(part(axes[k], cloud.points, k, 3));
+    }
+    for (const Column& column : cloud.columns) {
+        const auto* numbers = std::get_if<std::vector<float>>(&column.values);
+        if (numbers != nullptr && column.name == "Velocity") {
+            for (std::size_t k = 0; k < axes.size(); ++k) {
+                table.columns.push_back(part(std::string("v") + axes[k], *numbers, k, 3));
+            }
+        } else if (numbers != nullptr && (column.name == "Pressure" || column.name == "Density")) {
+            table.columns.push_back(part(column.name == "Pressure" ? "p" : "rho", *numbers, 0, 1));
+        }
+    }
+    return table;
+}
+
 } // namespace
 
 RunFiles::RunFiles(fs::path results, fs::path benchmark)
@@ -97,9 +134,35 @@ const CsvTable& RunFiles::table(const std::string& file)
     return tables_.emplace(file, std::move(table)).first->second;
 }
 
+const CsvTable& RunFiles::frame(double time)
+{
+    const std::vector<SeriesEntry> series = read_series(results_ / "fluid.hdf.series");
+    const auto nearer = [time](const SeriesEntry& a, const SeriesEntry& b) {
+        return std::abs(a.time - time) < std::abs(b.time - time);
+    };
+    if (series.empty()) {
+        throw IoError("the run wrote no frame of the fluid");
+    }
+    const auto found = std::isnan(time) ? std::prev(series.end())
+                                        : std::min_element(series.begin(), series.end(), nearer);
+    if (!std::isnan(time) && std::abs(found->time - time) > 1e-6 * std::max(1.0, time)) {
+        throw IoError(fmt::format("there is no frame at t = {} s; the nearest is at {} s", time,
+                                  found->time));
+    }
+    const fs::path file = results_ / found->file;
+    const auto at = frames_.find(file.string());
+    return at != frames_.end()
+               ? at->second
+               : frames_.emplace(file.string(), table_of(read_frame(file))).first->second;
+}
+
 Samples samples(const Series& series, const Scope& scope, RunFiles& files)
 {
-    const CsvTable& whole = files.table(series.file);
+    const auto of_frame = [&]() -> const CsvTable& {
+        return files.frame(series.frame.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                : evaluate(series.frame, scope));
+    };
+    const CsvTable& whole = series.file == "fluid" ? of_frame() : files.table(series.file);
     const CsvTable chosen = series.where.empty() ? CsvTable() : rows_where(whole, series.where);
     const CsvTable& table = series.where.empty() ? whole : chosen;
     Samples all;

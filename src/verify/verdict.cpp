@@ -27,7 +27,11 @@ void take(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFi
     quantity.series = expanded(quantity.series, run, scope);
     const Series reference = expanded(check.reference.value_or(Series{}), run, scope);
     Measured got;
-    if (is_error_measure(quantity.measure)) {
+    if (quantity.band) {
+        quantity.band->lower = expanded(quantity.band->lower, run, scope);
+        got = share_within(quantity, scope, files);
+        result.expected = evaluate(check.expected, scope);
+    } else if (is_error_measure(quantity.measure)) {
         got = check.reference ? error_from(quantity, reference, scope, files)
                               : error_from(quantity, check.expected, scope, files);
     } else {

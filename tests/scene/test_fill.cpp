@@ -152,5 +152,65 @@ TEST(RigidScene, AMeshMeetsOthersByItsHull)
     }
 }
 
+TEST(Fill, FieldsOfVelocityAndPressureAreThoseOfThePlace)
+{
+    const std::string text = R"(
+dimensions = 2
+[time]
+end = 1.0
+[particles]
+spacing = 0.1
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 1.0]
+velocity_field = ["-2*x", "7", "2*z + x^2"]
+pressure_field = "100*x*z"
+)";
+    const Scene scene = parse_case(text, "test.toml");
+    const Filling filling = fill(scene);
+    ASSERT_EQ(filling.fluid.size(), 100u);
+    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
+        const Vec3& x = filling.fluid[k];
+        EXPECT_EQ(filling.fluid_velocity[k], Vec3(-2 * x.x(), 0, 2 * x.z() + x.x() * x.x()));
+        EXPECT_EQ(filling.fluid_pressure[k], 100 * x.x() * x.z());
+    }
+    const Filling again = fill(parse_case(to_toml(scene), "resolved.toml"));
+    EXPECT_EQ(again.fluid_velocity, filling.fluid_velocity);
+    EXPECT_EQ(again.fluid_pressure, filling.fluid_pressure);
+}
+
+// 13.5 spacings wide: the cells at both sides are cut to a quarter.
+TEST(Fill, ABodyThatCutsCellsDisplacesTheSameOnBothSides)
+{
+    const Filling filling = fill(parse_case(R"(
+dimensions = 2
+[time]
+end = 1.0
+[particles]
+spacing = 0.02
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.9, 0.0, 0.4]
+[[body]]
+shape = "box"
+size = [0.27, 0.0, 0.2]
+density = 500.0
+position = [0.45, 0.0, 0.4]
+)",
+                                            "test.toml"));
+    Index left = 0;
+    Index right = 0;
+    for (const Vec3& p : filling.fluid) {
+        left += p.x() < 0.44 ? 1 : 0;
+        right += p.x() > 0.46 ? 1 : 0;
+    }
+    EXPECT_LE(std::abs(left - right), 1);
+    EXPECT_NEAR(static_cast<double>(filling.fluid.size()), 45 * 20 - 13.5 * 5, 0.51);
+}
+
 } // namespace
 } // namespace hyoryu

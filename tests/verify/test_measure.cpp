@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Numbers taken from tables that were written by hand.
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
 #include "hyoryu/verify/measure.hpp"
 #include "io/results_fixture.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -109,6 +113,70 @@ TEST_F(Measures, ErrorsFromExpressionsAndFromReferences)
     const Series reference{.file = "reference.csv", .where = {{"case", "one"}}, .value = "x"};
     // At 0.5 the run is 1.5, at 1.5 it is 3.5.
     EXPECT_DOUBLE_EQ(error_from(quantity, reference, {}, files).value, std::sqrt(0.0625 / 2));
+}
+
+TEST_F(Measures, IntegralIsThatOfTheTrapezoids)
+{
+    EXPECT_DOUBLE_EQ(of_a(Measure::integral).value, 0 + 3 + 4 + 3 + 1 + 2.0 / 2);
+}
+
+// exp(-0.3 t) sin(2 pi t/1.7), every 10 ms.
+TEST_F(Measures, PeriodAndDecayOfAnOscillation)
+{
+    std::string text = "time,x\n";
+    for (int k = 0; k < 1000; ++k) {
+        const double t = 0.01 * k;
+        text += fmt::format("{},{}\n", t,
+                            2 + std::exp(-0.3 * t) * std::sin(2 * 3.14159265358979 * t / 1.7));
+    }
+    put_text_into(folder / "wave.csv", text);
+    RunFiles files(folder, folder);
+    Quantity quantity{.series = {.file = "wave.csv", .value = "x"},
+                      .measure = Measure::period,
+                      .level = "2",
+                      .from = "0.1"};
+    const Samples wave = samples(quantity.series, {}, files);
+    EXPECT_NEAR(measure(quantity, {}, wave).value, 1.7, 1e-5); // lines between the rows
+    quantity.measure = Measure::decay;
+    EXPECT_NEAR(measure(quantity, {}, wave).value, 0.3, 1e-3);
+    quantity.until = "0.5";
+    EXPECT_NE(measure(quantity, {}, wave).why, "");
+}
+
+TEST_F(Measures, ShareWithinABand)
+{
+    put_text_into(folder / "band.csv", "time,low,high\n0.5,1,2\n1.5,3.6,4\n2.5,3,4\n3.5,1,1.9\n");
+    RunFiles files(folder, folder);
+    const Series lower{.file = "band.csv", .value = "low"};
+    Quantity quantity{.series = series("x"), .band = Band{lower, "high"}};
+    EXPECT_DOUBLE_EQ(share_within(quantity, {}, files).value, 0.5); // at 0.5 and 2.5 s
+    quantity.until = "1";
+    EXPECT_DOUBLE_EQ(share_within(quantity, {}, files).value, 1);
+}
+
+TEST_F(Measures, AFrameIsATableOfParticles)
+{
+    Cloud cloud{"fluid", 0.5, 0};
+    cloud.points = {1, 0, 2, 3, 0, 4};
+    cloud.columns = {{"Velocity", "m/s", 3, std::vector<float>{0.5F, 0, 0, 1.5F, 0, 0}},
+                     {"Pressure", "Pa", 1, std::vector<float>{8, 16}}};
+    {
+        FrameWriter writer(folder);
+        writer.write(cloud);
+        cloud.time = 1.0;
+        cloud.index = 1;
+        cloud.points[2] = 10;
+        writer.write(cloud);
+        writer.finish();
+    }
+    RunFiles files(folder, folder);
+    Series series{.file = "fluid", .frame = "0.5", .value = "p + vx*z"};
+    EXPECT_EQ(samples(series, {}, files).values, (std::vector<double>{9, 22}));
+    series.frame = "";
+    EXPECT_EQ(samples(series, {}, files).values, (std::vector<double>{13, 22}));
+    EXPECT_EQ(samples(series, {}, files).t, (std::vector<double>{1, 1}));
+    series.frame = "0.7";
+    EXPECT_THROW(samples(series, {}, files), IoError);
 }
 
 } // namespace

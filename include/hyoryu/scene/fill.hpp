@@ -21,6 +21,7 @@ struct Filling {
     std::vector<Vec3> fluid;              // [m]
     std::vector<Vec3> fluid_velocity;     // [m/s]
     std::vector<double> fluid_depth;      // below the free surface above it, along gravity [m]
+    std::vector<double> fluid_pressure;   // above the hydrostatic one [Pa]
     std::vector<Vec3> wall;               // [m]; empty without fluid
     std::vector<std::int32_t> wall_owner; // index of the wall
     std::vector<Aggregate> bodies;

@@ -28,6 +28,11 @@ struct Plan {
         std::string name; // "fluid<-fluid": who gathers from whom
         std::string why;
     };
+    struct GaugeUse {
+        std::string name;
+        std::string what;    // it reads, and where
+        std::string columns; // of gauges.csv
+    };
     struct Counts {
         Index fluid = 0, wall = 0, body = 0; // particles
         Index bodies = 0, walls = 0;
@@ -49,6 +54,9 @@ struct Plan {
     std::vector<FieldUse> fields;
     std::vector<PairKind> pair_kinds;
     std::vector<MaterialContact> materials; // by name
+    std::vector<GaugeUse> gauges;
+    double gauge_rows = 0;  // of gauges.csv
+    double gauge_looks = 0; // at particles, for one row
     Counts counts;
     std::vector<TimeLimit> limits; // of the first step
     double first_step = 0;         // [s]

@@ -74,6 +74,10 @@ struct FluidBlock {
     Vec3 centre{0, 0, 0}; // of the shape [m]
     Quat rotation = Quat::Identity();
     Vec3 velocity{0, 0, 0}; // [m/s]
+    /// Expressions of x, y, z [m] for its components [m/s], in place of `velocity`; or none.
+    std::vector<std::string> velocity_field;
+    /// Expression of x, y, z [m] for the pressure above the hydrostatic one [Pa]; may be empty.
+    std::string pressure_field;
     Place place;
 };
 
@@ -147,20 +151,28 @@ struct ContactSettings {
     std::vector<MaterialPair> pairs;
 };
 
-enum class GaugeType { elevation, pressure, velocity, force, front };
+enum class GaugeType { elevation, pressure, velocity, force, front, flux };
+/// What is written beside the readings: their mean or median over the last `window` seconds, or
+/// their mean with weights that fall as exp(-age/window).
+enum class GaugeFilter { none, mean, median, exponential };
 
 struct Gauge {
     std::string name;
     GaugeType type = GaugeType::elevation;
-    Vec3 at{0, 0, 0}; // [m]; elevation uses x, y
-    std::string on;   // force: the name of a wall or body
-    int axis = 0;     // front: 0 x, 1 y, 2 z
+    Vec3 at{0, 0, 0};     // [m]; elevation uses x, y; flux: any point of its plane
+    double area = 0;      // pressure: of the sensor's face [m2], m in two dimensions; 0: a point
+    Vec3 normal{1, 0, 0}; // pressure: of that face; flux: of the plane, unit
+    std::string on;       // force: the name of a wall or body
+    int axis = 0;         // front: 0 x, 1 y, 2 z
+    GaugeFilter filter = GaugeFilter::none;
+    double window = 0; // of the filter [s]
     Place place;
 };
 
 struct OutputSettings {
     double every = 0;                // s between frames; 0: end / 100
     double history_every = 0;        // s between rows of the histories; 0: every step
+    double gauge_every = 0;          // s between rows of the gauges; 0: every step
     std::vector<std::string> fields; // of the frames; empty: the default set
     double checkpoint_every = 600;   // s of wall time
 };

@@ -15,6 +15,7 @@ struct Clock {
     double dt = 0;            // of the last step [s]
     std::int64_t frame = 0;   // number of the next frame
     std::int64_t history = 0; // number of the next history row, if they are spaced in time
+    std::int64_t gauge = 0;   // likewise of the gauges
 };
 
 /// What the next step is to be.
@@ -32,9 +33,10 @@ NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limi
 /// Whether the run is over.
 bool finished(const Clock& clock, const Scene& scene);
 
-/// Whether a frame, or a row of the histories, is due at the present time. Asking does not change
-/// that; `frame` and `history` count on when it has been written.
+/// Whether a frame, a row of the histories, or one of the gauges, is due at the present time.
+/// Asking does not change that; `frame`, `history` and `gauge` count on when it has been written.
 bool frame_due(const Clock& clock, const Scene& scene);
 bool history_due(const Clock& clock, const Scene& scene);
+bool gauge_due(const Clock& clock, const Scene& scene);
 
 } // namespace hyoryu

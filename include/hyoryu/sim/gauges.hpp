@@ -2,20 +2,65 @@
 // Gauges: what an instrument at a place, or on a structure, would read.
 #pragma once
 
-#include "hyoryu/core/snapshot.hpp"
-#include "hyoryu/sim/simulation.hpp"
+#include "hyoryu/scene/gauge_columns.hpp"
 
+#include <span>
 #include <vector>
 
 namespace hyoryu {
 
-/// Columns of `gauges.csv` behind the time: one a gauge, three where it reads a vector.
+struct Simulation;
+
+/// What acts on the wall or body of one force gauge.
+struct GaugedForce {
+    int target = 0;                // body, or -1 - wall
+    Vec3 pressure{0, 0, 0};        // by the fluid in the last step, and by films [N]
+    Vec3 viscous{0, 0, 0};         // by the fluid in the last step [N]
+    Vec3 fluid_impulse{0, 0, 0};   // of both since the start [N s]
+    Vec3 contact_impulse{0, 0, 0}; // of bodies and walls since the start [N s]
+    Vec3 contact_at_row{0, 0, 0};  // the same at the row before [N s]
+};
+
+/// The samples that the filter of one column still sees. The exponential mean keeps one: itself.
+struct FilterMemory {
+    GaugeFilter filter = GaugeFilter::none;
+    double window = 0;          // [s]
+    std::vector<double> times;  // [s]
+    std::vector<double> values; // in the unit of the column
+};
+
+/// What gauges remember. Empty in a scene without gauges; the forces also in one without force
+/// gauges.
+struct GaugeMemory {
+    double last_row = 0;               // time of it [s]
+    std::vector<GaugedForce> forces;   // of the force gauges, in the order of the scene
+    std::vector<FilterMemory> filters; // of the filtered columns, in the order of the columns
+};
+
+GaugeMemory make_gauge_memory(const Scene& scene);
+
+/// Columns of `gauges.csv` behind the time.
 std::vector<Table::Head> gauge_heads(const Scene& scene);
 
-/// Readings in the order of the heads. elevation: height at which the kernel sum of the fluid
-/// reaches one half, NaN where there is none; pressure, velocity: kernel average of the fluid, NaN
-/// if dry; force: of the fluid on a wall or body, in the last step; front: farthest place of the
-/// fluid along the axis.
+/// Adds what fluid and contact did in the present step of length dt to the force gauges. Between
+/// the step of the bodies and the new viscous forces.
+void book_forces(Simulation& sim, double dt);
+
+/// Raw readings, gauge after gauge. elevation: height at which the kernel sum of the fluid reaches
+/// half of what solids leave, NaN where there is none; pressure: kernel average of p + rho g . (x -
+/// x_f) over the fluid about each point of the face, as walls take it over (Adami, Hu & Adams 2012,
+/// eq. 27), at least 0, the pressure of the air; velocity: kernel average, NaN if dry; front:
+/// farthest place of the fluid along the axis; flux: sum of V v.n over the fluid, weighted with its
+/// distance from the plane by a hat of half width 2 dp, which is the exact flux of a uniform stream
+/// on a lattice.
 std::vector<double> read_gauges(const Simulation& sim);
+
+/// The next row of `gauges.csv` behind the time: raw and filtered readings.
+std::vector<double> next_gauge_row(Simulation& sim);
+
+/// The memory as numbers, and back into one made from the same scene.
+std::vector<double> numbers_of(const GaugeMemory& memory);
+/// Throws IoError if the numbers do not fit.
+void restore(GaugeMemory& memory, std::span<const double> numbers);
 
 } // namespace hyoryu

@@ -6,6 +6,7 @@
 #include "hyoryu/coupling/coupling.hpp"
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/sim/clock.hpp"
+#include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/ledger.hpp"
 
 #include <map>
@@ -30,6 +31,7 @@ struct Simulation {
     Loads loads;
     Clock clock;
     Ledger ledger;
+    GaugeMemory gauges;
     std::vector<Contact> contacts; // of the last step
     StageTimer timer;
     std::map<std::string, long long, std::less<>> steps_by_limit;

@@ -35,9 +35,12 @@ struct BenchmarkRun {
     std::vector<std::pair<std::string, RunParameter>> parameters; // in the order of the file
 };
 
-/// Values over time: an expression of the columns of some rows of a file.
+/// Values over time, or of the particles of a frame: an expression of the columns of some rows of a
+/// file.
 struct Series {
-    std::string file = "bodies"; // a history of the run, "summary", or a CSV file of the benchmark
+    /// A history of the run, "summary", a CSV file of the benchmark, or "fluid": a row a particle.
+    std::string file = "bodies";
+    std::string frame; // of "fluid": expression of its time [s]; empty: the last one
     std::map<std::string, std::string> where; // cells that a row must hold, by column
     std::string filter;                       // expression that is not zero in a row; may be empty
     std::string value;                        // expression
@@ -61,17 +64,28 @@ enum class Measure {
     peak_time,     // when that is [s]
     trough,        // local minimum of number `index`
     crossing,      // time [s] at which the value passes `level` for the `index`-th time
+    integral,      // over time, by trapezoids
+    period,        // [s] of an oscillation about `level`: mean time between passes
+    decay,         // rate [1/s] at which its extrema fall, by least squares of their logarithms
+    share_within,  // of the rows of a band in which the run lies within the band
     rms_error,     // root mean square of the difference from a series
     largest_error, // largest absolute difference from a series
+};
+
+/// Two bounds over time, for instance percentiles of repeated experiments.
+struct Band {
+    Series lower;
+    std::string upper; // expression of the same rows
 };
 
 /// A measured number and how it is taken. Expressions are of constants and the run's parameters.
 struct Quantity {
     Series series;
+    std::optional<Band> band; // of share_within
     Measure measure = Measure::last;
     int index = 1;     // from 1
     std::string time;  // [s]
-    std::string level; // in the unit of the value
+    std::string level; // in the unit of the value; of an oscillation, if empty, its mean
     std::string from;  // only rows from this time on [s]; may be empty
     std::string until; // only rows until this time [s]; may be empty
 };
@@ -137,7 +151,8 @@ struct Benchmark {
     std::filesystem::path folder;
     std::string title;
     std::string group;
-    std::string source; // of the reference
+    std::string source;      // of the reference
+    std::string uncertainty; // of the reference, in words; may be empty
     Constants constants;
     std::map<std::string, std::string> columns; // derived columns: expressions of other columns
     std::vector<BenchmarkRun> runs;

@@ -22,9 +22,14 @@ public:
     /// Throws IoError.
     const CsvTable& table(const std::string& file);
 
+    /// The particles of the frame "fluid" at `time` [s], the last one if it is NaN, one a row:
+    /// time, x, y, z, vx, vy, vz, p, rho. Throws IoError if there is no frame at that time.
+    const CsvTable& frame(double time);
+
 private:
     std::filesystem::path results_, benchmark_;
     std::map<std::string, CsvTable> tables_;
+    std::map<std::string, CsvTable> frames_; // by file
 };
 
 /// Values over time, in the order of the rows.
@@ -43,7 +48,7 @@ struct Measured {
     std::string why;  // empty if there is one
 };
 
-/// One number of the samples. Not for the error measures.
+/// One number of the samples. Not for the error measures and bands.
 Measured measure(const Quantity& quantity, const Scope& scope, const Samples& samples);
 
 /// Root mean square or largest absolute difference of the quantity from an expression of its rows,
@@ -52,5 +57,8 @@ Measured error_from(const Quantity& quantity, const std::string& expected, const
                     RunFiles& files);
 Measured error_from(const Quantity& quantity, const Series& reference, const Scope& scope,
                     RunFiles& files);
+
+/// Share of the rows of the band, 0 to 1, in which the run, linear between its rows, lies within.
+Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& files);
 
 } // namespace hyoryu

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "plan_gauges.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/gauge_columns.hpp"
+#include "walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+std::string text_of(const Vec3& v)
+{
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x(), v.y(), v.z());
+}
+
+std::string what_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
+{
+    switch (gauge.type) {
+    case GaugeType::elevation:
+        return fmt::format("water level over x = {:.4g}, y = {:.4g}", gauge.at.x(), gauge.at.y());
+    case GaugeType::pressure: {
+        const double reach = 2 * plan.fluid->h;
+        return gauge.area > 0
+                   ? fmt::format("pressure, mean over a face of {:.3g} {} at {}", gauge.area,
+                                 scene.dimensions == 2 ? "m" : "m2", text_of(gauge.at))
+                   : fmt::format("pressure at {}, kernel mean within {:.3g} m", text_of(gauge.at),
+                                 reach);
+    }
+    case GaugeType::velocity:
+        return fmt::format("velocity at {}", text_of(gauge.at));
+    case GaugeType::force:
+        return fmt::format("force and impulse of fluid and contact on \"{}\"", gauge.on);
+    case GaugeType::front:
+        return fmt::format("farthest place of the fluid along {}", "xyz"[gauge.axis]);
+    case GaugeType::flux:
+        return fmt::format("volume flux through the plane at {} along {}", text_of(gauge.at),
+                           text_of(gauge.normal));
+    }
+    return {};
+}
+
+// Particles that a gauge looks at for one row: all of the fluid from each of its points, and for
+// the level those of solids as well.
+double looks_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
+{
+    const auto fluid = static_cast<double>(plan.counts.fluid);
+    if (gauge.type == GaugeType::force) {
+        return 0;
+    }
+    if (gauge.type == GaugeType::elevation) {
+        return static_cast<double>(plan.counts.particles());
+    }
+    constexpr double most = 64; // as the readings have it
+    const double cell = std::pow(scene.spacing / 2, scene.dimensions - 1);
+    return fluid * (gauge.area > 0 ? std::clamp(std::ceil(gauge.area / cell), 1.0, most) : 1);
+}
+
+bool has_place(const Gauge& gauge)
+{
+    return gauge.type == GaugeType::elevation || gauge.type == GaugeType::pressure ||
+           gauge.type == GaugeType::velocity;
+}
+
+bool outside(const Scene& scene, const Gauge& gauge, const Bounds& domain)
+{
+    const auto beyond = [&](int axis) {
+        const bool counts = !(axis == 1 && scene.dimensions == 2) &&
+                            !(axis == 2 && gauge.type == GaugeType::elevation);
+        return counts && (gauge.at[axis] < domain.min[axis] || gauge.at[axis] > domain.max[axis]);
+    };
+    return beyond(0) || beyond(1) || beyond(2);
+}
+
+} // namespace
+
+void list_gauges(const Scene& scene, Plan& plan)
+{
+    for (const Gauge& gauge : scene.gauges) {
+        std::string columns;
+        for (const Table::Head& head : gauge_columns(gauge, scene.dimensions)) {
+            columns += (columns.empty() ? "" : ", ") + head.name;
+        }
+        plan.gauges.push_back({gauge.name, what_of(scene, plan, gauge), columns});
+        plan.gauge_looks += looks_of(scene, plan, gauge);
+    }
+    const double every = std::max(scene.output.gauge_every, plan.first_step);
+    plan.gauge_rows = scene.gauges.empty() ? 0 : std::floor(scene.time.end / every) + 1;
+}
+
+void check_gauges(const Scene& scene, const Filling& filling, Plan& plan,
+                  std::vector<Diagnostic>& errors)
+{
+    for (std::size_t k = 0; k < scene.gauges.size(); ++k) {
+        const Gauge& gauge = scene.gauges[k];
+        const std::string key = fmt::format("gauge[{}].at", k);
+        if (!has_place(gauge)) {
+            continue;
+        }
+        if (outside(scene, gauge, filling.domain)) {
+            errors.push_back(diagnostic_at(
+                scene, gauge.place, key,
+                fmt::format("the gauge \"{}\" stands outside the domain, {} to {}", gauge.name,
+                            text_of(filling.domain.min), text_of(filling.domain.max)),
+                "nothing can ever come there"));
+            continue;
+        }
+        // A sensor flush with a wall is where it belongs; one deeper than the kernel reaches is
+        // not.
+        for (const Wall& wall : scene.walls) {
+            const double depth = gauge.type == GaugeType::elevation
+                                     ? 0
+                                     : depth_behind(wall, gauge.at, scene.dimensions);
+            if (depth > scene.spacing / 2) {
+                Diagnostic note = diagnostic_at(
+                    scene, gauge.place, key,
+                    fmt::format("the gauge \"{}\" stands {:.3g} m inside the wall \"{}\"",
+                                gauge.name, depth, wall.name),
+                    "put it on the surface or in front of it");
+                note.severity = Diagnostic::Severity::warning;
+                plan.warnings.push_back(std::move(note));
+            }
+        }
+    }
+}
+
+} // namespace hyoryu

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Forces on the walls and bodies that are gauged, summed over the steps between rows.
+#include "hyoryu/sim/gauges.hpp"
+
+#include "hyoryu/sim/simulation.hpp"
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+// Sum of the viscous forces on the particles of a wall or body; zero where walls slip freely.
+Vec3 viscous_force(const Simulation& sim, int target)
+{
+    Vec3 total = Vec3::Zero();
+    const Particles& particles = sim.fluid->particles;
+    if (!particles.has(field::viscous_force)) {
+        return total;
+    }
+    const auto F = particles[field::viscous_force];
+    const auto owner = particles.owner();
+    const Rows rows = target >= 0 ? particles.body() : particles.wall();
+    for (Index k = rows.begin; k < rows.end; ++k) {
+        if (owner[at(k)] == target) {
+            total += F[at(k)];
+        }
+    }
+    return total;
+}
+
+Vec3 contact_impulse(const std::vector<Contact>& contacts, int target)
+{
+    Vec3 total = Vec3::Zero();
+    for (const Contact& c : contacts) {
+        const Vec3 P = c.normal_impulse * c.normal + c.tangential_impulse;
+        if (c.a == target) {
+            total += P;
+        } else if (c.b == target) {
+            total -= P;
+        }
+    }
+    return total;
+}
+
+} // namespace
+
+void book_forces(Simulation& sim, double dt)
+{
+    for (GaugedForce& force : sim.gauges.forces) {
+        if (sim.fluid) {
+            force.pressure = force.target >= 0 ? sim.loads.bodies[at(force.target)].force
+                                               : sim.loads.walls[at(-1 - force.target)];
+            force.viscous = viscous_force(sim, force.target);
+            force.fluid_impulse += dt * (force.pressure + force.viscous);
+        }
+        force.contact_impulse += contact_impulse(sim.contacts, force.target);
+    }
+}
+
+} // namespace hyoryu

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// What gauges remember between rows: impulses and the windows of filters.
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/sim/gauges.hpp"
+#include "hyoryu/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace hyoryu {
+
+namespace {
+
+int target_of(const Scene& scene, const std::string& name)
+{
+    const auto named = [&](const auto& solid) { return solid.name == name; };
+    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), named);
+    if (body != scene.bodies.end()) {
+        return static_cast<int>(body - scene.bodies.begin());
+    }
+    const auto wall = std::find_if(scene.walls.begin(), scene.walls.end(), named);
+    return -1 - static_cast<int>(wall - scene.walls.begin());
+}
+
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return values.size() % 2 == 1 ? *middle
+                                  : (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+void forget_before(FilterMemory& memory, double time)
+{
+    const auto kept = std::upper_bound(memory.times.begin(), memory.times.end(), time);
+    const auto count = kept - memory.times.begin();
+    memory.times.erase(memory.times.begin(), kept);
+    memory.values.erase(memory.values.begin(), memory.values.begin() + count);
+}
+
+double exponential(FilterMemory& memory, double time, double value)
+{
+    if (memory.times.empty()) {
+        memory.times = {time};
+        memory.values = {value};
+    } else {
+        const double share = -std::expm1(-(time - memory.times.front()) / memory.window);
+        memory.values.front() += share * (value - memory.values.front());
+        memory.times.front() = time;
+    }
+    return memory.values.front();
+}
+
+// A sample that is no number (a dry gauge) is not kept.
+double filtered(FilterMemory& memory, double time, double value)
+{
+    const bool wet = !std::isnan(value);
+    if (memory.filter == GaugeFilter::exponential) {
+        return wet ? exponential(memory, time, value) : value;
+    }
+    forget_before(memory, time - memory.window);
+    if (wet) {
+        memory.times.push_back(time);
+        memory.values.push_back(value);
+    }
+    if (memory.values.empty()) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (memory.filter == GaugeFilter::median) {
+        return median(memory.values);
+    }
+    return std::accumulate(memory.values.begin(), memory.values.end(), 0.0) /
+           static_cast<double>(memory.values.size());
+}
+
+} // namespace
+
+GaugeMemory make_gauge_memory(const Scene& scene)
+{
+    GaugeMemory memory;
+    for (const Gauge& gauge : scene.gauges) {
+        if (gauge.type == GaugeType::force) {
+            memory.forces.push_back({.target = target_of(scene, gauge.on)});
+        }
+        for (std::size_t k = 0; k < filtered_columns(gauge); ++k) {
+            memory.filters.push_back({.filter = gauge.filter, .window = gauge.window});
+        }
+    }
+    return memory;
+}
+
+std::vector<double> next_gauge_row(Simulation& sim)
+{
+    const std::vector<double> raw = read_gauges(sim);
+    std::vector<double> row;
+    auto memory = sim.gauges.filters.begin();
+    std::size_t first = 0;
+    for (const Gauge& gauge : sim.scene.gauges) {
+        const std::size_t count = raw_columns(gauge, sim.scene.dimensions).size();
+        row.insert(row.end(), raw.begin() + static_cast<std::ptrdiff_t>(first),
+                   raw.begin() + static_cast<std::ptrdiff_t>(first + count));
+        for (std::size_t k = 0; k < filtered_columns(gauge); ++k) {
+            row.push_back(filtered(*memory++, sim.clock.time, raw[first + k]));
+        }
+        first += count;
+    }
+    for (GaugedForce& force : sim.gauges.forces) {
+        force.contact_at_row = force.contact_impulse;
+    }
+    sim.gauges.last_row = sim.clock.time;
+    return row;
+}
+
+std::vector<double> numbers_of(const GaugeMemory& memory)
+{
+    std::vector<double> numbers{memory.last_row};
+    for (const GaugedForce& force : memory.forces) {
+        for (const Vec3* v : {&force.pressure, &force.viscous, &force.fluid_impulse,
+                              &force.contact_impulse, &force.contact_at_row}) {
+            numbers.insert(numbers.end(), v->begin(), v->end());
+        }
+    }
+    for (const FilterMemory& filter : memory.filters) {
+        numbers.push_back(static_cast<double>(filter.times.size()));
+        numbers.insert(numbers.end(), filter.times.begin(), filter.times.end());
+        numbers.insert(numbers.end(), filter.values.begin(), filter.values.end());
+    }
+    return numbers;
+}
+
+void restore(GaugeMemory& memory, std::span<const double> numbers)
+{
+    std::size_t next = 0;
+    const auto take = [&] {
+        if (next >= numbers.size()) {
+            throw IoError("the checkpoint knows fewer gauges than the case");
+        }
+        return numbers[next++];
+    };
+    memory.last_row = take();
+    for (GaugedForce& force : memory.forces) {
+        for (Vec3* v : {&force.pressure, &force.viscous, &force.fluid_impulse,
+                        &force.contact_impulse, &force.contact_at_row}) {
+            std::generate(v->begin(), v->end(), take);
+        }
+    }
+    for (FilterMemory& filter : memory.filters) {
+        const auto samples = static_cast<std::size_t>(take());
+        filter.times.clear();
+        filter.values.clear();
+        std::generate_n(std::back_inserter(filter.times), samples, take);
+        std::generate_n(std::back_inserter(filter.values), samples, take);
+    }
+    if (next != numbers.size()) {
+        throw IoError("the checkpoint knows more gauges than the case");
+    }
+}
+
+} // namespace hyoryu
