@@ -163,31 +163,34 @@ void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
     close_step(rigid);
 }
 
+double bounding_radius(const Body& body, int dimensions)
+{
+    return solid_of(body.shape, dimensions).reach;
+}
+
 double overlap(const Rigid& rigid, int a, int b, double time)
 {
     Geometry geometry;
     std::vector<Pose> poses;
     const int dimensions = rigid.settings.dimensions;
-    geometry.solids.resize(rigid.bodies.size());
-    geometry.walls.resize(rigid.boundaries.size());
-    for (const Body& body : rigid.bodies) {
-        poses.push_back(pose_of(body.position, body.orientation));
-    }
     const auto add_body = [&](int k) {
-        geometry.solids[k] = solid_of(rigid.bodies[k].shape, dimensions);
+        const Body& body = rigid.bodies[k];
+        geometry.solids.push_back(solid_of(body.shape, dimensions));
+        poses.push_back(pose_of(body.position, body.orientation));
     };
     add_body(a);
     if (b >= 0) {
         add_body(b);
     } else {
-        geometry.walls[-1 - b] = wall_of(rigid.boundaries[-1 - b], dimensions);
+        geometry.walls.push_back(wall_of(rigid.boundaries[-1 - b], dimensions));
     }
+    const Pair pair{0, b >= 0 ? 1 : -1};
     const Configuration at{geometry, poses, time};
-    if (has_axis({a, b}, geometry)) {
-        return -axis_distance({a, b}, at);
+    if (has_axis(pair, geometry)) {
+        return -axis_distance(pair, at);
     }
     std::vector<Candidate> found;
-    find_candidates({a, b}, at, clearly_apart, found);
+    find_candidates(pair, at, clearly_apart, found);
     double deepest = -infinity;
     for (const Candidate& candidate : found) {
         deepest = std::max(deepest, candidate.beyond ? -infinity : -candidate.touch.gap);

@@ -83,6 +83,9 @@ void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
 std::vector<double> save_memory(const Rigid& rigid);
 void load_memory(Rigid& rigid, std::span<const double> numbers);
 
+/// Largest distance of a point of the body from its centre of mass [m].
+double bounding_radius(const Body& body, int dimensions);
+
 /// Depth by which two bodies, or a body and a boundary, overlap at `time` [m]; negative or zero if
 /// they do not. `b` as in Contact.
 double overlap(const Rigid& rigid, int a, int b, double time);
