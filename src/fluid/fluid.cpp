@@ -19,10 +19,48 @@ real stand_in_mass(const Fluid& fluid, Index row)
     return owner >= 0 ? fluid.body_particle_mass[at(owner)] : fluid.parameters.mass;
 }
 
+FluidTerms terms_of(const Fluid& fluid, real dt)
+{
+    const FluidParameters& f = fluid.parameters;
+    return {{f.eos, f.gravity}, {f.spacing, dt > 0 ? f.mass / (2 * dt) : 0}, fluid.effects};
+}
+
+// Copies fields of the particles of some tiles to what the pair loops read.
+void load(Fluid& fluid, const Tiles& tiles, const auto& fields)
+{
+    std::visit([&](auto& data) { data.records.load(fluid.particles, tiles, fields); },
+               fluid.pair_data);
+}
+
+// Runs one of the pair loops over all blocks of a list; `which` names it.
+void run(Fluid& fluid, const PairList& pairs, const Tiles& destination, const FluidTerms& terms,
+         const auto& which)
+{
+    std::visit(
+        [&]<class Real>(PairData<Real>& data) {
+            const auto& loops = std::get<PairLoops<Real>>(fluid_loops(fluid.instruction_set));
+            const SweepView<Stored, Real> view{pairs.blocks().data(),
+                                               data.records.data(),
+                                               fluid.particles.pointers(),
+                                               destination.row.data(),
+                                               destination.first_slot,
+                                               destination.lattice.edge,
+                                               fluid.kernel};
+            const auto loop = which(loops);
+            parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
+                loop(view, block, data.local[at(worker())].data(), terms);
+            });
+        },
+        fluid.pair_data);
+}
+
 } // namespace
 
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count)
 {
+    if (fluid.parameters.precision == Precision::double_precision) {
+        fluid.pair_data.emplace<PairData<double>>();
+    }
     using Core = Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>;
     using Solid = WallExtrapolation::Writes;
     std::visit(
@@ -55,6 +93,7 @@ void update_pressure(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
     const FluidParameters& f = fluid.parameters;
+    FluidNeighbours& n = fluid.neighbours;
     const auto rho = particles[field::density];
     const auto p = particles[field::pressure];
     const auto V = particles[field::volume];
@@ -63,15 +102,17 @@ void update_pressure(Fluid& fluid)
         p[at(i)] = f.eos.pressure(rho[at(i)]);
         V[at(i)] = f.mass / rho[at(i)];
     });
-    fluid.records.load(particles);
-    const Rows solid = particles.solid();
-    if (solid.size() == 0) {
+    load(fluid, n.fluid, Stored{});
+    if (particles.solid().size() == 0) {
         return;
     }
-
+    load(fluid, n.wall, Stored{});
+    load(fluid, n.body, Stored{});
+    const Rows solid = particles.solid();
     clear(particles, solid, WallExtrapolation::Writes{});
-    sweep(particles, fluid.neighbours.solid_fluid, fluid.records, fluid.kernel,
-          WallExtrapolation{f.eos, f.gravity});
+    const FluidTerms terms = terms_of(fluid, 0);
+    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.extrapolation; });
+    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.extrapolation; });
     const auto shepard = particles[field::shepard_sum];
     const auto weighted = particles[field::pressure_sum];
     parallel_for(solid.begin, solid.end, [&](Index i) {
@@ -80,29 +121,25 @@ void update_pressure(Fluid& fluid)
         rho[at(i)] = f.eos.density(p_w);
         V[at(i)] = stand_in_mass(fluid, i) / rho[at(i)];
     });
-    fluid.records.load(particles, Fields<Volume, Pressure>{});
+    load(fluid, n.wall, Fields<Volume, Pressure>{});
+    load(fluid, n.body, Fields<Volume, Pressure>{});
 }
 
 void update_forces(Fluid& fluid, real dt)
 {
     Particles& particles = fluid.particles;
-    const FluidNeighbours& pairs = fluid.neighbours;
-    const FluidParameters& f = fluid.parameters;
-    const WallPressureForce push;
-    const SolidBackstop stop{f.spacing, f.mass / (2 * dt)};
+    const FluidNeighbours& n = fluid.neighbours;
+    const FluidTerms terms = terms_of(fluid, dt);
     clear(particles, {0, particles.size()}, Fields<Force>{});
-    std::visit(
-        [&](const auto& diffusion) {
-            clear(particles, particles.fluid(),
-                  typename std::remove_cvref_t<decltype(diffusion)>::Writes{});
-            sweep(particles, pairs.fluid_fluid, fluid.records, fluid.kernel, PressureForce{},
-                  diffusion);
-        },
-        fluid.effects.diffusion);
-    sweep(particles, pairs.fluid_solid, fluid.records, fluid.kernel, push, stop);
-    sweep(particles, pairs.solid_fluid, fluid.records, fluid.kernel, push, stop);
-    sweep(particles, pairs.body_solid, fluid.records, fluid.kernel, push);
-    sweep(particles, pairs.wall_body, fluid.records, fluid.kernel, push);
+    if (particles.has(field::diffusion_rate)) {
+        clear(particles, particles.fluid(), Fields<DiffusionRate>{});
+    }
+    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_forces; });
+    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
+    run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
 }
 
 void kick(Fluid& fluid, real dt)
@@ -126,18 +163,18 @@ void kick(Fluid& fluid, real dt)
 void update_rates(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
-    const FluidNeighbours& pairs = fluid.neighbours;
+    const FluidNeighbours& n = fluid.neighbours;
     const Rows rows = particles.fluid();
-    fluid.records.load(particles, Fields<Velocity>{});
+    const FluidTerms terms = terms_of(fluid, 0);
+    for (const Tiles* tiles : {&n.fluid, &n.wall, &n.body}) {
+        load(fluid, *tiles, Fields<Velocity>{});
+    }
     clear(particles, rows, Continuity::Writes{});
-    std::visit(
-        [&](const auto& viscosity) {
-            clear(particles, rows, typename std::remove_cvref_t<decltype(viscosity)>::Writes{});
-            sweep(particles, pairs.fluid_fluid, fluid.records, fluid.kernel, Continuity{},
-                  viscosity);
-        },
-        fluid.effects.viscosity);
-    sweep(particles, pairs.fluid_solid, fluid.records, fluid.kernel, Continuity{});
+    if (particles.has(field::viscous_force)) {
+        clear(particles, rows, Fields<ViscousForce>{});
+    }
+    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_rates; });
+    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_rates; });
 
     const auto rho = particles[field::density];
     const auto rate = particles[field::density_rate];

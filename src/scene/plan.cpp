@@ -79,6 +79,7 @@ FluidParameters fluid_parameters(const Scene& scene, double speed)
     f.gravity = scene.gravity;
     f.cfl = scene.time.cfl;
     f.skin = skin_spacings * scene.spacing;
+    f.precision = scene.precision;
     // A fluid at rest without gravity still needs a pressure: any speed of sound will do.
     const double floor = scene.spacing; // one spacing a second
     f.eos = {settings.density,
@@ -254,7 +255,7 @@ double list_bytes(const FluidParameters& fluid)
     const double radius = (2 * fluid.h + fluid.skin) / fluid.spacing;
     const double near = fluid.dimensions == 2 ? std::numbers::pi * sq(radius)
                                               : 4.0 / 3.0 * std::numbers::pi * radius * sq(radius);
-    return sizeof(std::int32_t) * (near + lanes / 2.0);
+    return sizeof(std::uint16_t) * (near + 4);
 }
 
 Plan make_plan(const Scene& scene, const Filling& filling)

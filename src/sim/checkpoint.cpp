@@ -112,6 +112,39 @@ void unflat(const Numbers& numbers, std::span<T> column)
     }
 }
 
+// What the lists are made from: the tiles as they were at the last time.
+void save_tiles(const Tiles& tiles, const std::string& name, Snapshot& snapshot)
+{
+    add_integers(
+        snapshot, name + "/number",
+        std::span(reinterpret_cast<const std::int64_t*>(tiles.tile.data()), tiles.tile.size()));
+    add_integers(snapshot, name + "/start", std::span<const std::int32_t>(tiles.start));
+    add_integers(snapshot, name + "/row", std::span<const std::int32_t>(tiles.row));
+    const std::vector<float>* const columns[] = {&tiles.x, &tiles.y, &tiles.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        add(snapshot, name + "/" + "xyz" [axis], { columns[axis]->begin(), columns[axis]->end() });
+    }
+}
+
+void restore_tiles(Tiles& tiles, const std::string& name, const Snapshot& snapshot)
+{
+    const auto& number = integers<std::int64_t>(snapshot, name + "/number");
+    tiles.tile.assign(number.begin(), number.end());
+    tiles.start = integers<std::int32_t>(snapshot, name + "/start");
+    tiles.row = integers<std::int32_t>(snapshot, name + "/row");
+    std::vector<float>* const columns[] = {&tiles.x, &tiles.y, &tiles.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Reader stored(snapshot, name + "/" + "xyz"[axis]);
+        if (stored.all().size() != tiles.row.size()) {
+            throw IoError(
+                fmt::format("`{}` of the checkpoint has columns of different lengths", name));
+        }
+        columns[axis]->resize(stored.all().size());
+        std::transform(stored.all().begin(), stored.all().end(), columns[axis]->begin(),
+                       [](double value) { return static_cast<float>(value); });
+    }
+}
+
 void save_fluid(const Fluid& fluid, Snapshot& snapshot)
 {
     const Particles& particles = fluid.particles;
@@ -122,7 +155,9 @@ void save_fluid(const Fluid& fluid, Snapshot& snapshot)
     });
     add_integers(snapshot, "fluid/id", particles.id());
     add_integers(snapshot, "fluid/owner", particles.owner());
-    add(snapshot, "fluid/built_at", flat(fluid.neighbours.built_at));
+    save_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
+    save_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+    save_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
     Numbers numbers;
     put(numbers, static_cast<double>(particles.fluid().size()));
     put(numbers, static_cast<double>(fluid.neighbours.builds));
@@ -163,9 +198,10 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     }
     std::copy(id.begin(), id.end(), particles.id().begin());
     std::copy(owner.begin(), owner.end(), particles.owner().begin());
-    fluid.neighbours.built_at.resize(static_cast<std::size_t>(particles.size()));
-    const Reader built_at(snapshot, "fluid/built_at");
-    unflat(built_at.all(), std::span(fluid.neighbours.built_at));
+    restore_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
+    restore_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+    restore_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
+    fluid.neighbours.walls_in_tiles = particles.wall();
     const long long builds = fluid.neighbours.builds;
     rebuild_neighbours(fluid);
     fluid.neighbours.builds = builds;

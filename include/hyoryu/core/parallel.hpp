@@ -13,6 +13,8 @@ namespace hyoryu {
 /// Threads that parallel loops use from now on; 0 or less: all that the machine offers.
 void set_threads(int threads);
 int thread_count();
+/// Number of the calling thread within a parallel loop, below thread_count().
+int worker();
 
 // Below these sizes waking the other threads costs more than they save.
 inline constexpr Index worth_sharing_rows = 4096;
