@@ -7,31 +7,23 @@
 
 namespace hyoryu {
 
-/// What a block may meet: whole chunks, positions relative to the centre of its tile. Lanes of a
-/// chunk without a point are far away.
-struct Candidates {
-    const float* x;
-    const float* y;
-    const float* z;
-    const ChunkBox* box;
-    std::int32_t chunks;
-};
+/// Columns x, y, z of positions relative to the centre of a tile [m].
+using FloatColumns = std::array<const float*, 3>;
 
-/// Up to eight points whose lists are made together.
-struct Seekers {
-    const float* x;
-    const float* y;
-    const float* z;
-    int count;
-    ChunkBox box;
+/// What a block may meet: whole chunks and their bounds. Lanes of a chunk without a point, and
+/// bounds behind the last chunk up to eight, are far away.
+struct Candidates {
+    FloatColumns points; // eight a chunk
+    FloatColumns low, high;
+    std::int32_t chunks = 0;
 };
 
 struct ListLoops {
-    /// Writes the entries of each seeker, filled up to packs of `lanes`, one after the other to
-    /// `entry` and the packs of each to `packs`; returns the number of entries. There is room for
-    /// all candidates of all seekers and a pack more for each, and for all chunks in `near`.
-    int (*filter)(const Candidates& all, const Seekers& points, float radius, int lanes,
-                  std::int32_t* near, std::uint16_t* entry, std::uint16_t* packs);
+    /// Writes the numbers of the candidates within the radius of a point to `entry`, filled up to
+    /// packs of `lanes` with the number behind the last; returns how many. `near` has room for all
+    /// chunks and eight more, `entry` for all candidates, a pack and eight more.
+    int (*filter)(const Candidates& all, const std::array<float, 3>& point, float radius, int lanes,
+                  std::uint16_t* near, std::uint16_t* entry);
 };
 
 /// The loops as compiled for one instruction set.

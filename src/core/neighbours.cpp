@@ -113,7 +113,6 @@ private:
     void collect(Index first, Index last)
     {
         shop_.chunks.clear();
-        shop_.boxes.clear();
         const Index start = destination_.start[at(tile_)];
         ChunkBox bounds = box_of((first - start) / chunk_slots);
         for (Index k = first; k < last; k += chunk_slots) {
@@ -148,21 +147,24 @@ private:
                                         edge * static_cast<float>(way[2])};
         const Index end = source.start[at(tile + 1)];
         Index slot = source.start[at(tile)];
+        const std::array columns{&source.x, &source.y, &source.z};
         for (Index chunk = source.chunk_start[at(tile)]; slot < end; ++chunk, slot += chunk_slots) {
             const ChunkBox box = shifted(source.box[at(chunk)], step);
             if (!nearer(box, bounds, radius_)) {
                 continue;
             }
             const Index count = std::min<Index>(chunk_slots, end - slot);
-            const auto last = at(8 * static_cast<Index>(shop_.chunks.size()));
-            reserve(last + chunk_slots);
-            for (Index k = 0; k < chunk_slots; ++k) {
-                const bool real_point = k < count;
-                shop_.x[last + at(k)] = real_point ? source.x[at(slot + k)] + step[0] : far;
-                shop_.y[last + at(k)] = real_point ? source.y[at(slot + k)] + step[1] : far;
-                shop_.z[last + at(k)] = real_point ? source.z[at(slot + k)] + step[2] : far;
+            const std::size_t place = shop_.chunks.size();
+            reserve(place + 1);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                shop_.low[axis][place] = box.low[axis];
+                shop_.high[axis][place] = box.high[axis];
+                float* const point = &shop_.points[axis][chunk_slots * place];
+                std::fill_n(point, chunk_slots, far);
+                for (Index k = 0; k < count; ++k) {
+                    point[k] = (*columns[axis])[at(slot + k)] + step[axis];
+                }
             }
-            shop_.boxes.push_back(box);
             shop_.chunks.push_back(
                 {static_cast<std::int32_t>(source.first_slot + slot),
                  {static_cast<std::int8_t>(way[0]), static_cast<std::int8_t>(way[1]),
@@ -171,71 +173,68 @@ private:
         }
     }
 
-    void reserve(std::size_t slots)
+    // Room for so many chunks and the bounds of eight more.
+    void reserve(std::size_t chunks)
     {
-        if (slots > shop_.x.size()) {
-            for (std::vector<float>* column : {&shop_.x, &shop_.y, &shop_.z}) {
-                column->resize(2 * slots);
+        if (chunks + chunk_slots > shop_.low[0].size()) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                shop_.low[axis].resize(2 * (chunks + chunk_slots));
+                shop_.high[axis].resize(2 * (chunks + chunk_slots));
+                shop_.points[axis].resize(2 * chunk_slots * (chunks + chunk_slots));
             }
         }
     }
 
+    // The lists of [first, last); returns the number of their entries.
     std::size_t filter(Index first, Index last)
     {
         const std::size_t chunks = shop_.chunks.size();
-        const std::size_t room = chunk_slots * (chunk_slots * (chunks + 1) + at(lanes_));
-        shop_.near.resize(std::max(shop_.near.size(), chunks + 1));
+        reserve(chunks);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::fill_n(&shop_.low[axis][chunks], chunk_slots, far);
+        }
+        const std::size_t room = chunk_slots * (chunks + 1) + at(lanes_);
+        shop_.near.resize(std::max(shop_.near.size(), chunks + chunk_slots));
         shop_.packs.resize(std::max(shop_.packs.size(), at(last - first)));
-        const Index start = destination_.start[at(tile_)];
-        const Candidates all{shop_.x.data(), shop_.y.data(), shop_.z.data(), shop_.boxes.data(),
+        const auto data = [](const std::array<std::vector<float>, 3>& columns) {
+            return FloatColumns{columns[0].data(), columns[1].data(), columns[2].data()};
+        };
+        const Candidates all{data(shop_.points), data(shop_.low), data(shop_.high),
                              static_cast<std::int32_t>(chunks)};
         std::size_t count = 0;
-        for (Index k = first; k < last; k += chunk_slots) {
-            const Index end = std::min(last, k + chunk_slots);
+        for (Index k = first; k < last; ++k) {
             if (count + room > shop_.entries.size()) {
                 shop_.entries.resize(2 * (count + room));
             }
-            std::uint16_t* const packs = &shop_.packs[at(k - first)];
-            const auto made = static_cast<std::size_t>(loops_.filter(
-                all,
-                {&destination_.x[at(k)], &destination_.y[at(k)], &destination_.z[at(k)],
-                 static_cast<int>(end - k), box_of((k - start) / chunk_slots)},
-                radius_, lanes_, shop_.near.data(), &shop_.entries[count], packs));
-            count += choice_.owner.empty() && choice_.wanted.empty()
-                         ? made
-                         : strike_out(k, end, &shop_.entries[count], packs);
+            std::size_t made = 0;
+            if (wanted(k)) {
+                std::uint16_t* const entry = &shop_.entries[count];
+                made = at(loops_.filter(
+                    all, {destination_.x[at(k)], destination_.y[at(k)], destination_.z[at(k)]},
+                    radius_, lanes_, shop_.near.data(), entry));
+                made = choice_.owner.empty() ? made : without_kin(k, entry, made);
+            }
+            shop_.packs[at(k - first)] = static_cast<std::uint16_t>(made / at(lanes_));
+            count += made;
         }
         return count;
     }
 
-    // Takes out the lists of slots that are not wanted and the entries of the own owner; returns
-    // how many entries are left.
-    std::size_t strike_out(Index first, Index last, std::uint16_t* entry, std::uint16_t* packs)
+    // Takes the points of the own owner out of a list; returns its new length.
+    std::size_t without_kin(Index k, std::uint16_t* entry, std::size_t count)
     {
         const auto nothing = static_cast<std::uint16_t>(chunk_slots * shop_.chunks.size());
-        const std::uint16_t* const start = entry;
-        std::uint16_t* out = entry; // never overtakes what is read: lists become shorter
-        for (Index k = first; k < last; ++k) {
-            std::uint16_t* const begin = out;
-            const std::uint16_t* const end = entry + lanes_ * packs[k - first];
-            for (; entry != end; ++entry) {
-                if (*entry != nothing && wanted(k) && !kin(k, *entry)) {
-                    *out++ = *entry;
-                }
-            }
-            while ((out - begin) % lanes_ != 0) {
-                *out++ = nothing;
-            }
-            packs[k - first] = static_cast<std::uint16_t>((out - begin) / lanes_);
+        std::uint16_t* end = std::remove_if(entry, entry + count, [&](std::uint16_t number) {
+            return number == nothing || kin(k, number);
+        });
+        while ((end - entry) % lanes_ != 0) {
+            *end++ = nothing;
         }
-        return static_cast<std::size_t>(out - start);
+        return static_cast<std::size_t>(end - entry);
     }
 
     bool kin(Index k, std::uint16_t entry) const
     {
-        if (choice_.owner.empty()) {
-            return false;
-        }
         const Index slot = shop_.chunks[entry / chunk_slots].slot + entry % chunk_slots;
         for (const Tiles* source : sources_) {
             if (slot >= source->first_slot && slot < source->first_slot + source->count()) {

@@ -49,6 +49,35 @@ std::uint64_t interleave(const std::array<std::int64_t, 3>& a)
            spread(static_cast<std::uint64_t>(a[2])) << 2;
 }
 
+// Where each cell of a tile, numbered x + 4 y + 16 z, comes along a Hilbert curve of two levels:
+// cells that follow each other touch, so that eight points in a row fill a small box. Source:
+// Skilling (2004), Programming the Hilbert curve.
+constexpr std::array<std::uint8_t, 64> hilbert_order()
+{
+    std::array<std::uint8_t, 64> order{};
+    for (unsigned cell = 0; cell < 64; ++cell) {
+        unsigned a[3] = {cell & 3, cell >> 2 & 3, cell >> 4};
+        for (unsigned& axis : a) { // undo the turns of the upper level
+            const unsigned turn = (axis & 2) != 0 ? 1 : 0;
+            const unsigned swap = turn != 0 ? 0 : (a[0] ^ axis) & 1;
+            a[0] ^= turn | swap;
+            axis ^= swap;
+        }
+        a[1] ^= a[0]; // Gray code
+        a[2] ^= a[1];
+        const unsigned flip = (a[2] & 2) != 0 ? 1 : 0;
+        unsigned index = 0;
+        for (const unsigned bit : {1U, 0U}) {
+            for (const unsigned axis : a) {
+                index = index << 1 | ((axis ^ flip) >> bit & 1);
+            }
+        }
+        order[cell] = static_cast<std::uint8_t>(index);
+    }
+    return order;
+}
+constexpr std::array<std::uint8_t, 64> place_along_curve = hilbert_order();
+
 // Stable sort by digits of 11 bits. Every chunk of rows counts its digits and later moves its rows
 // to places known beforehand, so that chunks go in parallel and their number alone, not that of the
 // threads, lays out the work.
@@ -142,12 +171,15 @@ void find_tiles(Tiles& tiles, const SortSpace& space, Index count)
 std::uint64_t TileLattice::cell_of(const Vec3& point) const
 {
     const Vec3 scaled = (point - origin) * (cells / edge);
-    std::array<std::int64_t, 3> cell{};
-    for (int axis = 0; axis < 3; ++axis) {
-        cell[static_cast<std::size_t>(axis)] =
-            static_cast<std::int64_t>(std::floor(scaled[axis])) + reach;
+    std::array<std::int64_t, 3> tile{};
+    std::int64_t cell = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto place =
+            static_cast<std::int64_t>(std::floor(scaled[static_cast<Index>(axis)])) + reach;
+        tile[axis] = place / cells;
+        cell += (place % cells) << (2 * axis);
     }
-    return interleave(cell);
+    return interleave(tile) << cell_bits | place_along_curve[static_cast<std::size_t>(cell)];
 }
 
 std::array<std::int64_t, 3> TileLattice::place_of(std::uint64_t tile)

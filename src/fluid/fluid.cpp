@@ -12,13 +12,6 @@ auto at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// Mass of the fluid that a solid particle stands in for.
-real stand_in_mass(const Fluid& fluid, Index row)
-{
-    const std::int32_t owner = fluid.particles.owner()[at(row)];
-    return owner >= 0 ? fluid.body_particle_mass[at(owner)] : fluid.parameters.mass;
-}
-
 FluidTerms terms_of(const Fluid& fluid, real dt)
 {
     const FluidParameters& f = fluid.parameters;
@@ -30,6 +23,32 @@ void load(Fluid& fluid, const Tiles& tiles, const auto& fields)
 {
     std::visit([&](auto& data) { data.records.load(fluid.particles, tiles, fields); },
                fluid.pair_data);
+}
+
+// The same for the solid particles that fluid or a body may be near.
+void load_solids(Fluid& fluid, const auto& fields)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    std::visit(
+        [&](auto& data) {
+            data.records.load(fluid.particles, n.wall, n.wet_walls, fields);
+            data.records.load(fluid.particles, n.body, fields);
+        },
+        fluid.pair_data);
+}
+
+// Calls f for the rows of these particles; dry walls cost nothing.
+void for_wet_solids(const Fluid& fluid, const auto& f)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    parallel_blocks(0, static_cast<Index>(n.wet_walls.size()), [&](Index k) {
+        const auto tile = at(n.wet_walls[at(k)]);
+        for (std::int32_t slot = n.wall.start[tile]; slot < n.wall.start[tile + 1]; ++slot) {
+            f(at(n.wall.row[at(slot)]));
+        }
+    });
+    const Rows bodies = fluid.particles.body();
+    parallel_for(bodies.begin, bodies.end, [&](Index i) { f(at(i)); });
 }
 
 // Runs one of the pair loops over all blocks of a list; `which` names it.
@@ -55,6 +74,11 @@ void run(Fluid& fluid, const PairList& pairs, const Tiles& destination, const Fl
 }
 
 } // namespace
+
+real stand_in_mass(const Fluid& fluid, std::int32_t owner)
+{
+    return owner >= 0 ? fluid.body_particle_mass[at(owner)] : fluid.parameters.mass;
+}
 
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count)
 {
@@ -106,23 +130,24 @@ void update_pressure(Fluid& fluid)
     if (particles.solid().size() == 0) {
         return;
     }
-    load(fluid, n.wall, Stored{});
-    load(fluid, n.body, Stored{});
-    const Rows solid = particles.solid();
-    clear(particles, solid, WallExtrapolation::Writes{});
+    load_solids(fluid, Stored{});
+    for_wet_solids(fluid, [&](std::size_t i) {
+        particles[field::shepard_sum][i] = 0;
+        particles[field::pressure_sum][i] = 0;
+    });
     const FluidTerms terms = terms_of(fluid, 0);
     run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.extrapolation; });
     run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.extrapolation; });
     const auto shepard = particles[field::shepard_sum];
     const auto weighted = particles[field::pressure_sum];
-    parallel_for(solid.begin, solid.end, [&](Index i) {
-        const real p_w = shepard[at(i)] > 0 ? positive(weighted[at(i)] / shepard[at(i)]) : 0;
-        p[at(i)] = p_w;
-        rho[at(i)] = f.eos.density(p_w);
-        V[at(i)] = stand_in_mass(fluid, i) / rho[at(i)];
+    const auto owner = particles.owner();
+    for_wet_solids(fluid, [&](std::size_t i) {
+        const real p_w = shepard[i] > 0 ? positive(weighted[i] / shepard[i]) : 0;
+        p[i] = p_w;
+        rho[i] = f.eos.density(p_w);
+        V[i] = stand_in_mass(fluid, owner[i]) / rho[i];
     });
-    load(fluid, n.wall, Fields<Volume, Pressure>{});
-    load(fluid, n.body, Fields<Volume, Pressure>{});
+    load_solids(fluid, Fields<Volume, Pressure>{});
 }
 
 void update_forces(Fluid& fluid, real dt)
@@ -130,7 +155,8 @@ void update_forces(Fluid& fluid, real dt)
     Particles& particles = fluid.particles;
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, dt);
-    clear(particles, {0, particles.size()}, Fields<Force>{});
+    clear(particles, particles.fluid(), Fields<Force>{});
+    for_wet_solids(fluid, [&](std::size_t i) { particles[field::force][i].setZero(); });
     if (particles.has(field::diffusion_rate)) {
         clear(particles, particles.fluid(), Fields<DiffusionRate>{});
     }
@@ -166,9 +192,8 @@ void update_rates(Fluid& fluid)
     const FluidNeighbours& n = fluid.neighbours;
     const Rows rows = particles.fluid();
     const FluidTerms terms = terms_of(fluid, 0);
-    for (const Tiles* tiles : {&n.fluid, &n.wall, &n.body}) {
-        load(fluid, *tiles, Fields<Velocity>{});
-    }
+    load(fluid, n.fluid, Fields<Velocity>{});
+    load_solids(fluid, Fields<Velocity>{});
     clear(particles, rows, Continuity::Writes{});
     if (particles.has(field::viscous_force)) {
         clear(particles, rows, Fields<ViscousForce>{});

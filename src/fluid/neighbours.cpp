@@ -18,54 +18,47 @@ auto at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// An edge of a tile over the radius of the lists: about a hundred particles in a tile, in the plane
-// as in space.
+// An edge of a tile over the support: about a hundred particles in a tile, in the plane as in
+// space. A skin may be as much as the edge is longer.
 real tile_ratio(int dimensions)
 {
-    return dimensions == 2 ? 3.5 : 1.4;
-}
-
-real radius(const Fluid& fluid)
-{
-    return fluid.kernel.support + fluid.parameters.skin;
+    return dimensions == 2 ? 2.5 : 1.5;
 }
 
 TileLattice lattice_of(const Fluid& fluid)
 {
     const Vec3 origin = fluid.domain_min.allFinite() ? fluid.domain_min : Vec3(Vec3::Zero());
-    return make_lattice(origin, tile_ratio(fluid.parameters.dimensions) * radius(fluid));
+    return make_lattice(origin, tile_ratio(fluid.parameters.dimensions) * fluid.kernel.support);
 }
 
-// Farthest that a point of the tiles has gone since they were made.
-real displacement(const Fluid& fluid, const Tiles& tiles)
+Displacement measure(Fluid& fluid)
 {
-    const auto x = fluid.particles[field::position];
-    const real squared = reduce(
-        0, tiles.tiles(), real(0),
-        [&](Index t) {
-            const Vec3 centre = tiles.lattice.centre(tiles.tile[at(t)]);
-            real most = 0;
-            for (Index k = tiles.start[at(t)]; k < tiles.start[at(t + 1)]; ++k) {
-                const Vec3 then = centre + Vec3(tiles.x[at(k)], tiles.y[at(k)], tiles.z[at(k)]);
-                most = std::max(most, (x[at(tiles.row[at(k)])] - then).squaredNorm());
-            }
-            return most;
-        },
-        [](real a, real b) { return std::max(a, b); });
-    return std::sqrt(squared);
+    FluidNeighbours& n = fluid.neighbours;
+    const auto x = std::as_const(fluid.particles)[field::position];
+    DisplacementSpace& f = n.fluid_motion;
+    DisplacementSpace& w = n.wall_motion;
+    DisplacementSpace& b = n.body_motion;
+    Displacement motion;
+    motion.absolute = bound_motion(n.fluid, x, f.box);
+    motion.absolute = std::max(motion.absolute, bound_motion(n.body, x, b.box));
+    if (fluid.moving_walls || n.steps == 1) { // fixed walls stay where they are
+        motion.absolute = std::max(motion.absolute, bound_motion(n.wall, x, w.box));
+    }
+    motion.fluid = relative_motion(f.box, f.box, f.fluid);
+    motion.solid =
+        std::max({relative_motion(f.box, w.box, f.wall), relative_motion(f.box, b.box, f.body),
+                  relative_motion(b.box, w.box, b.wall), relative_motion(b.box, b.box, b.body)});
+    return motion;
 }
 
-// Two particles close by at most the sum of their displacements.
-bool stale(const Fluid& fluid)
+// Whether a pair that is not listed may have come within the support: one of tiles that touch, by
+// its relative displacement; any other, by what lies between tiles that do not.
+bool stale(const Fluid& fluid, const Displacement& motion)
 {
     const FluidNeighbours& n = fluid.neighbours;
-    if (n.builds == 0) {
-        return true;
-    }
-    const real moved_fluid = displacement(fluid, n.fluid);
-    const real moved_solid = std::max(displacement(fluid, n.wall), displacement(fluid, n.body));
-    return moved_fluid + std::max(moved_fluid, moved_solid) > fluid.parameters.skin ||
-           2 * moved_solid > fluid.parameters.skin;
+    const real between = n.fluid.lattice.edge - fluid.kernel.support;
+    return motion.fluid > n.skins.fluid || motion.solid > n.skins.solid ||
+           2 * motion.absolute > between;
 }
 
 // Books the particles that left the domain.
@@ -145,6 +138,51 @@ void make_room(Fluid& fluid)
         fluid.pair_data);
 }
 
+// Which tiles touch, and which tiles of walls matter.
+void connect(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    find_touching(n.fluid, n.fluid, n.fluid_motion.fluid);
+    find_touching(n.fluid, n.wall, n.fluid_motion.wall);
+    find_touching(n.fluid, n.body, n.fluid_motion.body);
+    find_touching(n.body, n.wall, n.body_motion.wall);
+    find_touching(n.body, n.body, n.body_motion.body);
+    n.wet_walls.clear();
+    std::vector<std::uint8_t>& wet = n.met;
+    wet.assign(n.wall.tile.size(), 0);
+    for (const PairList* list : {&n.wall_fluid, &n.wall_body}) {
+        for (const ListBlock& block : list->blocks()) {
+            const auto after = std::upper_bound(n.wall.start.begin(), n.wall.start.end(),
+                                                block.first - n.wall.first_slot);
+            wet[at(after - n.wall.start.begin() - 1)] = 1;
+        }
+    }
+    for (std::size_t tile = 0; tile < wet.size(); ++tile) {
+        if (wet[tile] != 0) {
+            n.wet_walls.push_back(static_cast<std::int32_t>(tile));
+        }
+    }
+}
+
+// What solid particles are that no fluid is near: without pressure and force. The steps look after
+// the others.
+void dry(Fluid& fluid)
+{
+    Particles& particles = fluid.particles;
+    const Rows rows = particles.solid();
+    if (rows.size() == 0) {
+        return;
+    }
+    clear(particles, rows, Fields<Pressure, Force, ShepardSum, PressureSum>{});
+    const auto rho = particles[field::density];
+    const auto V = particles[field::volume];
+    const auto owner = particles.owner();
+    parallel_for(rows.begin, rows.end, [&](Index i) {
+        rho[at(i)] = fluid.parameters.eos.rho0;
+        V[at(i)] = stand_in_mass(fluid, owner[at(i)]) / rho[at(i)];
+    });
+}
+
 int pack_lanes(const Fluid& fluid)
 {
     return std::visit(
@@ -161,11 +199,14 @@ void build_lists(Fluid& fluid)
     n.fluid.first_slot = 0;
     n.wall.first_slot = n.fluid.count();
     n.body.first_slot = n.wall.first_slot + n.wall.count();
-    const PairList::Settings settings{radius(fluid), pack_lanes(fluid), fluid.instruction_set};
+    const PairList::Settings of_pairs{fluid.kernel.support + n.skins.fluid, pack_lanes(fluid),
+                                      fluid.instruction_set};
+    PairList::Settings settings = of_pairs;
+    settings.radius = fluid.kernel.support + n.skins.solid;
     const Tiles* const of_fluid[] = {&n.fluid};
     const Tiles* const of_bodies[] = {&n.body};
     const Tiles* const of_solids[] = {&n.wall, &n.body};
-    n.fluid_fluid.build(n.fluid, of_fluid, settings);
+    n.fluid_fluid.build(n.fluid, of_fluid, of_pairs);
     if (particles.solid().size() > 0) {
         n.fluid_solid.build(n.fluid, of_solids, settings);
         // Dry walls have met nothing and get no lists of their own.
@@ -180,23 +221,40 @@ void build_lists(Fluid& fluid)
         n.body_solid.mark_met(n.met);
         n.wall_body.build(n.wall, of_bodies, settings, {.wanted = n.met});
     }
+    connect(fluid);
     make_room(fluid);
-    n.builds += 1;
+    const Index of_fluid_alone = n.fluid_fluid.entries();
+    const Index with_solids =
+        n.fluid_solid.entries() + n.wall_fluid.entries() + n.body_fluid.entries();
+    const Index films = n.body_solid.entries() + n.wall_body.entries();
+    n.entries = {of_fluid_alone, with_solids + films};
     // Pressure and velocity loops of the fluid; extrapolation and loads of the solids; films.
-    n.visits = 2 * (n.fluid_fluid.entries() + n.fluid_solid.entries() + n.wall_fluid.entries() +
-                    n.body_fluid.entries()) +
-               n.body_solid.entries() + n.wall_body.entries();
+    n.visits = 2 * (of_fluid_alone + with_solids) + films;
+    std::visit([&](auto& data) { data.records.load(particles, n.wall, Stored{}); },
+               fluid.pair_data);
 }
 
 } // namespace
 
 void update_neighbours(Fluid& fluid)
 {
-    if (!stale(fluid)) {
-        return;
+    FluidNeighbours& n = fluid.neighbours;
+    n.steps += 1;
+    if (n.builds == 0) {
+        n.skins = n.skins.fluid > 0 ? n.skins : first_skins(fluid.parameters.spacing);
+    } else {
+        const Displacement motion = measure(fluid);
+        if (!stale(fluid, motion)) {
+            return;
+        }
+        n.skins = best_skins(motion, n.steps, n.entries, n.skins, fluid.kernel.support,
+                             fluid.parameters.spacing);
     }
     sort_particles(fluid);
     build_lists(fluid);
+    dry(fluid);
+    n.builds += 1;
+    n.steps = 0;
 }
 
 void rebuild_neighbours(Fluid& fluid)
@@ -206,6 +264,10 @@ void rebuild_neighbours(Fluid& fluid)
         bound_chunks(*tiles);
     }
     build_lists(fluid);
+    if (!fluid.moving_walls) {
+        bound_motion(fluid.neighbours.wall, fluid.particles[field::position],
+                     fluid.neighbours.wall_motion.box);
+    }
 }
 
 } // namespace hyoryu

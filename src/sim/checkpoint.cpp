@@ -161,6 +161,9 @@ void save_fluid(const Fluid& fluid, Snapshot& snapshot)
     Numbers numbers;
     put(numbers, static_cast<double>(particles.fluid().size()));
     put(numbers, static_cast<double>(fluid.neighbours.builds));
+    put(numbers, static_cast<double>(fluid.neighbours.steps));
+    put(numbers, fluid.neighbours.skins.fluid);
+    put(numbers, fluid.neighbours.skins.solid);
     put(numbers, static_cast<double>(fluid.lost.count));
     put(numbers, fluid.lost.momentum);
     put(numbers, fluid.lost.energy);
@@ -184,6 +187,9 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     }
     particles.permute_fluid(order);
     fluid.neighbours.builds = static_cast<long long>(numbers.number());
+    fluid.neighbours.steps = static_cast<long long>(numbers.number());
+    fluid.neighbours.skins.fluid = numbers.number();
+    fluid.neighbours.skins.solid = numbers.number();
     fluid.lost.count = static_cast<Index>(numbers.number());
     fluid.lost.momentum = numbers.vector();
     fluid.lost.energy = numbers.number();
@@ -202,9 +208,7 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     restore_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
     restore_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
     fluid.neighbours.walls_in_tiles = particles.wall();
-    const long long builds = fluid.neighbours.builds;
     rebuild_neighbours(fluid);
-    fluid.neighbours.builds = builds;
 }
 
 void save_rigid(const Rigid& rigid, Snapshot& snapshot)

@@ -18,7 +18,7 @@ struct Immersed {
     {
         constexpr real dp = 0.1;
         FluidParameters& f = fluid.parameters;
-        f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1, .skin = 0.1 * dp};
+        f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1};
         f.precision = precision;
         fluid.kernel = make_kernel(f.h, dp, 3);
         std::vector<Vec3> water;

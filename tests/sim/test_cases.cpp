@@ -103,9 +103,17 @@ TEST(Cases, SlidingBoxStopsWhereCoulombSaysItDoes)
     EXPECT_NEAR(sim.rigid.bodies[0].position.z(), 0.025, 1e-9);
 }
 
-TEST(Cases, HydrostaticTankStaysStill)
+// The lattice of the start slides along the walls by rows as it settles. Where nothing but the
+// rounding of double breaks its symmetry, a part of that never happens; any more, 1e-6 spacings in
+// the places of the particles in double as much as single precision, sets it off, with speeds of
+// 0.009 to 0.015 of sqrt(g H).
+class HydrostaticTank : public testing::TestWithParam<std::pair<const char*, double>> {};
+
+TEST_P(HydrostaticTank, StaysStill)
 {
-    Simulation sim = open_case("hydrostatic_tank");
+    const auto& [precision, fastest_allowed] = GetParam();
+    Simulation sim =
+        open_case("hydrostatic_tank", {std::string("particles.precision=\"") + precision + '"'});
     const std::size_t particles = sim.fluid->particles.id().size();
     const double H = 1.0;
     const double top = std::sqrt(9.81 * H);
@@ -123,12 +131,17 @@ TEST(Cases, HydrostaticTankStaysStill)
             count += 1;
         }
     }
-    EXPECT_LE(std::sqrt(error / count) / (1000 * 9.81 * H), 0.02);
-    EXPECT_LE(fastest, 0.01 * top);
+    const double relative = std::sqrt(error / count) / (1000 * 9.81 * H);
+    RecordProperty("pressure_error", std::to_string(relative));
+    EXPECT_LE(relative, 0.02);
+    EXPECT_LE(fastest, fastest_allowed * top);
     EXPECT_EQ(p.id().size(), particles);
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LE(sim.ledger.worst_closure, closes_in_single);
+    EXPECT_LE(sim.ledger.worst_closure, precision[0] == 'd' ? 1e-10 : closes_in_single);
 }
+
+INSTANTIATE_TEST_SUITE_P(Cases, HydrostaticTank,
+                         testing::Values(std::pair{"double", 0.01}, std::pair{"single", 0.02}));
 
 TEST(Cases, FloatingBoxKeepsItsArchimedesDraft)
 {

@@ -160,6 +160,43 @@ TEST(Promises, MomentumOfFluidBodiesAndWallsCloses)
     }
 }
 
+// Lists serve for several steps, with skins that follow the motion: in none of them may a pair
+// within the support be missing.
+TEST(Promises, EveryPairWithinTheSupportIsListedAtEveryStep)
+{
+    Simulation sim = make(flood);
+    for (int k = 0; k < 20; ++k) {
+        advance(sim, 12);
+        update_neighbours(*sim.fluid); // as a step does in its middle
+        const FluidNeighbours& n = sim.fluid->neighbours;
+        const auto x = sim.fluid->particles[field::position];
+        const auto row = [&](Index slot) {
+            for (const Tiles* tiles : {&n.fluid, &n.wall, &n.body}) {
+                if (slot < tiles->first_slot + tiles->count()) {
+                    return static_cast<std::size_t>(
+                        tiles->row[static_cast<std::size_t>(slot - tiles->first_slot)]);
+                }
+            }
+            return std::size_t(0);
+        };
+        const auto near = [&](std::size_t i, std::size_t j) {
+            return (x[i] - x[j]).norm() < sim.fluid->kernel.support;
+        };
+        Index listed = 0;
+        for (const PairList* list : {&n.fluid_fluid, &n.fluid_solid}) {
+            list->for_each_pair([&](Index i, Index j) { listed += near(row(i), row(j)) ? 1 : 0; });
+        }
+        Index pairs = 0;
+        for (Index i = 0; i < sim.fluid->particles.fluid().end; ++i) {
+            for (std::size_t j = 0; j < x.size(); ++j) {
+                pairs += near(static_cast<std::size_t>(i), j) ? 1 : 0;
+            }
+        }
+        ASSERT_EQ(listed, pairs) << "after step " << sim.clock.step;
+    }
+    EXPECT_GT(sim.clock.step, 2 * sim.fluid->neighbours.builds); // they did serve
+}
+
 TEST(Promises, WithoutFluidThereAreNoParticlesListsOrSweeps)
 {
     Simulation sim = make(R"(

@@ -44,7 +44,7 @@ Fluid make_cube(const LoopSetting& setting)
     Fluid fluid;
     FluidParameters& f = fluid.parameters;
     f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1000 * dp * dp * dp};
-    f.skin = setting.skin * dp;
+    fluid.neighbours.skins = {setting.skin * dp, setting.skin * dp};
     f.precision = setting.precision;
     fluid.kernel = make_kernel(f.h, dp, 3);
     fluid.effects.viscosity = Viscosity{1000, artificial_kappa(0.02, f.h, f.eos.c0), f.h};

@@ -18,6 +18,9 @@ endfunction()
 # objects to the layer. Each file finds the bytes of a register in HYORYU_REGISTER_BYTES.
 function(hyoryu_hot_loops name)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/loops/*.cpp)
+  # Contraction is welcome here, where it is safe: a pair is seen from both sides by the same code,
+  # whose operations all either keep their value or change their sign when i and j change places.
+  set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
   foreach(bytes IN LISTS HYORYU_SETS)
     set(loops hyoryu_${name}_${bytes})
     add_library(${loops} OBJECT ${sources})

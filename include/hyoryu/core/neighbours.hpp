@@ -61,10 +61,8 @@ private:
 /// What one thread needs to make the lists of a block; kept from one time to the next.
 struct ListShop {
     std::vector<SourceChunk> chunks;
-    std::vector<ChunkBox> boxes;
-    std::vector<float> x, y, z;
-    std::vector<std::int32_t> near;
-    std::vector<std::uint16_t> entries, packs;
+    std::array<std::vector<float>, 3> points, low, high; // x, y, z
+    std::vector<std::uint16_t> near, entries, packs;
 };
 
 /// Lists of one pair kind (destination <- source). Blocks are built in parallel and own their

@@ -36,27 +36,16 @@ public:
     template <class Some = List>
     void load(const Particles& particles, const Tiles& tiles, Some fields = {})
     {
-        // Adding a large number in double, as `rounded` does, leaves no more than 50 digits.
-        const real unit = tiles.lattice.unit(std::min(std::numeric_limits<Real>::digits, 50));
-        parallel_blocks(0, tiles.tiles(), [&](Index t) {
-            const auto tile = static_cast<std::size_t>(t);
-            const Vec3 centre = tiles.lattice.centre(tiles.tile[tile]);
-            for_each(fields, [&](auto field) {
-                const auto column = particles[field];
-                constexpr int to = offset<decltype(field), List>;
-                for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
-                    const auto row =
-                        static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
-                    Real* const value = &at(tiles.first_slot + k).value[to];
-                    if constexpr (std::is_same_v<decltype(field), Position>) {
-                        put(value, rounded(column[row] - centre, unit));
-                    } else if constexpr (width<decltype(field)> == 3) {
-                        put(value, column[row]);
-                    } else {
-                        *value = static_cast<Real>(column[row]);
-                    }
-                }
-            });
+        parallel_blocks(0, tiles.tiles(),
+                        [&](Index tile) { load_tile(particles, tiles, tile, fields); });
+    }
+    /// The same for some of the tiles.
+    template <class Some>
+    void load(const Particles& particles, const Tiles& tiles, std::span<const std::int32_t> which,
+              Some fields)
+    {
+        parallel_blocks(0, static_cast<Index>(which.size()), [&](Index k) {
+            load_tile(particles, tiles, which[static_cast<std::size_t>(k)], fields);
         });
     }
 
@@ -64,6 +53,30 @@ public:
 
 private:
     Row& at(Index slot) { return rows_[static_cast<std::size_t>(slot)]; }
+
+    template <class Some>
+    void load_tile(const Particles& particles, const Tiles& tiles, Index tile_index, Some fields)
+    {
+        const auto tile = static_cast<std::size_t>(tile_index);
+        // Adding a large number in double, as `rounded` does, leaves no more than 50 digits.
+        const real unit = tiles.lattice.unit(std::min(std::numeric_limits<Real>::digits, 50));
+        const Vec3 centre = tiles.lattice.centre(tiles.tile[tile]);
+        for_each(fields, [&](auto field) {
+            const auto column = particles[field];
+            constexpr int to = offset<decltype(field), List>;
+            for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
+                const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
+                Real* const value = &at(tiles.first_slot + k).value[to];
+                if constexpr (std::is_same_v<decltype(field), Position>) {
+                    put(value, rounded(column[row] - centre, unit));
+                } else if constexpr (width<decltype(field)> == 3) {
+                    put(value, column[row]);
+                } else {
+                    *value = static_cast<Real>(column[row]);
+                }
+            }
+        });
+    }
 
     static void put(Real* to, const Vec3& value)
     {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hyoryu/core/timer.hpp"
+#include "hyoryu/fluid/list_schedule.hpp"
 #include "hyoryu/fluid/pair_loops.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/time_limit.hpp"
@@ -20,10 +21,15 @@ struct FluidNeighbours {
     PairList body_fluid;
     PairList body_solid; // particles of different solids, for the pressure in thin films
     PairList wall_body;
+    Skins skins;         // of the lists
+    long long steps = 0; // since they were made
+    DisplacementSpace fluid_motion, wall_motion, body_motion;
+    std::vector<std::int32_t> wet_walls; // tiles of walls of which a particle is in any list
     Rows walls_in_tiles; // the wall rows that `wall` knows; fixed walls are sorted once
     SortSpace space;
     std::vector<std::uint8_t> met; // by slot: what stands in any list
     long long builds = 0;
+    EntryCounts entries;
     Index visits = 0; // list entries that the sweeps of one step go over
 };
 
@@ -55,6 +61,9 @@ struct Fluid {
     bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
 };
+
+/// Mass of the fluid that a particle of this owner stands in for [kg].
+real stand_in_mass(const Fluid& fluid, std::int32_t owner);
 
 /// Makes the columns that the active effects need, and no others, for so many particles of each
 /// kind, and what the pair loops need in the precision of the parameters.

@@ -43,7 +43,6 @@ struct FluidParameters {
     real mass = 0;             // of a particle, rho0 dp^d [kg]
     Vec3 gravity{0, 0, -9.81}; // g [m/s2]
     real cfl = 0.6;            // scales the acoustic, force and viscous limits
-    real skin = 0;             // of the neighbour lists [m]
     Precision precision = Precision::single_precision;
 };
 

@@ -3,6 +3,9 @@
 #include "../list_loops.hpp"
 
 #include <cstring>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
 
 namespace hyoryu {
 
@@ -10,10 +13,10 @@ namespace {
 
 constexpr int bytes = HYORYU_REGISTER_BYTES;
 
-// Eight points at a time, whatever the registers: a chunk.
+// Eight points or boxes at a time, whatever the registers: a chunk.
 using Floats = float __attribute__((vector_size(32)));
+using Integers = std::int32_t __attribute__((vector_size(32)));
 using Words = std::uint16_t __attribute__((vector_size(16)));
-using Bytes = std::int8_t __attribute__((vector_size(8)));
 
 // For each pattern of hits: their places, and how many.
 struct Patterns {
@@ -43,61 +46,64 @@ Floats load(const float* from)
     return lanes;
 }
 
-// One bit a lane that is true: bytes of ones, of which byte k keeps bit k, gathered in the top
-// byte.
-std::size_t bits(decltype(Floats{} < Floats{}) test)
+// One bit a lane that is true.
+std::size_t bits_of(const Integers& hit)
 {
-    const Bytes narrow = __builtin_convertvector(test, Bytes);
-    std::uint64_t ones;
-    std::memcpy(&ones, &narrow, sizeof ones);
-    return (ones & 0x8040201008040201u) * 0x0101010101010101u >> 56;
+#ifdef __AVX__
+    return static_cast<std::size_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(hit)));
+#else
+    Integers bits = hit & Integers{1, 2, 4, 8, 16, 32, 64, 128};
+    bits |= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 4, 5, 6, 7);
+    bits |= __builtin_shufflevector(bits, bits, 2, 3, 2, 3, 2, 3, 2, 3);
+    return static_cast<std::size_t>(bits[0] | bits[1]);
+#endif
 }
 
-float squared_gap(const ChunkBox& a, const ChunkBox& b)
+// Appends first + k for the lanes k that are true: eight places are written, the end moves on by
+// the hits.
+std::uint16_t* append(const Integers& hit, std::uint16_t first, std::uint16_t* out)
 {
-    float sum = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float over = b.low[axis] - a.high[axis];
-        const float under = a.low[axis] - b.high[axis];
-        const float gap = over > under ? over : under;
-        sum += gap > 0 ? gap * gap : 0;
-    }
-    return sum;
+    const std::size_t pattern = bits_of(hit);
+    Words places;
+    std::memcpy(&places, patterns.place[pattern], sizeof places);
+    places += first;
+    std::memcpy(out, &places, sizeof places);
+    return out + patterns.count[pattern];
 }
 
-int filter(const Candidates& all, const Seekers& points, float radius, int lanes,
-           std::int32_t* near, std::uint16_t* entry, std::uint16_t* packs)
+Floats positive_part(const Floats& x)
+{
+    return x > 0 ? x : Floats{};
+}
+
+int filter(const Candidates& all, const std::array<float, 3>& point, float radius, int lanes,
+           std::uint16_t* near, std::uint16_t* entry)
 {
     const float limit = radius * radius;
-    int count_near = 0;
-    for (std::int32_t chunk = 0; chunk < all.chunks; ++chunk) {
-        near[count_near] = chunk;
-        count_near += squared_gap(points.box, all.box[chunk]) <= limit ? 1 : 0;
+    const float* const at = &point[0];
+    std::uint16_t* end = near;
+    for (std::int32_t chunk = 0; chunk < all.chunks; chunk += chunk_slots) {
+        Floats squared{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Floats gap = positive_part(load((&all.low[0])[axis] + chunk) - at[axis]) +
+                               positive_part(at[axis] - load((&all.high[0])[axis] + chunk));
+            squared += gap * gap;
+        }
+        end = append(squared <= limit, static_cast<std::uint16_t>(chunk), end);
+    }
+    std::uint16_t* out = entry;
+    for (; near != end; ++near) {
+        const auto first = static_cast<std::uint16_t>(*near * chunk_slots);
+        Floats squared{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Floats way = load((&all.points[0])[axis] + first) - at[axis];
+            squared += way * way;
+        }
+        out = append(squared <= limit, first, out);
     }
     const auto nothing = static_cast<std::uint16_t>(all.chunks * chunk_slots);
-    std::uint16_t* out = entry;
-    for (int k = 0; k < points.count; ++k) {
-        std::uint16_t* const begin = out;
-        const Floats px = Floats{} + points.x[k];
-        const Floats py = Floats{} + points.y[k];
-        const Floats pz = Floats{} + points.z[k];
-        for (int c = 0; c < count_near; ++c) {
-            const std::int32_t first = near[c] * chunk_slots;
-            const Floats dx = load(all.x + first) - px;
-            const Floats dy = load(all.y + first) - py;
-            const Floats dz = load(all.z + first) - pz;
-            const std::size_t hits = bits(dx * dx + dy * dy + dz * dz <= limit);
-            // Eight places are written, the end moves on by the hits.
-            Words places;
-            std::memcpy(&places, patterns.place[hits], sizeof places);
-            places += static_cast<std::uint16_t>(first);
-            std::memcpy(out, &places, sizeof places);
-            out += patterns.count[hits];
-        }
-        while ((out - begin) % lanes != 0) {
-            *out++ = nothing;
-        }
-        packs[k] = static_cast<std::uint16_t>((out - begin) / lanes);
+    while ((out - entry) % lanes != 0) {
+        *out++ = nothing;
     }
     return static_cast<int>(out - entry);
 }
