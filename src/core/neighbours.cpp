@@ -262,7 +262,7 @@ private:
         block.chunk = stored(shop_.chunks, shop_.chunks.size());
         block.entry = stored(shop_.entries, entries);
         block.packs = stored(shop_.packs, at(last - first));
-        out_.push_back(block);
+        store_.append(block, out_);
     }
 
     const Tiles& destination_;
@@ -302,6 +302,12 @@ std::byte* PageStore::take(std::size_t bytes)
     return page.memory.get() + std::exchange(page.used, page.used + size);
 }
 
+void PageStore::append(const ListBlock& block, std::vector<ListBlock>& blocks)
+{
+    const std::lock_guard lock(one_at_a_time_);
+    blocks.push_back(block);
+}
+
 std::size_t PageStore::bytes() const
 {
     std::size_t total = 0;
@@ -317,18 +323,14 @@ void PairList::build(const Tiles& destination, std::span<const Tiles* const> sou
     expects(settings.radius <= destination.lattice.edge);
     lanes_ = settings.lanes;
     store_->reset();
-    found_.resize(std::max(found_.size(), at(destination.tiles())));
+    blocks_.clear();
     shops_.resize(std::max(shops_.size(), static_cast<std::size_t>(thread_count())));
     parallel_blocks(0, destination.tiles(), [&](Index tile) {
-        found_[at(tile)].clear();
-        TileLister(destination, sources, settings, choice, shops_[at(worker())], *store_,
-                   found_[at(tile)])
+        TileLister(destination, sources, settings, choice, shops_[at(worker())], *store_, blocks_)
             .list(tile);
     });
-    blocks_.clear();
-    for (Index tile = 0; tile < destination.tiles(); ++tile) {
-        blocks_.insert(blocks_.end(), found_[at(tile)].begin(), found_[at(tile)].end());
-    }
+    std::sort(blocks_.begin(), blocks_.end(),
+              [](const ListBlock& a, const ListBlock& b) { return a.first < b.first; });
 }
 
 void PairList::clear()

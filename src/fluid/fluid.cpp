@@ -247,7 +247,7 @@ real effective_viscosity(const Fluid& fluid)
                                 : 0;
 }
 
-std::vector<TimeLimit> fluid_limits(const Fluid& fluid)
+std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid)
 {
     return fluid_limits(fluid.parameters, top_speed(fluid), top_acceleration(fluid),
                         effective_viscosity(fluid));

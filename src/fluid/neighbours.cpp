@@ -22,7 +22,7 @@ auto at(Index row)
 // space. A skin may be as much as the edge is longer.
 real tile_ratio(int dimensions)
 {
-    return dimensions == 2 ? 2.5 : 1.5;
+    return dimensions == 2 ? 2.5 : 2.0;
 }
 
 TileLattice lattice_of(const Fluid& fluid)
@@ -100,6 +100,16 @@ void sort_solids(Fluid& fluid, Rows rows, Tiles& tiles)
     make_tiles(tiles, lattice, x, space, rows.size());
 }
 
+// Where fluid particles have left the store, the rows of walls have moved up.
+void follow_walls(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    const Rows walls = fluid.particles.wall();
+    const auto up = static_cast<std::int32_t>(n.walls_in_tiles.begin - walls.begin);
+    std::for_each(n.wall.row.begin(), n.wall.row.end(), [&](std::int32_t& row) { row -= up; });
+    n.walls_in_tiles = walls;
+}
+
 void sort_particles(Fluid& fluid)
 {
     const Particles& particles = fluid.particles;
@@ -108,12 +118,9 @@ void sort_particles(Fluid& fluid)
     const Rows walls = particles.wall();
     if (fluid.moving_walls || n.walls_in_tiles.size() != walls.size()) {
         sort_solids(fluid, walls, n.wall);
-    } else if (n.walls_in_tiles.begin != walls.begin) {
-        // Fluid particles left the store and the walls moved up.
-        const auto up = static_cast<std::int32_t>(n.walls_in_tiles.begin - walls.begin);
-        std::for_each(n.wall.row.begin(), n.wall.row.end(), [&](std::int32_t& row) { row -= up; });
+        n.walls_in_tiles = walls;
     }
-    n.walls_in_tiles = walls;
+    follow_walls(fluid);
     sort_solids(fluid, particles.body(), n.body);
 }
 
@@ -259,6 +266,7 @@ void update_neighbours(Fluid& fluid)
 
 void rebuild_neighbours(Fluid& fluid)
 {
+    follow_walls(fluid);
     for (Tiles* tiles : {&fluid.neighbours.fluid, &fluid.neighbours.wall, &fluid.neighbours.body}) {
         tiles->lattice = lattice_of(fluid);
         bound_chunks(*tiles);

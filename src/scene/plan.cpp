@@ -274,8 +274,9 @@ Plan make_plan(const Scene& scene, const Filling& filling)
         plan.fluid = fluid_parameters(scene, plan.expected_speed);
         plan.effects = fluid_effects(scene, *plan.fluid);
         Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
-        plan.limits =
+        const auto limits =
             fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));
+        plan.limits.assign(limits.begin(), limits.end());
         for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
             const BodySettings& body = scene.bodies[b];
             const double mass =

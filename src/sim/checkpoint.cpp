@@ -65,22 +65,22 @@ void add(Snapshot& snapshot, const std::string& name, Numbers numbers)
 }
 
 template <class T>
-void add_integers(Snapshot& snapshot, const std::string& name, std::span<const T> values)
+void add_values(Snapshot& snapshot, const std::string& name, std::span<const T> values)
 {
     snapshot.arrays[name] = {name, "", 1, std::vector<T>(values.begin(), values.end())};
 }
 
 template <class T>
-const std::vector<T>& integers(const Snapshot& snapshot, const std::string& name)
+const std::vector<T>& values(const Snapshot& snapshot, const std::string& name)
 {
     const auto found = snapshot.arrays.find(name);
-    const auto* values = found == snapshot.arrays.end()
+    const auto* stored = found == snapshot.arrays.end()
                              ? nullptr
                              : std::get_if<std::vector<T>>(&found->second.values);
-    if (values == nullptr) {
+    if (stored == nullptr) {
         throw IoError(fmt::format("the checkpoint has no `{}`: it belongs to another case", name));
     }
-    return *values;
+    return *stored;
 }
 
 Numbers flat(std::span<const Vec3> column)
@@ -115,48 +115,46 @@ void unflat(const Numbers& numbers, std::span<T> column)
 // What the lists are made from: the tiles as they were at the last time.
 void save_tiles(const Tiles& tiles, const std::string& name, Snapshot& snapshot)
 {
-    add_integers(
+    add_values(
         snapshot, name + "/number",
         std::span(reinterpret_cast<const std::int64_t*>(tiles.tile.data()), tiles.tile.size()));
-    add_integers(snapshot, name + "/start", std::span<const std::int32_t>(tiles.start));
-    add_integers(snapshot, name + "/row", std::span<const std::int32_t>(tiles.row));
-    const std::vector<float>* const columns[] = {&tiles.x, &tiles.y, &tiles.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        add(snapshot, name + "/" + "xyz" [axis], { columns[axis]->begin(), columns[axis]->end() });
-    }
+    add_values(snapshot, name + "/start", std::span<const std::int32_t>(tiles.start));
+    add_values(snapshot, name + "/row", std::span<const std::int32_t>(tiles.row));
+    add_values(snapshot, name + "/x", std::span<const float>(tiles.x));
+    add_values(snapshot, name + "/y", std::span<const float>(tiles.y));
+    add_values(snapshot, name + "/z", std::span<const float>(tiles.z));
 }
 
 void restore_tiles(Tiles& tiles, const std::string& name, const Snapshot& snapshot)
 {
-    const auto& number = integers<std::int64_t>(snapshot, name + "/number");
+    const auto& number = values<std::int64_t>(snapshot, name + "/number");
     tiles.tile.assign(number.begin(), number.end());
-    tiles.start = integers<std::int32_t>(snapshot, name + "/start");
-    tiles.row = integers<std::int32_t>(snapshot, name + "/row");
-    std::vector<float>* const columns[] = {&tiles.x, &tiles.y, &tiles.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Reader stored(snapshot, name + "/" + "xyz"[axis]);
-        if (stored.all().size() != tiles.row.size()) {
-            throw IoError(
-                fmt::format("`{}` of the checkpoint has columns of different lengths", name));
-        }
-        columns[axis]->resize(stored.all().size());
-        std::transform(stored.all().begin(), stored.all().end(), columns[axis]->begin(),
-                       [](double value) { return static_cast<float>(value); });
-    }
+    tiles.start = values<std::int32_t>(snapshot, name + "/start");
+    tiles.row = values<std::int32_t>(snapshot, name + "/row");
+    tiles.x = values<float>(snapshot, name + "/x");
+    tiles.y = values<float>(snapshot, name + "/y");
+    tiles.z = values<float>(snapshot, name + "/z");
 }
+
+// What a step starts from. All else, and all of solid particles, follows from it and from the
+// bodies before it is used.
+using Lasting = Fields<Position, Velocity, Density, DensityRate, Force, ViscousForce>;
 
 void save_fluid(const Fluid& fluid, Snapshot& snapshot)
 {
     const Particles& particles = fluid.particles;
-    for_each(AllFields{}, [&](auto column) {
+    const auto rows = static_cast<std::size_t>(particles.fluid().size());
+    for_each(Lasting{}, [&](auto column) {
         if (particles.has(column)) {
-            add(snapshot, fmt::format("fluid/{}", column.info.name), flat(particles[column]));
+            add(snapshot, fmt::format("fluid/{}", column.info.name),
+                flat(particles[column].first(rows)));
         }
     });
-    add_integers(snapshot, "fluid/id", particles.id());
-    add_integers(snapshot, "fluid/owner", particles.owner());
+    add_values(snapshot, "fluid/id", particles.id().first(rows));
     save_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
-    save_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+    if (fluid.moving_walls) {
+        save_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+    }
     save_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
     Numbers numbers;
     put(numbers, static_cast<double>(particles.fluid().size()));
@@ -193,21 +191,24 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     fluid.lost.count = static_cast<Index>(numbers.number());
     fluid.lost.momentum = numbers.vector();
     fluid.lost.energy = numbers.number();
-    particles.for_each_column([&](auto column, auto values) {
-        const Reader stored(snapshot, fmt::format("fluid/{}", column.info.name));
-        unflat(stored.all(), values);
+    const auto rows = static_cast<std::size_t>(kept);
+    for_each(Lasting{}, [&](auto column) {
+        if (particles.has(column)) {
+            const Reader stored(snapshot, fmt::format("fluid/{}", column.info.name));
+            unflat(stored.all(), particles[column].first(rows));
+        }
     });
-    const auto& id = integers<std::int64_t>(snapshot, "fluid/id");
-    const auto& owner = integers<std::int32_t>(snapshot, "fluid/owner");
-    if (id.size() != particles.id().size() || owner.size() != particles.owner().size()) {
+    const auto& id = values<std::int64_t>(snapshot, "fluid/id");
+    if (id.size() != rows) {
         throw IoError("the checkpoint numbers other particles: it belongs to another case");
     }
     std::copy(id.begin(), id.end(), particles.id().begin());
-    std::copy(owner.begin(), owner.end(), particles.owner().begin());
     restore_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
-    restore_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+    if (fluid.moving_walls) {
+        restore_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+        fluid.neighbours.walls_in_tiles = particles.wall();
+    }
     restore_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
-    fluid.neighbours.walls_in_tiles = particles.wall();
     rebuild_neighbours(fluid);
 }
 

@@ -43,6 +43,8 @@ public:
     void reset();
     /// Room for so many bytes, aligned to 16. Any thread may ask.
     std::byte* take(std::size_t bytes);
+    /// Adds a block whose lists are in the store. Any thread may ask; the order is any.
+    void append(const ListBlock& block, std::vector<ListBlock>& blocks);
     std::size_t bytes() const;
 
 private:
@@ -112,8 +114,7 @@ public:
 private:
     int lanes_ = 1;
     std::vector<ListBlock> blocks_;
-    std::vector<std::vector<ListBlock>> found_; // by tile
-    std::vector<ListShop> shops_;               // by thread
+    std::vector<ListShop> shops_; // by thread
     std::unique_ptr<PageStore> store_ = std::make_unique<PageStore>();
 };
 

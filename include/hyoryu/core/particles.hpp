@@ -168,6 +168,7 @@ private:
     detail::ColumnsOf<AllFields>::type columns_;
     std::vector<std::int64_t> id_;
     std::vector<std::int32_t> owner_;
+    std::vector<std::byte> room_; // for permutations
 };
 
 } // namespace hyoryu

@@ -12,8 +12,8 @@
 
 namespace hyoryu {
 
-/// Space cut into cubic tiles of one edge, numbered along a Morton curve. A tile has 4^3 cells along
-/// a Hilbert curve, by which its points are ordered.
+/// Space cut into cubic tiles of one edge, numbered along a Morton curve. A tile has 4^3 cells
+/// along a Hilbert curve, by which its points are ordered.
 ///
 /// Positions of pairs are relative to the centre of a tile and are multiples of a unit, a power of
 /// two, so that they, their differences and the step from one tile to its neighbour are exact in

@@ -99,7 +99,7 @@ real top_speed(const Fluid& fluid);
 real top_acceleration(const Fluid& fluid);
 
 /// Limits of the next time step.
-std::vector<TimeLimit> fluid_limits(const Fluid& fluid);
+std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid);
 
 /// alpha h c0 / (2 (d + 2)) + nu [m2/s]; 0 without viscosity.
 real effective_viscosity(const Fluid& fluid);
