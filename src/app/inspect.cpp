@@ -59,9 +59,10 @@ std::string histories_line(const fs::path& folder)
 
 std::string version_text()
 {
-    return fmt::format("hyoryu {} (commit {}, {}, {}, native {}, VTK {})", build_info::version,
-                       build_info::commit, build_info::compiler, build_info::type,
-                       build_info::native, build_info::vtk);
+    return fmt::format("hyoryu {} (commit {}, {}, {}, native {}, VTK {}, {} instructions)",
+                       build_info::version, build_info::commit, build_info::compiler,
+                       build_info::type, build_info::native, build_info::vtk,
+                       name(widest_instruction_set()));
 }
 
 int check_case(const CheckOptions& options)

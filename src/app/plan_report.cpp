@@ -110,6 +110,10 @@ std::string size_lines(const Scene& scene, const Plan& plan)
     text +=
         fmt::format("    disk                   about {} in {:.0f} frames, before compression\n",
                     readable_bytes(plan.frames * plan.frame_bytes), plan.frames);
+    if (plan.fluid) {
+        text += fmt::format("    pair arithmetic        {} precision, {} instructions\n",
+                            name(scene.precision), name(widest_instruction_set()));
+    }
     if (scene.dimensions == 2) {
         text += "    two dimensions         masses, forces and impulses are per metre of width\n";
     }
@@ -255,6 +259,8 @@ std::string plan_json(const Scene& scene, const Plan& plan)
     if (plan.fluid) {
         json["sound_speed"] = plan.fluid->eos.c0;
         json["expected_speed"] = plan.expected_speed;
+        json["precision"] = name(scene.precision);
+        json["instruction_set"] = name(widest_instruction_set());
     }
     json["forecast"] = {{"memory_bytes", plan.memory},
                         {"frames", plan.frames},

@@ -74,11 +74,12 @@ void write_closing(Job& job, const std::string& reason)
     write_master(job.folder, job.case_text, std::string(build_info::version));
 }
 
-Snapshot good_state(const Job& job)
+// The old state goes before the new one comes: a state is as large as that of the particles.
+void keep_good_state(Job& job)
 {
-    Snapshot snapshot = job.outputs.snapshot(job.sim);
-    snapshot.texts["case"] = job.case_text;
-    return snapshot;
+    job.last_good = {};
+    job.last_good = job.outputs.snapshot(job.sim);
+    job.last_good.texts["case"] = job.case_text;
 }
 
 void advance(Job& job)
@@ -90,10 +91,11 @@ void advance(Job& job)
         const std::int64_t frame = sim.clock.frame;
         job.outputs.update(sim);
         if (sim.clock.frame != frame) {
-            job.last_good = good_state(job);
+            keep_good_state(job);
         }
         if (job.progress.wall_seconds() - saved > sim.scene.output.checkpoint_every) {
-            job.outputs.write_checkpoint(good_state(job));
+            keep_good_state(job);
+            job.outputs.write_checkpoint(job.last_good);
             saved = job.progress.wall_seconds();
         }
         job.progress.update(sim);
@@ -130,7 +132,8 @@ int finish(Job& job)
     if (done) {
         job.outputs.close_interval(job.sim);
     }
-    job.outputs.write_checkpoint(good_state(job));
+    keep_good_state(job);
+    job.outputs.write_checkpoint(job.last_good);
     write_closing(job, reason);
     job.progress.end(job.sim);
     tell_doubts(job);
@@ -173,7 +176,7 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     Outputs outputs(folder, sim, filling.domain);
     Job job{folder, case_text, std::move(sim), std::move(progress), std::move(outputs), {}};
     job.outputs.update(job.sim);
-    job.last_good = good_state(job);
+    keep_good_state(job);
     job.outputs.write_checkpoint(job.last_good);
     return job;
 }

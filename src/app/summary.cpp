@@ -64,6 +64,10 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     json["simulated_seconds"] = sim.clock.time;
     json["wall_seconds"] = wall_seconds;
     json["threads"] = thread_count();
+    if (sim.fluid) {
+        json["precision"] = name(sim.scene.precision);
+        json["instruction_set"] = name(sim.fluid->instruction_set);
+    }
     json["dimensions"] = sim.scene.dimensions;
     json["per_metre_of_width"] = sim.scene.dimensions == 2;
     json["particle_steps_per_second"] =

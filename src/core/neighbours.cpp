@@ -1,227 +1,372 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/core/neighbours.hpp"
 
-#include "hyoryu/core/vec.hpp"
+#include "hyoryu/core/parallel.hpp"
+#include "list_loops.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace hyoryu {
 
 namespace {
 
-// All points that may be near any place of one cell of a grid, side by side, so that the rows of a
-// cell share them and each row is one straight loop.
-class Candidates {
-public:
-    explicit Candidates(real radius) : radius_(radius) {}
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
 
-    /// Gathers what is near the cell of the point, unless it is there already.
-    void gather(std::span<const CellGrid* const> grids, const Vec3& point);
-    /// Appends the rows within the radius of the point; `out` has room for all of them.
-    std::int32_t* append_near(const Vec3& point, std::int32_t* out);
-    std::size_t size() const { return count_; }
+const ListLoops* loops_of(InstructionSet set)
+{
+    return table_of(
+        set, []<int bytes>(RegisterSizes<bytes>) { return list_loops<bytes>(); }, CompiledSets{});
+}
+
+// Chunks whose slots 16 bits can number, with room for the number of nothing.
+constexpr std::size_t most_chunks_of_a_block = 65536 / chunk_slots - 1;
+// Rounding of single precision, as a share of an edge of a tile: what positions and squared
+// distances lose.
+constexpr float rounding = 2e-6F;
+// Positions of no point: their squared distances are finite and beyond every radius.
+constexpr float far = 1e15F;
+
+ChunkBox shifted(ChunkBox box, const std::array<float, 3>& step)
+{
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] += step[axis];
+        box.high[axis] += step[axis];
+    }
+    return box;
+}
+
+bool nearer(const ChunkBox& a, const ChunkBox& b, float radius)
+{
+    float squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float gap = std::max({b.low[axis] - a.high[axis], a.low[axis] - b.high[axis], 0.0F});
+        squared += gap * gap;
+    }
+    return squared <= radius * radius;
+}
+
+// Makes the lists of the points of one tile.
+class TileLister {
+public:
+    TileLister(const Tiles& destination, std::span<const Tiles* const> sources,
+               const PairList::Settings& settings, const ListChoice& choice, ListShop& shop,
+               PageStore& store, std::vector<ListBlock>& out)
+        : destination_(destination), sources_(sources), loops_(*loops_of(settings.set)),
+          lanes_(settings.lanes), choice_(choice), shop_(shop), store_(store), out_(out)
+    {
+        const auto edge = static_cast<float>(destination.lattice.edge);
+        radius_ = static_cast<float>(settings.radius) + rounding * edge;
+    }
+
+    void list(Index tile)
+    {
+        tile_ = tile;
+        list_slots(destination_.start[at(tile)], destination_.start[at(tile + 1)]);
+    }
 
 private:
-    void add(const CellGrid& grid);
-    void add_run(const CellGrid& grid, std::int32_t begin, std::int32_t end, const Vec3& low);
-
-    real radius_;
-    Vec3 origin_{infinity, 0, 0}; // of the cell; positions are relative to it [m]
-    real cell_ = 0;
-    float slack_ = 0;
-    std::size_t count_ = 0; // of candidates; the columns have room for more
-    std::vector<float> x_, y_, z_, squared_;
-    std::vector<std::int32_t> row_;
-};
-
-void Candidates::gather(std::span<const CellGrid* const> grids, const Vec3& point)
-{
-    const Vec3 inside = point - origin_;
-    if ((inside.array() >= 0).all() && (inside.array() < cell_).all()) {
-        return;
+    bool wanted(Index k) const
+    {
+        return choice_.wanted.empty() || choice_.wanted[at(destination_.first_slot + k)] != 0;
     }
-    // Cells of the first grid that has any: the rows of a destination come in their order.
-    const CellGrid* frame = grids.front();
-    for (const CellGrid* grid : grids) {
-        frame = frame->order.empty() ? grid : frame;
-    }
-    cell_ = frame->cell;
-    origin_ = frame->origin + cell_ * ((point - frame->origin) / cell_).array().floor().matrix();
-    slack_ = 0;
-    count_ = 0;
-    for (const CellGrid* grid : grids) {
-        if (!grid->order.empty()) {
-            add(*grid);
+    bool any_wanted(Index first, Index last) const
+    {
+        for (Index k = first; k < last; ++k) {
+            if (wanted(k)) {
+                return true;
+            }
         }
+        return false;
     }
-}
+    ChunkBox box_of(Index chunk) const
+    {
+        return destination_.box[at(destination_.chunk_start[at(tile_)] + chunk)];
+    }
 
-void Candidates::add(const CellGrid& grid)
-{
-    slack_ = std::max(slack_, grid.slack);
-    const real reach = radius_ + grid.slack;
-    std::array<Index, 3> lo{};
-    std::array<Index, 3> hi{};
-    const Vec3 low = origin_ - grid.origin;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        lo[a] = std::max<Index>(static_cast<Index>(std::floor((low[axis] - reach) / grid.cell)), 0);
-        hi[a] =
-            std::min<Index>(static_cast<Index>(std::floor((low[axis] + cell_ + reach) / grid.cell)),
-                            grid.count[a] - 1);
-        if (lo[a] > hi[a]) {
+    // Lists of [first, last), or of its halves if they look at more than 16 bits can number.
+    void list_slots(Index first, Index last)
+    {
+        if (!any_wanted(first, last)) {
             return;
         }
-    }
-    for (Index cz = lo[2]; cz <= hi[2]; ++cz) {
-        for (Index cy = lo[1]; cy <= hi[1]; ++cy) {
-            const Index row = grid.count[0] * (cy + grid.count[1] * cz);
-            const std::int32_t begin = grid.start[static_cast<std::size_t>(row + lo[0])];
-            const std::int32_t end = grid.start[static_cast<std::size_t>(row + hi[0]) + 1];
-            add_run(grid, begin, end, low);
+        collect(first, last);
+        if (shop_.chunks.size() > most_chunks_of_a_block && last - first > chunk_slots) {
+            const Index chunks = (last - first + chunk_slots - 1) / chunk_slots;
+            const Index middle = first + chunks / 2 * chunk_slots;
+            list_slots(first, middle);
+            list_slots(middle, last);
+            return;
+        }
+        expects(shop_.chunks.size() <= most_chunks_of_a_block);
+        const std::size_t entries = filter(first, last);
+        if (entries > 0) {
+            keep(first, last, entries);
         }
     }
-}
 
-void Candidates::add_run(const CellGrid& grid, std::int32_t begin, std::int32_t end,
-                         const Vec3& low)
-{
-    const auto n = static_cast<std::size_t>(end - begin);
-    if (count_ + n > row_.size()) {
-        for (std::vector<float>* column : {&x_, &y_, &z_, &squared_}) {
-            column->resize(2 * (count_ + n));
+    // The chunks of the sources that any point of [first, last) may meet.
+    void collect(Index first, Index last)
+    {
+        shop_.chunks.clear();
+        const Index start = destination_.start[at(tile_)];
+        ChunkBox bounds = box_of((first - start) / chunk_slots);
+        for (Index k = first; k < last; k += chunk_slots) {
+            const ChunkBox box = box_of((k - start) / chunk_slots);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                bounds.low[axis] = std::min(bounds.low[axis], box.low[axis]);
+                bounds.high[axis] = std::max(bounds.high[axis], box.high[axis]);
+            }
         }
-        row_.resize(2 * (count_ + n));
-    }
-    const auto copy = [&](const std::vector<float>& from, double shift, std::vector<float>& to) {
-        const float* const source = from.data() + begin;
-        float* const target = to.data() + count_;
-        const auto offset = static_cast<float>(shift);
-        for (std::size_t k = 0; k < n; ++k) {
-            target[k] = source[k] - offset;
+        const auto place = TileLattice::place_of(destination_.tile[at(tile_)]);
+        for (const Tiles* source : sources_) {
+            for (int z = -1; z <= 1; ++z) {
+                for (int y = -1; y <= 1; ++y) {
+                    for (int x = -1; x <= 1; ++x) {
+                        const Index tile = source->find(
+                            TileLattice::tile_at({place[0] + x, place[1] + y, place[2] + z}));
+                        if (tile >= 0) {
+                            collect_tile(*source, tile, {x, y, z}, bounds);
+                        }
+                    }
+                }
+            }
         }
-    };
-    copy(grid.x, low.x(), x_);
-    copy(grid.y, low.y(), y_);
-    copy(grid.z, low.z(), z_);
-    std::copy_n(grid.order.data() + begin, n, row_.data() + count_);
-    count_ += n;
-}
-
-std::int32_t* Candidates::append_near(const Vec3& point, std::int32_t* out)
-{
-    const Vec3 offset = point - origin_;
-    const float px = static_cast<float>(offset.x());
-    const float py = static_cast<float>(offset.y());
-    const float pz = static_cast<float>(offset.z());
-    const std::size_t n = count_;
-    const float* const x = x_.data();
-    const float* const y = y_.data();
-    const float* const z = z_.data();
-    float* const squared = squared_.data();
-    for (std::size_t k = 0; k < n; ++k) {
-        squared[k] = sq(x[k] - px) + sq(y[k] - py) + sq(z[k] - pz);
     }
-    // Branch-free: every candidate is written and the end moves on if it is near.
-    const float limit = sq(static_cast<float>(radius_) + 2 * slack_);
-    const std::int32_t* const row = row_.data();
-    for (std::size_t k = 0; k < n; ++k) {
-        *out = row[k];
-        out += squared[k] <= limit ? 1 : 0;
-    }
-    return out;
-}
 
-// Takes the rows of one owner out of the entries from `begin` on; returns the new number of
-// entries.
-std::size_t without_kin(std::vector<std::int32_t>& entries, std::size_t begin, std::size_t end,
-                        std::span<const std::int32_t> owner, Index row)
-{
-    const std::int32_t own = owner[static_cast<std::size_t>(row)];
-    const auto first = entries.begin();
-    const auto kept =
-        std::remove_if(first + static_cast<Index>(begin), first + static_cast<Index>(end),
-                       [&](std::int32_t j) { return owner[static_cast<std::size_t>(j)] == own; });
-    return static_cast<std::size_t>(kept - first);
-}
+    void collect_tile(const Tiles& source, Index tile, const std::array<int, 3>& way,
+                      const ChunkBox& bounds)
+    {
+        const auto edge = static_cast<float>(source.lattice.edge);
+        const std::array<float, 3> step{edge * static_cast<float>(way[0]),
+                                        edge * static_cast<float>(way[1]),
+                                        edge * static_cast<float>(way[2])};
+        const Index end = source.start[at(tile + 1)];
+        Index slot = source.start[at(tile)];
+        const std::array columns{&source.x, &source.y, &source.z};
+        for (Index chunk = source.chunk_start[at(tile)]; slot < end; ++chunk, slot += chunk_slots) {
+            const ChunkBox box = shifted(source.box[at(chunk)], step);
+            if (!nearer(box, bounds, radius_)) {
+                continue;
+            }
+            const Index count = std::min<Index>(chunk_slots, end - slot);
+            const std::size_t place = shop_.chunks.size();
+            reserve(place + 1);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                shop_.low[axis][place] = box.low[axis];
+                shop_.high[axis][place] = box.high[axis];
+                float* const point = &shop_.points[axis][chunk_slots * place];
+                std::fill_n(point, chunk_slots, far);
+                for (Index k = 0; k < count; ++k) {
+                    point[k] = (*columns[axis])[at(slot + k)] + step[axis];
+                }
+            }
+            shop_.chunks.push_back(
+                {static_cast<std::int32_t>(source.first_slot + slot),
+                 {static_cast<std::int8_t>(way[0]), static_cast<std::int8_t>(way[1]),
+                  static_cast<std::int8_t>(way[2])},
+                 static_cast<std::uint8_t>(count)});
+        }
+    }
+
+    // Room for so many chunks and the bounds of eight more.
+    void reserve(std::size_t chunks)
+    {
+        if (chunks + chunk_slots > shop_.low[0].size()) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                shop_.low[axis].resize(2 * (chunks + chunk_slots));
+                shop_.high[axis].resize(2 * (chunks + chunk_slots));
+                shop_.points[axis].resize(2 * chunk_slots * (chunks + chunk_slots));
+            }
+        }
+    }
+
+    // The lists of [first, last); returns the number of their entries.
+    std::size_t filter(Index first, Index last)
+    {
+        const std::size_t chunks = shop_.chunks.size();
+        reserve(chunks);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::fill_n(&shop_.low[axis][chunks], chunk_slots, far);
+        }
+        const std::size_t room = chunk_slots * (chunks + 1) + at(lanes_);
+        shop_.near.resize(std::max(shop_.near.size(), chunks + chunk_slots));
+        shop_.packs.resize(std::max(shop_.packs.size(), at(last - first)));
+        const auto data = [](const std::array<std::vector<float>, 3>& columns) {
+            return FloatColumns{columns[0].data(), columns[1].data(), columns[2].data()};
+        };
+        const Candidates all{data(shop_.points), data(shop_.low), data(shop_.high),
+                             static_cast<std::int32_t>(chunks)};
+        std::size_t count = 0;
+        for (Index k = first; k < last; ++k) {
+            if (count + room > shop_.entries.size()) {
+                shop_.entries.resize(2 * (count + room));
+            }
+            std::size_t made = 0;
+            if (wanted(k)) {
+                std::uint16_t* const entry = &shop_.entries[count];
+                made = at(loops_.filter(
+                    all, {destination_.x[at(k)], destination_.y[at(k)], destination_.z[at(k)]},
+                    radius_, lanes_, shop_.near.data(), entry));
+                made = choice_.owner.empty() ? made : without_kin(k, entry, made);
+            }
+            shop_.packs[at(k - first)] = static_cast<std::uint16_t>(made / at(lanes_));
+            count += made;
+        }
+        return count;
+    }
+
+    // Takes the points of the own owner out of a list; returns its new length.
+    std::size_t without_kin(Index k, std::uint16_t* entry, std::size_t count)
+    {
+        const auto nothing = static_cast<std::uint16_t>(chunk_slots * shop_.chunks.size());
+        std::uint16_t* end = std::remove_if(entry, entry + count, [&](std::uint16_t number) {
+            return number == nothing || kin(k, number);
+        });
+        while ((end - entry) % lanes_ != 0) {
+            *end++ = nothing;
+        }
+        return static_cast<std::size_t>(end - entry);
+    }
+
+    bool kin(Index k, std::uint16_t entry) const
+    {
+        const Index slot = shop_.chunks[entry / chunk_slots].slot + entry % chunk_slots;
+        for (const Tiles* source : sources_) {
+            if (slot >= source->first_slot && slot < source->first_slot + source->count()) {
+                const std::int32_t row = source->row[at(slot - source->first_slot)];
+                return choice_.owner[at(row)] == choice_.owner[at(destination_.row[at(k)])];
+            }
+        }
+        return false;
+    }
+
+    template <class T>
+    const T* stored(const std::vector<T>& values, std::size_t count)
+    {
+        std::byte* const memory = store_.take(count * sizeof(T));
+        std::memcpy(memory, values.data(), count * sizeof(T));
+        return reinterpret_cast<const T*>(memory);
+    }
+
+    void keep(Index first, Index last, std::size_t entries)
+    {
+        ListBlock block;
+        block.first = static_cast<std::int32_t>(destination_.first_slot + first);
+        block.last = static_cast<std::int32_t>(destination_.first_slot + last);
+        block.chunks = static_cast<std::int32_t>(shop_.chunks.size());
+        block.chunk = stored(shop_.chunks, shop_.chunks.size());
+        block.entry = stored(shop_.entries, entries);
+        block.packs = stored(shop_.packs, at(last - first));
+        store_.append(block, out_);
+    }
+
+    const Tiles& destination_;
+    std::span<const Tiles* const> sources_;
+    const ListLoops& loops_;
+    int lanes_;
+    const ListChoice& choice_;
+    ListShop& shop_;
+    PageStore& store_;
+    std::vector<ListBlock>& out_;
+    Index tile_ = 0;
+    float radius_ = 0;
+};
 
 } // namespace
 
-void PairList::build(std::span<const Vec3> x, Rows destination,
-                     std::span<const CellGrid* const> sources, real radius,
-                     const ListChoice& choice)
+void PageStore::reset()
 {
-    rows_ = destination;
-    const auto void_row = static_cast<std::int32_t>(x.size());
-    const Index blocks = (destination.size() + block_rows - 1) / block_rows;
-    blocks_.resize(static_cast<std::size_t>(blocks));
-    parallel_blocks(0, blocks, [&](Index b) {
-        Block& block = blocks_[static_cast<std::size_t>(b)];
-        auto& entries = block.entries;
-        Candidates candidates(radius);
-        const Index first = destination.begin + b * block_rows;
-        const Index last = std::min(destination.end, first + block_rows);
-        std::size_t count = 0;
-        for (Index i = first; i < last; ++i) {
-            const auto row = static_cast<std::size_t>(i);
-            block.start[static_cast<std::size_t>(i - first)] = static_cast<std::int32_t>(count);
-            if (!choice.wanted.empty() && choice.wanted[row] == 0) {
-                continue;
-            }
-            candidates.gather(sources, x[row]);
-            if (count + candidates.size() + lanes > entries.size()) {
-                entries.resize(2 * (count + candidates.size() + lanes));
-            }
-            const std::size_t begin = count;
-            count = static_cast<std::size_t>(
-                candidates.append_near(x[row], entries.data() + begin) - entries.data());
-            if (!choice.owner.empty()) {
-                count = without_kin(entries, begin, count, choice.owner, i);
-            }
-            while (count % lanes != 0) {
-                entries[count++] = void_row;
-            }
-        }
-        std::fill(block.start.begin() + (last - first), block.start.end(),
-                  static_cast<std::int32_t>(count));
+    for (Page& page : pages_) {
+        page.used = 0;
+    }
+    current_ = 0;
+}
+
+std::byte* PageStore::take(std::size_t bytes)
+{
+    const std::size_t size = (bytes + 15) / 16 * 16;
+    const std::lock_guard lock(one_at_a_time_);
+    while (current_ < pages_.size() && pages_[current_].size - pages_[current_].used < size) {
+        ++current_;
+    }
+    if (current_ == pages_.size()) {
+        const std::size_t room = std::max(size, page_size);
+        pages_.push_back({std::make_unique_for_overwrite<std::byte[]>(room), room, 0});
+    }
+    Page& page = pages_[current_];
+    return page.memory.get() + std::exchange(page.used, page.used + size);
+}
+
+void PageStore::append(const ListBlock& block, std::vector<ListBlock>& blocks)
+{
+    const std::lock_guard lock(one_at_a_time_);
+    blocks.push_back(block);
+}
+
+std::size_t PageStore::bytes() const
+{
+    std::size_t total = 0;
+    for (const Page& page : pages_) {
+        total += page.size;
+    }
+    return total;
+}
+
+void PairList::build(const Tiles& destination, std::span<const Tiles* const> sources,
+                     const Settings& settings, const ListChoice& choice)
+{
+    expects(settings.radius <= destination.lattice.edge);
+    lanes_ = settings.lanes;
+    store_->reset();
+    blocks_.clear();
+    shops_.resize(std::max(shops_.size(), static_cast<std::size_t>(thread_count())));
+    parallel_blocks(0, destination.tiles(), [&](Index tile) {
+        TileLister(destination, sources, settings, choice, shops_[at(worker())], *store_, blocks_)
+            .list(tile);
     });
+    std::sort(blocks_.begin(), blocks_.end(),
+              [](const ListBlock& a, const ListBlock& b) { return a.first < b.first; });
 }
 
 void PairList::clear()
 {
-    rows_ = {};
     blocks_.clear();
+    store_->reset();
 }
 
-std::vector<std::uint8_t> PairList::met(Index all_rows) const
+void PairList::mark_met(std::vector<std::uint8_t>& marks) const
 {
-    std::vector<std::uint8_t> marks(static_cast<std::size_t>(all_rows) + 1,
-                                    0); // one for the void row
-    for (const Block& block : blocks_) {
-        for (std::int32_t k = 0; k < block.start.back(); ++k) {
-            marks[static_cast<std::size_t>(block.entries[static_cast<std::size_t>(k)])] = 1;
-        }
+    for_each_pair([&](Index, Index j) { marks[at(j)] = 1; });
+}
+
+std::int32_t PairList::most_chunks() const
+{
+    std::int32_t most = 0;
+    for (const ListBlock& block : blocks_) {
+        most = std::max(most, block.chunks);
     }
-    return marks;
+    return most;
 }
 
 Index PairList::entries() const
 {
     Index total = 0;
-    for (const Block& block : blocks_) {
-        total += block.start.back();
+    for (const ListBlock& block : blocks_) {
+        for (std::int32_t k = 0; k < block.last - block.first; ++k) {
+            total += lanes_ * block.packs[k];
+        }
     }
     return total;
 }
 
 std::size_t PairList::bytes() const
 {
-    std::size_t total = blocks_.capacity() * sizeof(Block);
-    for (const Block& block : blocks_) {
-        total += block.entries.capacity() * sizeof(std::int32_t);
-    }
-    return total;
+    return store_->bytes() + blocks_.capacity() * sizeof(ListBlock);
 }
 
 } // namespace hyoryu

@@ -15,4 +15,9 @@ int thread_count()
     return omp_get_max_threads();
 }
 
+int worker()
+{
+    return omp_get_thread_num();
+}
+
 } // namespace hyoryu

@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/core/particles.hpp"
 
+#include <cstring>
+
 namespace hyoryu {
 
 namespace {
 
 // Rows [0, order.size()) of `column` become the named ones; what stood behind `fluid_end` follows.
+// `room` keeps its memory from one column and one time to the next.
 template <class T>
-void permute(std::vector<T>& column, std::span<const std::int32_t> order, Index fluid_end)
+void permute(std::vector<T>& column, std::span<const std::int32_t> order, Index fluid_end,
+             std::vector<std::byte>& room)
 {
-    std::vector<T> sorted(order.size());
-    parallel_for(0, static_cast<Index>(order.size()), [&](Index k) {
+    const auto rows = static_cast<Index>(order.size());
+    room.resize(std::max(room.size(), order.size() * sizeof(T)));
+    std::byte* const sorted = room.data();
+    parallel_for(0, rows, [&](Index k) {
         const auto at = static_cast<std::size_t>(k);
-        sorted[at] = column[static_cast<std::size_t>(order[at])];
+        std::memcpy(sorted + at * sizeof(T), &column[static_cast<std::size_t>(order[at])],
+                    sizeof(T));
     });
-    std::copy(sorted.begin(), sorted.end(), column.begin());
-    column.erase(column.begin() + static_cast<Index>(order.size()), column.begin() + fluid_end);
+    parallel_for(0, rows, [&](Index k) {
+        const auto at = static_cast<std::size_t>(k);
+        std::memcpy(static_cast<void*>(&column[at]), sorted + at * sizeof(T), sizeof(T));
+    });
+    column.erase(column.begin() + rows, column.begin() + fluid_end);
 }
 
 } // namespace
@@ -26,11 +36,11 @@ void Particles::permute_fluid(std::span<const std::int32_t> order)
     for_each(AllFields{}, [&](auto field) {
         if (has(field)) {
             permute(std::get<detail::index_in<decltype(field), AllFields>>(columns_), order,
-                    fluid_.end);
+                    fluid_.end, room_);
         }
     });
-    permute(id_, order, fluid_.end);
-    permute(owner_, order, fluid_.end);
+    permute(id_, order, fluid_.end, room_);
+    permute(owner_, order, fluid_.end, room_);
     const Index gone = fluid_.end - kept;
     fluid_.end = kept;
     wall_ = {wall_.begin - gone, wall_.end - gone};

@@ -66,16 +66,15 @@ void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const Bod
     });
 }
 
-std::vector<Vec3> wall_forces(const Fluid& fluid, std::size_t walls)
+void collect_wall_forces(const Fluid& fluid, std::span<Vec3> forces)
 {
-    std::vector<Vec3> forces(walls, Vec3::Zero());
+    std::fill(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
     const Rows rows = fluid.particles.wall();
     const auto F = fluid.particles[field::force];
     const auto owner = fluid.particles.owner();
     for (Index k = rows.begin; k < rows.end; ++k) {
         forces[at(-1 - owner[at(k)])] += F[at(k)];
     }
-    return forces;
 }
 
 } // namespace hyoryu

@@ -12,17 +12,79 @@ auto at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// Mass of the fluid that a solid particle stands in for.
-real stand_in_mass(const Fluid& fluid, Index row)
+FluidTerms terms_of(const Fluid& fluid, real dt)
 {
-    const std::int32_t owner = fluid.particles.owner()[at(row)];
-    return owner >= 0 ? fluid.body_particle_mass[at(owner)] : fluid.parameters.mass;
+    const FluidParameters& f = fluid.parameters;
+    return {{f.eos, f.gravity}, {f.spacing, dt > 0 ? f.mass / (2 * dt) : 0}, fluid.effects};
+}
+
+// Copies fields of the particles of some tiles to what the pair loops read.
+void load(Fluid& fluid, const Tiles& tiles, const auto& fields)
+{
+    std::visit([&](auto& data) { data.records.load(fluid.particles, tiles, fields); },
+               fluid.pair_data);
+}
+
+// The same for the solid particles that fluid or a body may be near.
+void load_solids(Fluid& fluid, const auto& fields)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    std::visit(
+        [&](auto& data) {
+            data.records.load(fluid.particles, n.wall, n.wet_walls, fields);
+            data.records.load(fluid.particles, n.body, fields);
+        },
+        fluid.pair_data);
+}
+
+// Calls f for the rows of these particles; dry walls cost nothing.
+void for_wet_solids(const Fluid& fluid, const auto& f)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    parallel_blocks(0, static_cast<Index>(n.wet_walls.size()), [&](Index k) {
+        const auto tile = at(n.wet_walls[at(k)]);
+        for (std::int32_t slot = n.wall.start[tile]; slot < n.wall.start[tile + 1]; ++slot) {
+            f(at(n.wall.row[at(slot)]));
+        }
+    });
+    const Rows bodies = fluid.particles.body();
+    parallel_for(bodies.begin, bodies.end, [&](Index i) { f(at(i)); });
+}
+
+// Runs one of the pair loops over all blocks of a list; `which` names it.
+void run(Fluid& fluid, const PairList& pairs, const Tiles& destination, const FluidTerms& terms,
+         const auto& which)
+{
+    std::visit(
+        [&]<class Real>(PairData<Real>& data) {
+            const auto& loops = std::get<PairLoops<Real>>(fluid_loops(fluid.instruction_set));
+            const SweepView<Stored, Real> view{pairs.blocks().data(),
+                                               data.records.data(),
+                                               fluid.particles.pointers(),
+                                               destination.row.data(),
+                                               destination.first_slot,
+                                               destination.lattice.edge,
+                                               fluid.kernel};
+            const auto loop = which(loops);
+            parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
+                loop(view, block, data.local[at(worker())].data(), terms);
+            });
+        },
+        fluid.pair_data);
 }
 
 } // namespace
 
+real stand_in_mass(const Fluid& fluid, std::int32_t owner)
+{
+    return owner >= 0 ? fluid.body_particle_mass[at(owner)] : fluid.parameters.mass;
+}
+
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count)
 {
+    if (fluid.parameters.precision == Precision::double_precision) {
+        fluid.pair_data.emplace<PairData<double>>();
+    }
     using Core = Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>;
     using Solid = WallExtrapolation::Writes;
     std::visit(
@@ -55,6 +117,7 @@ void update_pressure(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
     const FluidParameters& f = fluid.parameters;
+    FluidNeighbours& n = fluid.neighbours;
     const auto rho = particles[field::density];
     const auto p = particles[field::pressure];
     const auto V = particles[field::volume];
@@ -63,46 +126,46 @@ void update_pressure(Fluid& fluid)
         p[at(i)] = f.eos.pressure(rho[at(i)]);
         V[at(i)] = f.mass / rho[at(i)];
     });
-    fluid.records.load(particles);
-    const Rows solid = particles.solid();
-    if (solid.size() == 0) {
+    load(fluid, n.fluid, Stored{});
+    if (particles.solid().size() == 0) {
         return;
     }
-
-    clear(particles, solid, WallExtrapolation::Writes{});
-    sweep(particles, fluid.neighbours.solid_fluid, fluid.records, fluid.kernel,
-          WallExtrapolation{f.eos, f.gravity});
+    load_solids(fluid, Stored{});
+    for_wet_solids(fluid, [&](std::size_t i) {
+        particles[field::shepard_sum][i] = 0;
+        particles[field::pressure_sum][i] = 0;
+    });
+    const FluidTerms terms = terms_of(fluid, 0);
+    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.extrapolation; });
+    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.extrapolation; });
     const auto shepard = particles[field::shepard_sum];
     const auto weighted = particles[field::pressure_sum];
-    parallel_for(solid.begin, solid.end, [&](Index i) {
-        const real p_w = shepard[at(i)] > 0 ? positive(weighted[at(i)] / shepard[at(i)]) : 0;
-        p[at(i)] = p_w;
-        rho[at(i)] = f.eos.density(p_w);
-        V[at(i)] = stand_in_mass(fluid, i) / rho[at(i)];
+    const auto owner = particles.owner();
+    for_wet_solids(fluid, [&](std::size_t i) {
+        const real p_w = shepard[i] > 0 ? positive(weighted[i] / shepard[i]) : 0;
+        p[i] = p_w;
+        rho[i] = f.eos.density(p_w);
+        V[i] = stand_in_mass(fluid, owner[i]) / rho[i];
     });
-    fluid.records.load(particles, Fields<Volume, Pressure>{});
+    load_solids(fluid, Fields<Volume, Pressure>{});
 }
 
 void update_forces(Fluid& fluid, real dt)
 {
     Particles& particles = fluid.particles;
-    const FluidNeighbours& pairs = fluid.neighbours;
-    const FluidParameters& f = fluid.parameters;
-    const WallPressureForce push;
-    const SolidBackstop stop{f.spacing, f.mass / (2 * dt)};
-    clear(particles, {0, particles.size()}, Fields<Force>{});
-    std::visit(
-        [&](const auto& diffusion) {
-            clear(particles, particles.fluid(),
-                  typename std::remove_cvref_t<decltype(diffusion)>::Writes{});
-            sweep(particles, pairs.fluid_fluid, fluid.records, fluid.kernel, PressureForce{},
-                  diffusion);
-        },
-        fluid.effects.diffusion);
-    sweep(particles, pairs.fluid_solid, fluid.records, fluid.kernel, push, stop);
-    sweep(particles, pairs.solid_fluid, fluid.records, fluid.kernel, push, stop);
-    sweep(particles, pairs.body_solid, fluid.records, fluid.kernel, push);
-    sweep(particles, pairs.wall_body, fluid.records, fluid.kernel, push);
+    const FluidNeighbours& n = fluid.neighbours;
+    const FluidTerms terms = terms_of(fluid, dt);
+    clear(particles, particles.fluid(), Fields<Force>{});
+    for_wet_solids(fluid, [&](std::size_t i) { particles[field::force][i].setZero(); });
+    if (particles.has(field::diffusion_rate)) {
+        clear(particles, particles.fluid(), Fields<DiffusionRate>{});
+    }
+    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_forces; });
+    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
+    run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
 }
 
 void kick(Fluid& fluid, real dt)
@@ -126,18 +189,17 @@ void kick(Fluid& fluid, real dt)
 void update_rates(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
-    const FluidNeighbours& pairs = fluid.neighbours;
+    const FluidNeighbours& n = fluid.neighbours;
     const Rows rows = particles.fluid();
-    fluid.records.load(particles, Fields<Velocity>{});
+    const FluidTerms terms = terms_of(fluid, 0);
+    load(fluid, n.fluid, Fields<Velocity>{});
+    load_solids(fluid, Fields<Velocity>{});
     clear(particles, rows, Continuity::Writes{});
-    std::visit(
-        [&](const auto& viscosity) {
-            clear(particles, rows, typename std::remove_cvref_t<decltype(viscosity)>::Writes{});
-            sweep(particles, pairs.fluid_fluid, fluid.records, fluid.kernel, Continuity{},
-                  viscosity);
-        },
-        fluid.effects.viscosity);
-    sweep(particles, pairs.fluid_solid, fluid.records, fluid.kernel, Continuity{});
+    if (particles.has(field::viscous_force)) {
+        clear(particles, rows, Fields<ViscousForce>{});
+    }
+    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_rates; });
+    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_rates; });
 
     const auto rho = particles[field::density];
     const auto rate = particles[field::density_rate];
@@ -185,7 +247,7 @@ real effective_viscosity(const Fluid& fluid)
                                 : 0;
 }
 
-std::vector<TimeLimit> fluid_limits(const Fluid& fluid)
+std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid)
 {
     return fluid_limits(fluid.parameters, top_speed(fluid), top_acceleration(fluid),
                         effective_viscosity(fluid));

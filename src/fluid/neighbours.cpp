@@ -2,133 +2,280 @@
 // When the lists of the fluid are made, and from what.
 #include "hyoryu/fluid/fluid.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hyoryu {
 
 namespace {
+
+const Vec3 everywhere_low = Vec3::Constant(-infinity);
+const Vec3 everywhere_high = Vec3::Constant(infinity);
 
 auto at(Index row)
 {
     return static_cast<std::size_t>(row);
 }
 
-real displacement(const Fluid& fluid, Rows rows)
+// An edge of a tile over the support: about a hundred particles in a tile, in the plane as in
+// space. A skin may be as much as the edge is longer.
+real tile_ratio(int dimensions)
+{
+    return dimensions == 2 ? 2.5 : 2.0;
+}
+
+TileLattice lattice_of(const Fluid& fluid)
+{
+    const Vec3 origin = fluid.domain_min.allFinite() ? fluid.domain_min : Vec3(Vec3::Zero());
+    return make_lattice(origin, tile_ratio(fluid.parameters.dimensions) * fluid.kernel.support);
+}
+
+Displacement measure(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    const auto x = std::as_const(fluid.particles)[field::position];
+    DisplacementSpace& f = n.fluid_motion;
+    DisplacementSpace& w = n.wall_motion;
+    DisplacementSpace& b = n.body_motion;
+    Displacement motion;
+    motion.absolute = bound_motion(n.fluid, x, f.box);
+    motion.absolute = std::max(motion.absolute, bound_motion(n.body, x, b.box));
+    if (fluid.moving_walls || n.steps == 1) { // fixed walls stay where they are
+        motion.absolute = std::max(motion.absolute, bound_motion(n.wall, x, w.box));
+    }
+    motion.fluid = relative_motion(f.box, f.box, f.fluid);
+    motion.solid =
+        std::max({relative_motion(f.box, w.box, f.wall), relative_motion(f.box, b.box, f.body),
+                  relative_motion(b.box, w.box, b.wall), relative_motion(b.box, b.box, b.body)});
+    return motion;
+}
+
+// Whether a pair that is not listed may have come within the support: one of tiles that touch, by
+// its relative displacement; any other, by what lies between tiles that do not.
+bool stale(const Fluid& fluid, const Displacement& motion)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    const real between = n.fluid.lattice.edge - fluid.kernel.support;
+    return motion.fluid > n.skins.fluid || motion.solid > n.skins.solid ||
+           2 * motion.absolute > between;
+}
+
+// Books the particles that left the domain.
+void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
 {
     const auto x = fluid.particles[field::position];
-    const auto& x0 = fluid.neighbours.built_at;
-    return std::sqrt(largest(rows.begin, rows.end, 0,
-                             [&](Index i) { return (x[at(i)] - x0[at(i)]).squaredNorm(); }));
-}
-
-// Two particles close by at most the sum of their displacements.
-bool stale(const Fluid& fluid)
-{
-    const Particles& particles = fluid.particles;
-    if (fluid.neighbours.built_at.size() != at(particles.size())) {
-        return true;
+    const auto v = fluid.particles[field::velocity];
+    const real m = fluid.parameters.mass;
+    for (const std::int32_t i : rows) {
+        const Vec3& vi = v[at(i)];
+        fluid.lost.count += 1;
+        fluid.lost.momentum += m * vi;
+        fluid.lost.energy +=
+            0.5 * m * vi.squaredNorm() - m * fluid.parameters.gravity.dot(x[at(i)]);
     }
-    const real moved_fluid = displacement(fluid, particles.fluid());
-    const real moved_solid = displacement(fluid, particles.solid());
-    return moved_fluid + std::max(moved_fluid, moved_solid) > fluid.parameters.skin ||
-           2 * moved_solid > fluid.parameters.skin;
 }
 
-std::span<const Vec3> slice(std::span<const Vec3> column, Rows rows)
-{
-    return column.subspan(at(rows.begin), at(rows.size()));
-}
-
-real radius(const Fluid& fluid)
-{
-    return fluid.kernel.support + fluid.parameters.skin;
-}
-
-// Cells of half the radius: more of the candidates they offer are near than with whole ones.
-real cell_size(const Fluid& fluid)
-{
-    return radius(fluid) / 2;
-}
-
-// Fluid rows in the order of the cells, without those that left the domain.
-void sort_and_drop(Fluid& fluid)
+// Puts the fluid rows into the order of the tiles, without those that left the domain.
+void sort_fluid(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
-    CellGrid& grid = fluid.neighbours.fluid_grid;
-    build(grid, slice(particles[field::position], particles.fluid()), 0, cell_size(fluid));
-    const auto x = particles[field::position];
-    const auto v = particles[field::velocity];
-    const real m = fluid.parameters.mass;
-    std::vector<std::int32_t> kept;
-    kept.reserve(grid.order.size());
-    for (const std::int32_t i : grid.order) {
-        const Vec3& xi = x[at(i)];
-        const bool inside = (xi.array() >= fluid.domain_min.array()).all() &&
-                            (xi.array() <= fluid.domain_max.array()).all();
-        if (inside) {
-            kept.push_back(i);
-        } else {
-            const Vec3& vi = v[at(i)];
-            fluid.lost.count += 1;
-            fluid.lost.momentum += m * vi;
-            fluid.lost.energy += 0.5 * m * vi.squaredNorm() - m * fluid.parameters.gravity.dot(xi);
+    SortSpace& space = fluid.neighbours.space;
+    const TileLattice lattice = lattice_of(fluid);
+    const Index kept = sort_rows(lattice, particles[field::position], particles.fluid(),
+                                 fluid.domain_min, fluid.domain_max, space);
+    const std::span<const std::int32_t> order = space.row;
+    count_lost(fluid, order.subspan(at(kept)));
+    particles.permute_fluid(order.first(at(kept)));
+    std::iota(space.row.begin(), space.row.begin() + kept, 0);
+    make_tiles(fluid.neighbours.fluid, lattice, particles[field::position], space, kept);
+}
+
+void sort_solids(Fluid& fluid, Rows rows, Tiles& tiles)
+{
+    const TileLattice lattice = lattice_of(fluid);
+    const auto x = fluid.particles[field::position];
+    SortSpace& space = fluid.neighbours.space;
+    sort_rows(lattice, x, rows, everywhere_low, everywhere_high, space);
+    make_tiles(tiles, lattice, x, space, rows.size());
+}
+
+// Where fluid particles have left the store, the rows of walls have moved up.
+void follow_walls(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    const Rows walls = fluid.particles.wall();
+    const auto up = static_cast<std::int32_t>(n.walls_in_tiles.begin - walls.begin);
+    std::for_each(n.wall.row.begin(), n.wall.row.end(), [&](std::int32_t& row) { row -= up; });
+    n.walls_in_tiles = walls;
+}
+
+void sort_particles(Fluid& fluid)
+{
+    const Particles& particles = fluid.particles;
+    FluidNeighbours& n = fluid.neighbours;
+    sort_fluid(fluid);
+    const Rows walls = particles.wall();
+    if (fluid.moving_walls || n.walls_in_tiles.size() != walls.size()) {
+        sort_solids(fluid, walls, n.wall);
+        n.walls_in_tiles = walls;
+    }
+    follow_walls(fluid);
+    sort_solids(fluid, particles.body(), n.body);
+}
+
+// Room for the records of all slots, and for those that a block looks at, on each thread.
+void make_room(Fluid& fluid)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    std::int32_t chunks = 0;
+    for (const PairList* list : {&n.fluid_fluid, &n.fluid_solid, &n.wall_fluid, &n.body_fluid,
+                                 &n.body_solid, &n.wall_body}) {
+        chunks = std::max(chunks, list->most_chunks());
+    }
+    std::visit(
+        [&](auto& data) {
+            data.records.resize(fluid.particles.size());
+            data.local.resize(
+                std::max(data.local.size(), static_cast<std::size_t>(thread_count())));
+            for (auto& room : data.local) {
+                room.resize(std::max(room.size(), at(chunk_slots * chunks + 1)));
+            }
+        },
+        fluid.pair_data);
+}
+
+// Which tiles touch, and which tiles of walls matter.
+void connect(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    find_touching(n.fluid, n.fluid, n.fluid_motion.fluid);
+    find_touching(n.fluid, n.wall, n.fluid_motion.wall);
+    find_touching(n.fluid, n.body, n.fluid_motion.body);
+    find_touching(n.body, n.wall, n.body_motion.wall);
+    find_touching(n.body, n.body, n.body_motion.body);
+    n.wet_walls.clear();
+    std::vector<std::uint8_t>& wet = n.met;
+    wet.assign(n.wall.tile.size(), 0);
+    for (const PairList* list : {&n.wall_fluid, &n.wall_body}) {
+        for (const ListBlock& block : list->blocks()) {
+            const auto after = std::upper_bound(n.wall.start.begin(), n.wall.start.end(),
+                                                block.first - n.wall.first_slot);
+            wet[at(after - n.wall.start.begin() - 1)] = 1;
         }
     }
-    particles.permute_fluid(kept);
+    for (std::size_t tile = 0; tile < wet.size(); ++tile) {
+        if (wet[tile] != 0) {
+            n.wet_walls.push_back(static_cast<std::int32_t>(tile));
+        }
+    }
+}
+
+// What solid particles are that no fluid is near: without pressure and force. The steps look after
+// the others.
+void dry(Fluid& fluid)
+{
+    Particles& particles = fluid.particles;
+    const Rows rows = particles.solid();
+    if (rows.size() == 0) {
+        return;
+    }
+    clear(particles, rows, Fields<Pressure, Force, ShepardSum, PressureSum>{});
+    const auto rho = particles[field::density];
+    const auto V = particles[field::volume];
+    const auto owner = particles.owner();
+    parallel_for(rows.begin, rows.end, [&](Index i) {
+        rho[at(i)] = fluid.parameters.eos.rho0;
+        V[at(i)] = stand_in_mass(fluid, owner[at(i)]) / rho[at(i)];
+    });
+}
+
+int pack_lanes(const Fluid& fluid)
+{
+    return std::visit(
+        [&]<class Real>(const PairData<Real>&) {
+            return std::get<PairLoops<Real>>(fluid_loops(fluid.instruction_set)).lanes;
+        },
+        fluid.pair_data);
 }
 
 void build_lists(Fluid& fluid)
 {
     const Particles& particles = fluid.particles;
     FluidNeighbours& n = fluid.neighbours;
-    const std::span<const Vec3> x = n.built_at;
-    build(n.fluid_grid, slice(x, particles.fluid()), 0, cell_size(fluid));
-    const Rows walls = particles.wall();
-    if (fluid.moving_walls || n.walls_in_grid.begin != walls.begin ||
-        n.walls_in_grid.end != walls.end) {
-        n.walls_in_grid = walls;
-        build(n.wall_grid, slice(x, walls), walls.begin, cell_size(fluid));
-    }
-    build(n.body_grid, slice(x, particles.body()), particles.body().begin, cell_size(fluid));
-
-    const real r = radius(fluid);
-    const CellGrid* const fluid_grid[] = {&n.fluid_grid};
-    const CellGrid* const body_grid[] = {&n.body_grid};
-    const CellGrid* const solid_grids[] = {&n.wall_grid, &n.body_grid};
-    n.fluid_fluid.build(x, particles.fluid(), fluid_grid, r);
-    // Dry walls meet nothing and get no lists of their own.
+    n.fluid.first_slot = 0;
+    n.wall.first_slot = n.fluid.count();
+    n.body.first_slot = n.wall.first_slot + n.wall.count();
+    const PairList::Settings of_pairs{fluid.kernel.support + n.skins.fluid, pack_lanes(fluid),
+                                      fluid.instruction_set};
+    PairList::Settings settings = of_pairs;
+    settings.radius = fluid.kernel.support + n.skins.solid;
+    const Tiles* const of_fluid[] = {&n.fluid};
+    const Tiles* const of_bodies[] = {&n.body};
+    const Tiles* const of_solids[] = {&n.wall, &n.body};
+    n.fluid_fluid.build(n.fluid, of_fluid, of_pairs);
     if (particles.solid().size() > 0) {
-        n.fluid_solid.build(x, particles.fluid(), solid_grids, r);
-        n.solid_fluid.build(x, particles.solid(), fluid_grid, r,
-                            {.wanted = n.fluid_solid.met(particles.size())});
+        n.fluid_solid.build(n.fluid, of_solids, settings);
+        // Dry walls have met nothing and get no lists of their own.
+        n.met.assign(at(particles.size()), 0);
+        n.fluid_solid.mark_met(n.met);
+        n.wall_fluid.build(n.wall, of_fluid, settings, {.wanted = n.met});
+        n.body_fluid.build(n.body, of_fluid, settings, {.wanted = n.met});
     }
     if (particles.body().size() > 0) {
-        n.body_solid.build(x, particles.body(), solid_grids, r, {.owner = particles.owner()});
-        n.wall_body.build(x, particles.wall(), body_grid, r,
-                          {.wanted = n.body_solid.met(particles.size())});
+        n.body_solid.build(n.body, of_solids, settings, {.owner = particles.owner()});
+        n.met.assign(at(particles.size()), 0);
+        n.body_solid.mark_met(n.met);
+        n.wall_body.build(n.wall, of_bodies, settings, {.wanted = n.met});
     }
-    n.builds += 1;
+    connect(fluid);
+    make_room(fluid);
+    const Index of_fluid_alone = n.fluid_fluid.entries();
+    const Index with_solids =
+        n.fluid_solid.entries() + n.wall_fluid.entries() + n.body_fluid.entries();
+    const Index films = n.body_solid.entries() + n.wall_body.entries();
+    n.entries = {of_fluid_alone, with_solids + films};
     // Pressure and velocity loops of the fluid; extrapolation and loads of the solids; films.
-    n.visits = 2 * (n.fluid_fluid.entries() + n.fluid_solid.entries() + n.solid_fluid.entries()) +
-               n.body_solid.entries() + n.wall_body.entries();
+    n.visits = 2 * (of_fluid_alone + with_solids) + films;
+    std::visit([&](auto& data) { data.records.load(particles, n.wall, Stored{}); },
+               fluid.pair_data);
 }
 
 } // namespace
 
 void update_neighbours(Fluid& fluid)
 {
-    if (!stale(fluid)) {
-        return;
+    FluidNeighbours& n = fluid.neighbours;
+    n.steps += 1;
+    if (n.builds == 0) {
+        n.skins = n.skins.fluid > 0 ? n.skins : first_skins(fluid.parameters.spacing);
+    } else {
+        const Displacement motion = measure(fluid);
+        if (!stale(fluid, motion)) {
+            return;
+        }
+        n.skins = best_skins(motion, n.steps, n.entries, n.skins, fluid.kernel.support,
+                             fluid.parameters.spacing);
     }
-    sort_and_drop(fluid);
-    const auto x = fluid.particles[field::position];
-    fluid.neighbours.built_at.assign(x.begin(), x.end());
+    sort_particles(fluid);
     build_lists(fluid);
+    dry(fluid);
+    n.builds += 1;
+    n.steps = 0;
 }
 
 void rebuild_neighbours(Fluid& fluid)
 {
+    follow_walls(fluid);
+    for (Tiles* tiles : {&fluid.neighbours.fluid, &fluid.neighbours.wall, &fluid.neighbours.body}) {
+        tiles->lattice = lattice_of(fluid);
+        bound_chunks(*tiles);
+    }
     build_lists(fluid);
+    if (!fluid.moving_walls) {
+        bound_motion(fluid.neighbours.wall, fluid.particles[field::position],
+                     fluid.neighbours.wall_motion.box);
+    }
 }
 
 } // namespace hyoryu

@@ -8,17 +8,16 @@
 
 namespace hyoryu {
 
-std::vector<TimeLimit> fluid_limits(const FluidParameters& fluid, real top_speed,
-                                    real top_acceleration, real nu)
+std::array<TimeLimit, 3> fluid_limits(const FluidParameters& fluid, real top_speed,
+                                      real top_acceleration, real nu)
 {
     // The default CFL scales the other limits with it.
     const real scale = fluid.cfl / 0.6;
     const real force =
         top_acceleration > 0 ? scale * 0.25 * std::sqrt(fluid.h / top_acceleration) : infinity;
     const real viscous = nu > 0 ? scale * 0.125 * sq(fluid.h) / nu : infinity;
-    return {{"acoustic", fluid.cfl * fluid.h / (fluid.eos.c0 + top_speed)},
-            {"force", force},
-            {"viscous", viscous}};
+    return {TimeLimit{"acoustic", fluid.cfl * fluid.h / (fluid.eos.c0 + top_speed)},
+            TimeLimit{"force", force}, TimeLimit{"viscous", viscous}};
 }
 
 TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles)
@@ -27,7 +26,7 @@ TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface
     return {"light body", 2 * fluid.h / fluid.eos.c0 * std::sqrt(body_mass / wet_mass)};
 }
 
-TimeLimit shortest(const std::vector<TimeLimit>& limits)
+TimeLimit shortest(std::span<const TimeLimit> limits)
 {
     TimeLimit least;
     for (const TimeLimit& limit : limits) {

@@ -111,7 +111,8 @@ std::string general_text(const Scene& scene)
     text += fmt::format("seed = {}\n", scene.seed);
     text += "\n[time]\n" + line("end", scene.time.end) + line("step", scene.time.step) +
             line("cfl", scene.time.cfl);
-    text += "\n[particles]\n" + line("spacing", scene.spacing);
+    text += "\n[particles]\n" + line("spacing", scene.spacing) +
+            line("precision", std::string(name(scene.precision)));
     if (scene.domain) {
         text += "\n[domain]\n" + line("min", scene.domain->min) + line("max", scene.domain->max);
     }

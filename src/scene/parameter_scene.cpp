@@ -89,6 +89,10 @@ std::vector<Parameter> general_parameters()
             "particles.spacing", "m", required,
             "Distance between the particles of fluid and walls at the start: the resolution of "
             "the run."),
+        choice_row("particles.precision", {"single", "double"}, "single",
+                   "The number of the arithmetic between pairs of particles; state and bodies are "
+                   "double in either case. \"double\" is for verification and takes about twice "
+                   "the time."),
         table_row("domain",
                   "The box outside which particles leave the run; without it the bounds of "
                   "the scene."),

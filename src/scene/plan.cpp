@@ -21,9 +21,8 @@ namespace {
 constexpr double bodies_only_step = 1e-3; // [s]
 // Sound speed over the largest expected speed: Mach 0.1 keeps density within 1 %.
 constexpr double sound_over_speed = 10;
-// Skin of the neighbour lists in spacings: at CFL 0.6 the fastest particles cross it in a few
-// steps.
-constexpr double skin_spacings = 0.35;
+// Skin of the neighbour lists in spacings that flows come to, for the estimate of memory.
+constexpr double usual_skin = 0.2;
 
 // Lowest height that anything in the scene has, along -g.
 double lowest(const Scene& scene, const Filling& filling)
@@ -79,7 +78,7 @@ FluidParameters fluid_parameters(const Scene& scene, double speed)
     f.mass = settings.density * std::pow(scene.spacing, scene.dimensions);
     f.gravity = scene.gravity;
     f.cfl = scene.time.cfl;
-    f.skin = skin_spacings * scene.spacing;
+    f.precision = scene.precision;
     // A fluid at rest without gravity still needs a pressure: any speed of sound will do.
     const double floor = scene.spacing; // one spacing a second
     f.eos = {settings.density,
@@ -252,10 +251,10 @@ bool Plan::runs(std::string_view effect) const
 
 double list_bytes(const FluidParameters& fluid)
 {
-    const double radius = (2 * fluid.h + fluid.skin) / fluid.spacing;
+    const double radius = 2 * fluid.h / fluid.spacing + usual_skin;
     const double near = fluid.dimensions == 2 ? std::numbers::pi * sq(radius)
                                               : 4.0 / 3.0 * std::numbers::pi * radius * sq(radius);
-    return sizeof(std::int32_t) * (near + lanes / 2.0);
+    return sizeof(std::uint16_t) * (near + 4);
 }
 
 Plan make_plan(const Scene& scene, const Filling& filling)
@@ -276,8 +275,9 @@ Plan make_plan(const Scene& scene, const Filling& filling)
         plan.fluid = fluid_parameters(scene, plan.expected_speed);
         plan.effects = fluid_effects(scene, *plan.fluid);
         Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
-        plan.limits =
+        const auto limits =
             fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));
+        plan.limits.assign(limits.begin(), limits.end());
         for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
             const BodySettings& body = scene.bodies[b];
             const double mass =

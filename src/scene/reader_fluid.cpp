@@ -124,6 +124,8 @@ void read_general(TableReader& root, Scene& scene)
     read_time(root.table("time"), scene);
     TableReader particles = root.table("particles");
     scene.spacing = particles.number("spacing");
+    scene.precision = particles.choice("precision") == "double" ? Precision::double_precision
+                                                                : Precision::single_precision;
     particles.finish();
     read_domain(root.table("domain"), scene);
 }

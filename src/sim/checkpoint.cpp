@@ -65,22 +65,22 @@ void add(Snapshot& snapshot, const std::string& name, Numbers numbers)
 }
 
 template <class T>
-void add_integers(Snapshot& snapshot, const std::string& name, std::span<const T> values)
+void add_values(Snapshot& snapshot, const std::string& name, std::span<const T> values)
 {
     snapshot.arrays[name] = {name, "", 1, std::vector<T>(values.begin(), values.end())};
 }
 
 template <class T>
-const std::vector<T>& integers(const Snapshot& snapshot, const std::string& name)
+const std::vector<T>& values(const Snapshot& snapshot, const std::string& name)
 {
     const auto found = snapshot.arrays.find(name);
-    const auto* values = found == snapshot.arrays.end()
+    const auto* stored = found == snapshot.arrays.end()
                              ? nullptr
                              : std::get_if<std::vector<T>>(&found->second.values);
-    if (values == nullptr) {
+    if (stored == nullptr) {
         throw IoError(fmt::format("the checkpoint has no `{}`: it belongs to another case", name));
     }
-    return *values;
+    return *stored;
 }
 
 Numbers flat(std::span<const Vec3> column)
@@ -112,20 +112,56 @@ void unflat(const Numbers& numbers, std::span<T> column)
     }
 }
 
+// What the lists are made from: the tiles as they were at the last time.
+void save_tiles(const Tiles& tiles, const std::string& name, Snapshot& snapshot)
+{
+    add_values(
+        snapshot, name + "/number",
+        std::span(reinterpret_cast<const std::int64_t*>(tiles.tile.data()), tiles.tile.size()));
+    add_values(snapshot, name + "/start", std::span<const std::int32_t>(tiles.start));
+    add_values(snapshot, name + "/row", std::span<const std::int32_t>(tiles.row));
+    add_values(snapshot, name + "/x", std::span<const float>(tiles.x));
+    add_values(snapshot, name + "/y", std::span<const float>(tiles.y));
+    add_values(snapshot, name + "/z", std::span<const float>(tiles.z));
+}
+
+void restore_tiles(Tiles& tiles, const std::string& name, const Snapshot& snapshot)
+{
+    const auto& number = values<std::int64_t>(snapshot, name + "/number");
+    tiles.tile.assign(number.begin(), number.end());
+    tiles.start = values<std::int32_t>(snapshot, name + "/start");
+    tiles.row = values<std::int32_t>(snapshot, name + "/row");
+    tiles.x = values<float>(snapshot, name + "/x");
+    tiles.y = values<float>(snapshot, name + "/y");
+    tiles.z = values<float>(snapshot, name + "/z");
+}
+
+// What a step starts from. All else, and all of solid particles, follows from it and from the
+// bodies before it is used.
+using Lasting = Fields<Position, Velocity, Density, DensityRate, Force, ViscousForce>;
+
 void save_fluid(const Fluid& fluid, Snapshot& snapshot)
 {
     const Particles& particles = fluid.particles;
-    for_each(AllFields{}, [&](auto column) {
+    const auto rows = static_cast<std::size_t>(particles.fluid().size());
+    for_each(Lasting{}, [&](auto column) {
         if (particles.has(column)) {
-            add(snapshot, fmt::format("fluid/{}", column.info.name), flat(particles[column]));
+            add(snapshot, fmt::format("fluid/{}", column.info.name),
+                flat(particles[column].first(rows)));
         }
     });
-    add_integers(snapshot, "fluid/id", particles.id());
-    add_integers(snapshot, "fluid/owner", particles.owner());
-    add(snapshot, "fluid/built_at", flat(fluid.neighbours.built_at));
+    add_values(snapshot, "fluid/id", particles.id().first(rows));
+    save_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
+    if (fluid.moving_walls) {
+        save_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+    }
+    save_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
     Numbers numbers;
     put(numbers, static_cast<double>(particles.fluid().size()));
     put(numbers, static_cast<double>(fluid.neighbours.builds));
+    put(numbers, static_cast<double>(fluid.neighbours.steps));
+    put(numbers, fluid.neighbours.skins.fluid);
+    put(numbers, fluid.neighbours.skins.solid);
     put(numbers, static_cast<double>(fluid.lost.count));
     put(numbers, fluid.lost.momentum);
     put(numbers, fluid.lost.energy);
@@ -149,26 +185,31 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     }
     particles.permute_fluid(order);
     fluid.neighbours.builds = static_cast<long long>(numbers.number());
+    fluid.neighbours.steps = static_cast<long long>(numbers.number());
+    fluid.neighbours.skins.fluid = numbers.number();
+    fluid.neighbours.skins.solid = numbers.number();
     fluid.lost.count = static_cast<Index>(numbers.number());
     fluid.lost.momentum = numbers.vector();
     fluid.lost.energy = numbers.number();
-    particles.for_each_column([&](auto column, auto values) {
-        const Reader stored(snapshot, fmt::format("fluid/{}", column.info.name));
-        unflat(stored.all(), values);
+    const auto rows = static_cast<std::size_t>(kept);
+    for_each(Lasting{}, [&](auto column) {
+        if (particles.has(column)) {
+            const Reader stored(snapshot, fmt::format("fluid/{}", column.info.name));
+            unflat(stored.all(), particles[column].first(rows));
+        }
     });
-    const auto& id = integers<std::int64_t>(snapshot, "fluid/id");
-    const auto& owner = integers<std::int32_t>(snapshot, "fluid/owner");
-    if (id.size() != particles.id().size() || owner.size() != particles.owner().size()) {
+    const auto& id = values<std::int64_t>(snapshot, "fluid/id");
+    if (id.size() != rows) {
         throw IoError("the checkpoint numbers other particles: it belongs to another case");
     }
     std::copy(id.begin(), id.end(), particles.id().begin());
-    std::copy(owner.begin(), owner.end(), particles.owner().begin());
-    fluid.neighbours.built_at.resize(static_cast<std::size_t>(particles.size()));
-    const Reader built_at(snapshot, "fluid/built_at");
-    unflat(built_at.all(), std::span(fluid.neighbours.built_at));
-    const long long builds = fluid.neighbours.builds;
+    restore_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
+    if (fluid.moving_walls) {
+        restore_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+        fluid.neighbours.walls_in_tiles = particles.wall();
+    }
+    restore_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
     rebuild_neighbours(fluid);
-    fluid.neighbours.builds = builds;
 }
 
 void save_rigid(const Rigid& rigid, Snapshot& snapshot)

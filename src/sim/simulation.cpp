@@ -140,13 +140,15 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
 
 TimeLimit time_limit(const Simulation& sim)
 {
-    std::vector<TimeLimit> limits = sim.plan.limits;
-    if (sim.fluid) {
-        // The limits of light bodies stay; those of the fluid follow its motion.
-        const std::vector<TimeLimit> now = fluid_limits(*sim.fluid);
-        std::copy(now.begin(), now.end(), limits.begin());
+    const std::span<const TimeLimit> limits = sim.plan.limits;
+    if (!sim.fluid) {
+        return shortest(limits);
     }
-    return shortest(limits);
+    // The limits of light bodies stay; those of the fluid, the first ones, follow its motion.
+    const auto now = fluid_limits(*sim.fluid);
+    const TimeLimit of_fluid = shortest(now);
+    const TimeLimit of_bodies = shortest(limits.subspan(now.size()));
+    return of_bodies.dt < of_fluid.dt ? of_bodies : of_fluid;
 }
 
 void step(Simulation& sim)
@@ -170,7 +172,8 @@ void step(Simulation& sim)
         update_forces(fluid, dt);
         sim.timer.begin("loads");
         collect_loads(fluid, sim.poses, sim.body_particles, sim.loads.bodies);
-        sim.loads.walls = wall_forces(fluid, sim.scene.walls.size());
+        sim.loads.walls.resize(sim.scene.walls.size());
+        collect_wall_forces(fluid, sim.loads.walls);
         sim.timer.begin("kick");
         kick(fluid, dt);
     }

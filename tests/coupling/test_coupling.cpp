@@ -14,11 +14,12 @@ struct Immersed {
     BodyParticles bodies;
     std::vector<Pose> poses;
 
-    Immersed()
+    explicit Immersed(Precision precision = Precision::single_precision)
     {
         constexpr real dp = 0.1;
         FluidParameters& f = fluid.parameters;
-        f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1, .skin = 0.1 * dp};
+        f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1};
+        f.precision = precision;
         fluid.kernel = make_kernel(f.h, dp, 3);
         std::vector<Vec3> water;
         for (int k = 0; k < 1000; ++k) {
@@ -68,9 +69,14 @@ TEST(Coupling, ParticlesMoveWithTheirBody)
     }
 }
 
-TEST(Coupling, TheLoadIsTheReactionOfTheFluid)
+// Pair forces are equal and opposite bit for bit. What is left is the rounding of their sums over
+// the neighbours of a particle, a hundred terms, which over a thousand particles is at random.
+class Reaction : public testing::TestWithParam<std::pair<Precision, double>> {};
+
+TEST_P(Reaction, TheLoadIsTheReactionOfTheFluid)
 {
-    Immersed scene;
+    const auto [precision, bound] = GetParam();
+    Immersed scene(precision);
     std::vector<Wrench> loads;
     collect_loads(scene.fluid, scene.poses, scene.bodies, loads);
     Vec3 on_fluid = Vec3::Zero();
@@ -85,9 +91,13 @@ TEST(Coupling, TheLoadIsTheReactionOfTheFluid)
         scale += f.norm();
     }
     EXPECT_GT(loads[0].force.norm(), 0);
-    EXPECT_NEAR((on_fluid + loads[0].force).norm() / scale, 0, 1e-14);
-    EXPECT_NEAR((torque_on_fluid + loads[0].torque).norm() / scale, 0, 1e-14);
+    EXPECT_NEAR((on_fluid + loads[0].force).norm() / scale, 0, bound);
+    EXPECT_NEAR((torque_on_fluid + loads[0].torque).norm() / scale, 0, bound);
 }
+
+INSTANTIATE_TEST_SUITE_P(Coupling, Reaction,
+                         testing::Values(std::pair{Precision::single_precision, 1e-8},
+                                         std::pair{Precision::double_precision, 1e-14}));
 
 TEST(Coupling, FreeFlightTurnsAboutTheCentre)
 {

@@ -9,7 +9,6 @@
 namespace hyoryu {
 namespace {
 
-using Stored = Fluid::Stored;
 using One = Record<Stored, real>;
 
 One particle(real x, real vx, real V, real p)

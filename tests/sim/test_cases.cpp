@@ -19,6 +19,12 @@ Simulation open_case(const std::string& name, const std::vector<std::string>& ov
     return make_simulation(scene, make_plan(scene, filling), filling);
 }
 
+// How far momentum may be off in a step when the pair forces of a particle are summed in single
+// precision: what a hundred of them lose, 2e-7 of the largest for one particle, is at random over
+// the particles and measures 5e-8 in the small case and less in all others. Double closes to 1e-10,
+// which tests/sim/test_promises.cpp shows.
+constexpr double closes_in_single = 2e-7;
+
 void run(Simulation& sim, const auto& after_step)
 {
     while (!finished(sim.clock, sim.scene)) {
@@ -97,9 +103,17 @@ TEST(Cases, SlidingBoxStopsWhereCoulombSaysItDoes)
     EXPECT_NEAR(sim.rigid.bodies[0].position.z(), 0.025, 1e-9);
 }
 
-TEST(Cases, HydrostaticTankStaysStill)
+// The lattice of the start slides along the walls by rows as it settles. Where nothing but the
+// rounding of double breaks its symmetry, a part of that never happens; any more, 1e-6 spacings in
+// the places of the particles in double as much as single precision, sets it off, with speeds of
+// 0.009 to 0.015 of sqrt(g H).
+class HydrostaticTank : public testing::TestWithParam<std::pair<const char*, double>> {};
+
+TEST_P(HydrostaticTank, StaysStill)
 {
-    Simulation sim = open_case("hydrostatic_tank");
+    const auto& [precision, fastest_allowed] = GetParam();
+    Simulation sim =
+        open_case("hydrostatic_tank", {std::string("particles.precision=\"") + precision + '"'});
     const std::size_t particles = sim.fluid->particles.id().size();
     const double H = 1.0;
     const double top = std::sqrt(9.81 * H);
@@ -117,12 +131,17 @@ TEST(Cases, HydrostaticTankStaysStill)
             count += 1;
         }
     }
-    EXPECT_LE(std::sqrt(error / count) / (1000 * 9.81 * H), 0.02);
-    EXPECT_LE(fastest, 0.01 * top);
+    const double relative = std::sqrt(error / count) / (1000 * 9.81 * H);
+    RecordProperty("pressure_error", std::to_string(relative));
+    EXPECT_LE(relative, 0.02);
+    EXPECT_LE(fastest, fastest_allowed * top);
     EXPECT_EQ(p.id().size(), particles);
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LE(sim.ledger.worst_closure, 1e-10);
+    EXPECT_LE(sim.ledger.worst_closure, precision[0] == 'd' ? 1e-10 : closes_in_single);
 }
+
+INSTANTIATE_TEST_SUITE_P(Cases, HydrostaticTank,
+                         testing::Values(std::pair{"double", 0.01}, std::pair{"single", 0.02}));
 
 TEST(Cases, FloatingBoxKeepsItsArchimedesDraft)
 {
@@ -138,7 +157,7 @@ TEST(Cases, FloatingBoxKeepsItsArchimedesDraft)
     EXPECT_NEAR(mean / samples, 0.5, 0.02 / 3); // one third of a spacing
     const Quat& q = sim.rigid.bodies[0].orientation;
     EXPECT_LE(2 * std::abs(q.y()), 0.0175); // one degree
-    EXPECT_LE(sim.ledger.worst_closure, 1e-10);
+    EXPECT_LE(sim.ledger.worst_closure, closes_in_single);
     EXPECT_EQ(sim.fluid->lost.count, 0);
 }
 
@@ -154,12 +173,12 @@ TEST(Cases, DamBreakRunsAsInviscidCodesDo)
         }
     });
     // Experiments: 3.47 to 3.79; inviscid particle codes lead them, 4.00 at a/dp = 20 and 4.12 for
-    // dp -> 0. The band runs from the slowest experiment to 4 % beyond the extrapolated front, the spread
-    // between sources.
+    // dp -> 0. The band runs from the slowest experiment to 4 % beyond the extrapolated front, the
+    // spread between sources.
     EXPECT_GE(front, 3.5);
     EXPECT_LE(front, 4.3);
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LE(sim.ledger.worst_closure, 1e-10);
+    EXPECT_LE(sim.ledger.worst_closure, closes_in_single);
 }
 
 TEST(Cases, DebrisFloodStartsSoundly)
@@ -168,8 +187,9 @@ TEST(Cases, DebrisFloodStartsSoundly)
     Simulation sim = open_case("debris_flood", {"particles.spacing=0.25", "time.end=0.6"});
     run(sim, [] {});
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LE(sim.ledger.worst_closure, 1e-10);
-    // Films squeezed by bodies reach some percent at this coarse spacing; a run that is lost, 100 %.
+    EXPECT_LE(sim.ledger.worst_closure, closes_in_single);
+    // Films squeezed by bodies reach some percent at this coarse spacing; a run that is lost, 100
+    // %.
     EXPECT_LE(sim.ledger.worst_density_error, 0.2);
     EXPECT_GE(sim.scene.bodies.size(), 8u);
 }

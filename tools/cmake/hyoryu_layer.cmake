@@ -14,6 +14,26 @@ function(hyoryu_layer name)
   set_target_properties(hyoryu_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
+# hyoryu_hot_loops(LAYER): compiles src/LAYER/loops/*.cpp once for each instruction set and adds the
+# objects to the layer. Each file finds the bytes of a register in HYORYU_REGISTER_BYTES.
+function(hyoryu_hot_loops name)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/loops/*.cpp)
+  # Contraction is welcome here, where it is safe: a pair is seen from both sides by the same code,
+  # whose operations all either keep their value or change their sign when i and j change places.
+  set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
+  foreach(bytes IN LISTS HYORYU_SETS)
+    set(loops hyoryu_${name}_${bytes})
+    add_library(${loops} OBJECT ${sources})
+    target_compile_options(${loops} PRIVATE ${HYORYU_FLAGS_${bytes}})
+    target_compile_definitions(${loops} PRIVATE HYORYU_REGISTER_BYTES=${bytes})
+    target_link_libraries(${loops} PRIVATE hyoryu_options
+      $<TARGET_PROPERTY:hyoryu_${name},LINK_LIBRARIES>)
+    target_include_directories(${loops} PRIVATE
+      $<TARGET_PROPERTY:hyoryu_${name},INCLUDE_DIRECTORIES>)
+    target_sources(hyoryu_${name} PRIVATE $<TARGET_OBJECTS:${loops}>)
+  endforeach()
+endfunction()
+
 # hyoryu_use_vtk(LAYER LIBRARIES...): links VTK to a leaf layer; without VTK its files compile to
 # functions that say so.
 function(hyoryu_use_vtk name)

@@ -31,3 +31,27 @@ if(HYORYU_SANITIZE)
   target_link_options(hyoryu_options INTERFACE -fsanitize=${HYORYU_SANITIZE})
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+# The instruction sets of the hot loops, by the bytes of a register: those of this machine, or, where
+# the program is to run on any x86-64, one after the other, chosen at start.
+if(HYORYU_NATIVE OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  if(HYORYU_NATIVE)
+    set(native_flag -march=native)
+  endif()
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${native_flag} -dM -E -x c++ /dev/null
+    OUTPUT_VARIABLE predefined)
+  if(predefined MATCHES "__AVX512VL__")
+    set(HYORYU_SETS 64)
+  elseif(predefined MATCHES "__AVX2__")
+    set(HYORYU_SETS 32)
+  else()
+    set(HYORYU_SETS 16)
+  endif()
+else()
+  set(HYORYU_SETS 16 32 64)
+  set(HYORYU_FLAGS_32 -march=x86-64-v3)
+  set(HYORYU_FLAGS_64 -march=x86-64-v4)
+endif()
+list(JOIN HYORYU_SETS ", " HYORYU_REGISTER_SIZES)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/compiled_sets.hpp.in
+  ${PROJECT_BINARY_DIR}/include/hyoryu/core/compiled_sets.hpp)

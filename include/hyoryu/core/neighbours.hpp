@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Neighbour lists: for each row of a destination the rows of a source within a radius, a skin
+// Neighbour lists: for each point of a destination the points of a source within a radius, a skin
 // included, so that a list serves several steps.
 #pragma once
 
-#include "hyoryu/core/cell_grid.hpp"
-#include "hyoryu/core/parallel.hpp"
-#include "hyoryu/core/particles.hpp"
+#include "hyoryu/core/instruction_set.hpp"
+#include "hyoryu/core/tiles.hpp"
 
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -14,49 +15,107 @@ namespace hyoryu {
 
 /// What is left out of neighbour lists. An empty span leaves out nothing.
 struct ListChoice {
-    std::span<const std::int32_t> owner = {};  // neighbours of the row's own owner (one rigid body)
-    std::span<const std::uint8_t> wanted = {}; // rows marked 0 get no neighbours
+    std::span<const std::int32_t> owner = {};  // by row: neighbours of the row's own owner (a body)
+    std::span<const std::uint8_t> wanted = {}; // by slot: those marked 0 get no neighbours
 };
 
-/// Lists of one pair kind (destination <- source). Rows are kept in blocks, each with its own
-/// storage, so that blocks are built in parallel and no entry is ever moved. Every list is filled
-/// up to whole packs with the void row, which is far from everything.
+/// Eight slots that a block looks at, and the way from their tile to that of the block.
+struct SourceChunk {
+    std::int32_t slot;               // the first
+    std::array<std::int8_t, 3> step; // in edges of a tile
+    std::uint8_t count;              // slots that belong to it
+};
+
+/// The lists of some slots of one tile. Entries number the slots of the chunks, eight a chunk, so
+/// that 16 bits do; every list is filled up to whole packs with the number behind the last one.
+struct ListBlock {
+    std::int32_t first = 0; // destination slots [first, last)
+    std::int32_t last = 0;
+    std::int32_t chunks = 0;
+    const SourceChunk* chunk = nullptr;
+    const std::uint16_t* entry = nullptr; // list after list
+    const std::uint16_t* packs = nullptr; // of each list
+};
+
+/// Memory in pages that is given back all at once; pages stay for the next time.
+class PageStore {
+public:
+    void reset();
+    /// Room for so many bytes, aligned to 16. Any thread may ask.
+    std::byte* take(std::size_t bytes);
+    /// Adds a block whose lists are in the store. Any thread may ask; the order is any.
+    void append(const ListBlock& block, std::vector<ListBlock>& blocks);
+    std::size_t bytes() const;
+
+private:
+    struct Page {
+        std::unique_ptr<std::byte[]> memory;
+        std::size_t size = 0;
+        std::size_t used = 0;
+    };
+    static constexpr std::size_t page_size = std::size_t(1) << 20;
+
+    std::mutex one_at_a_time_;
+    std::vector<Page> pages_;
+    std::size_t current_ = 0;
+};
+
+/// What one thread needs to make the lists of a block; kept from one time to the next.
+struct ListShop {
+    std::vector<SourceChunk> chunks;
+    std::array<std::vector<float>, 3> points, low, high; // x, y, z
+    std::vector<std::uint16_t> near, entries, packs;
+};
+
+/// Lists of one pair kind (destination <- source). Blocks are built in parallel and own their
+/// entries; slots without neighbours, such as dry walls, are in no block.
 class PairList {
 public:
-    static constexpr Index block_rows = 128;
-
-    /// `x`: positions of all rows. Neighbours of a row are listed grid by grid in the order of the
-    /// cells; a row of the source is its own neighbour, as kernel sums want it and differences do
-    /// not mind.
-    void build(std::span<const Vec3> x, Rows destination, std::span<const CellGrid* const> sources,
-               real radius, const ListChoice& choice = {});
-    /// Which rows stand in any list, by row; what has met nothing needs no list of its own.
-    std::vector<std::uint8_t> met(Index all_rows) const;
+    /// How the lists are made: the radius of pairs, lanes of a pack and instruction set.
+    struct Settings {
+        real radius = 0; // [m]
+        int lanes = 1;
+        InstructionSet set = InstructionSet::baseline;
+    };
+    /// Points of a slot are listed source by source; a point of the source is its own neighbour,
+    /// as kernel sums want it and differences do not mind.
+    void build(const Tiles& destination, std::span<const Tiles* const> sources,
+               const Settings& settings, const ListChoice& choice = {});
+    /// Which slots stand in any list; what has met nothing needs no list of its own.
+    void mark_met(std::vector<std::uint8_t>& marks) const;
     void clear();
 
-    Rows rows() const { return rows_; }
-    bool empty() const { return rows_.size() == 0; }
-    /// Neighbours of a row; a multiple of `lanes` entries.
-    std::span<const std::int32_t> operator[](Index row) const
-    {
-        const Index local = row - rows_.begin;
-        const Block& block = blocks_[static_cast<std::size_t>(local / block_rows)];
-        const auto k = static_cast<std::size_t>(local % block_rows);
-        return std::span(block.entries)
-            .subspan(static_cast<std::size_t>(block.start[k]),
-                     static_cast<std::size_t>(block.start[k + 1] - block.start[k]));
-    }
+    std::span<const ListBlock> blocks() const { return blocks_; }
+    bool empty() const { return blocks_.empty(); }
+    int lanes() const { return lanes_; }
+    /// Largest number of chunks that a block looks at.
+    std::int32_t most_chunks() const;
     /// Entries including padding, and bytes held.
     Index entries() const;
     std::size_t bytes() const;
 
+    /// Calls f(i, j) for the slots of every pair, padding left out.
+    void for_each_pair(auto&& f) const
+    {
+        for (const ListBlock& block : blocks_) {
+            const std::uint16_t* entry = block.entry;
+            for (std::int32_t i = block.first; i < block.last; ++i) {
+                const int count = lanes_ * block.packs[i - block.first];
+                for (int k = 0; k < count; ++k, ++entry) {
+                    const int chunk = *entry / chunk_slots;
+                    if (chunk < block.chunks) {
+                        f(Index(i), Index(block.chunk[chunk].slot + *entry % chunk_slots));
+                    }
+                }
+            }
+        }
+    }
+
 private:
-    struct Block {
-        std::vector<std::int32_t> entries;
-        std::array<std::int32_t, block_rows + 1> start{};
-    };
-    Rows rows_;
-    std::vector<Block> blocks_;
+    int lanes_ = 1;
+    std::vector<ListBlock> blocks_;
+    std::vector<ListShop> shops_; // by thread
+    std::unique_ptr<PageStore> store_ = std::make_unique<PageStore>();
 };
 
 } // namespace hyoryu

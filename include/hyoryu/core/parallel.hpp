@@ -6,13 +6,15 @@
 #include "hyoryu/core/types.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <array>
 
 namespace hyoryu {
 
 /// Threads that parallel loops use from now on; 0 or less: all that the machine offers.
 void set_threads(int threads);
 int thread_count();
+/// Number of the calling thread within a parallel loop, below thread_count().
+int worker();
 
 // Below these sizes waking the other threads costs more than they save.
 inline constexpr Index worth_sharing_rows = 4096;
@@ -39,19 +41,23 @@ void parallel_blocks(Index begin, Index end, const F& f, Index worth = worth_sha
     }
 }
 
-/// Rows of one chunk of a sum. The chunks, not the threads, decide the order of additions.
+/// Chunks of a sum: at most so many, none of them shorter than so many rows but the last. The
+/// chunks, not the threads, decide the order of additions.
+inline constexpr Index most_chunks = 256;
 inline constexpr Index chunk_rows = 1024;
 
 /// add(... add(add(zero, f(begin)), f(begin + 1)) ...) by fixed chunks.
 template <class T, class F, class Add>
 T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
 {
-    const Index chunks = (std::max<Index>(end - begin, 0) + chunk_rows - 1) / chunk_rows;
-    std::vector<T> partial(static_cast<std::size_t>(chunks), zero);
+    const Index rows = std::max<Index>(end - begin, 0);
+    const Index length = std::max(chunk_rows, (rows + most_chunks - 1) / most_chunks);
+    const Index chunks = (rows + length - 1) / length;
+    std::array<T, most_chunks> partial;
     const auto add_up = [&](Index chunk) {
         T total = zero;
-        const Index first = begin + chunk * chunk_rows;
-        const Index last = std::min(end, first + chunk_rows);
+        const Index first = begin + chunk * length;
+        const Index last = std::min(end, first + length);
         for (Index k = first; k < last; ++k) {
             total = add(total, f(k));
         }
@@ -62,8 +68,8 @@ T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
         add_up(chunk);
     }
     T total = zero;
-    for (const T& part : partial) {
-        total = add(total, part);
+    for (Index chunk = 0; chunk < chunks; ++chunk) {
+        total = add(total, partial[static_cast<std::size_t>(chunk)]);
     }
     return total;
 }

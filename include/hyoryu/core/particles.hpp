@@ -55,6 +55,24 @@ inline constexpr std::size_t index_in<F, Fields<G...>> = [] {
 }();
 } // namespace detail
 
+/// Addresses of the columns of a store as plain numbers, three to a vector; null if absent.
+class ColumnPointers {
+public:
+    template <Field F>
+    real*& operator[](F)
+    {
+        return column_[detail::index_in<F, AllFields>];
+    }
+    template <Field F>
+    real* operator[](F) const
+    {
+        return column_[detail::index_in<F, AllFields>];
+    }
+
+private:
+    real* column_[AllFields::count] = {};
+};
+
 class Particles {
 public:
     /// Makes columns for the listed fields, zeroed, and rows of each kind. Any other field stays
@@ -94,6 +112,19 @@ public:
     {
         expects(has(F{}));
         return std::get<detail::index_in<F, AllFields>>(columns_);
+    }
+
+    ColumnPointers pointers()
+    {
+        ColumnPointers all;
+        for_each_column([&](auto field, auto column) {
+            if constexpr (width<decltype(field)> == 3) {
+                all[field] = column.empty() ? nullptr : column.front().data();
+            } else {
+                all[field] = column.data();
+            }
+        });
+        return all;
     }
 
     /// Number of a particle for life, unique over all kinds.
@@ -137,6 +168,7 @@ private:
     detail::ColumnsOf<AllFields>::type columns_;
     std::vector<std::int64_t> id_;
     std::vector<std::int32_t> owner_;
+    std::vector<std::byte> room_; // for permutations
 };
 
 } // namespace hyoryu

@@ -3,18 +3,19 @@
 //
 // A term is a small value with a name, the fields it reads and writes, and one call per pair. Its
 // formula is written once, for a number N that is one real or a pack of them. The sweep gathers:
-// row i has one writer, so the sums do not depend on the number of threads, and a pair force is
-// computed on both sides by the same expression, so action equals reaction bit for bit before
-// summation.
+// a point has one writer, so the sums do not depend on the number of threads, and a pair force is
+// computed on both sides by the same expression from exact differences, so action equals reaction
+// bit for bit before summation.
 #pragma once
 
 #include "hyoryu/core/kernel.hpp"
 #include "hyoryu/core/neighbours.hpp"
-#include "hyoryu/core/particles.hpp"
+#include "hyoryu/core/records.hpp"
 
 #include <concepts>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace hyoryu {
 
@@ -29,183 +30,253 @@ struct Off {
     }
 };
 
-/// A term can be called with records of exactly the fields it declares: a declaration cannot lie.
+/// A term can be called with records of exactly the fields it declares, for one number and for a
+/// pack: a declaration cannot lie.
 template <class T>
 concept PairTerm = std::copyable<T> &&
-    requires(const T term, const Pair<Pack>& ij, const Record<typename T::Reads, Pack>& i,
-             Record<typename T::Writes, Pack>& sum)
+    requires(const T term, const Pair<double>& ij, const Record<typename T::Reads, double>& i,
+             Record<typename T::Writes, double>& sum, const Pair<Pack<float, 16>>& packed,
+             const Record<typename T::Reads, Pack<float, 16>>& packed_i,
+             Record<typename T::Writes, Pack<float, 16>>& packed_sum)
 {
     {
         T::name
         } -> std::convertible_to<std::string_view>;
     term(ij, i, i, sum);
+    term(packed, packed_i, packed_i, packed_sum);
 };
 
-/// One row of a record store: whole packs, so that a neighbour is a few aligned loads.
-struct alignas(lanes * sizeof(real)) Quad {
-    real value[lanes];
-};
-
-/// The fields of List of all rows side by side, plus the void row at the end: far from everything
-/// and otherwise zero.
-template <class List>
-class Records {
-public:
-    static_assert(contains<Position, List>, "a pair needs positions");
-    static constexpr int quads = (List::scalars + lanes - 1) / lanes;
-
-    /// Copies columns of all rows; by default all of the list, else only the named ones.
-    template <class Some = List>
-    void load(const Particles& particles, Some fields = {})
-    {
-        const Rows rows{0, particles.size()};
-        resize(particles.size());
-        for_each(fields, [&](auto field) {
-            const auto column = particles[field];
-            parallel_for(rows.begin, rows.end, [&](Index k) {
-                real* row = at(k);
-                const auto& value = column[static_cast<std::size_t>(k)];
-                if constexpr (width<decltype(field)> == 3) {
-                    row[offset<decltype(field), List>] = value.x();
-                    row[offset<decltype(field), List> + 1] = value.y();
-                    row[offset<decltype(field), List> + 2] = value.z();
-                } else {
-                    row[offset<decltype(field), List>] = value;
-                }
-            });
-        });
-    }
-
-    /// One row in every lane, or as a scalar.
-    template <class N>
-    Record<List, N> same(Index row) const
-    {
-        const real* values = at(row);
-        return assemble<N>([&](int k) { return broadcast<N>(values[k]); });
-    }
-    /// One row in each lane.
-    Record<List, Pack> gather(const std::int32_t* rows) const
-    {
-        Pack flat[quads * lanes];
-        for (int q = 0; q < quads; ++q) {
-            transpose(load_pack(rows[0], q), load_pack(rows[1], q), load_pack(rows[2], q),
-                      load_pack(rows[3], q), flat + q * lanes);
-        }
-        return assemble<Pack>([&](int k) { return flat[k]; });
-    }
-
-private:
-    static constexpr real far = 1e30; // [m]; its square is finite and beyond every support
-
-    real* at(Index row) { return quads_[static_cast<std::size_t>(row * quads)].value; }
-    const real* at(Index row) const { return quads_[static_cast<std::size_t>(row * quads)].value; }
-
-    void resize(Index rows)
-    {
-        quads_.resize(static_cast<std::size_t>((rows + 1) * quads));
-        real* row = at(rows);
-        std::fill(row, row + quads * lanes, real(0));
-        row[offset<Position, List>] = far;
-    }
-    Pack load_pack(std::int32_t row, int q) const
-    {
-        Pack pack;
-        std::memcpy(&pack,
-                    &quads_[static_cast<std::size_t>(row) * quads + static_cast<std::size_t>(q)],
-                    sizeof pack);
-        return pack;
-    }
-    // Four rows to four columns.
-    static void transpose(const Pack& a, const Pack& b, const Pack& c, const Pack& d, Pack* out)
-    {
-        const Pack ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-        const Pack ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-        const Pack cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-        const Pack cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-        out[0] = __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5);
-        out[1] = __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5);
-        out[2] = __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7);
-        out[3] = __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
-    }
-    template <class N, class Get>
-    static Record<List, N> assemble(const Get& get)
-    {
-        Record<List, N> record;
-        for_each(List{}, [&](auto field) {
-            constexpr int at = offset<decltype(field), List>;
-            if constexpr (width<decltype(field)> == 3) {
-                record[field] = {get(at), get(at + 1), get(at + 2)};
-            } else {
-                record[field] = get(at);
-            }
-        });
-        return record;
-    }
-
-    std::vector<Quad> quads_;
+/// All that the sweeps of one pair kind read and write, as plain addresses: the hot loops call
+/// nothing that is shared between instruction sets.
+template <class List, class Real>
+struct SweepView {
+    const ListBlock* blocks = nullptr;
+    const RecordRow<List, Real>* records = nullptr; // by slot
+    ColumnPointers columns;                         // by row
+    const std::int32_t* row = nullptr;              // of the destination slots, from `first_slot`
+    Index first_slot = 0;
+    real edge = 0; // of a tile [m]
+    Kernel kernel;
 };
 
 namespace detail {
 
-/// Adds the lanes of every field of `sum` to row i of the columns.
+/// The fields of List from the numbers get(0), get(1), ...
+template <class List, class N>
+Record<List, N> assemble(const auto& get)
+{
+    Record<List, N> record;
+    for_each(List{}, [&](auto field) {
+        constexpr int at = offset<decltype(field), List>;
+        if constexpr (width<decltype(field)> == 3) {
+            record[field] = {get(at), get(at + 1), get(at + 2)};
+        } else {
+            record[field] = get(at);
+        }
+    });
+    return record;
+}
+
+/// Sixteen bytes of numbers, the part of a register within which shuffles are cheap.
+template <class Real>
+using Quad = typename Pack<Real, 16>::Register;
+
+template <int bytes, class Real>
+Quad<Real> load_quad(const Real* from)
+{
+    Quad<Real> quad;
+    std::memcpy(&quad, from, sizeof quad);
+    return quad;
+}
+
+/// The points that a block looks at, copied side by side, relative to the centre of its tile, and
+/// behind them the point of the padding: far from everything and otherwise zero.
+template <int bytes, class List, class Real>
+void copy_chunks(const ListBlock& block, const SweepView<List, Real>& view,
+                 RecordRow<List, Real>* local)
+{
+    using Row = RecordRow<List, Real>;
+    const real edge = view.edge;
+    for (std::int32_t c = 0; c < block.chunks; ++c) {
+        const SourceChunk chunk = block.chunk[c];
+        Row step;
+        for (int axis = 0; axis < 3; ++axis) {
+            step.value[axis] = static_cast<Real>(static_cast<real>(chunk.step[axis]) * edge);
+        }
+        const Real* from = view.records[chunk.slot].value;
+        Real* to = local[c * chunk_slots].value;
+        for (int k = 0; k < chunk_slots * Row::quads; ++k) {
+            const Quad<Real> moved = load_quad<bytes>(from + k * Row::quad) +
+                                     load_quad<bytes>(step.value + k % Row::quads * Row::quad);
+            std::memcpy(to + k * Row::quad, &moved, sizeof moved);
+        }
+    }
+    constexpr real far_in_edges = 1e6; // its square is finite, and it is beyond every support
+    Row& nothing = local[block.chunks * chunk_slots];
+    nothing = Row{};
+    nothing.value[0] = static_cast<Real>(far_in_edges * edge);
+}
+
+/// get(0), get(1), ..., sixteen bytes each, one behind the other in one register.
+template <class Real, int bytes, int first = 0>
+typename Pack<Real, bytes>::Register join(const auto& get)
+{
+    if constexpr (bytes == 16) {
+        return get(first);
+    } else {
+        const auto low = join<Real, bytes / 2, first>(get);
+        const auto high = join<Real, bytes / 2, first + bytes / 32>(get);
+        return [&]<int... lane>(std::integer_sequence<int, lane...>)
+        {
+            return __builtin_shufflevector(low, high, lane...);
+        }
+        (std::make_integer_sequence<int, Pack<Real, bytes>::lanes>{});
+    }
+}
+
+/// Of every 16 bytes of a, followed by those of b, the numbers of the given places.
+template <int... pick, class Register>
+Register shuffle(const Register& a, const Register& b)
+{
+    constexpr int quad = sizeof...(pick);
+    constexpr int lanes = sizeof(Register) / sizeof(a[0]);
+    constexpr int picks[] = {pick...};
+    constexpr auto source = [](int lane) {
+        const int p = picks[lane % quad];
+        return lane / quad * quad + (p < quad ? p : p - quad + lanes);
+    };
+    return [&]<int... lane>(std::integer_sequence<int, lane...>)
+    {
+        return __builtin_shufflevector(a, b, source(lane)...);
+    }
+    (std::make_integer_sequence<int, lanes>{});
+}
+
+/// The numbers of one quad of as many rows as a pack has lanes: from rows to lanes, by loads of
+/// quads and shuffles within them; a gather instruction would cost several times as much.
+template <int bytes, class Real>
+void transpose(const auto& quad_of_row, Pack<Real, bytes>* out)
+{
+    const auto rows = [&]<int k>(std::integral_constant<int, k>) {
+        constexpr int step = 16 / sizeof(Real);
+        return join<Real, bytes>([&](int part) { return quad_of_row(k + step * part); });
+    };
+    const auto a = rows(std::integral_constant<int, 0>{});
+    const auto b = rows(std::integral_constant<int, 1>{});
+    if constexpr (sizeof(Real) == 8) {
+        out[0] = shuffle<0, 2>(a, b);
+        out[1] = shuffle<1, 3>(a, b);
+    } else {
+        const auto c = rows(std::integral_constant<int, 2>{});
+        const auto d = rows(std::integral_constant<int, 3>{});
+        const auto ab_low = shuffle<0, 4, 1, 5>(a, b);
+        const auto ab_high = shuffle<2, 6, 3, 7>(a, b);
+        const auto cd_low = shuffle<0, 4, 1, 5>(c, d);
+        const auto cd_high = shuffle<2, 6, 3, 7>(c, d);
+        out[0] = shuffle<0, 1, 4, 5>(ab_low, cd_low);
+        out[1] = shuffle<2, 3, 6, 7>(ab_low, cd_low);
+        out[2] = shuffle<0, 1, 4, 5>(ab_high, cd_high);
+        out[3] = shuffle<2, 3, 6, 7>(ab_high, cd_high);
+    }
+}
+
+/// One row in each lane.
+template <int bytes, class List, class Real>
+Record<List, Pack<Real, bytes>> gather(const RecordRow<List, Real>* local,
+                                       const std::uint16_t* entry)
+{
+    using Row = RecordRow<List, Real>;
+    Pack<Real, bytes> flat[Row::size];
+    for (int q = 0; q < Row::quads; ++q) {
+        transpose<bytes>(
+            [&](int lane) { return load_quad<bytes>(&local[entry[lane]].value[q * Row::quad]); },
+            flat + q * Row::quad);
+    }
+    return assemble<List, Pack<Real, bytes>>([&](int k) { return flat[k]; });
+}
+
+/// Adds the lanes of every field of `sum` to the row of the columns.
 template <class Out>
-void accumulate(Particles& particles, Index i, const auto& sum)
+void accumulate(const ColumnPointers& columns, Index row, const auto& sum)
 {
     for_each(Out{}, [&](auto field) {
-        particles[field][static_cast<std::size_t>(i)] += lane_sum(sum[field]);
+        real* const to = columns[field] + width<decltype(field)> * row;
+        if constexpr (width<decltype(field)> == 3) {
+            to[0] += lane_sum(sum[field].x);
+            to[1] += lane_sum(sum[field].y);
+            to[2] += lane_sum(sum[field].z);
+        } else {
+            *to += lane_sum(sum[field]);
+        }
     });
 }
 
 } // namespace detail
 
-/// particles[Writes]_i += sum over the neighbours j of row i of all terms, for every row of the
-/// list. Outputs add up over the pair kinds of a stage; `clear` them first.
-template <class In, class K, PairTerm... Terms>
-void sweep(Particles& particles, const PairList& pairs, const Records<In>& records, const K& kernel,
-           const Terms&... terms)
+/// columns[Writes]_i += sum over the neighbours j of point i of all terms, for every point of one
+/// block. Outputs add up over the pair kinds of a stage; `clear` them first. `local` has room for
+/// all chunks of the block and one row more.
+// Flat: a record of packs that is handed over through memory costs more than the pair. Kernel and
+// terms are copies: what only this function sees need not be read again after every store.
+template <int bytes, class List, class Real, PairTerm... Terms>
+[[gnu::flatten]] void sweep_block(const SweepView<List, Real>& view, Index block_index,
+                                  RecordRow<List, Real>* local, const Terms... terms)
 {
     using Out = Union<typename Terms::Writes...>;
+    using N = Pack<Real, bytes>;
     if constexpr (Out::count > 0) {
-        const Rows rows = pairs.rows();
-        const Index blocks = (rows.size() + PairList::block_rows - 1) / PairList::block_rows;
-        parallel_blocks(0, blocks, [&](Index block) {
-            const Index first = rows.begin + block * PairList::block_rows;
-            const Index last = std::min(rows.end, first + PairList::block_rows);
-            for (Index i = first; i < last; ++i) {
-                const auto neighbours = pairs[i];
-                if (neighbours.empty()) {
-                    continue;
-                }
-                const auto a = records.template same<Pack>(i);
-                Record<Out, Pack> sum;
-                for (std::size_t k = 0; k < neighbours.size(); k += lanes) {
-                    const auto b = records.gather(&neighbours[k]);
-                    const Pair<Pack> ij = kernel(a[field::position] - b[field::position]);
-                    (terms(ij, a, b, sum), ...);
-                }
-                detail::accumulate<Out>(particles, i, sum);
+        const ListBlock block = view.blocks[block_index];
+        const Kernel kernel = view.kernel;
+        detail::copy_chunks<bytes>(block, view, local);
+        const std::uint16_t* entry = block.entry;
+        for (std::int32_t slot = block.first; slot < block.last; ++slot) {
+            const std::uint16_t* const end = entry + N::lanes * block.packs[slot - block.first];
+            if (entry == end) {
+                continue;
             }
-        });
+            const Real* const own = view.records[slot].value;
+            const auto i =
+                detail::assemble<List, N>([&](int k) { return N(static_cast<double>(own[k])); });
+            Record<Out, N> sum;
+            for (; entry != end; entry += N::lanes) {
+                const auto j = detail::gather<bytes>(local, entry);
+                const Pair<N> ij = kernel(i[field::position] - j[field::position]);
+                (terms(ij, i, j, sum), ...);
+            }
+            detail::accumulate<Out>(view.columns, view.row[slot - view.first_slot], sum);
+        }
     }
 }
 
-/// The same sums, one pair at a time: the clear version that the fast one is tested against.
-template <class In, class K, class... Terms>
-void sweep_reference(Particles& particles, const PairList& pairs, const Records<In>& records,
-                     const K& kernel, const Terms&... terms)
+/// The same sums, one pair at a time in double, positions and all: the clear version that the fast
+/// one is tested against. `row` is the row of a slot.
+template <class List, class... Terms>
+void sweep_reference(Particles& particles, const PairList& pairs, const auto& row,
+                     const Kernel& kernel, const Terms&... terms)
 {
     using Out = Union<typename Terms::Writes...>;
-    const Rows rows = pairs.rows();
-    for (Index i = rows.begin; i < rows.end; ++i) {
-        const auto a = records.template same<real>(i);
+    const auto record = [&](Index slot) {
+        Record<List, real> values;
+        for_each(List{}, [&](auto field) {
+            const auto& value =
+                std::as_const(particles)[field][static_cast<std::size_t>(row(slot))];
+            if constexpr (width<decltype(field)> == 3) {
+                values[field] = {value.x(), value.y(), value.z()};
+            } else {
+                values[field] = value;
+            }
+        });
+        return values;
+    };
+    const ColumnPointers columns = particles.pointers();
+    pairs.for_each_pair([&](Index slot_i, Index slot_j) {
+        const auto i = record(slot_i);
+        const auto j = record(slot_j);
+        const Pair<real> ij = kernel(i[field::position] - j[field::position]);
         Record<Out, real> sum;
-        for (const std::int32_t j : pairs[i]) {
-            const auto b = records.template same<real>(j);
-            const Pair<real> ij = kernel(a[field::position] - b[field::position]);
-            (terms(ij, a, b, sum), ...);
-        }
-        detail::accumulate<Out>(particles, i, sum);
-    }
+        (terms(ij, i, j, sum), ...);
+        detail::accumulate<Out>(columns, row(slot_i), sum);
+    });
 }
 
 /// Sets the listed columns of the rows to zero.

@@ -35,6 +35,6 @@ void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const Bod
                    std::vector<Wrench>& loads);
 
 /// Force on the particles of each wall [N].
-std::vector<Vec3> wall_forces(const Fluid& fluid, std::size_t walls);
+void collect_wall_forces(const Fluid& fluid, std::span<Vec3> forces);
 
 } // namespace hyoryu

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "hyoryu/core/timer.hpp"
-#include "hyoryu/fluid/effects.hpp"
+#include "hyoryu/fluid/list_schedule.hpp"
+#include "hyoryu/fluid/pair_loops.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/time_limit.hpp"
 
@@ -13,16 +14,30 @@ namespace hyoryu {
 
 /// Neighbour lists of every pair kind that the scene has, and when they were made.
 struct FluidNeighbours {
+    Tiles fluid, wall, body;
     PairList fluid_fluid;
     PairList fluid_solid;
-    PairList solid_fluid;
+    PairList wall_fluid;
+    PairList body_fluid;
     PairList body_solid; // particles of different solids, for the pressure in thin films
     PairList wall_body;
-    CellGrid fluid_grid, wall_grid, body_grid;
-    Rows walls_in_grid;         // the wall rows that `wall_grid` knows; fixed walls are sorted once
-    std::vector<Vec3> built_at; // positions of all rows when the lists were made [m]
+    Skins skins;         // of the lists
+    long long steps = 0; // since they were made
+    DisplacementSpace fluid_motion, wall_motion, body_motion;
+    std::vector<std::int32_t> wet_walls; // tiles of walls of which a particle is in any list
+    Rows walls_in_tiles; // the wall rows that `wall` knows; fixed walls are sorted once
+    SortSpace space;
+    std::vector<std::uint8_t> met; // by slot: what stands in any list
     long long builds = 0;
+    EntryCounts entries;
     Index visits = 0; // list entries that the sweeps of one step go over
+};
+
+/// What the pair loops work with, in their number.
+template <class Real>
+struct PairData {
+    Records<Stored, Real> records;
+    std::vector<std::vector<RecordRow<Stored, Real>>> local; // room for one block, by thread
 };
 
 /// What left the domain and was taken out of the run.
@@ -33,14 +48,13 @@ struct LostParticles {
 };
 
 struct Fluid {
-    using Stored = Fields<Position, Velocity, Volume, Pressure>;
-
     FluidParameters parameters;
+    InstructionSet instruction_set = widest_instruction_set();
     FluidEffects effects;
     Particles particles;
     Kernel kernel;
     FluidNeighbours neighbours;
-    Records<Stored> records; // one cache line a particle: all that the pair sweeps read
+    std::variant<PairData<float>, PairData<double>> pair_data; // as the precision says
     Vec3 domain_min{-infinity, -infinity, -infinity};
     Vec3 domain_max{infinity, infinity, infinity};
     LostParticles lost;
@@ -48,8 +62,11 @@ struct Fluid {
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
 };
 
+/// Mass of the fluid that a particle of this owner stands in for [kg].
+real stand_in_mass(const Fluid& fluid, std::int32_t owner);
+
 /// Makes the columns that the active effects need, and no others, for so many particles of each
-/// kind.
+/// kind, and what the pair loops need in the precision of the parameters.
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count);
 
 // The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves
@@ -82,7 +99,7 @@ real top_speed(const Fluid& fluid);
 real top_acceleration(const Fluid& fluid);
 
 /// Limits of the next time step.
-std::vector<TimeLimit> fluid_limits(const Fluid& fluid);
+std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid);
 
 /// alpha h c0 / (2 (d + 2)) + nu [m2/s]; 0 without viscosity.
 real effective_viscosity(const Fluid& fluid);

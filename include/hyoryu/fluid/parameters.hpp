@@ -4,6 +4,8 @@
 
 #include "hyoryu/core/types.hpp"
 
+#include <string_view>
+
 namespace hyoryu {
 
 /// Linear equation of state p = c0^2 (rho - rho0). At Mach 0.1 it equals Tait's law to the accuracy
@@ -24,6 +26,14 @@ struct EquationOfState {
     }
 };
 
+/// The number of pair arithmetic; state, sums over bodies and the bodies are double in either case.
+enum class Precision { single_precision, double_precision };
+
+constexpr std::string_view name(Precision precision)
+{
+    return precision == Precision::single_precision ? "single" : "double";
+}
+
 /// A fluid of equal particles; in two dimensions masses and forces are per metre of width.
 struct FluidParameters {
     int dimensions = 3;
@@ -33,7 +43,7 @@ struct FluidParameters {
     real mass = 0;             // of a particle, rho0 dp^d [kg]
     Vec3 gravity{0, 0, -9.81}; // g [m/s2]
     real cfl = 0.6;            // scales the acoustic, force and viscous limits
-    real skin = 0;             // of the neighbour lists [m]
+    Precision precision = Precision::single_precision;
 };
 
 } // namespace hyoryu

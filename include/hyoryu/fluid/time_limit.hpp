@@ -4,8 +4,9 @@
 
 #include "hyoryu/core/types.hpp"
 
+#include <array>
+#include <span>
 #include <string_view>
-#include <vector>
 
 namespace hyoryu {
 
@@ -20,14 +21,14 @@ struct TimeLimit {
 /// acoustic: CFL h/(c0 + |v|max) (CFL of h, default 0.6, stable to 1.2 with the position-Verlet
 /// split); force: 0.25 sqrt(h/|a|max); viscous: 0.125 h^2/nu. Source: Monaghan (1992); Morris et
 /// al. (1997). `nu`: the effective kinematic viscosity [m2/s].
-std::vector<TimeLimit> fluid_limits(const FluidParameters& fluid, real top_speed,
-                                    real top_acceleration, real nu);
+std::array<TimeLimit, 3> fluid_limits(const FluidParameters& fluid, real top_speed,
+                                      real top_acceleration, real nu);
 
 /// 2 (h/c0) sqrt(M / (N m)): the limit of explicit coupling for a light body of mass M with N
 /// particles in its surface layer and fluid particles of mass m (measured: 2 is stable, 4 is not).
 TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles);
 
 /// The shortest of the limits.
-TimeLimit shortest(const std::vector<TimeLimit>& limits);
+TimeLimit shortest(std::span<const TimeLimit> limits);
 
 } // namespace hyoryu

@@ -47,8 +47,7 @@ struct SolidBackstop {
         const N chi = sq(gap) * square_root(N((4 * s + 1) * (16.0 / 3.0)));
         const N kappa = 1 - positive(N(1 - chi));
         const N approach = negative(dot(i[field::velocity] - j[field::velocity], ij.r));
-        const N tiny =
-            broadcast<N>(1e-12 * sq(spacing)); // coincident centres: no direction, no force
+        const N tiny = 1e-12 * sq(spacing); // coincident centres: no direction, no force
         sum[field::force] +=
             -mass_per_step * kappa * approach / (ij.distance_squared + tiny) * ij.r;
     }

@@ -5,6 +5,7 @@
 
 #include "hyoryu/core/motion.hpp"
 #include "hyoryu/core/types.hpp"
+#include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/rigid/law.hpp"
 
 #include <array>
@@ -185,6 +186,7 @@ struct Scene {
     std::uint64_t seed = 1;
     TimeSettings time;
     double spacing = 0; // [m], of fluid and walls
+    Precision precision = Precision::single_precision;
     std::optional<DomainSettings> domain;
     std::optional<FluidSettings> fluid;
     std::vector<Wall> walls;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Points sorted into cubic tiles along a Morton curve: a tile is a block of work, its points and
+// those about it are few contiguous runs, and positions within it are short numbers.
+#pragma once
+
+#include "hyoryu/core/particles.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyoryu {
+
+/// Space cut into cubic tiles of one edge, numbered along a Morton curve. A tile has 4^3 cells
+/// along a Hilbert curve, by which its points are ordered.
+///
+/// Positions of pairs are relative to the centre of a tile and are multiples of a unit, a power of
+/// two, so that they, their differences and the step from one tile to its neighbour are exact in
+/// the number of the pair loops: r_ij = -r_ji bit for bit, whichever tile looks.
+struct TileLattice {
+    Vec3 origin{0, 0, 0}; // a corner of tiles [m]
+    real edge = 1;        // of a tile; a multiple of the unit [m]
+
+    /// Cells on an edge of a tile, and the farthest that a point may lie from the origin, in cells.
+    static constexpr int cells = 4;
+    static constexpr std::int64_t reach = std::int64_t(1) << 20;
+
+    /// The number of the cell of a point; the tile is all but its last six bits.
+    std::uint64_t cell_of(const Vec3& point) const;
+    /// Tile indices along x, y, z of the number of a tile, and back.
+    static std::array<std::int64_t, 3> place_of(std::uint64_t tile);
+    static std::uint64_t tile_at(const std::array<std::int64_t, 3>& place);
+    Vec3 centre(std::uint64_t tile) const;
+    /// The unit of positions for numbers of so many binary digits [m].
+    real unit(int digits) const;
+};
+
+/// The lattice of the least edge that is not below `edge` and a multiple of its units.
+TileLattice make_lattice(const Vec3& origin, real edge);
+
+/// Slots that are consecutive, near each other and tested together when lists are made.
+inline constexpr int chunk_slots = 8;
+
+/// Bounds of a chunk, relative to the centre of its tile [m].
+struct ChunkBox {
+    std::array<float, 3> low, high;
+};
+
+/// The points of one kind, sorted. A slot is a place in that order; kinds have their slots one
+/// after the other.
+struct Tiles {
+    TileLattice lattice;
+    Index first_slot = 0;
+    std::vector<std::uint64_t> tile;          // numbers of the tiles that hold points, ascending
+    std::vector<std::int32_t> start{0};       // first point of each tile; one entry more than tiles
+    std::vector<std::int32_t> row;            // of each point
+    std::vector<float> x, y, z;               // relative to the centre of the tile, when sorted [m]
+    std::vector<std::int32_t> chunk_start{0}; // first chunk of each tile; one entry more
+    std::vector<ChunkBox> box;                // of each chunk
+
+    Index count() const { return static_cast<Index>(row.size()); }
+    Index tiles() const { return static_cast<Index>(tile.size()); }
+    /// Index of a tile by its number; -1 if it holds no points.
+    Index find(std::uint64_t number) const;
+};
+
+/// Room for sorting, kept from one time to the next.
+struct SortSpace {
+    std::vector<std::uint64_t> key, key_swap;
+    std::vector<std::int32_t> row, row_swap;
+    std::vector<std::int32_t> histogram;
+};
+
+/// Sorts rows by their cells into `space.key` and `space.row`; rows of one cell keep their order.
+/// Points outside [low, high] come last; returns how many are inside.
+Index sort_rows(const TileLattice& lattice, std::span<const Vec3> x, Rows rows, const Vec3& low,
+                const Vec3& high, SortSpace& space);
+
+/// Makes tiles of the first `count` sorted rows.
+void make_tiles(Tiles& tiles, const TileLattice& lattice, std::span<const Vec3> x,
+                const SortSpace& space, Index count);
+
+/// The chunks and their bounds, from the positions that the tiles hold.
+void bound_chunks(Tiles& tiles);
+
+} // namespace hyoryu

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The pair loops of the fluid: which terms are summed together over which pairs. They are compiled
+// once for each instruction set and chosen at start.
+#pragma once
+
+#include "hyoryu/fluid/effects.hpp"
+
+#include <tuple>
+
+namespace hyoryu {
+
+/// All that a particle shows its neighbours: one record of 32 bytes in single precision.
+using Stored = Fields<Position, Velocity, Volume, Pressure>;
+
+/// The terms of a run with their parameters.
+struct FluidTerms {
+    WallExtrapolation extrapolation;
+    SolidBackstop backstop;
+    FluidEffects effects;
+};
+
+/// The loops in the number Real, each over one block of lists.
+template <class Real>
+struct PairLoops {
+    using View = SweepView<Stored, Real>;
+    using Row = RecordRow<Stored, Real>;
+    using Loop = void (*)(const View& view, Index block, Row* local, const FluidTerms& terms);
+
+    int lanes = 1;                // of a pack
+    Loop extrapolation = nullptr; // solid <- fluid: the pressure before a solid
+    Loop fluid_forces = nullptr;  // fluid <- fluid: pressure and diffusion
+    Loop solid_forces = nullptr;  // fluid <- solid and back: pressure and backstop
+    Loop film_forces = nullptr;   // body <- solid and back: pressure in thin films
+    Loop fluid_rates = nullptr;   // fluid <- fluid: continuity and viscosity
+    Loop solid_rates = nullptr;   // fluid <- solid: continuity
+};
+
+/// In either precision.
+using FluidLoops = std::tuple<PairLoops<float>, PairLoops<double>>;
+
+/// The loops for an instruction set, which must be available.
+const FluidLoops& fluid_loops(InstructionSet set);
+
+} // namespace hyoryu

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/core/tiles.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr int cell_bits = 6; // of a cell number, within its tile
+constexpr std::uint64_t outside = ~std::uint64_t(0);
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// The lowest 21 bits of a number, two zeros after each, and back.
+std::uint64_t spread(std::uint64_t a)
+{
+    a &= 0x1fffff;
+    a = (a | a << 32) & 0x1f00000000ffff;
+    a = (a | a << 16) & 0x1f0000ff0000ff;
+    a = (a | a << 8) & 0x100f00f00f00f00f;
+    a = (a | a << 4) & 0x10c30c30c30c30c3;
+    a = (a | a << 2) & 0x1249249249249249;
+    return a;
+}
+std::uint64_t gather(std::uint64_t a)
+{
+    a &= 0x1249249249249249;
+    a = (a | a >> 2) & 0x10c30c30c30c30c3;
+    a = (a | a >> 4) & 0x100f00f00f00f00f;
+    a = (a | a >> 8) & 0x1f0000ff0000ff;
+    a = (a | a >> 16) & 0x1f00000000ffff;
+    a = (a | a >> 32) & 0x1fffff;
+    return a;
+}
+
+std::uint64_t interleave(const std::array<std::int64_t, 3>& a)
+{
+    return spread(static_cast<std::uint64_t>(a[0])) |
+           spread(static_cast<std::uint64_t>(a[1])) << 1 |
+           spread(static_cast<std::uint64_t>(a[2])) << 2;
+}
+
+// Where each cell of a tile, numbered x + 4 y + 16 z, comes along a Hilbert curve of two levels:
+// cells that follow each other touch, so that eight points in a row fill a small box. Source:
+// Skilling (2004), Programming the Hilbert curve.
+constexpr std::array<std::uint8_t, 64> hilbert_order()
+{
+    std::array<std::uint8_t, 64> order{};
+    for (unsigned cell = 0; cell < 64; ++cell) {
+        unsigned a[3] = {cell & 3, cell >> 2 & 3, cell >> 4};
+        for (unsigned& axis : a) { // undo the turns of the upper level
+            const unsigned turn = (axis & 2) != 0 ? 1 : 0;
+            const unsigned swap = turn != 0 ? 0 : (a[0] ^ axis) & 1;
+            a[0] ^= turn | swap;
+            axis ^= swap;
+        }
+        a[1] ^= a[0]; // Gray code
+        a[2] ^= a[1];
+        const unsigned flip = (a[2] & 2) != 0 ? 1 : 0;
+        unsigned index = 0;
+        for (const unsigned bit : {1U, 0U}) {
+            for (const unsigned axis : a) {
+                index = index << 1 | ((axis ^ flip) >> bit & 1);
+            }
+        }
+        order[cell] = static_cast<std::uint8_t>(index);
+    }
+    return order;
+}
+constexpr std::array<std::uint8_t, 64> place_along_curve = hilbert_order();
+
+// Stable sort by digits of 11 bits. Every chunk of rows counts its digits and later moves its rows
+// to places known beforehand, so that chunks go in parallel and their number alone, not that of the
+// threads, lays out the work.
+class RadixSort {
+public:
+    RadixSort(SortSpace& space, Index count) : space_(space), count_(count)
+    {
+        chunks_ = std::clamp<Index>(count / 8192, 1, 64);
+        space_.key_swap.resize(space_.key.size());
+        space_.row_swap.resize(space_.row.size());
+        space_.histogram.resize(at(chunks_ * digits));
+    }
+    void sort()
+    {
+        const auto differ = reduce(
+            0, count_, std::uint64_t(0), [&](Index k) { return space_.key[at(k)] ^ space_.key[0]; },
+            [](std::uint64_t a, std::uint64_t b) { return a | b; });
+        for (int shift = 0; shift < static_cast<int>(std::bit_width(differ)); shift += bits) {
+            if ((differ >> shift) % digits != 0) {
+                pass(shift);
+            }
+        }
+    }
+
+private:
+    static constexpr int bits = 11;
+    static constexpr Index digits = Index(1) << bits;
+
+    Index digit(Index k, int shift) const
+    {
+        return static_cast<Index>(space_.key[at(k)] >> shift) & (digits - 1);
+    }
+    void pass(int shift)
+    {
+        const Index length = (count_ + chunks_ - 1) / chunks_;
+        const auto over_chunk = [&](Index chunk, const auto& f) {
+            std::int32_t* const counts = &space_.histogram[at(chunk * digits)];
+            const Index end = std::min(count_, (chunk + 1) * length);
+            for (Index k = chunk * length; k < end; ++k) {
+                f(k, counts[digit(k, shift)]);
+            }
+        };
+        parallel_blocks(
+            0, chunks_,
+            [&](Index chunk) {
+                std::fill_n(&space_.histogram[at(chunk * digits)], digits, 0);
+                over_chunk(chunk, [](Index, std::int32_t& count) { ++count; });
+            },
+            2);
+        std::int32_t place = 0;
+        for (Index digit = 0; digit < digits; ++digit) {
+            for (Index chunk = 0; chunk < chunks_; ++chunk) {
+                place += std::exchange(space_.histogram[at(chunk * digits + digit)], place);
+            }
+        }
+        parallel_blocks(
+            0, chunks_,
+            [&](Index chunk) {
+                over_chunk(chunk, [&](Index k, std::int32_t& next) {
+                    const auto to = at(next++);
+                    space_.key_swap[to] = space_.key[at(k)];
+                    space_.row_swap[to] = space_.row[at(k)];
+                });
+            },
+            2);
+        space_.key.swap(space_.key_swap);
+        space_.row.swap(space_.row_swap);
+    }
+
+    SortSpace& space_;
+    Index count_;
+    Index chunks_ = 1;
+};
+
+void find_tiles(Tiles& tiles, const SortSpace& space, Index count)
+{
+    tiles.tile.clear();
+    tiles.start.clear();
+    for (Index k = 0; k < count; ++k) {
+        const std::uint64_t number = space.key[at(k)] >> cell_bits;
+        if (tiles.tile.empty() || number != tiles.tile.back()) {
+            tiles.tile.push_back(number);
+            tiles.start.push_back(static_cast<std::int32_t>(k));
+        }
+    }
+    tiles.start.push_back(static_cast<std::int32_t>(count));
+}
+
+} // namespace
+
+std::uint64_t TileLattice::cell_of(const Vec3& point) const
+{
+    const Vec3 scaled = (point - origin) * (cells / edge);
+    std::array<std::int64_t, 3> tile{};
+    std::int64_t cell = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto place =
+            static_cast<std::int64_t>(std::floor(scaled[static_cast<Index>(axis)])) + reach;
+        tile[axis] = place / cells;
+        cell += (place % cells) << (2 * axis);
+    }
+    return interleave(tile) << cell_bits | place_along_curve[static_cast<std::size_t>(cell)];
+}
+
+std::array<std::int64_t, 3> TileLattice::place_of(std::uint64_t tile)
+{
+    std::array<std::int64_t, 3> place{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        place[axis] = static_cast<std::int64_t>(gather(tile >> axis)) - reach / cells;
+    }
+    return place;
+}
+
+std::uint64_t TileLattice::tile_at(const std::array<std::int64_t, 3>& place)
+{
+    return interleave(
+        {place[0] + reach / cells, place[1] + reach / cells, place[2] + reach / cells});
+}
+
+Vec3 TileLattice::centre(std::uint64_t tile) const
+{
+    const auto place = place_of(tile);
+    return origin + edge * Vec3(static_cast<real>(place[0]) + 0.5,
+                                static_cast<real>(place[1]) + 0.5,
+                                static_cast<real>(place[2]) + 0.5);
+}
+
+real TileLattice::unit(int digits) const
+{
+    // A tile sees points up to one and a half edges from its centre, and a little more once they
+    // have moved: two edges must fit into the digits.
+    return std::exp2(std::ceil(std::log2(2 * edge)) - digits);
+}
+
+TileLattice make_lattice(const Vec3& origin, real edge)
+{
+    TileLattice lattice{origin, edge};
+    const real unit = lattice.unit(std::numeric_limits<float>::digits);
+    lattice.edge = std::ceil(edge / unit) * unit;
+    return lattice;
+}
+
+Index Tiles::find(std::uint64_t number) const
+{
+    const auto found = std::lower_bound(tile.begin(), tile.end(), number);
+    return found != tile.end() && *found == number ? found - tile.begin() : -1;
+}
+
+Index sort_rows(const TileLattice& lattice, std::span<const Vec3> x, Rows rows, const Vec3& low,
+                const Vec3& high, SortSpace& space)
+{
+    const Index n = rows.size();
+    space.key.resize(at(n));
+    space.row.resize(at(n));
+    if (n == 0) {
+        return 0;
+    }
+    parallel_for(0, n, [&](Index k) {
+        const Vec3& point = x[at(rows.begin + k)];
+        const bool inside =
+            (point.array() >= low.array()).all() && (point.array() <= high.array()).all();
+        space.key[at(k)] = inside ? lattice.cell_of(point) : outside;
+        space.row[at(k)] = static_cast<std::int32_t>(rows.begin + k);
+    });
+    RadixSort(space, n).sort();
+    return std::lower_bound(space.key.begin(), space.key.end(), outside) - space.key.begin();
+}
+
+void make_tiles(Tiles& tiles, const TileLattice& lattice, std::span<const Vec3> x,
+                const SortSpace& space, Index count)
+{
+    tiles.lattice = lattice;
+    find_tiles(tiles, space, count);
+    tiles.row.assign(space.row.begin(), space.row.begin() + count);
+    for (std::vector<float>* column : {&tiles.x, &tiles.y, &tiles.z}) {
+        column->resize(at(count));
+    }
+    parallel_blocks(0, tiles.tiles(), [&](Index t) {
+        const Vec3 centre = lattice.centre(tiles.tile[at(t)]);
+        for (Index k = tiles.start[at(t)]; k < tiles.start[at(t + 1)]; ++k) {
+            const Vec3 r = x[at(tiles.row[at(k)])] - centre;
+            tiles.x[at(k)] = static_cast<float>(r.x());
+            tiles.y[at(k)] = static_cast<float>(r.y());
+            tiles.z[at(k)] = static_cast<float>(r.z());
+        }
+    });
+    bound_chunks(tiles);
+}
+
+void bound_chunks(Tiles& tiles)
+{
+    tiles.chunk_start.resize(tiles.start.size());
+    std::int32_t chunks = 0;
+    for (std::size_t t = 0; t < tiles.tile.size(); ++t) {
+        tiles.chunk_start[t] = chunks;
+        chunks += (tiles.start[t + 1] - tiles.start[t] + chunk_slots - 1) / chunk_slots;
+    }
+    tiles.chunk_start.back() = chunks;
+    tiles.box.resize(at(chunks));
+    parallel_blocks(0, tiles.tiles(), [&](Index t) {
+        Index chunk = tiles.chunk_start[at(t)];
+        for (Index k = tiles.start[at(t)]; k < tiles.start[at(t + 1)]; k += chunk_slots) {
+            const Index end = std::min<Index>(k + chunk_slots, tiles.start[at(t + 1)]);
+            ChunkBox& box = tiles.box[at(chunk++)];
+            std::size_t axis = 0;
+            for (const std::vector<float>* column : {&tiles.x, &tiles.y, &tiles.z}) {
+                const auto [low, high] =
+                    std::minmax_element(column->begin() + k, column->begin() + end);
+                box.low[axis] = *low;
+                box.high[axis] = *high;
+                ++axis;
+            }
+        }
+    });
+}
+
+} // namespace hyoryu

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Compiled once for each instruction set.
+#include "../loop_table.hpp"
+
+namespace hyoryu {
+
+namespace {
+
+constexpr int bytes = HYORYU_REGISTER_BYTES;
+
+// f(effect) for the effect that the slot holds. Unlike std::visit it has no way to throw, whose
+// code the instruction sets would share.
+template <class... Effects>
+void with(const std::variant<Effects...>& slot, const auto& f)
+{
+    const auto try_one = [&](const auto* effect) {
+        if (effect != nullptr) {
+            f(*effect);
+        }
+    };
+    (try_one(std::get_if<Effects>(&slot)), ...);
+}
+
+template <class Real>
+struct Loops {
+    using View = typename PairLoops<Real>::View;
+    using Row = typename PairLoops<Real>::Row;
+
+    static void extrapolation(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        sweep_block<bytes>(view, block, local, terms.extrapolation);
+    }
+    static void fluid_forces(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        with(terms.effects.diffusion, [&](const auto& diffusion) {
+            sweep_block<bytes>(view, block, local, PressureForce{}, diffusion);
+        });
+    }
+    static void solid_forces(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        sweep_block<bytes>(view, block, local, WallPressureForce{}, terms.backstop);
+    }
+    static void film_forces(const View& view, Index block, Row* local, const FluidTerms&)
+    {
+        sweep_block<bytes>(view, block, local, WallPressureForce{});
+    }
+    static void fluid_rates(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        with(terms.effects.viscosity, [&](const auto& viscosity) {
+            sweep_block<bytes>(view, block, local, Continuity{}, viscosity);
+        });
+    }
+    static void solid_rates(const View& view, Index block, Row* local, const FluidTerms&)
+    {
+        sweep_block<bytes>(view, block, local, Continuity{});
+    }
+
+    static constexpr PairLoops<Real> table{Pack<Real, bytes>::lanes,
+                                           extrapolation,
+                                           fluid_forces,
+                                           solid_forces,
+                                           film_forces,
+                                           fluid_rates,
+                                           solid_rates};
+};
+
+} // namespace
+
+template <>
+const FluidLoops* fluid_loops<bytes>()
+{
+    static constexpr FluidLoops loops{Loops<float>::table, Loops<double>::table};
+    return &loops;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// The fused loops of every stage, in both precisions and for every instruction set at hand, against
+// the same terms one pair at a time in double.
+#include "hyoryu/core/parallel.hpp"
+#include "hyoryu/fluid/fluid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace hyoryu {
+namespace {
+
+constexpr real dp = 0.1;
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+struct Choice {
+    Precision precision;
+    InstructionSet set;
+    bool diffusion;
+    bool viscosity;
+};
+
+// A jittered lattice: wall below z = 0.3, in the middle two bodies that touch, fluid elsewhere.
+Fluid make_mixture(const Choice& choice)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<real> off(-0.2, 0.2);
+    std::vector<Vec3> places[3];
+    std::vector<std::int32_t> owners;
+    for (int k = 0; k < 14 * 14 * 14; ++k) {
+        const Vec3 lattice(k % 14, k / 14 % 14, k / 196);
+        const real jx = off(random);
+        const real jy = off(random);
+        const Vec3 place = dp * (lattice + Vec3(jx, jy, off(random)));
+        const bool inside = (lattice - Vec3(7, 7, 8)).cwiseAbs().maxCoeff() < 2.5;
+        if (lattice.z() >= 3 && inside) {
+            owners.push_back(lattice.x() < 7 ? 0 : 1);
+        }
+        places[lattice.z() < 3 ? 1 : inside ? 2 : 0].push_back(place);
+    }
+    Fluid fluid;
+    fluid.instruction_set = choice.set;
+    FluidParameters& f = fluid.parameters;
+    f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1, .precision = choice.precision};
+    fluid.kernel = make_kernel(f.h, dp, 3);
+    if (choice.diffusion) {
+        fluid.effects.diffusion =
+            DensityDiffusion{0.2 * f.h * 30, f.eos, Vec3(f.eos.rho0 / sq(f.eos.c0) * f.gravity)};
+    }
+    if (choice.viscosity) {
+        fluid.effects.viscosity = Viscosity{1000, artificial_kappa(0.1, f.h, 30), f.h};
+    }
+    allocate(fluid, static_cast<Index>(places[0].size()), static_cast<Index>(places[1].size()),
+             static_cast<Index>(places[2].size()));
+    fluid.body_particle_mass = {0.9, 1.1};
+    std::size_t row = 0;
+    for (const auto& kind : places) {
+        for (const Vec3& place : kind) {
+            fluid.particles[field::position][row] = place;
+            fluid.particles[field::velocity][row] = {off(random), 0.1, off(random)};
+            fluid.particles[field::density][row] = 1005 + 20 * off(random);
+            ++row;
+        }
+    }
+    const Rows walls = fluid.particles.wall();
+    std::fill_n(fluid.particles.owner().begin() + walls.begin, walls.size(), -1);
+    std::copy(owners.begin(), owners.end(),
+              fluid.particles.owner().begin() + fluid.particles.body().begin);
+    return fluid;
+}
+
+// Adds up what the terms of a stage write, over one list.
+void sweep_clearly(Particles& particles, const Fluid& fluid, const PairList& pairs,
+                   const auto&... terms)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    const auto row = [&](Index slot) {
+        const Tiles& tiles = slot < n.wall.first_slot   ? n.fluid
+                             : slot < n.body.first_slot ? n.wall
+                                                        : n.body;
+        return Index(tiles.row[at(slot - tiles.first_slot)]);
+    };
+    sweep_reference<Stored>(particles, pairs, row, fluid.kernel, terms...);
+}
+
+real length(const Vec3& v)
+{
+    return v.norm();
+}
+real length(real v)
+{
+    return std::abs(v);
+}
+
+// Every value against the largest of the column.
+void expect_same(const auto& fast, const auto& clearly, Rows rows, real tolerance,
+                 std::string_view what)
+{
+    real largest_value = 0;
+    for (Index k = rows.begin; k < rows.end; ++k) {
+        largest_value = std::max(largest_value, length(clearly[at(k)]));
+    }
+    ASSERT_GT(largest_value, 0) << what;
+    for (Index k = rows.begin; k < rows.end; ++k) {
+        ASSERT_LE(length(fast[at(k)] - clearly[at(k)]), tolerance * largest_value)
+            << what << " of row " << k;
+    }
+}
+
+class Loops : public testing::TestWithParam<Choice> {
+protected:
+    void SetUp() override
+    {
+        if (!available(GetParam().set)) {
+            GTEST_SKIP() << name(GetParam().set) << " is not compiled or not in this machine";
+        }
+    }
+    // Positions in units of 1e-6 spacings, a hundred roundings; double has its own.
+    static real tolerance()
+    {
+        return GetParam().precision == Precision::single_precision ? 2e-5 : 1e-12;
+    }
+};
+
+TEST_P(Loops, EveryStageEqualsItsReference)
+{
+    Fluid fluid = make_mixture(GetParam());
+    const FluidNeighbours& n = fluid.neighbours;
+    update_neighbours(fluid);
+    update_pressure(fluid);
+    const Particles& p = fluid.particles;
+    {
+        Particles clearly = p;
+        clear(clearly, p.solid(), WallExtrapolation::Writes{});
+        const WallExtrapolation term{fluid.parameters.eos, fluid.parameters.gravity};
+        sweep_clearly(clearly, fluid, n.wall_fluid, term);
+        sweep_clearly(clearly, fluid, n.body_fluid, term);
+        expect_same(p[field::pressure_sum], clearly[field::pressure_sum], p.solid(), tolerance(),
+                    "pressure sum");
+    }
+    const real dt = 1e-4;
+    update_forces(fluid, dt);
+    Particles clearly = p;
+    clear(clearly, {0, p.size()}, Fields<Force>{});
+    const SolidBackstop stop{dp, fluid.parameters.mass / (2 * dt)};
+    sweep_clearly(clearly, fluid, n.fluid_fluid, PressureForce{});
+    for (const PairList* list : {&n.fluid_solid, &n.wall_fluid, &n.body_fluid}) {
+        sweep_clearly(clearly, fluid, *list, WallPressureForce{}, stop);
+    }
+    sweep_clearly(clearly, fluid, n.body_solid, WallPressureForce{});
+    sweep_clearly(clearly, fluid, n.wall_body, WallPressureForce{});
+    expect_same(p[field::force], clearly[field::force], p.fluid(), tolerance(), "force on fluid");
+    expect_same(p[field::force], clearly[field::force], p.solid(), tolerance(), "force on solids");
+    if (GetParam().diffusion) {
+        clear(clearly, p.fluid(), Fields<DiffusionRate>{});
+        sweep_clearly(clearly, fluid, n.fluid_fluid,
+                      std::get<DensityDiffusion>(fluid.effects.diffusion));
+        expect_same(p[field::diffusion_rate], clearly[field::diffusion_rate], p.fluid(),
+                    tolerance(), "diffusion");
+    }
+}
+
+TEST_P(Loops, RatesEqualTheirReference)
+{
+    Fluid fluid = make_mixture(GetParam());
+    const FluidNeighbours& n = fluid.neighbours;
+    update_neighbours(fluid);
+    update_pressure(fluid);
+    update_forces(fluid, 1e-4);
+    update_rates(fluid);
+    const Particles& p = fluid.particles;
+    Particles clearly = p;
+    clear(clearly, p.fluid(), Fields<DensityRate>{});
+    sweep_clearly(clearly, fluid, n.fluid_fluid, Continuity{});
+    sweep_clearly(clearly, fluid, n.fluid_solid, Continuity{});
+    for (Index k = 0; k < p.fluid().end; ++k) {
+        clearly[field::density_rate][at(k)] *= p[field::density][at(k)];
+        if (GetParam().diffusion) {
+            clearly[field::density_rate][at(k)] += p[field::diffusion_rate][at(k)];
+        }
+    }
+    expect_same(p[field::density_rate], clearly[field::density_rate], p.fluid(), tolerance(),
+                "rate of density");
+    if (GetParam().viscosity) {
+        clear(clearly, p.fluid(), Fields<ViscousForce>{});
+        sweep_clearly(clearly, fluid, n.fluid_fluid, std::get<Viscosity>(fluid.effects.viscosity));
+        expect_same(p[field::viscous_force], clearly[field::viscous_force], p.fluid(), tolerance(),
+                    "viscous force");
+    }
+}
+
+std::vector<Choice> every_choice()
+{
+    std::vector<Choice> choices;
+    for (const auto set :
+         {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+        for (const auto precision : {Precision::single_precision, Precision::double_precision}) {
+            for (const bool diffusion : {false, true}) {
+                for (const bool viscosity : {false, true}) {
+                    choices.push_back({precision, set, diffusion, viscosity});
+                }
+            }
+        }
+    }
+    return choices;
+}
+
+std::string choice_name(const testing::TestParamInfo<Choice>& info)
+{
+    const Choice& c = info.param;
+    return "bytes" + std::to_string(static_cast<int>(c.set)) + "_" +
+           std::string(name(c.precision)) + (c.diffusion ? "_diffusion" : "") +
+           (c.viscosity ? "_viscosity" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Fluid, Loops, testing::ValuesIn(every_choice()), choice_name);
+
+// What one particle feels from another is the opposite of what the other feels, bit for bit, in the
+// loops that run: contraction and tiles included.
+TEST(Loops, TwoParticlesFeelOppositeForces)
+{
+    for (const auto precision : {Precision::single_precision, Precision::double_precision}) {
+        for (int k = 0; k < 40; ++k) {
+            Fluid fluid = make_mixture({precision, widest_instruction_set(), true, true});
+            allocate(fluid, 2, 0, 0);
+            const Vec3 place(0.11 * k, -0.05 * k, 0.3 + 0.017 * k);
+            fluid.particles[field::position][0] = place;
+            fluid.particles[field::position][1] = place + dp * Vec3(0.9, 0.4, -0.3 - 0.01 * k);
+            fluid.particles[field::velocity][0] = {0.3, 0.1, 0.2 - 0.013 * k};
+            fluid.particles[field::velocity][1] = {-0.2, 0.3, 0.1};
+            fluid.particles[field::density][0] = 1003.1;
+            fluid.particles[field::density][1] = 1001.7 + 0.1 * k;
+            update_neighbours(fluid);
+            update_pressure(fluid);
+            update_forces(fluid, 1e-4);
+            update_rates(fluid);
+            const auto F = fluid.particles[field::force];
+            const auto G = fluid.particles[field::viscous_force];
+            ASSERT_GT(F[0].norm(), 0);
+            ASSERT_GT(G[0].norm(), 0);
+            ASSERT_EQ(F[0], Vec3(-F[1])) << k;
+            ASSERT_EQ(G[0], Vec3(-G[1])) << k;
+        }
+    }
+}
+
+} // namespace
+} // namespace hyoryu
