@@ -20,8 +20,7 @@ Range range_of(std::span<const std::vector<double>* const> columns);
 /// The range with `share` of its width more at both ends.
 Range padded(const Range& range, double share);
 
-/// The largest of 1, 2, 5 x 10^n that is not needed finer: the smallest such step that puts at most
-/// `at_most` (>= 2) ticks into the range.
+/// The smallest of 1, 2, 5 x 10^n that puts at most `at_most` (>= 2) ticks into the range.
 double tick_step(const Range& range, int at_most);
 /// The multiples of the step within the range, round-off at its ends allowed for.
 std::vector<double> ticks(const Range& range, double step);
@@ -49,7 +48,7 @@ struct Scale {
 std::vector<std::size_t> rows_to_draw(const std::vector<double>& x, const std::vector<double>& y,
                                       const Range& range, std::size_t bins);
 
-/// A rectangle of the picture in which an axis pair draws [pixels].
+/// The rectangle that the axes enclose [pixels].
 struct PlotArea {
     double left = 0, right = 0, top = 0, bottom = 0;
 };
