@@ -17,10 +17,11 @@ MAY_INCLUDE = {
     "sim": {"core", "fluid", "rigid", "coupling", "scene"},
     "io": {"core"},
     "verify": {"core", "scene", "sim", "io"},
+    "report": {"core", "scene", "io"},
     "view": {"core", "io"},
     "vtk": {"core", "io", "geometry", "view"},
     "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "verify",
-            "view"},
+            "report", "view"},
 }
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')

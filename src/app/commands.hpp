@@ -47,6 +47,13 @@ struct RenderOptions {
 };
 int render_results(const RenderOptions& options);
 
+struct ReportOptions {
+    std::filesystem::path folder;
+    std::filesystem::path file;      // empty: report.html in the folder
+    std::optional<double> stiffness; // of every contact, for peak forces [N/m]
+};
+int write_report(const ReportOptions& options);
+
 struct VerifyOptions {
     std::vector<std::string> names; // of benchmarks or groups; empty: all
     std::string tier = "quick";

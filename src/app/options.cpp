@@ -61,6 +61,16 @@ void add_render(CLI::App& app, RenderOptions& options)
         ->check(CLI::Range(1, 120));
 }
 
+void add_report(CLI::App& app, ReportOptions& options)
+{
+    auto* report = app.add_subcommand("report", "one self-contained HTML page about a run");
+    report->add_option("RESULTS", options.folder, "results folder")->required();
+    report->add_option("-o,--output", options.file, "the page (default: RESULTS/report.html)");
+    report->add_option("--stiffness", options.stiffness,
+                       "contact stiffness k [N/m] of every impact, for peak forces u sqrt(k m) "
+                       "(default: as the case declares for pairs of materials)");
+}
+
 void add_verify(CLI::App& app, VerifyOptions& options)
 {
     auto* verify_ = app.add_subcommand("verify", "run benchmarks against their references");
@@ -90,11 +100,13 @@ int run_command_line(int argc, const char* const* argv)
     DescribeOptions describe_;
     InfoOptions info;
     RenderOptions render_;
+    ReportOptions report;
     VerifyOptions verify_;
     add_run(app, run);
     add_check(app, check);
     add_describe(app, describe_);
     add_render(app, render_);
+    add_report(app, report);
     add_verify(app, verify_);
     app.add_subcommand("info", "what a results folder holds")
         ->add_option("RESULTS", info.folder, "results folder")
@@ -117,6 +129,9 @@ int run_command_line(int argc, const char* const* argv)
     }
     if (app.got_subcommand("info")) {
         return show_info(info);
+    }
+    if (app.got_subcommand("report")) {
+        return write_report(report);
     }
     if (app.got_subcommand("verify")) {
         return verify(verify_);

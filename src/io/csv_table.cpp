@@ -26,6 +26,22 @@ void append(CsvTable::Column& column, std::string text, std::size_t rows)
     }
 }
 
+/// Columns of the header row; `before` is the line above it.
+std::vector<CsvTable::Column> named_columns(std::string_view header, std::string_view before)
+{
+    std::vector<CsvTable::Column> columns;
+    for (std::string& name : csv_cells(header)) {
+        columns.push_back({.name = std::move(name)});
+    }
+    if (before.starts_with("# ")) {
+        const std::vector<std::string> units = csv_cells(before.substr(2));
+        for (std::size_t k = 0; units.size() == columns.size() && k < units.size(); ++k) {
+            columns[k].unit = units[k] == "-" ? "" : units[k];
+        }
+    }
+    return columns;
+}
+
 } // namespace
 
 const CsvTable::Column* CsvTable::find(std::string_view name) const
@@ -39,17 +55,17 @@ CsvTable read_csv(const std::filesystem::path& file)
 {
     const std::string text = file_text(file);
     CsvTable table;
+    std::string_view before;
     for (const std::string_view line : whole_lines(text)) {
         if (line.starts_with('#') || line.empty()) {
+            before = line;
+            continue;
+        }
+        if (table.columns.empty()) {
+            table.columns = named_columns(line, before);
             continue;
         }
         std::vector<std::string> cells = csv_cells(line);
-        if (table.columns.empty()) {
-            for (std::string& name : cells) {
-                table.columns.push_back({std::move(name), {}, {}});
-            }
-            continue;
-        }
         if (cells.size() != table.columns.size()) {
             throw IoError(fmt::format("`{}`: a row of {} cells, expected {}: {}", file.string(),
                                       cells.size(), table.columns.size(), line));

@@ -9,12 +9,14 @@
 
 namespace hyoryu {
 
-/// A table by columns. Lines that begin with `#` (units, sources) are no rows.
+/// A table by columns. Lines that begin with `#` (units, sources) are no rows. A `#` line right
+/// before the names with as many cells gives the units, `-` for none.
 struct CsvTable {
     struct Column {
         std::string name;
         std::vector<double> numbers;    // one a row; NaN where the cell holds no number
         std::vector<std::string> texts; // one a row if any cell holds no number, else none
+        std::string unit;               // empty if the file does not say
     };
     std::vector<Column> columns;
     std::size_t rows = 0;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Where bodies went, seen from above; in two dimensions from the side.
+#pragma once
+
+#include "hyoryu/core/snapshot.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+/// The plane of the picture: x-y is looked at along z, x-z along y.
+enum class View { xy, xz };
+View view_of(int dimensions);
+
+/// A stretch of an outline: x0, y0, x1, y1 in the plane of the picture [m].
+using Segment = std::array<double, 4>;
+
+/// The edges of the surface that a drawing shows: rims, edges between faces that differ by more
+/// than 15 degrees, and contours (faces that look at the viewer against faces that look away). Each
+/// once; edges seen end-on are left out.
+std::vector<Segment> outline(const Surface& surface, View view);
+
+/// The path of a centre of mass in the plane of the picture [m].
+struct Track {
+    std::string body;
+    std::vector<double> x, y;
+};
+
+/// Outline and tracks at one scale for both axes; a ring marks each start, a dot each end, and the
+/// name stands at the end if there are at most `most_names` bodies.
+inline constexpr std::size_t most_names = 40;
+std::string svg_plan_view(const std::vector<Segment>& outline, const std::vector<Track>& tracks,
+                          View view);
+
+} // namespace hyoryu

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Charts as inline SVG.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+struct Range {
+    double low = 0;
+    double high = 0;
+    double width() const { return high - low; }
+};
+
+/// The range of all finite numbers, widened where they are all one so that it has a width.
+/// Without a finite number: 0 to 1.
+Range range_of(std::span<const std::vector<double>* const> columns);
+/// The range with `share` of its width more at both ends.
+Range padded(const Range& range, double share);
+
+/// The smallest of 1, 2, 5 x 10^n that puts at most `at_most` (>= 2) ticks into the range.
+double tick_step(const Range& range, int at_most);
+/// The multiples of the step within the range, round-off at its ends allowed for.
+std::vector<double> ticks(const Range& range, double step);
+/// The value in units of 10^exponent, with as many decimals as the step needs.
+std::string tick_label(double value, double step, int exponent);
+/// The power of ten, a multiple of three, that an axis writes once instead of at every tick; 0 for
+/// numbers that read well as they are, from a thousandth to 100 000.
+int axis_exponent(const Range& range);
+
+/// From numbers to places in the picture; `at_low` may be above `at_high`, as pixels count
+/// downward.
+struct Scale {
+    Range from;
+    double at_low = 0; // [pixels]
+    double at_high = 0;
+    double operator()(double value) const
+    {
+        return at_low + (value - from.low) / from.width() * (at_high - at_low);
+    }
+};
+
+/// The rows that draw the same picture as all rows: first, lowest, highest and last of each of
+/// `bins` equal parts of the abscissa, so that no peak is lost; all rows if they are few. Rows
+/// without a number are kept once a part, as gaps.
+std::vector<std::size_t> rows_to_draw(const std::vector<double>& x, const std::vector<double>& y,
+                                      const Range& range, std::size_t bins);
+
+/// The rectangle that the axes enclose [pixels].
+struct PlotArea {
+    double left = 0, right = 0, top = 0, bottom = 0;
+};
+/// Box, grid, tick labels and axis titles.
+std::string svg_axes(const PlotArea& area, const Scale& x, const Scale& y,
+                     const std::string& x_title, const std::string& y_title);
+
+/// Colour and dashes of the k-th line: they differ in print without colour as well.
+std::string svg_stroke(std::size_t k);
+
+struct ChartLine {
+    std::string label; // in the legend; empty: not there
+    std::vector<double> x, y;
+};
+
+struct Chart {
+    std::string title, x_axis, y_axis; // axes with their unit: "time [s]"
+    std::vector<ChartLine> lines;
+    double width = 420; // [pixels]
+    double height = 260;
+};
+
+/// Lines on axes; NaN is a gap.
+std::string svg_chart(const Chart& chart);
+
+} // namespace hyoryu

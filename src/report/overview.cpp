@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// The sections of words and tables: case, plan, run, cost.
+#include "hyoryu/report/html.hpp"
+#include "sections.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+using nlohmann::ordered_json;
+using Align = HtmlTable::Align;
+
+std::string effect_table(const ordered_json& effects)
+{
+    HtmlTable table{.heads = {{"effect"}, {"why"}}, .rows = {}};
+    for (const ordered_json& effect : effects) {
+        table.rows.push_back(
+            {effect.at("name").get<std::string>(), effect.at("why").get<std::string>()});
+    }
+    return html_table(table);
+}
+
+std::string wall_names(const RunResults& run)
+{
+    std::string names;
+    for (const std::string& wall : run.walls) {
+        const std::string& material = run.stiffness.materials.at(wall);
+        names += (names.empty() ? "" : ", ") + wall;
+        names += material.empty() ? "" : fmt::format(" ({})", material);
+    }
+    return names.empty() ? "none" : names;
+}
+
+std::string closing_state(const std::string& exit_reason)
+{
+    return exit_reason == "done" ? "done: the run came to the end of the case" : exit_reason;
+}
+
+std::string counted(const ordered_json& counts)
+{
+    return fmt::format("{} fluid, {} wall, {} body", counts.at("fluid").get<std::int64_t>(),
+                       counts.at("wall").get<std::int64_t>(),
+                       counts.at("body").get<std::int64_t>());
+}
+
+/// Two columns: what, and its value.
+std::string facts(std::vector<std::vector<std::string>> rows)
+{
+    return html_table({.heads = {{"quantity"}, {"value"}}, .rows = std::move(rows)});
+}
+
+} // namespace
+
+std::string readable(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–";
+}
+
+std::string case_section(const RunResults& run)
+{
+    const ordered_json& counts = run.plan.at("counts");
+    std::string text = "<h2>Case</h2>\n";
+    text +=
+        facts({{"title", run.plan.at("title").get<std::string>()},
+               {"dimensions", run.dimensions() == 2
+                                  ? "2 (x-z plane); masses, forces and impulses per metre of width"
+                                  : "3"},
+               {"walls", wall_names(run)},
+               {"bodies", fmt::format("{}", counts.at("bodies").get<std::int64_t>())},
+               {"particles at the start", counted(counts)},
+               {"particle spacing [m]", readable(run.spacing)}});
+    return text +
+           "<details><summary>The case as resolved, every default written out"
+           "</summary>\n<pre>" +
+           escaped(run.case_text) + "</pre></details>\n";
+}
+
+std::string plan_section(const RunResults& run)
+{
+    std::string text = "<h2>Plan</h2>\n<h3>Effects that ran</h3>\n";
+    text += effect_table(run.plan.at("on"));
+    text += "<h3>Effects that did not run</h3>\n" + effect_table(run.plan.at("off"));
+    if (const ordered_json& warnings = run.plan.at("warnings"); !warnings.empty()) {
+        text += "<h3>Warnings before the run</h3>\n";
+        for (const ordered_json& warning : warnings) {
+            text += fmt::format("<pre>{}</pre>\n", escaped(warning.get<std::string>()));
+        }
+    }
+    return text;
+}
+
+std::string run_section(const RunResults& run)
+{
+    const ordered_json& s = run.summary;
+    const double simulated = number(s.at("simulated_seconds"));
+    const double steps = number(s.at("steps"));
+    return "<h2>Run</h2>\n" +
+           facts(
+               {{"exit reason", closing_state(s.at("exit_reason").get<std::string>())},
+                {"simulated time [s]", readable(simulated)},
+                {"steps", fmt::format("{:.0f}", steps)},
+                {"mean time step [s]", readable(simulated / steps)},
+                {"wall time [s]", readable(number(s.at("wall_seconds")))},
+                {"threads", fmt::format("{}", s.at("threads").get<int>())},
+                {"particles at the end", counted(s.at("counts"))},
+                {"fluid particles lost", fmt::format("{:.0f}", number(s.at("particles_lost")))},
+                {"worst density error", readable(number(s.at("worst_density_error")))},
+                {"program", fmt::format("hyoryu {}, commit {}", s.at("version").get<std::string>(),
+                                        s.at("commit").get<std::string>())}});
+}
+
+std::string cost_section(const RunResults& run)
+{
+    const double wall = number(run.summary.at("wall_seconds"));
+    HtmlTable table{
+        .heads = {{"stage"}, {"time [s]", Align::right}, {"share of wall time", Align::right}},
+        .rows = {}};
+    const auto add = [&](const std::string& stage, double seconds) {
+        table.rows.push_back(
+            {stage, readable(seconds), fmt::format("{:.1f} %", 100 * seconds / wall)});
+    };
+    double rest = wall;
+    for (const auto& [stage, seconds] : run.summary.at("stages").items()) {
+        add(stage, number(seconds));
+        rest -= number(seconds);
+    }
+    add("everything else, most of it output", rest);
+    add("together", wall);
+    return "<h2>Cost by stage</h2>\n" + html_table(table) +
+           html_paragraph(
+               fmt::format("{} particle-steps a second; {} MB of memory at most.",
+                           readable(number(run.summary.at("particle_steps_per_second"))),
+                           readable(1e-6 * number(run.summary.at("peak_memory_bytes")))));
+}
+
+} // namespace hyoryu

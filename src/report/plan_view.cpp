@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/report/plan_view.hpp"
+
+#include "hyoryu/report/html.hpp"
+#include "hyoryu/report/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace hyoryu {
+
+namespace {
+
+using Corner = std::array<float, 3>;
+/// Corners in order, so that both triangles of an edge find it; by place, since faces of a surface
+/// need not share corner numbers.
+using Edge = std::pair<Corner, Corner>;
+
+Corner corner_of(const Surface& surface, std::size_t k)
+{
+    const auto at = 3 * static_cast<std::size_t>(surface.triangles[k]);
+    return {surface.points[at], surface.points[at + 1], surface.points[at + 2]};
+}
+
+Vec3 vector_of(const Corner& corner)
+{
+    return {corner[0], corner[1], corner[2]};
+}
+
+/// The unit normals of the triangles at each edge.
+std::map<Edge, std::vector<Vec3>> normals_at_edges(const Surface& surface)
+{
+    std::map<Edge, std::vector<Vec3>> edges;
+    for (std::size_t k = 0; k + 2 < surface.triangles.size(); k += 3) {
+        const std::array c{corner_of(surface, k), corner_of(surface, k + 1),
+                           corner_of(surface, k + 2)};
+        const Vec3 normal =
+            (vector_of(c[1]) - vector_of(c[0])).cross(vector_of(c[2]) - vector_of(c[0]));
+        if (normal.norm() > 0) {
+            for (std::size_t n = 0; n < 3; ++n) {
+                const Corner &a = c[n], &b = c[(n + 1) % 3];
+                edges[{std::min(a, b), std::max(a, b)}].push_back(normal.normalized());
+            }
+        }
+    }
+    return edges;
+}
+
+bool is_drawn(const std::vector<Vec3>& normals, const Vec3& towards_viewer)
+{
+    constexpr double sharp = 0.966; // cos 15 degrees
+    return normals.size() != 2 || normals[0].dot(normals[1]) < sharp ||
+           normals[0].dot(towards_viewer) * normals[1].dot(towards_viewer) < 0;
+}
+
+/// The range of the picture: outline and tracks.
+std::array<Range, 2> ranges_of(const std::vector<Segment>& outline,
+                               const std::vector<Track>& tracks)
+{
+    std::vector<double> x, y;
+    for (const Segment& s : outline) {
+        x.insert(x.end(), {s[0], s[2]});
+        y.insert(y.end(), {s[1], s[3]});
+    }
+    std::vector<const std::vector<double>*> xs{&x}, ys{&y};
+    for (const Track& track : tracks) {
+        xs.push_back(&track.x);
+        ys.push_back(&track.y);
+    }
+    return {padded(range_of(xs), 0.03), padded(range_of(ys), 0.03)};
+}
+
+/// The wider of the two directions decides the scale; the other range grows about its middle.
+struct Layout {
+    PlotArea area;
+    Scale x, y;
+    double width = 0, height = 0; // of the whole picture [pixels]
+};
+
+Layout layout_of(std::array<Range, 2> ranges)
+{
+    constexpr double inner_width = 780;
+    constexpr double least_height = 120, most_height = 640;
+    const double wanted = inner_width * ranges[1].width() / ranges[0].width();
+    const double inner_height = std::clamp(wanted, least_height, most_height);
+    const double metres = std::max(ranges[0].width() / inner_width, // a pixel
+                                   ranges[1].width() / inner_height);
+    const auto grown = [&](const Range& range, double pixels) {
+        return padded(range, 0.5 * (metres * pixels / range.width() - 1));
+    };
+    const PlotArea area{64, 64 + inner_width, 10, 10 + inner_height};
+    return {.area = area,
+            .x = {grown(ranges[0], inner_width), area.left, area.right},
+            .y = {grown(ranges[1], inner_height), area.bottom, area.top},
+            .width = area.right + 12,
+            .height = area.bottom + 38};
+}
+
+/// Points nearer than half a pixel to the one before draw nothing new.
+std::string path_of(const Track& track, const Layout& at)
+{
+    constexpr double least = 0.5;
+    std::string d;
+    double x = 0, y = 0;
+    for (std::size_t k = 0; k < track.x.size(); ++k) {
+        const double u = at.x(track.x[k]), v = at.y(track.y[k]);
+        if (!std::isfinite(u) || !std::isfinite(v) ||
+            (!d.empty() && k + 1 < track.x.size() && std::hypot(u - x, v - y) < least)) {
+            continue;
+        }
+        d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', u, v);
+        x = u;
+        y = v;
+    }
+    return d;
+}
+
+std::string drawn_track(const Track& track, const Layout& at, std::size_t k, std::string_view name)
+{
+    if (track.x.empty()) {
+        return {};
+    }
+    const std::string stroke = svg_stroke(k);
+    return fmt::format("<path class=\"l\" {0} d=\"{1}\"><title>{2}</title></path>"
+                       "<circle class=\"l r\" {0} cx=\"{3:.1f}\" cy=\"{4:.1f}\" r=\"3\"/>"
+                       "<circle cx=\"{5:.1f}\" cy=\"{6:.1f}\" r=\"3\"/>"
+                       "<text x=\"{7:.1f}\" y=\"{8:.1f}\">{9}</text>\n",
+                       stroke, path_of(track, at), escaped(track.body), at.x(track.x.front()),
+                       at.y(track.y.front()), at.x(track.x.back()), at.y(track.y.back()),
+                       at.x(track.x.back()) + 5, at.y(track.y.back()) - 4, escaped(name));
+}
+
+} // namespace
+
+View view_of(int dimensions)
+{
+    return dimensions == 2 ? View::xz : View::xy;
+}
+
+std::vector<Segment> outline(const Surface& surface, View view)
+{
+    const std::size_t up = view == View::xy ? 1 : 2;
+    const Vec3 towards_viewer = view == View::xy ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
+    std::set<Segment> segments;
+    for (const auto& [edge, normals] : normals_at_edges(surface)) {
+        const std::array<double, 2> a{edge.first[0], edge.first[up]};
+        const std::array<double, 2> b{edge.second[0], edge.second[up]};
+        if (a != b && is_drawn(normals, towards_viewer)) {
+            const auto& [first, second] = std::minmax(a, b);
+            segments.insert({first[0], first[1], second[0], second[1]});
+        }
+    }
+    return {segments.begin(), segments.end()};
+}
+
+std::string svg_plan_view(const std::vector<Segment>& outline, const std::vector<Track>& tracks,
+                          View view)
+{
+    const Layout at = layout_of(ranges_of(outline, tracks));
+    const char* up = view == View::xy ? "y [m]" : "z [m]";
+    std::string text = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+        "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\" aria-label=\"tracks of the bodies\">\n",
+        at.width, at.height);
+    text += svg_axes(at.area, at.x, at.y, "x [m]", up);
+    std::string d;
+    for (const Segment& s : outline) {
+        d += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", at.x(s[0]), at.y(s[1]), at.x(s[2]),
+                         at.y(s[3]));
+    }
+    text += d.empty() ? "" : fmt::format("<path class=\"w\" d=\"{}\"/>\n", d);
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+        const std::string_view name =
+            tracks.size() <= most_names ? tracks[k].body : std::string_view();
+        text += drawn_track(tracks[k], at, k, name);
+    }
+    return text + "</svg>\n";
+}
+
+} // namespace hyoryu

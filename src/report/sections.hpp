@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The sections of the page, each an HTML fragment with its heading.
+#pragma once
+
+#include "results.hpp"
+
+#include <optional>
+#include <string>
+
+namespace hyoryu {
+
+std::string case_section(const RunResults& run);
+std::string plan_section(const RunResults& run);
+std::string run_section(const RunResults& run);
+std::string cost_section(const RunResults& run);
+std::string books_section(const RunResults& run);
+std::string gauge_section(const RunResults& run);
+std::string track_section(const RunResults& run);
+/// `stiffness`: of every impact [N/m], in place of what the case declares.
+std::string impact_section(const RunResults& run, std::optional<double> stiffness);
+
+/// Four digits, or a dash for what is no number.
+std::string readable(double value);
+
+} // namespace hyoryu

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Scales and ticks against numbers worked out by hand, and what must survive thinning.
+#include "hyoryu/report/html.hpp"
+#include "hyoryu/report/plan_view.hpp"
+#include "hyoryu/report/svg.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hyoryu {
+namespace {
+
+constexpr double nan_ = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t count(const std::string& text, const std::string& part)
+{
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+        ++found;
+    }
+    return found;
+}
+
+TEST(Ticks, AreTheFewestRoundNumbersThatFit)
+{
+    EXPECT_DOUBLE_EQ(tick_step({0, 2.6}, 6), 0.5);
+    EXPECT_DOUBLE_EQ(tick_step({0, 1}, 6), 0.2);
+    EXPECT_DOUBLE_EQ(tick_step({0, 1}, 11), 0.1);
+    EXPECT_DOUBLE_EQ(tick_step({-0.007, 0.003}, 6), 0.002);
+    EXPECT_DOUBLE_EQ(tick_step({0, 9e5}, 3), 5e5);
+}
+
+TEST(Ticks, StandOnMultiplesWithinTheRange)
+{
+    const std::vector<double> found = ticks({-0.3, 0.45}, 0.2);
+    ASSERT_EQ(found.size(), 4U);
+    EXPECT_DOUBLE_EQ(found[0], -0.2);
+    EXPECT_EQ(found[1], 0.0);
+    EXPECT_FALSE(std::signbit(found[1]));
+    EXPECT_DOUBLE_EQ(found[3], 0.4);
+    // 0.3 is not three times 0.1 in binary numbers, and still has its tick.
+    EXPECT_EQ(ticks({0, 0.3}, 0.1).size(), 4U);
+}
+
+TEST(Ticks, AreLabelledWithTheDecimalsOfTheStep)
+{
+    EXPECT_EQ(tick_label(0.6, 0.2, 0), "0.6");
+    EXPECT_EQ(tick_label(3, 1, 0), "3");
+    EXPECT_EQ(tick_label(0.05, 0.01, 0), "0.05");
+    EXPECT_EQ(tick_label(2.5e6, 5e5, 6), "2.5");
+    EXPECT_EQ(tick_label(-2e-16, 1e-16, -18), "-200");
+}
+
+TEST(Ticks, AnAxisWritesItsPowerOfTenOnce)
+{
+    EXPECT_EQ(axis_exponent({0, 2.6}), 0);
+    EXPECT_EQ(axis_exponent({-99999, 5}), 0);
+    EXPECT_EQ(axis_exponent({0, 1e5}), 3);
+    EXPECT_EQ(axis_exponent({0, 2.5e6}), 6);
+    EXPECT_EQ(axis_exponent({-5e-4, 0}), -6);
+}
+
+TEST(Scales, MapLinearlyAlsoUpsideDown)
+{
+    const Scale y{{-1, 3}, 220, 20};
+    EXPECT_DOUBLE_EQ(y(-1), 220);
+    EXPECT_DOUBLE_EQ(y(3), 20);
+    EXPECT_DOUBLE_EQ(y(0), 170);
+}
+
+TEST(Scales, RangesLeaveOutWhatIsNoNumberAndAlwaysHaveAWidth)
+{
+    const std::vector<double> some{nan_, 2, -1}, one{7}, none{nan_}, zero{0, 0};
+    const std::vector<double> noise{1, 1 + 1e-15};
+    const auto range = [](const std::vector<double>& values) {
+        const std::vector<double>* columns[] = {&values};
+        const Range found = range_of(columns);
+        return std::array{found.low, found.high};
+    };
+    EXPECT_EQ(range(some), (std::array{-1.0, 2.0}));
+    EXPECT_EQ(range(one), (std::array{3.5, 10.5}));
+    EXPECT_EQ(range(none), (std::array{0.0, 1.0}));
+    EXPECT_EQ(range(zero), (std::array{-1.0, 1.0}));
+    EXPECT_NEAR(range(noise)[0], 0.5, 1e-12); // treated as one number
+}
+
+TEST(RowsToDraw, KeepFirstLastAndBothExtremesOfEachPart)
+{
+    std::vector<double> x, y;
+    for (int k = 0; k < 1000; ++k) {
+        x.push_back(k);
+        y.push_back(0);
+    }
+    y[333] = 5;
+    y[777] = -5;
+    const std::vector<std::size_t> rows = rows_to_draw(x, y, {0, 999}, 10);
+    EXPECT_LE(rows.size(), 44U); // 10 parts and the end of the range, four rows each
+    EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+    for (const std::size_t kept : {0, 333, 777, 999}) {
+        EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), kept)) << kept;
+    }
+}
+
+TEST(RowsToDraw, KeepAllOfAFewAndTheGaps)
+{
+    const std::vector<double> x{0, 1, 2, 3}, y{1, nan_, 2, 1};
+    EXPECT_EQ(rows_to_draw(x, y, {0, 3}, 100), (std::vector<std::size_t>{0, 1, 2, 3}));
+    EXPECT_TRUE(rows_to_draw({}, {}, {0, 1}, 10).empty());
+    // Within one part a gap is kept beside the numbers around it.
+    const std::vector<std::size_t> rows = rows_to_draw(x, y, {0, 300}, 1);
+    EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 1U));
+}
+
+TEST(Charts, DrawALineAtTheRightPlaces)
+{
+    const Chart chart{.title = "a<b",
+                      .x_axis = "time [s]",
+                      .y_axis = "z [m]",
+                      .lines = {{"", {0, 1, 2}, {0, 10, 5}}},
+                      .width = 276,
+                      .height = 260};
+    const std::string svg = svg_chart(chart);
+    // The area is 64..264 by 22..222; y runs from -0.5 to 10.5.
+    EXPECT_NE(svg.find("d=\"M64.0 212.9L164.0 31.1L264.0 122.0\""), std::string::npos) << svg;
+    EXPECT_NE(svg.find("a&lt;b"), std::string::npos);
+    EXPECT_EQ(svg.find("a<b"), std::string::npos);
+}
+
+TEST(Charts, BreakTheLineWhereThereIsNoNumber)
+{
+    const Chart chart{.lines = {{"", {0, 1, 2, 3, 4}, {1, 2, nan_, 2, 1}}}};
+    const std::string svg = svg_chart(chart);
+    const std::string d = svg.substr(svg.rfind(" d=\"M"));
+    EXPECT_EQ(count(d, "M"), 2U) << d;
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(Html, TextIsEscaped)
+{
+    EXPECT_EQ(escaped("<a href=\"x\">'&'</a>"),
+              "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+    EXPECT_EQ(escaped("漂流"), "漂流");
+    EXPECT_EQ(escaped(std::string("a\x01z\n")), "a\xEF\xBF\xBDz\n");
+    const HtmlTable table{.heads = {{"<h>"}}, .rows = {{"a&b"}}};
+    EXPECT_NE(html_table(table).find("<th>&lt;h&gt;</th>"), std::string::npos);
+    EXPECT_NE(html_table(table).find("<td>a&amp;b</td>"), std::string::npos);
+}
+
+/// The box [0, 2] x [0, 1] x [0, 3] with outward triangles.
+Surface box()
+{
+    Surface surface;
+    for (int k = 0; k < 8; ++k) {
+        for (const float value : {k & 1 ? 2.F : 0.F, k & 2 ? 1.F : 0.F, k & 4 ? 3.F : 0.F}) {
+            surface.points.push_back(value);
+        }
+    }
+    surface.triangles = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                         2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    return surface;
+}
+
+TEST(PlanView, ABoxShowsItsRectangleAndNoDiagonal)
+{
+    const std::vector<Segment> above{{0, 0, 0, 1}, {0, 0, 2, 0}, {0, 1, 2, 1}, {2, 0, 2, 1}};
+    const std::vector<Segment> aside{{0, 0, 0, 3}, {0, 0, 2, 0}, {0, 3, 2, 3}, {2, 0, 2, 3}};
+    EXPECT_EQ(outline(box(), View::xy), above);
+    EXPECT_EQ(outline(box(), View::xz), aside);
+}
+
+TEST(PlanView, BothAxesHaveOneScale)
+{
+    // Room for 780 pixels across: 10 m of width and 3 % at both ends leave 73.6 pixels a metre.
+    const std::vector<Track> tracks{{"crate & co", {0, 10}, {0, 5}}};
+    const std::string svg = svg_plan_view({}, tracks, View::xy);
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    const std::size_t at = svg.find("d=\"M", svg.find("class=\"l\""));
+    ASSERT_EQ(std::sscanf(svg.c_str() + at, "d=\"M%lf %lfL%lf %lf", &x0, &y0, &x1, &y1), 4);
+    EXPECT_NEAR((x1 - x0) / 10, 780 / 10.6, 0.02); // places are written to a tenth of a pixel
+    EXPECT_NEAR((y0 - y1) / 5, 780 / 10.6, 0.04);
+    EXPECT_NE(svg.find("crate &amp; co"), std::string::npos);
+}
+
+} // namespace
+} // namespace hyoryu
