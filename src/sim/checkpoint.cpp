@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 
 namespace hyoryu {
 
@@ -132,15 +132,25 @@ void save_fluid(const Fluid& fluid, Snapshot& snapshot)
     add(snapshot, "fluid/numbers", std::move(numbers));
 }
 
+// The search for neighbours turns places into numbers of cells.
+void check_places(const Numbers& places)
+{
+    if (!std::all_of(places.begin(), places.end(), [](double x) { return std::isfinite(x); })) {
+        throw IoError("the checkpoint has particles at no finite place: it is damaged");
+    }
+}
+
 void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
 {
     Particles& particles = fluid.particles;
     Reader numbers(snapshot, "fluid/numbers");
-    const auto kept = static_cast<Index>(numbers.number());
-    if (kept > particles.fluid().size()) {
-        throw IoError(
-            "the checkpoint has more fluid particles than the case: it belongs to another case");
+    const double stored = numbers.number();
+    if (!(stored >= 0 && stored <= static_cast<double>(particles.fluid().size()))) {
+        throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
+                                  "{} of this case: it belongs to another case",
+                                  stored, particles.fluid().size()));
     }
+    const auto kept = static_cast<Index>(stored);
     // Particles that were lost before the checkpoint leave the store; which rows go does not
     // matter.
     std::vector<std::int32_t> order(static_cast<std::size_t>(kept));
@@ -153,8 +163,8 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     fluid.lost.momentum = numbers.vector();
     fluid.lost.energy = numbers.number();
     particles.for_each_column([&](auto column, auto values) {
-        const Reader stored(snapshot, fmt::format("fluid/{}", column.info.name));
-        unflat(stored.all(), values);
+        const Reader values_of(snapshot, fmt::format("fluid/{}", column.info.name));
+        unflat(values_of.all(), values);
     });
     const auto& id = integers<std::int64_t>(snapshot, "fluid/id");
     const auto& owner = integers<std::int32_t>(snapshot, "fluid/owner");
@@ -166,6 +176,8 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     fluid.neighbours.built_at.resize(static_cast<std::size_t>(particles.size()));
     const Reader built_at(snapshot, "fluid/built_at");
     unflat(built_at.all(), std::span(fluid.neighbours.built_at));
+    check_places(built_at.all());
+    check_places(flat(particles[field::position]));
     const long long builds = fluid.neighbours.builds;
     rebuild_neighbours(fluid);
     fluid.neighbours.builds = builds;
