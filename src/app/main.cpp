@@ -6,25 +6,44 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
+#include <string>
+#include <system_error>
+
+namespace {
+
+// The exit code must come out even where the message cannot: fmt::print would throw.
+int fail(const std::string& message, int code)
+{
+    std::fputs((message + "\n").c_str(), stderr);
+    return code;
+}
+
+} // namespace
 
 int main(int argc, char** argv)
 {
     using namespace hyoryu;
     try {
-        return run_command_line(argc, argv);
+        const int code = run_command_line(argc, argv);
+        if (std::fflush(stdout) != 0) {
+            return fail(fmt::format("error: cannot write to the output: {}", std::strerror(errno)),
+                        exit_code::io);
+        }
+        return code;
     } catch (const CaseError& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return exit_code::input;
+        return fail(error.what(), exit_code::input);
     } catch (const NumericalError& error) {
-        fmt::print(stderr, "error: the numbers went wrong: {}\n", error.what());
-        return exit_code::numbers;
+        return fail(fmt::format("error: the numbers went wrong: {}", error.what()),
+                    exit_code::numbers);
     } catch (const IoError& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return exit_code::io;
+        return fail(fmt::format("error: {}", error.what()), exit_code::io);
+    } catch (const std::system_error& error) { // files and streams of the standard library
+        return fail(fmt::format("error: {}", error.what()), exit_code::io);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "error: out of memory; `hyoryu check` tells what a case needs\n");
-        return exit_code::io;
+        return fail("error: out of memory; `hyoryu check` tells what a case needs", exit_code::io);
     }
 }

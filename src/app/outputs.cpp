@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "outputs.hpp"
 
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/frames.hpp"
 #include "hyoryu/sim/gauges.hpp"
@@ -14,6 +15,7 @@ namespace hyoryu {
 namespace {
 
 constexpr const char* resting_array = "outputs/resting";
+constexpr const char* rows_array = "outputs/rows"; // of bodies, contacts, energy, gauges
 
 std::vector<std::string> cells(std::initializer_list<double> values)
 {
@@ -29,6 +31,27 @@ void append(std::vector<std::string>& row, const Vec3& v)
     for (const double value : v) {
         row.push_back(cell(value));
     }
+}
+
+const std::vector<std::int64_t>& rows_in(const Snapshot& snapshot)
+{
+    const auto found = snapshot.arrays.find(rows_array);
+    const auto* rows = found == snapshot.arrays.end()
+                           ? nullptr
+                           : std::get_if<std::vector<std::int64_t>>(&found->second.values);
+    if (rows == nullptr || rows->size() != 4) {
+        throw IoError("the checkpoint does not tell the rows of the histories: another version "
+                      "wrote it");
+    }
+    return *rows;
+}
+
+// The two that touch are bodies, or a body and a wall, of this case.
+bool is_of(const Simulation& sim, const Contact& contact)
+{
+    const auto bodies = static_cast<int>(sim.rigid.bodies.size());
+    const auto walls = static_cast<int>(sim.rigid.boundaries.size());
+    return contact.a >= 0 && contact.a < bodies && contact.b >= -walls && contact.b < bodies;
 }
 
 } // namespace
@@ -60,22 +83,29 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
 {
     const int d = sim.scene.dimensions;
     const double now = sim.clock.time;
+    const std::vector<std::int64_t>& rows = rows_in(resumed);
     frames_->forget_after(now);
     if (!sim.scene.bodies.empty()) {
-        bodies_.emplace(folder_, bodies_table(d), now);
+        bodies_.emplace(folder_, bodies_table(d), now, rows[0]);
     }
     if (sim.plan.contact) {
-        contacts_.emplace(folder_, contacts_table(d), now);
+        contacts_.emplace(folder_, contacts_table(d), now, rows[1]);
     }
-    energy_.emplace(folder_, energy_table(d), now);
+    energy_.emplace(folder_, energy_table(d), now, rows[2]);
     if (!sim.scene.gauges.empty()) {
-        gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now);
+        gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now, rows[3]);
     }
     const auto found = resumed.arrays.find(resting_array);
     if (found != resumed.arrays.end()) {
+        if (!std::holds_alternative<std::vector<double>>(found->second.values)) {
+            throw IoError("the contacts of the checkpoint are no numbers: it is damaged");
+        }
         const auto& n = std::get<std::vector<double>>(found->second.values);
         for (std::size_t k = 0; k + resting_numbers <= n.size(); k += resting_numbers) {
             const Contact sum = contact_of(std::span(n).subspan(k, resting_numbers));
+            if (!is_of(sim, sum)) {
+                throw IoError("the checkpoint has a contact of no body: it is damaged");
+            }
             resting_[{sum.a, sum.b}] = {sum.time, sum, n[k + resting_numbers - 1]};
         }
     }
@@ -232,6 +262,11 @@ Snapshot Outputs::snapshot(const Simulation& sim) const
         numbers.insert(numbers.end(), row.begin(), row.end());
         numbers.push_back(rest.weight);
     }
+    std::vector<std::int64_t> rows;
+    for (const auto* history : {&bodies_, &contacts_, &energy_, &gauges_}) {
+        rows.push_back(*history ? (*history)->rows() : 0);
+    }
+    snapshot.arrays[rows_array] = {rows_array, "", 1, std::move(rows)};
     snapshot.arrays[resting_array] = {resting_array, "", 1, std::move(numbers)};
     return snapshot;
 }

@@ -18,6 +18,13 @@ constexpr auto terminal_interval = std::chrono::milliseconds(200);
 constexpr auto line_interval = std::chrono::seconds(10);
 constexpr int bar_width = 24;
 
+// A terminal that is gone must not end a run: fmt::print would throw.
+void tell(const std::string& text)
+{
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
 } // namespace
 
 Progress::Progress(const std::filesystem::path& folder, Verbosity verbosity, double from)
@@ -53,11 +60,11 @@ void Progress::show(const Simulation& sim)
     if (terminal_) {
         const int filled =
             static_cast<int>(bar_width * std::min(sim.clock.time / sim.scene.time.end, 1.0));
-        fmt::print(stderr, "\r\x1b[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
-                   std::string(static_cast<std::size_t>(bar_width - filled), '.'), status(sim));
-        std::fflush(stderr);
+        tell(fmt::format("\r\x1b[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
+                         std::string(static_cast<std::size_t>(bar_width - filled), '.'),
+                         status(sim)));
     } else {
-        fmt::print(stderr, "{}\n", status(sim));
+        tell(status(sim) + "\n");
         log_ << status(sim) << '\n';
     }
 }
@@ -79,7 +86,7 @@ void Progress::update(const Simulation& sim)
 void Progress::line(const std::string& text)
 {
     if (verbosity_ == Verbosity::normal) {
-        fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+        tell(fmt::format("{}{}\n", terminal_ ? "\r\x1b[K" : "", text));
     }
     log_ << text << '\n';
     log_.flush();
@@ -90,7 +97,7 @@ void Progress::end(const Simulation& sim)
     if (verbosity_ == Verbosity::normal) {
         show(sim);
         if (terminal_) {
-            fmt::print(stderr, "\n");
+            tell("\n");
         }
     }
     log_ << status(sim) << '\n';

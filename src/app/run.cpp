@@ -12,9 +12,12 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 
 #include <fmt/format.h>
+
+#include <cstdio>
 
 namespace hyoryu {
 
@@ -41,6 +44,16 @@ void check_disk(const fs::path& folder, const Plan& plan)
     }
 }
 
+void check_memory(const Plan& plan)
+{
+    const double memory = machine_memory();
+    if (plan.memory > memory) {
+        throw CaseError(fmt::format("the run needs about {}, and {} is what this process may use",
+                                    readable_bytes(plan.memory), readable_bytes(memory)),
+                        "increase `particles.spacing`");
+    }
+}
+
 // A checkpoint belongs to its case; only the end of the run may have moved.
 void check_same_case(const Scene& scene, const Snapshot& snapshot)
 {
@@ -57,6 +70,7 @@ void check_same_case(const Scene& scene, const Snapshot& snapshot)
 }
 
 struct Job {
+    FolderLock lock;
     fs::path folder;
     std::string case_text;
     Simulation sim;
@@ -166,7 +180,7 @@ int carry_out(Job& job)
 Job start(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
           const Filling& filling)
 {
-    prepare_results(folder, options.force ? Existing::replace : Existing::refuse);
+    FolderLock lock = prepare_results(folder, options.force ? Existing::replace : Existing::refuse);
     check_disk(folder, plan);
     const std::string case_text = to_toml(scene);
     write_text(folder / "case.toml", case_text);
@@ -174,7 +188,8 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     Simulation sim = make_simulation(scene, plan, filling);
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, 0);
     Outputs outputs(folder, sim, filling.domain);
-    Job job{folder, case_text, std::move(sim), std::move(progress), std::move(outputs), {}};
+    Job job{std::move(lock),    folder, case_text, std::move(sim), std::move(progress),
+            std::move(outputs), {}};
     job.outputs.update(job.sim);
     keep_good_state(job);
     job.outputs.write_checkpoint(job.last_good);
@@ -184,17 +199,21 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
 Job resume(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
            const Filling& filling)
 {
-    const Snapshot snapshot = read_checkpoint(folder);
+    const auto [snapshot, passed_over] = read_newest_checkpoint(folder);
     check_same_case(scene, snapshot);
-    prepare_results(folder, Existing::extend);
+    FolderLock lock = prepare_results(folder, Existing::extend);
     Simulation sim = make_simulation(scene, plan, filling);
     restore(sim, snapshot);
     const std::int64_t first_step = sim.clock.step;
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, sim.clock.time);
     progress.line(fmt::format("going on from t = {} s, step {}", sim.clock.time, sim.clock.step));
+    if (!passed_over.empty()) {
+        take_previous_checkpoint(folder);
+        progress.line(fmt::format("note: {}; this is the one before it", passed_over));
+    }
     Outputs outputs(folder, sim, snapshot);
-    return {folder,   to_toml(scene), std::move(sim), std::move(progress), std::move(outputs),
-            snapshot, first_step};
+    return {std::move(lock),    folder,   to_toml(scene), std::move(sim), std::move(progress),
+            std::move(outputs), snapshot, first_step};
 }
 
 } // namespace
@@ -205,12 +224,13 @@ int run_case(const RunOptions& options)
     const Scene scene = read_case(options.case_file, options.overrides);
     const Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
+    watch_for_stop();
     if (!options.quiet) {
         for (const Diagnostic& warning : plan.warnings) {
-            fmt::print(stderr, "{}\n", to_string(warning));
+            std::fputs((to_string(warning) + "\n").c_str(), stderr);
         }
     }
-    watch_for_stop();
+    check_memory(plan);
     const fs::path folder = results_folder(options);
     Job job = options.resume ? resume(options, folder, scene, plan, filling)
                              : start(options, folder, scene, plan, filling);

@@ -26,6 +26,7 @@ void watch_for_stop()
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         sigaction(signal, &action, nullptr);
     }
+    std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool stop_requested()

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -54,6 +55,54 @@ bool finite_corner(std::istringstream& line)
         }
     }
     return true;
+}
+
+/// The corner, texture and normal numbers of one face exist ("3", "3/1", "3/1/2", "3//2"; negative
+/// ones count back). VTK follows them wherever they lead.
+bool face_fits(std::istringstream& line, const std::array<long long, 3>& counts)
+{
+    for (std::string word; line >> word;) {
+        std::size_t kind = 0;
+        const char* at = word.data();
+        const char* const end = at + word.size();
+        for (; at < end && kind < counts.size(); ++kind) {
+            long long number = 0;
+            const auto [stop, fault] = std::from_chars(at, end, number);
+            const bool left_out = stop == at && kind == 1;
+            if (!left_out &&
+                (fault != std::errc{} || number == 0 || std::abs(number) > counts[kind])) {
+                return false;
+            }
+            if (stop != end && *stop != '/') {
+                return false;
+            }
+            at = stop == end ? end : stop + 1;
+        }
+        if (at != end) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Checks every face of an OBJ file.
+void check_faces(const std::filesystem::path& file)
+{
+    std::ifstream stream(file);
+    std::string text;
+    std::array<long long, 3> counts{}; // of corners, texture points and normals so far
+    for (long long number = 1; std::getline(stream, text); ++number) {
+        std::istringstream line(text);
+        std::string word;
+        line >> word;
+        counts[0] += word == "v" ? 1 : 0;
+        counts[1] += word == "vt" ? 1 : 0;
+        counts[2] += word == "vn" ? 1 : 0;
+        if (word == "f" && !face_fits(line, counts)) {
+            refuse(file, fmt::format("has a face in line {} of corners that do not stand before it",
+                                     number));
+        }
+    }
 }
 
 /// Checks every corner of a text file; `keyword` begins the line of one.
@@ -123,6 +172,7 @@ MeshKind mesh_kind(const std::filesystem::path& file)
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (ending == ".obj") {
         check_corners(file, "v");
+        check_faces(file);
         return MeshKind::obj;
     }
     if (ending != ".stl") {

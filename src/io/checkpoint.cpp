@@ -26,6 +26,11 @@ std::filesystem::path checkpoint_file(const std::filesystem::path& folder)
     return folder / "checkpoint.h5";
 }
 
+std::filesystem::path previous_file(const std::filesystem::path& folder)
+{
+    return folder / "checkpoint.previous.h5";
+}
+
 std::string header(std::uintmax_t bytes, std::uint32_t checksum)
 {
     std::string text = fmt::format("{}\nformat {}\nbytes {}\ncrc32 {:08x}\n", magic, format_version,
@@ -101,10 +106,33 @@ Snapshot get_snapshot(hid_t file)
     const hdf5::Handle texts = hdf5::open_group(file, "texts");
     for (const std::string& link : hdf5::link_names(texts)) {
         const Column column = get_column(texts, link);
-        const auto& bytes = std::get<std::vector<std::uint8_t>>(column.values);
-        snapshot.texts[name_of(link)] = std::string(bytes.begin(), bytes.end());
+        const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&column.values);
+        if (bytes == nullptr) {
+            throw IoError(fmt::format("the text `{}` of the checkpoint is no text", link));
+        }
+        snapshot.texts[name_of(link)] = std::string(bytes->begin(), bytes->end());
     }
     return snapshot;
+}
+
+/// Gives the newest checkpoint its second name while it keeps the first. File systems without hard
+/// links can only move it: a kill right after that leaves the previous one alone, which is read.
+void keep_as_previous(const std::filesystem::path& folder)
+{
+    const std::filesystem::path newest = checkpoint_file(folder);
+    const std::filesystem::path link =
+        previous_file(folder).string() + std::string(temporary_suffix);
+    std::error_code fault;
+    if (!std::filesystem::exists(newest, fault)) {
+        return;
+    }
+    std::filesystem::remove(link, fault); // of a kill
+    std::filesystem::create_hard_link(newest, link, fault);
+    std::filesystem::rename(fault ? newest : link, previous_file(folder), fault);
+    if (fault) {
+        throw IoError(fmt::format("cannot keep the previous checkpoint `{}`: {}",
+                                  previous_file(folder).string(), fault.message()));
+    }
 }
 
 /// Reads the whole file once and compares length and checksum with the header.
@@ -141,6 +169,13 @@ void verify(const std::filesystem::path& file)
     }
 }
 
+Snapshot read_generation(const std::filesystem::path& file)
+{
+    verify(file);
+    const hdf5::Session session;
+    return get_snapshot(hdf5::open_file(file));
+}
+
 } // namespace
 
 void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snapshot)
@@ -152,15 +187,42 @@ void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snaps
     const std::span<const std::byte> bytes = image.bytes();
     atomic.write(header(bytes.size(), libdeflate_crc32(0, bytes.data(), bytes.size())));
     atomic.write(bytes);
+    keep_as_previous(folder);
     atomic.commit();
 }
 
 Snapshot read_checkpoint(const std::filesystem::path& folder)
 {
-    const std::filesystem::path file = checkpoint_file(folder);
-    verify(file);
-    const hdf5::Session session;
-    return get_snapshot(hdf5::open_file(file));
+    return read_generation(checkpoint_file(folder));
+}
+
+NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder)
+{
+    std::string passed_over;
+    try {
+        return {read_generation(checkpoint_file(folder)), {}};
+    } catch (const IoError& error) {
+        passed_over = error.what();
+    }
+    std::error_code fault;
+    if (!std::filesystem::exists(previous_file(folder), fault)) {
+        throw IoError(passed_over + "; there is no older one");
+    }
+    try {
+        return {read_generation(previous_file(folder)), passed_over};
+    } catch (const IoError& error) {
+        throw IoError(fmt::format("{}; and of the older one: {}", passed_over, error.what()));
+    }
+}
+
+void take_previous_checkpoint(const std::filesystem::path& folder)
+{
+    std::error_code fault;
+    std::filesystem::rename(previous_file(folder), checkpoint_file(folder), fault);
+    if (fault) {
+        throw IoError(
+            fmt::format("cannot rename `{}`: {}", previous_file(folder).string(), fault.message()));
+    }
 }
 
 } // namespace hyoryu

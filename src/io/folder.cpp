@@ -9,8 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <fcntl.h>
 #include <regex>
+#include <sys/file.h>
 #include <unistd.h>
+#include <utility>
 
 namespace hyoryu {
 
@@ -20,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// What runs, `render`, `report` and `convert` write, as patterns of paths relative to the folder.
 constexpr std::array our_files{
-    R"(case\.toml|plan\.json|summary\.json|run\.log|report\.html|results\.h5|checkpoint\.h5|all\.vtkhdf)",
+    R"(case\.toml|plan\.json|summary\.json|run\.log|report\.html|results\.h5|checkpoint(\.previous)?\.h5|all\.vtkhdf)",
     R"((bodies|contacts|energy|gauges)\.csv)",
     R"((fluid|bodies|surfaces|walls|structures)\.(hdf|hdf\.series|pvd))",
     R"(frames/[a-z]+_[0-9]{6,}\.hdf)",
@@ -106,14 +110,19 @@ void remove_temporary_files(const fs::path& folder)
     }
 }
 
-void clear_as_asked(const fs::path& folder, Existing existing)
+void make_folder(const fs::path& folder)
 {
-    if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) {
-        return;
-    }
-    if (!fs::is_directory(folder)) {
+    if (fs::exists(folder) && !fs::is_directory(folder)) {
         throw CaseError(fmt::format("`{}` is a file, not a folder", folder.string()),
                         "choose another folder with -o");
+    }
+    fs::create_directories(folder);
+}
+
+void clear_as_asked(const fs::path& folder, Existing existing)
+{
+    if (fs::is_empty(folder)) {
+        return;
     }
     switch (existing) {
     case Existing::refuse:
@@ -128,19 +137,48 @@ void clear_as_asked(const fs::path& folder, Existing existing)
 
 } // namespace
 
-void prepare_results(const fs::path& folder, Existing existing)
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC))
+{
+    if (descriptor_ < 0) {
+        throw_system_error("open", folder);
+    }
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        ::close(descriptor_);
+        throw CaseError(
+            fmt::format("another run is writing to the results folder `{}`", folder.string()),
+            "wait for it or stop it, or choose another folder with -o");
+    }
+}
+
+FolderLock::~FolderLock()
+{
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1))
+{
+}
+
+FolderLock prepare_results(const fs::path& folder, Existing existing)
 {
     try {
+        make_folder(folder);
+        FolderLock lock(folder);
         clear_as_asked(folder, existing);
         fs::create_directories(folder / "frames");
+        for (const fs::path& place : {folder, folder / "frames"}) {
+            if (::access(place.c_str(), W_OK) != 0) {
+                throw_system_error("write to", place);
+            }
+        }
+        return lock;
     } catch (const fs::filesystem_error& error) {
         throw IoError(fmt::format("cannot prepare the results folder `{}`: {}", folder.string(),
                                   error.code().message()));
-    }
-    for (const fs::path& place : {folder, folder / "frames"}) {
-        if (::access(place.c_str(), W_OK) != 0) {
-            throw_system_error("write to", place);
-        }
     }
 }
 

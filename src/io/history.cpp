@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <fcntl.h>
 #include <span>
 #include <unistd.h>
@@ -31,12 +32,19 @@ bool is_kept(std::string_view line, std::size_t cells, double keep_until)
 }
 
 /// The header and the rows of the file that stay.
-std::string kept_text(const std::filesystem::path& file, const Table& table, double keep_until)
+struct Kept {
+    std::string text;
+    std::int64_t rows = 0;
+};
+
+Kept kept_of(const std::filesystem::path& file, const Table& table, double keep_until,
+             std::int64_t keep_rows)
 {
     std::string kept = csv_header(table);
     if (!std::filesystem::exists(file)) {
-        return kept;
+        return {kept};
     }
+    std::int64_t rows = 0;
     const std::string text = file_text(file);
     if (!text.starts_with(kept) && !kept.starts_with(text)) { // the latter: torn within the header
         throw IoError(fmt::format(
@@ -44,12 +52,13 @@ std::string kept_text(const std::filesystem::path& file, const Table& table, dou
     }
     const std::size_t header = std::min(kept.size(), text.size());
     for (const std::string_view line : whole_lines(std::string_view(text).substr(header))) {
-        if (is_kept(line, table.heads.size(), keep_until)) {
+        if (rows < keep_rows && is_kept(line, table.heads.size(), keep_until)) {
             kept.append(line);
             kept += '\n';
+            ++rows;
         }
     }
-    return kept;
+    return {kept, rows};
 }
 
 } // namespace
@@ -57,13 +66,14 @@ std::string kept_text(const std::filesystem::path& file, const Table& table, dou
 struct History::State {
     std::filesystem::path file;
     std::size_t cells = 0;
+    std::int64_t rows = 0;
     std::string buffer;
     int descriptor = -1;
 
-    State(const std::filesystem::path& folder, const Table& table, const std::string& begin)
-        : file(history_file(folder, table)), cells(table.heads.size())
+    State(const std::filesystem::path& folder, const Table& table, const Kept& begin)
+        : file(history_file(folder, table)), cells(table.heads.size()), rows(begin.rows)
     {
-        write_text(file, begin);
+        write_text(file, begin.text);
         descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
         if (descriptor < 0) {
             throw_system_error("append to", file);
@@ -76,19 +86,20 @@ struct History::State {
     /// Emptied first: after an error the rows are lost, not written twice.
     void flush()
     {
-        const std::string rows = std::exchange(buffer, {});
-        write_all(descriptor, std::as_bytes(std::span(rows)), file);
+        const std::string text = std::exchange(buffer, {});
+        write_all(descriptor, std::as_bytes(std::span(text)), file);
     }
 };
 
 History::History(const std::filesystem::path& folder, Table table)
-    : state_(std::make_unique<State>(folder, table, csv_header(table)))
+    : state_(std::make_unique<State>(folder, table, Kept{csv_header(table)}))
 {
 }
 
-History::History(const std::filesystem::path& folder, Table table, double keep_until)
-    : state_(std::make_unique<State>(folder, table,
-                                     kept_text(history_file(folder, table), table, keep_until)))
+History::History(const std::filesystem::path& folder, Table table, double keep_until,
+                 std::int64_t keep_rows)
+    : state_(std::make_unique<State>(
+          folder, table, kept_of(history_file(folder, table), table, keep_until, keep_rows)))
 {
 }
 
@@ -111,14 +122,24 @@ void History::append(std::span<const std::string> cells)
 {
     expects(cells.size() == state_->cells);
     state_->buffer += csv_line(cells);
+    ++state_->rows;
     if (state_->buffer.size() > buffer_limit) {
         state_->flush();
     }
 }
 
+std::int64_t History::rows() const
+{
+    return state_->rows;
+}
+
 void History::flush()
 {
     state_->flush();
+    // EINVAL: not a file that can be synchronised, for instance a pipe.
+    if (::fsync(state_->descriptor) != 0 && errno != EINVAL) {
+        throw_system_error("write", state_->file);
+    }
 }
 
 } // namespace hyoryu

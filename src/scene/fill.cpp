@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/fill.hpp"
 
+#include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
 #include "walls.hpp"
@@ -16,9 +17,6 @@
 namespace hyoryu {
 
 namespace {
-
-// Row numbers are 32-bit in the neighbour lists.
-constexpr double most_particles = 2e9;
 
 Placed placed(const Scene& scene, const FluidBlock& block)
 {
@@ -288,30 +286,6 @@ void fill_fluid(const Scene& scene, Filling& filling)
     }
 }
 
-// The particles asked for, before any is made.
-double estimate(const Scene& scene)
-{
-    const auto count = [&](double volume_, double spacing) {
-        return volume_ / std::pow(spacing, scene.dimensions);
-    };
-    double total = 0;
-    for (const BodySettings& body : scene.bodies) {
-        total += count(volume(body.shape, scene.dimensions), body.spacing);
-    }
-    if (scene.fluid) {
-        for (const FluidBlock& block : scene.fluid->blocks) {
-            total += count(volume(block.shape, scene.dimensions), scene.spacing);
-        }
-        const Vec3 size = domain_of(scene).max - domain_of(scene).min;
-        const double faces = scene.dimensions == 2
-                                 ? size.x() + size.z()
-                                 : size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
-        total +=
-            static_cast<double>(scene.walls.size()) * count(faces * scene.spacing, scene.spacing);
-    }
-    return total;
-}
-
 } // namespace
 
 int wall_layers(double smoothing_ratio)
@@ -361,14 +335,7 @@ Bounds domain_of(const Scene& scene)
 
 Filling fill(const Scene& scene)
 {
-    const double asked = estimate(scene);
-    if (!(asked < most_particles)) {
-        throw CaseError(
-            fmt::format(
-                "this scene asks for about {:.2g} particles; at most {:.0g} can be numbered", asked,
-                most_particles),
-            "increase `particles.spacing`");
-    }
+    check_size(scene);
     Filling filling;
     filling.domain = domain_of(scene);
     if (scene.fluid) {

@@ -271,6 +271,28 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
     }
 }
 
+// Frames are files of one folder, and no run lives to see so many steps.
+void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& errors)
+{
+    constexpr double most_frames = 1e7;
+    constexpr double most_steps = 1e15; // beyond about 9e15 a double no longer counts them
+    if (!(plan.frames <= most_frames)) {
+        errors.push_back(diagnostic_at(
+            scene, {}, "output.every",
+            fmt::format("makes about {:.2g} frames, at most {:.0g} are written", plan.frames,
+                        most_frames),
+            fmt::format("a larger `output.every`, for instance {:.3g}", scene.time.end / 100)));
+    }
+    if (!(plan.expected_steps <= most_steps)) {
+        errors.push_back(diagnostic_at(
+            scene, {}, "time.end",
+            fmt::format("with steps of {:.2g} s the run would take about {:.2g} of them, at most "
+                        "{:.0g} are made",
+                        plan.first_step, plan.expected_steps, most_steps),
+            "an earlier end, or a longer `time.step` if that is given"));
+    }
+}
+
 } // namespace
 
 void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
@@ -278,6 +300,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     std::vector<Diagnostic> errors;
     check_overlaps(scene, errors);
     check_step(scene, plan, errors);
+    check_outputs(scene, plan, errors);
     check_gauges(scene, filling, plan, errors);
     if (scene.fluid && filling.fluid.empty()) {
         errors.push_back(diagnostic_at(

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 
 namespace hyoryu {
 
@@ -125,7 +125,25 @@ void save_tiles(const Tiles& tiles, const std::string& name, Snapshot& snapshot)
     add_values(snapshot, name + "/z", std::span<const float>(tiles.z));
 }
 
-void restore_tiles(Tiles& tiles, const std::string& name, const Snapshot& snapshot)
+// Lists are made from tiles by index: those of a damaged checkpoint would lead anywhere.
+void check_tiles(const Tiles& tiles, Rows rows)
+{
+    const auto is_finite = [](float a) { return std::isfinite(a); };
+    const auto is_a_row = [&](std::int32_t row) { return row >= rows.begin && row < rows.end; };
+    const bool whole =
+        tiles.start.size() == tiles.tile.size() + 1 && tiles.start.front() == 0 &&
+        tiles.start.back() == tiles.count() && tiles.count() <= rows.size() &&
+        tiles.x.size() == tiles.row.size() && tiles.y.size() == tiles.row.size() &&
+        tiles.z.size() == tiles.row.size() && std::ranges::is_sorted(tiles.start) &&
+        std::ranges::is_sorted(tiles.tile) && std::ranges::all_of(tiles.row, is_a_row) &&
+        std::ranges::all_of(tiles.x, is_finite) && std::ranges::all_of(tiles.y, is_finite) &&
+        std::ranges::all_of(tiles.z, is_finite);
+    if (!whole) {
+        throw IoError("the checkpoint has tiles that do not fit its particles: it is damaged");
+    }
+}
+
+void restore_tiles(Tiles& tiles, Rows rows, const std::string& name, const Snapshot& snapshot)
 {
     const auto& number = values<std::int64_t>(snapshot, name + "/number");
     tiles.tile.assign(number.begin(), number.end());
@@ -134,6 +152,7 @@ void restore_tiles(Tiles& tiles, const std::string& name, const Snapshot& snapsh
     tiles.x = values<float>(snapshot, name + "/x");
     tiles.y = values<float>(snapshot, name + "/y");
     tiles.z = values<float>(snapshot, name + "/z");
+    check_tiles(tiles, rows);
 }
 
 // What a step starts from. All else, and all of solid particles, follows from it and from the
@@ -168,15 +187,25 @@ void save_fluid(const Fluid& fluid, Snapshot& snapshot)
     add(snapshot, "fluid/numbers", std::move(numbers));
 }
 
+// The search for neighbours turns places into numbers of cells.
+void check_places(const Numbers& places)
+{
+    if (!std::all_of(places.begin(), places.end(), [](double x) { return std::isfinite(x); })) {
+        throw IoError("the checkpoint has particles at no finite place: it is damaged");
+    }
+}
+
 void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
 {
     Particles& particles = fluid.particles;
     Reader numbers(snapshot, "fluid/numbers");
-    const auto kept = static_cast<Index>(numbers.number());
-    if (kept > particles.fluid().size()) {
-        throw IoError(
-            "the checkpoint has more fluid particles than the case: it belongs to another case");
+    const double stored = numbers.number();
+    if (!(stored >= 0 && stored <= static_cast<double>(particles.fluid().size()))) {
+        throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
+                                  "{} of this case: it belongs to another case",
+                                  stored, particles.fluid().size()));
     }
+    const auto kept = static_cast<Index>(stored);
     // Particles that were lost before the checkpoint leave the store; which rows go does not
     // matter.
     std::vector<std::int32_t> order(static_cast<std::size_t>(kept));
@@ -194,8 +223,8 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     const auto rows = static_cast<std::size_t>(kept);
     for_each(Lasting{}, [&](auto column) {
         if (particles.has(column)) {
-            const Reader stored(snapshot, fmt::format("fluid/{}", column.info.name));
-            unflat(stored.all(), particles[column].first(rows));
+            const Reader values_of(snapshot, fmt::format("fluid/{}", column.info.name));
+            unflat(values_of.all(), particles[column].first(rows));
         }
     });
     const auto& id = values<std::int64_t>(snapshot, "fluid/id");
@@ -203,12 +232,13 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
         throw IoError("the checkpoint numbers other particles: it belongs to another case");
     }
     std::copy(id.begin(), id.end(), particles.id().begin());
-    restore_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
+    check_places(flat(particles[field::position].first(rows)));
+    restore_tiles(fluid.neighbours.fluid, particles.fluid(), "fluid/tiles", snapshot);
     if (fluid.moving_walls) {
-        restore_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+        restore_tiles(fluid.neighbours.wall, particles.wall(), "fluid/wall_tiles", snapshot);
         fluid.neighbours.walls_in_tiles = particles.wall();
     }
-    restore_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
+    restore_tiles(fluid.neighbours.body, particles.body(), "fluid/body_tiles", snapshot);
     rebuild_neighbours(fluid);
 }
 

@@ -68,17 +68,54 @@ TEST_F(Checkpoint, IsReplacedWhole)
     write_checkpoint(folder, make_snapshot());
     write_checkpoint(folder, {{}, {{"step", "2"}}});
     EXPECT_EQ(read_checkpoint(folder).texts.at("step"), "2");
-    EXPECT_EQ(testing::content_of(folder), std::vector<std::string>{"checkpoint.h5"});
+    EXPECT_EQ(testing::content_of(folder),
+              (std::vector<std::string>{"checkpoint.h5", "checkpoint.previous.h5"}));
+}
+
+TEST_F(Checkpoint, KeepsTwoGenerations)
+{
+    for (const char* step : {"1", "2", "3"}) {
+        write_checkpoint(folder, {{}, {{"step", step}}});
+    }
+    const NewestCheckpoint newest = read_newest_checkpoint(folder);
+    EXPECT_EQ(newest.snapshot.texts.at("step"), "3");
+    EXPECT_EQ(newest.passed_over, "");
+    EXPECT_EQ(testing::content_of(folder),
+              (std::vector<std::string>{"checkpoint.h5", "checkpoint.previous.h5"}));
+    std::filesystem::rename(folder / "checkpoint.previous.h5", folder / "checkpoint.h5");
+    EXPECT_EQ(read_checkpoint(folder).texts.at("step"), "2");
+}
+
+TEST_F(Checkpoint, ThatIsDamagedGivesWayToTheOneBefore)
+{
+    write_checkpoint(folder, {{}, {{"step", "1"}}});
+    write_checkpoint(folder, {{}, {{"step", "2"}}});
+    put_text_into(folder / "checkpoint.h5", "torn");
+    const NewestCheckpoint newest = read_newest_checkpoint(folder);
+    EXPECT_EQ(newest.snapshot.texts.at("step"), "1");
+    EXPECT_NE(newest.passed_over.find("is no checkpoint"), std::string::npos);
+    // Without this the next checkpoint would keep the torn one as the older generation.
+    take_previous_checkpoint(folder);
+    write_checkpoint(folder, {{}, {{"step", "3"}}});
+    put_text_into(folder / "checkpoint.h5", "torn");
+    EXPECT_EQ(read_newest_checkpoint(folder).snapshot.texts.at("step"), "1");
+    std::filesystem::remove(folder / "checkpoint.h5");
+    EXPECT_EQ(read_newest_checkpoint(folder).snapshot.texts.at("step"), "1");
+    put_text_into(folder / "checkpoint.previous.h5", "torn as well");
+    EXPECT_THROW(read_newest_checkpoint(folder), IoError);
+    std::filesystem::remove(folder / "checkpoint.previous.h5");
+    EXPECT_THROW(read_newest_checkpoint(folder), IoError);
 }
 
 TEST_F(Checkpoint, NoticesAFlippedBitAnywhere)
 {
     write_checkpoint(folder, make_snapshot());
     const std::string good = text_of(folder / "checkpoint.h5");
-    constexpr std::size_t positions = 60;
+    constexpr std::size_t header = 512; // every byte of it, and places all over the rest
+    constexpr std::size_t positions = 1024;
     for (std::size_t k = 0; k < positions; ++k) {
         std::string bad = good;
-        const std::size_t place = k < 10 ? k : k * (good.size() - 1) / (positions - 1);
+        const std::size_t place = k < header ? k : k * (good.size() - 1) / (positions - 1);
         bad[place] = static_cast<char>(bad[place] ^ (1 << (k % 8)));
         put_text_into(folder / "checkpoint.h5", bad);
         EXPECT_THROW(read_checkpoint(folder), IoError) << "byte " << place;
@@ -92,8 +129,9 @@ TEST_F(Checkpoint, ThatIsMissingTornOrForeignIsAnError)
     EXPECT_THROW(read_checkpoint(folder), IoError);
     write_checkpoint(folder, make_snapshot());
     const std::string good = text_of(folder / "checkpoint.h5");
-    for (const std::size_t size :
-         {std::size_t{0}, std::size_t{100}, std::size_t{512}, good.size() - 1}) {
+    constexpr std::size_t lengths = 200;
+    for (std::size_t k = 0; k < lengths; ++k) {
+        const std::size_t size = k * (good.size() - 1) / (lengths - 1);
         put_text_into(folder / "checkpoint.h5", good.substr(0, size));
         EXPECT_THROW(read_checkpoint(folder), IoError) << size;
     }

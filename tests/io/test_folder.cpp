@@ -30,6 +30,7 @@ protected:
             write_text(folder / name, "x");
         }
         write_checkpoint(folder, {});
+        write_checkpoint(folder, {});
         write_master(folder, "", "0");
         put_text_into(folder / "pictures/frame_000000.png", "");
         put_text_into(folder / "pictures/animation.mp4", "");
@@ -103,6 +104,20 @@ TEST_F(Folder, ToGoOnWithLosesOnlyTornFiles)
     std::erase(expected, "frames/fluid_000001.hdf.tmp");
     prepare_results(folder, Existing::extend);
     EXPECT_EQ(content_of(folder), expected);
+}
+
+TEST_F(Folder, BelongsToOneRunAtATime)
+{
+    fill();
+    const auto before = content_of(folder);
+    {
+        const FolderLock lock(folder);
+        for (const Existing existing : {Existing::refuse, Existing::replace, Existing::extend}) {
+            EXPECT_THROW(prepare_results(folder, existing), CaseError);
+        }
+        EXPECT_EQ(content_of(folder), before);
+    }
+    EXPECT_NO_THROW(prepare_results(folder, Existing::extend));
 }
 
 TEST_F(Folder, ThatIsAFileIsRefused)

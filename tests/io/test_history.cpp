@@ -65,6 +65,20 @@ TEST_F(Histories, GoOnBehindTheRowsThatAreKept)
               header + "0,a,1\n9e-1,a,2\n1,a,3\n1,\"b, c\",4\n1.1,a,7\n");
 }
 
+TEST_F(Histories, GoOnBehindTheirFirstRowsWhateverTimesLaterOnesHave)
+{
+    // A sum that ended at 0.5 but was written at 1.5, after the checkpoint at 1.
+    const std::string header = "# s,-,m\ntime,body,x\n";
+    put_text_into(folder / "bodies.csv", header + "0,a,1\n1,a,2\n0.5,a,3\n1.5,a,4\n");
+    {
+        History history(folder, table, 1.0, 2);
+        EXPECT_EQ(history.rows(), 2);
+        history.append(std::array{cell(0.5), cell("a"), cell(3.0)});
+        EXPECT_EQ(history.rows(), 3);
+    }
+    EXPECT_EQ(text_of(folder / "bodies.csv"), header + "0,a,1\n1,a,2\n0.5,a,3\n");
+}
+
 TEST_F(Histories, StartAnewWithoutAFileOrWithATornHeader)
 {
     const std::string header = "# s,-,m\ntime,body,x\n";

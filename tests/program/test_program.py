@@ -124,10 +124,10 @@ class Commands(ProgramTest):
 
 
 class Mistakes(ProgramTest):
-    def refused(self, text, *expected, arguments=()):
+    def refused(self, text, *expected, arguments=(), **options):
         before = set(self.files())
         name = self.write(text)
-        done = self.call("run", name, "-o", "out", *arguments)
+        done = self.call("run", name, "-o", "out", *arguments, **options)
         self.assertEqual(done.returncode, 2, done.stderr)
         for part in expected:
             self.assertIn(part, done.stderr)
@@ -182,6 +182,35 @@ class Mistakes(ProgramTest):
 
     def test_an_absurd_spacing_is_refused_with_the_estimate(self):
         self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-7"), "particles")
+        self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-5"), "1.7e+14", "particles")
+
+    def test_a_case_beyond_the_memory_is_refused_with_the_estimate(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+        for spacing, expected in (("0.001", "to place them alone takes"), ("0.0025", "the run needs")):
+            self.refused(FLOOD.replace("spacing = 0.05", f"spacing = {spacing}"), expected, "2.",
+                         preexec_fn=limit)
+
+    def test_a_wall_far_beyond_the_domain_is_counted(self):
+        domain = "[domain]\nmin = [0.0, 0.0, 0.0]\nmax = [1.6, 0.5, 1.0]\n[fluid]"
+        self.refused(FLOOD.replace("[fluid]", domain).replace("max = [1.6, 0.5, 1.0]\nopen",
+                                                              "max = [1e7, 1e7, 1.0]\nopen"),
+                     "particles")
+
+    def test_more_outputs_and_steps_than_can_be_are_refused_with_the_estimate(self):
+        self.refused(FLOOD.replace("every = 0.05", "every = 1e-300"), "output.every", "5e+299 frames")
+        self.refused(FLOOD.replace("end = 0.5", "end = 1e300"), "time.end", "at most 1e+15")
+        self.refused(FLOOD.replace("end = 0.5", "end = 0.5\nstep = 1e-300"), "time.end", "5e+299")
+        copies = "[body.copies]\ncount = [1000000000, 1, 1]\npitch = [1.0, 0.0, 0.0]\n[output]"
+        self.refused(FLOOD.replace("[output]", copies), "body[0].copies.count", "1000000000")
+        self.refused(FLOOD.replace("[output]", copies.replace("1000000000, 1, 1", "100000, 9, 9")),
+                     "too many, at most 100000 bodies")
+
+    def test_no_name_leads_out_of_the_results_folder(self):
+        for name in ("../evil", "a/b", "/tmp/evil", "a\\\\b", "nul\\u0000", "line\\n"):
+            self.refused(FLOOD.replace('"crate"', f'"{name}"'), "is no name")
+            self.refused(FLOOD.replace('"basin"\nshape', f'"{name}"\nshape'), "is no name")
 
 
 class Runs(ProgramTest):

@@ -6,6 +6,7 @@
 #include "hyoryu/core/snapshot.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,6 +15,21 @@
 
 namespace hyoryu {
 
+/// Keeps other runs out of a results folder for as long as it lives. The lock is on the folder
+/// itself (flock), so it adds no file, and the system takes it back from a process that ends in
+/// whatever way. A file system that knows no such locks leaves the folder unguarded.
+class FolderLock {
+public:
+    /// Throws CaseError if another run holds the folder, IoError if it cannot be opened.
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(FolderLock&& other) noexcept;
+    FolderLock& operator=(FolderLock&&) = delete;
+
+private:
+    int descriptor_ = -1;
+};
+
 enum class Existing { refuse, replace, extend };
 
 /// Makes the folder ready. refuse: throws CaseError if it exists and is not empty; replace: removes
@@ -21,8 +37,8 @@ enum class Existing { refuse, replace, extend };
 /// A folder is ours if it holds `frames/` or `plan.json` (a case file alone does not make it ours:
 /// it may be the only copy of what a user typed). `replace` throws CaseError, and removes nothing,
 /// if the folder is not ours or holds anything that no run writes. Throws IoError if it cannot be
-/// written.
-void prepare_results(const std::filesystem::path& folder, Existing existing);
+/// written, and CaseError, leaving everything as it is, if another run holds its lock.
+FolderLock prepare_results(const std::filesystem::path& folder, Existing existing);
 
 /// Writes `text` to `file` so that a reader sees the old or the new text, never a part.
 void write_text(const std::filesystem::path& file, const std::string& text);
@@ -60,16 +76,20 @@ class History {
 public:
     /// Opens a new `folder/<table.name>.csv`, replacing what stands there.
     History(const std::filesystem::path& folder, Table table);
-    /// Goes on with the file, keeping the rows whose first cell is at most `keep_until` [s]; a last
-    /// row that was torn by a kill is dropped. Starts a new file if there is none. Throws IoError
-    /// if the file has other columns.
-    History(const std::filesystem::path& folder, Table table, double keep_until);
+    /// Goes on with the file, keeping the rows whose first cell is at most `keep_until` [s], and no
+    /// more than the first `keep_rows`: a row may be written later than the time it tells of. A
+    /// last row that was torn by a kill is dropped. Starts a new file if there is none. Throws
+    /// IoError if the file has other columns.
+    History(const std::filesystem::path& folder, Table table, double keep_until,
+            std::int64_t keep_rows = std::numeric_limits<std::int64_t>::max());
     ~History();
     History(History&&) noexcept;
     History& operator=(History&&) noexcept;
     /// Appends one row: texts and numbers in the order of the heads, already formatted by `cell`.
     void append(std::span<const std::string> cells);
-    /// Hands the rows to the operating system.
+    /// Rows of the file, those that were kept included.
+    std::int64_t rows() const;
+    /// Forces the rows to the disk.
     void flush();
 
 private:
@@ -89,10 +109,27 @@ std::string cell(std::string_view text);
 void write_master(const std::filesystem::path& folder, const std::string& case_text,
                   const std::string& version);
 
-/// Writes / reads `checkpoint.h5`. Reading throws IoError if the file is missing, damaged
-/// (checksum) or of another format version.
+/// Writes `checkpoint.h5`; the one that stood there becomes `checkpoint.previous.h5`. At every
+/// moment at least one of the two is whole.
 void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snapshot);
+
+/// Reads `checkpoint.h5`. Throws IoError if the file is missing, damaged (checksum), of another
+/// format version or of another program.
 Snapshot read_checkpoint(const std::filesystem::path& folder);
+
+/// The newest checkpoint of a folder that can be read.
+struct NewestCheckpoint {
+    Snapshot snapshot;
+    std::string passed_over; // why `checkpoint.h5` was not it; empty if it was
+};
+
+/// Reads `checkpoint.h5` or, if that cannot be read, `checkpoint.previous.h5`. Throws IoError with
+/// the reasons if neither can.
+NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder);
+
+/// Puts `checkpoint.previous.h5` in the place of a `checkpoint.h5` that cannot be read, so that the
+/// next checkpoint does not push the only good one out. Throws IoError.
+void take_previous_checkpoint(const std::filesystem::path& folder);
 
 /// One frame read back (VTKHDF file): for `render`, `info` and tests. Name and index are those in
 /// the file. Throws IoError.

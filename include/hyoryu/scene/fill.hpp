@@ -38,7 +38,8 @@ int wall_layers(double smoothing_ratio);
 Aggregate aggregate(const Shape& shape, double spacing, int dimensions);
 
 /// Fills the scene. Where a body stands in the fluid, exactly its volume is taken out.
-/// Throws CaseError if more particles were asked for than can be numbered, naming the estimate.
+/// Throws CaseError, naming the estimate, if more particles were asked for than can be numbered or
+/// than the memory of this process can hold.
 Filling fill(const Scene& scene);
 
 /// The region of the run: what the user said, or the bounds of everything in the scene with

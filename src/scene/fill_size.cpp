@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "fill_size.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/fill.hpp"
+#include "hyoryu/scene/machine_memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Row numbers are 32-bit in the neighbour lists.
+constexpr double most_particles = 2e9;
+// Bytes a particle while a scene is filled: place, velocity, depth and pressure, twice while they
+// grow. A run needs several times as much.
+constexpr double bytes_while_filling = 100;
+
+double half_surface(const Vec3& size, int dimensions)
+{
+    return dimensions == 2 ? size.x() + size.z()
+                           : size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
+// What the particles of a wall are taken from: an obstacle, or one layer of a surface.
+double wall_volume(const Scene& scene, const Wall& wall)
+{
+    if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
+        return volume(solid->shape, scene.dimensions);
+    }
+    const Bounds domain = domain_of(scene);
+    double surface = half_surface(domain.max - domain.min, scene.dimensions);
+    if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
+        surface = std::max(surface, half_surface(basin->max - basin->min, scene.dimensions));
+    }
+    return surface * scene.spacing;
+}
+
+} // namespace
+
+double particles_asked(const Scene& scene)
+{
+    const auto count = [&](double volume_, double spacing) {
+        return volume_ / std::pow(spacing, scene.dimensions);
+    };
+    double total = 0;
+    for (const BodySettings& body : scene.bodies) {
+        total += count(volume(body.shape, scene.dimensions), body.spacing);
+    }
+    if (scene.fluid) {
+        for (const FluidBlock& block : scene.fluid->blocks) {
+            total += count(volume(block.shape, scene.dimensions), scene.spacing);
+        }
+        for (const Wall& wall : scene.walls) {
+            total += count(wall_volume(scene, wall), scene.spacing);
+        }
+    }
+    return total;
+}
+
+void check_size(const Scene& scene)
+{
+    const double asked = particles_asked(scene);
+    if (!(asked < most_particles)) {
+        throw CaseError(
+            fmt::format(
+                "this scene asks for about {:.2g} particles; at most {:.0g} can be numbered", asked,
+                most_particles),
+            "increase `particles.spacing`");
+    }
+    constexpr double giga = 1e9;
+    const double memory = machine_memory();
+    if (asked * bytes_while_filling > memory) {
+        throw CaseError(
+            fmt::format("this scene asks for about {:.2g} particles: to place them alone takes "
+                        "{:.1f} GB, and {:.1f} GB is what this process may use",
+                        asked, asked * bytes_while_filling / giga, memory / giga),
+            "increase `particles.spacing`");
+    }
+}
+
+} // namespace hyoryu

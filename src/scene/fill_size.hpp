@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// How many particles a scene asks for, before any is made.
+#pragma once
+
+#include "hyoryu/scene/scene.hpp"
+
+namespace hyoryu {
+
+/// About how many particles filling the scene makes; may be infinite.
+double particles_asked(const Scene& scene);
+
+/// Throws CaseError, naming the estimate, if the particles could not be numbered or the memory of
+/// this process could not hold them.
+void check_size(const Scene& scene);
+
+} // namespace hyoryu

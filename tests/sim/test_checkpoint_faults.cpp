@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// A snapshot that does not fit its case, or holds what no run makes, is an error and no crash.
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/sim/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace hyoryu {
+namespace {
+
+Simulation make_flood()
+{
+    const Scene scene = parse_case(R"(
+dimensions = 2
+[time]
+end = 0.1
+[particles]
+spacing = 0.05
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.5, 0.0, 0.5]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.5, 0.0, 1.0]
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 400.0
+position = [0.9, 0.0, 0.1]
+[[gauge]]
+name = "push"
+type = "force"
+on = "crate"
+)",
+                                   "test.toml");
+    const Filling filling = fill(scene);
+    return make_simulation(scene, make_plan(scene, filling), filling);
+}
+
+Snapshot some_state()
+{
+    Simulation sim = make_flood();
+    for (int k = 0; k < 5; ++k) {
+        step(sim);
+        sim.clock.frame += frame_due(sim.clock, sim.scene) ? 1 : 0;
+    }
+    return save(sim);
+}
+
+std::string fault_of(const Snapshot& snapshot)
+{
+    Simulation sim = make_flood();
+    try {
+        restore(sim, snapshot);
+    } catch (const IoError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(CheckpointFaults, AStateFitsItsCase)
+{
+    EXPECT_EQ(fault_of(some_state()), "");
+}
+
+TEST(CheckpointFaults, EveryArrayIsNeededWithItsTypeAndLength)
+{
+    const Snapshot good = some_state();
+    for (const auto& [name, column] : good.arrays) {
+        Snapshot bad = good;
+        bad.arrays.erase(name);
+        EXPECT_NE(fault_of(bad), "") << name << " is missing";
+        bad.arrays[name] = {name, "", 1, std::vector<float>{1.0F}};
+        EXPECT_NE(fault_of(bad), "") << name << " is of another type";
+        bad.arrays[name] = column;
+        std::visit(
+            [&](auto& values) {
+                // Of remembered contact forces any number is right.
+                if (!values.empty() && name != "rigid/memory") {
+                    values.pop_back();
+                    EXPECT_NE(fault_of(bad), "") << name << " is too short";
+                    values.clear();
+                    EXPECT_NE(fault_of(bad), "") << name << " is empty";
+                }
+            },
+            bad.arrays[name].values);
+    }
+}
+
+TEST(CheckpointFaults, NumbersThatNoRunMakesAreNotFollowed)
+{
+    const Snapshot good = some_state();
+    for (const double number : {-1.0, 1e18, std::numeric_limits<double>::quiet_NaN()}) {
+        Snapshot bad = good;
+        std::get<std::vector<double>>(bad.arrays["fluid/numbers"].values)[0] = number;
+        EXPECT_NE(fault_of(bad), "") << number << " particles";
+        bad = good;
+        std::get<std::vector<double>>(bad.arrays["gauges"].values)[0] = number;
+        fault_of(bad); // any answer but a crash
+    }
+    for (const char* name : {"fluid/Position", "fluid/built_at"}) {
+        Snapshot bad = good;
+        std::get<std::vector<double>>(bad.arrays[name].values)[3] =
+            std::numeric_limits<double>::infinity();
+        EXPECT_NE(fault_of(bad), "") << name;
+    }
+}
+
+} // namespace
+} // namespace hyoryu
