@@ -24,6 +24,7 @@ constexpr double painleve = 1e-12;
 constexpr double singular = 1e-13;
 // Newton's method converges quadratically from the fixed-point guess; more steps mean it does not.
 constexpr int newton_steps = 12;
+constexpr double settled_turn = 1e-9; // the square of it is below round-off [rad]
 constexpr int fixed_point_steps = 3;
 // A scan this fine brackets every root: the condition is a trigonometric polynomial of degree two.
 constexpr int scan_points = 48;
@@ -91,8 +92,25 @@ std::optional<Vec3> accepted(const Cone& cone, const Vec3& b, const Vec2& d)
     return std::nullopt;
 }
 
-// Fixed point d <- direction of u_t + c d, then Newton on the angle.
 std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d)
+{
+    for (int k = 0; k < newton_steps; ++k) {
+        const Crossed f = crossed(cone, b, d);
+        if (f.slope == 0) {
+            return std::nullopt;
+        }
+        const double change = -f.value / f.slope;
+        // the turn by `change` up to a length that the normalisation takes out
+        d = Vec2(d.x() - change * d.y(), d.y() + change * d.x()).normalized();
+        if (std::abs(change) < settled_turn) {
+            break;
+        }
+    }
+    return accepted(cone, b, d);
+}
+
+// Fixed point d <- direction of u_t + c d, which leads Newton's method to the right root.
+std::optional<Vec3> slide_by_fixed_point(const Cone& cone, const Vec3& b, Vec2 d)
 {
     for (int k = 0; k < fixed_point_steps; ++k) {
         const Slip slip = slip_along(cone, b, d);
@@ -106,19 +124,7 @@ std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d)
         }
         d = next.normalized();
     }
-    for (int k = 0; k < newton_steps; ++k) {
-        const Crossed f = crossed(cone, b, d);
-        if (f.slope == 0) {
-            return std::nullopt;
-        }
-        const double change = -f.value / f.slope;
-        // the turn by `change` up to a length that the normalisation takes out
-        d = Vec2(d.x() - change * d.y(), d.y() + change * d.x()).normalized();
-        if (std::abs(change) < 1e-14) { // the last bits of an angle
-            break;
-        }
-    }
-    return accepted(cone, b, d);
+    return slide_by_newton(cone, b, d);
 }
 
 std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
@@ -142,6 +148,20 @@ std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
         }
     }
     return std::nullopt;
+}
+
+// The earlier direction mostly needs a correction only.
+std::optional<Vec3> slide_in_space(const Cone& cone, const Vec3& b, const Vec3& stick,
+                                   const Vec3& guess)
+{
+    const bool known = guess.tail<2>().squaredNorm() > 0;
+    const Vec2 d =
+        known ? Vec2(-guess.tail<2>().normalized()) : Vec2(-stick.tail<2>().normalized());
+    std::optional<Vec3> slide = known ? slide_by_newton(cone, b, d) : std::nullopt;
+    if (!slide) {
+        slide = slide_by_fixed_point(cone, b, d);
+    }
+    return slide ? slide : slide_by_scan(cone, b);
 }
 
 std::optional<Vec3> slide_in_plane(const Cone& cone, const Vec3& b)
@@ -228,12 +248,7 @@ ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
     if (cone.size == 2) {
         slide = slide_in_plane(cone, b);
     } else {
-        const Vec2 d =
-            guess.tail<2>().squaredNorm() > 0 ? Vec2(-guess.tail<2>()) : Vec2(-stick.tail<2>());
-        slide = slide_by_newton(cone, b, d.normalized());
-        if (!slide) {
-            slide = slide_by_scan(cone, b);
-        }
+        slide = slide_in_space(cone, b, stick, guess);
     }
     if (slide) {
         return {*slide};

@@ -100,15 +100,31 @@ double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort
     const std::vector<std::size_t> ends = sort_into_islands(rows, memory);
     memory.solvers.resize(std::max(memory.solvers.size(), ends.size()));
     memory.left.assign(ends.size(), 0);
+    const auto rows_of = [&](std::size_t island) {
+        const std::size_t begin = island == 0 ? 0 : ends[island - 1];
+        return std::span(rows).subspan(begin, ends[island] - begin);
+    };
+    const auto solve_one = [&](std::size_t island) {
+        memory.left[island] =
+            solve(rows_of(island), memory.responses, memory.solvers[island], effort);
+    };
+    // Those whose sweeps use all threads come one after another, the others side by side.
+    const auto is_shared = [&](std::size_t island) {
+        return rows_of(island).size() >= worth_colouring;
+    };
+    for (std::size_t island = 0; island < ends.size(); ++island) {
+        if (is_shared(island)) {
+            solve_one(island);
+        }
+    }
+    const auto solve_small = [&](Index k) {
+        if (!is_shared(static_cast<std::size_t>(k))) {
+            solve_one(static_cast<std::size_t>(k));
+        }
+    };
     const Index worth =
         rows.size() < worth_sharing_contacts ? std::numeric_limits<Index>::max() : 2;
-    const auto solve_one = [&](Index k) {
-        const auto island = static_cast<std::size_t>(k);
-        const std::size_t begin = island == 0 ? 0 : ends[island - 1];
-        const std::span<Row> its = std::span(rows).subspan(begin, ends[island] - begin);
-        memory.left[island] = solve(its, memory.responses, memory.solvers[island], effort);
-    };
-    parallel_blocks(0, static_cast<Index>(ends.size()), solve_one, worth);
+    parallel_blocks(0, static_cast<Index>(ends.size()), solve_small, worth);
     return ends.empty() ? 0 : *std::max_element(memory.left.begin(), memory.left.end());
 }
 

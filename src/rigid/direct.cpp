@@ -38,24 +38,24 @@ Vec3 coupling(const Row& i, const Row& j, const Vec3& p, const std::vector<Respo
 {
     Vec3 u = Vec3::Zero();
     const Vec3 P = j.B * p;
-    const auto add = [&](int body, double sign_i, const Mat3& C, double sign_j, const Mat3& G) {
-        u +=
-            sign_i * sign_j *
-            (i.D.transpose() * bodies[body].inverse_mass.cwiseProduct(P) + C.transpose() * (G * p));
+    const auto add = [&](int body, const Vec3& seen, const Vec3& arm, double sign) {
+        const Response& r = bodies[body];
+        u += sign *
+             (r.inverse_mass.cwiseProduct(P) + (r.inverse_inertia * arm.cross(P)).cross(seen));
     };
     if (i.a == j.a) {
-        add(i.a, 1, i.Ca, 1, j.Ga);
+        add(i.a, i.seen_a, j.arm_a, 1);
     }
     if (i.a == j.b) {
-        add(i.a, 1, i.Ca, -1, j.Gb);
+        add(i.a, i.seen_a, j.arm_b, -1);
     }
     if (i.b >= 0 && i.b == j.a) {
-        add(i.b, -1, i.Cb, 1, j.Ga);
+        add(i.b, i.seen_b, j.arm_a, -1);
     }
     if (i.b >= 0 && i.b == j.b) {
-        add(i.b, -1, i.Cb, -1, j.Gb);
+        add(i.b, i.seen_b, j.arm_b, 1);
     }
-    return u;
+    return i.D.transpose() * u;
 }
 
 void assemble(std::span<Row> rows, const std::vector<Response>& bodies, SolverWork& work)

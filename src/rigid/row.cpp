@@ -27,30 +27,27 @@ Mat3 axes(const Vec3& n, int helper, int dimensions)
     return basis;
 }
 
-Mat3 crossed(const Vec3& arm, const Mat3& columns)
+// What the impulse of one body's side changes at the contact, for unit impulses along the axes.
+Mat3 inverse_mass(const Row& row, const Response& body, const Vec3& arm, const Vec3& seen)
 {
-    Mat3 result;
-    for (int k = 0; k < 3; ++k) {
-        result.col(k) = arm.cross(Vec3(columns.col(k)));
+    Mat3 K;
+    for (int m = 0; m < 3; ++m) {
+        const Vec3 P = row.B.col(m);
+        K.col(m) = row.D.transpose() * (body.inverse_mass.cwiseProduct(P) +
+                                        (body.inverse_inertia * arm.cross(P)).cross(seen));
     }
-    return result;
+    return K;
 }
 
 void fill(Row& row, const TwoTouches& at, const Centres& c, const std::vector<Response>& bodies)
 {
-    const Response& a = bodies[row.a];
     row.arm_a = at.push.point - c.push_a;
-    row.Ca = crossed(at.see.point - c.see_a, row.D);
-    row.Ga = a.inverse_inertia * crossed(row.arm_a, row.B);
-    row.cone.K =
-        row.D.transpose() * a.inverse_mass.asDiagonal() * row.B + row.Ca.transpose() * row.Ga;
+    row.seen_a = at.see.point - c.see_a;
+    row.cone.K = inverse_mass(row, bodies[row.a], row.arm_a, row.seen_a);
     if (row.b >= 0) {
-        const Response& b = bodies[row.b];
         row.arm_b = at.push.point - c.push_b;
-        row.Cb = crossed(at.see.point - c.see_b, row.D);
-        row.Gb = b.inverse_inertia * crossed(row.arm_b, row.B);
-        row.cone.K +=
-            row.D.transpose() * b.inverse_mass.asDiagonal() * row.B + row.Cb.transpose() * row.Gb;
+        row.seen_b = at.see.point - c.see_b;
+        row.cone.K += inverse_mass(row, bodies[row.b], row.arm_b, row.seen_b);
     }
 }
 
@@ -97,12 +94,12 @@ void complete(Row& row, const TwoTouches& at, const Centres& centres,
 Vec3 velocity(const Row& row, const std::vector<Response>& bodies)
 {
     const Response& a = bodies[row.a];
-    Vec3 u = row.D.transpose() * (a.v - row.wall_velocity) + row.Ca.transpose() * a.omega;
+    Vec3 u = a.v + a.omega.cross(row.seen_a) - row.wall_velocity;
     if (row.b >= 0) {
         const Response& b = bodies[row.b];
-        u -= row.D.transpose() * b.v + row.Cb.transpose() * b.omega;
+        u -= b.v + b.omega.cross(row.seen_b);
     }
-    return u;
+    return row.D.transpose() * u;
 }
 
 void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)
@@ -113,12 +110,12 @@ void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)
     Response& a = bodies[row.a];
     if (a.movable) {
         a.v += a.inverse_mass.cwiseProduct(P);
-        a.omega += row.Ga * dp;
+        a.omega += a.inverse_inertia * row.arm_a.cross(P);
     }
     if (row.b >= 0 && bodies[row.b].movable) {
         Response& b = bodies[row.b];
         b.v -= b.inverse_mass.cwiseProduct(P);
-        b.omega -= row.Gb * dp;
+        b.omega -= b.inverse_inertia * row.arm_b.cross(P);
     }
 }
 

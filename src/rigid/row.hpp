@@ -26,17 +26,16 @@ struct TwoTouches {
     Touch see;
 };
 
-/// Rows of the contact problem: u = D^T (v_a - v_b - w) + C_a^T omega_a - C_b^T omega_b, and the
-/// impulse B p changes v by B p / M and omega by G p.
+/// Rows of the contact problem: u = D^T (v_a + omega_a x s_a - v_b - omega_b x s_b - w), and the
+/// impulse P = B p changes v by P / M and omega by I^-1 (r x P).
 struct Row {
     int a = 0, b = -1; // bodies; b < 0 is a boundary
     int contact = 0;   // index of the contact in the caller's list
     Cone cone;
-    Mat3 B = Mat3::Identity();                 // n, t1, t2 where the impulse acts
-    Mat3 D = Mat3::Identity();                 // the same where the velocity is seen
-    Mat3 Ca = Mat3::Zero(), Cb = Mat3::Zero(); // (arm x D)
-    Mat3 Ga = Mat3::Zero(), Gb = Mat3::Zero(); // I^-1 (arm x B)
-    Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};       // of the impulse [m]
+    Mat3 B = Mat3::Identity();             // n, t1, t2 where the impulse acts
+    Mat3 D = Mat3::Identity();             // the same where the velocity is seen
+    Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};   // r, of the impulse [m]
+    Vec3 seen_a{0, 0, 0}, seen_b{0, 0, 0}; // s, of the velocity [m]
     Vec3 wall_velocity{0, 0, 0};
     double target = 0;    // wanted normal velocity [m/s]
     Vec3 before{0, 0, 0}; // velocity at the start of the solve, in the axes of D [m/s]

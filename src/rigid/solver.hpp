@@ -2,7 +2,7 @@
 // The impulses of many contacts at once.
 #pragma once
 
-#include "row.hpp"
+#include "colours.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -20,6 +20,8 @@ struct SolverWork {
     std::vector<int> states;
     std::vector<int> columns;
     std::vector<Vec3> directions, impulses, momenta, start;
+    Colours colours;
+    std::vector<double> changes; // of each row in a sweep [m/s]
 };
 
 /// What a solve may cost and what it may leave.
@@ -56,7 +58,8 @@ void guess_states(std::span<const Row> rows, SolverWork& work);
 /// From the states in `work`; false if they did not settle.
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
 /// Sweeps with Nesterov's momentum and its restart (O'Donoghue and Candes 2015), which settle high
-/// piles in tens of sweeps where plain ones need thousands.
+/// piles in tens of sweeps where plain ones need thousands. Many rows are sorted by colour, and the
+/// sweeps go on all threads.
 double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                           const Sweeps& sweeps);
 

@@ -59,36 +59,40 @@ double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sw
 double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                           const Sweeps& sweeps)
 {
+    sort_by_colour(rows, bodies, work.colours);
+    const std::size_t n = rows.size();
     std::vector<Vec3>& previous = work.impulses; // after the last sweep
     std::vector<Vec3>& start = work.start;       // of this sweep, momentum included
-    previous.clear();
-    for (const Row& row : rows) {
-        previous.push_back(row.p);
+    previous.resize(n);
+    work.changes.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        previous[k] = rows[k].p;
     }
     start = previous;
     double theta = 1;
     double change = infinity;
     for (int sweep = 1; sweep <= sweeps.most && change > sweeps.settled; ++sweep) {
-        const double last = std::exchange(change, 0);
+        for_each_row(work.colours,
+                     [&](std::size_t k) { work.changes[k] = change_of(rows[k], bodies); });
+        const double last = std::exchange(change, *std::ranges::max_element(work.changes));
         double uphill = 0;
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            Row& row = rows[k];
-            change = std::max(change, change_of(row, bodies));
-            uphill += (row.cone.K * (start[k] - row.p)).dot(row.p - previous[k]);
+        for (std::size_t k = 0; k < n; ++k) {
+            uphill += (rows[k].cone.K * (start[k] - rows[k].p)).dot(rows[k].p - previous[k]);
         }
         // Friction is no gradient: momentum that carries past the solution, or away from it, ends.
         const bool astray = uphill > 0 || change > last;
         const double next = next_theta(theta);
         const double beta = astray ? 0 : theta * (1 - theta) / (sq(theta) + next);
         theta = astray ? 1 : next;
-        for (std::size_t k = 0; k < rows.size(); ++k) {
+        const bool goes_on = sweep < sweeps.most && change > sweeps.settled;
+        for_each_row(work.colours, [&](std::size_t k) {
             const Vec3 solved = rows[k].p;
-            if (sweep < sweeps.most && change > sweeps.settled) {
+            if (goes_on) {
                 push(rows[k], beta * (solved - previous[k]), bodies);
             }
             previous[k] = solved;
             start[k] = rows[k].p;
-        }
+        });
     }
     return change;
 }

@@ -20,11 +20,12 @@ int worker();
 inline constexpr Index worth_sharing_rows = 4096;
 inline constexpr Index worth_sharing_blocks = 16;
 
-/// Calls f(k) for k in [begin, end), each a few operations; equal shares a thread.
+/// Calls f(k) for k in [begin, end), each a few operations; equal shares a thread. Fewer rows than
+/// `worth` stay on the calling thread.
 template <class F>
-void parallel_for(Index begin, Index end, const F& f)
+void parallel_for(Index begin, Index end, const F& f, Index worth = worth_sharing_rows)
 {
-#pragma omp parallel for schedule(static) if (end - begin >= worth_sharing_rows)
+#pragma omp parallel for schedule(static) if (end - begin >= worth)
     for (Index k = begin; k < end; ++k) {
         f(k);
     }
