@@ -37,7 +37,7 @@ public:
             bool found = false;
             place_all(high);
             for (const Pair& pair : sub_.cluster.pairs) {
-                if (tired(memory_, pair.a, pair.b) || clearance(pair, high) >= limit(pair)) {
+                if (tired(memory_, pair.a, pair.b) || !closes(pair, high)) {
                     continue;
                 }
                 const double root = closing_time(pair, low, high);
@@ -83,9 +83,38 @@ private:
         return std::binary_search(memory_.held.begin(), memory_.held.end(), feature);
     }
 
-    double limit(const Pair& pair) const
+    // Velocity of a point of a body, or of a wall, along its path.
+    Vec3 velocity_at(int k, const Vec3& point, double s) const
     {
-        return has_axis(pair, memory_.geometry) && holds(pair) ? closed_in_contact : closed;
+        if (k < 0) {
+            return wall_velocity(memory_, k, sub_.time + s);
+        }
+        const Path& path = memory_.paths[k];
+        const Pose& pose = memory_.trial[k];
+        const double part = s / path.h;
+        const Vec3 L = path.L0 + part * (path.L1 - path.L0);
+        const Vec3 omega = inverse_inertia(memory_.rotors[k], pose.R) * L;
+        return path.v0 + part * (path.v1 - path.v0) + omega.cross(point - pose.x);
+    }
+
+    double approach_speed(const Candidate& c, double s) const
+    {
+        return c.touch.normal.dot(velocity_at(c.feature.b, c.touch.point, s) -
+                                  velocity_at(c.feature.a, c.touch.point, s));
+    }
+
+    // Whether the pair has closed at the trial poses. What falls fast enough to bounce is no play
+    // of the description.
+    bool closes(const Pair& pair, double s)
+    {
+        if (!has_axis(pair, memory_.geometry) || !holds(pair)) {
+            return clearance(pair, s) < closed;
+        }
+        clearance(pair, s);
+        return std::ranges::any_of(memory_.looked_at, [&](const Candidate& c) {
+            return c.touch.gap < closed && !held(c.feature) &&
+                   (c.touch.gap < closed_in_contact || approach_speed(c, s) > sub_.slow);
+        });
     }
 
     // The smallest gap of the pair at the trial poses, held features left out.

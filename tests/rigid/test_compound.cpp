@@ -279,15 +279,14 @@ void expect_gentle(Rigid& rigid, int steps, const std::string& name)
     EXPECT_LE(rigid.counters.worst_penetration, 1e-5) << name;
 }
 
-// What moves has less energy than lifts it by the play of 1e-6 m that one contact has between two
-// descriptions by features.
+// What moves has less energy than lifts it by the round-off of positions.
 void expect_rest(const Rigid& rigid, const std::string& name)
 {
     double moving = 0;
     for (const Body& body : rigid.bodies) {
         moving += kinetic_energy(body);
     }
-    EXPECT_LE(moving, 1e-6 * weight(rigid)) << name;
+    EXPECT_LE(moving, 1e-15 * weight(rigid)) << name;
 }
 
 // Rolling may go on for ever; sliding and rocking have ended when nothing takes energy any more.
