@@ -66,6 +66,18 @@ std::string fault_of(const Snapshot& snapshot)
     return "";
 }
 
+// The snapshot with another last number in one array, in the type of that array.
+Snapshot with_last(Snapshot snapshot, const std::string& name, double number)
+{
+    std::visit(
+        [&](auto& values) {
+            using Number = typename std::decay_t<decltype(values)>::value_type;
+            values.at(values.size() - 1) = static_cast<Number>(number);
+        },
+        snapshot.arrays.at(name).values);
+    return snapshot;
+}
+
 TEST(CheckpointFaults, AStateFitsItsCase)
 {
     EXPECT_EQ(fault_of(some_state()), "");
@@ -106,11 +118,12 @@ TEST(CheckpointFaults, NumbersThatNoRunMakesAreNotFollowed)
         std::get<std::vector<double>>(bad.arrays["gauges"].values)[0] = number;
         fault_of(bad); // any answer but a crash
     }
-    for (const char* name : {"fluid/Position", "fluid/built_at"}) {
-        Snapshot bad = good;
-        std::get<std::vector<double>>(bad.arrays[name].values)[3] =
-            std::numeric_limits<double>::infinity();
-        EXPECT_NE(fault_of(bad), "") << name;
+    for (const char* name : {"fluid/Position", "fluid/tiles/x"}) {
+        EXPECT_NE(fault_of(with_last(good, name, infinity)), "") << name;
+    }
+    for (const char* name : {"fluid/tiles/row", "fluid/tiles/start"}) {
+        EXPECT_NE(fault_of(with_last(good, name, 1e6)), "") << name;
+        EXPECT_NE(fault_of(with_last(good, name, -1.0)), "") << name;
     }
 }
 
