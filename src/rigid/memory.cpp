@@ -8,8 +8,8 @@ namespace hyoryu {
 
 namespace {
 
-// Numbers of one remembered force: the feature and three components.
-constexpr std::size_t numbers_per_force = 12;
+// Numbers of one remembered force: the feature, three components and its place.
+constexpr std::size_t numbers_per_force = 15;
 
 } // namespace
 
@@ -129,7 +129,8 @@ std::vector<double> save_memory(const Rigid& rigid)
              {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f}) {
             numbers.push_back(index);
         }
-        numbers.insert(numbers.end(), {r.force.x(), r.force.y(), r.force.z()});
+        numbers.insert(numbers.end(), r.force.begin(), r.force.end());
+        numbers.insert(numbers.end(), r.place.begin(), r.place.end());
     }
     return numbers;
 }
@@ -142,8 +143,9 @@ void load_memory(Rigid& rigid, std::span<const double> numbers)
         const Feature feature{index(0), index(1), static_cast<FeatureKind>(index(2)),
                               index(3), index(4), index(5),
                               index(6), index(7), index(8)};
-        rigid.memory->forces.push_back(
-            {feature, Vec3(numbers[k + 9], numbers[k + 10], numbers[k + 11])});
+        rigid.memory->forces.push_back({feature,
+                                        Vec3(numbers[k + 9], numbers[k + 10], numbers[k + 11]),
+                                        Vec3(numbers[k + 12], numbers[k + 13], numbers[k + 14])});
     }
 }
 

@@ -21,6 +21,7 @@ Pose pose_at(const Path& path, const Rotor& rotor, double s);
 struct Remembered {
     Feature feature;
     Vec3 force{0, 0, 0}; // on a [N]
+    Vec3 place{0, 0, 0}; // in the axes of a, from its centre of mass [m]
 };
 
 void sort_by_feature(std::vector<Remembered>& forces);
@@ -35,6 +36,8 @@ struct Cluster {
 struct Persistent {
     Candidate candidate;
     Vec3 impulse{0, 0, 0};     // over the whole sub-step, on a [N s]
+    Vec3 place{0, 0, 0};       // as of Remembered
+    bool recalled = false;     // a force of the last sub-step is its first guess
     TwoTouches touches;        // at the middle and the end
     double effective_mass = 0; // [kg]
     double dissipated = 0;     // [J]
@@ -69,6 +72,7 @@ struct ContactMemory {
     std::vector<Feature> held;         // sorted; not looked for by the event search
     std::span<const Remembered> known; // forces of the last sub-step
     std::vector<Remembered> recent, fresh;
+    std::vector<char> taken; // of `known`
     std::vector<Resting> resting;
     std::vector<Feature> pressed;
     std::vector<Row> rows, group;

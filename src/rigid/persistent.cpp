@@ -71,14 +71,7 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
         const bool touches = !c.beyond && (c.closing || c.touch.gap <= settings.contact_tolerance);
         const bool rests = touches && separation_speed(memory, c, sub.time) <= sub.slow;
         if (rests) {
-            Persistent p{c};
-            const auto known = std::lower_bound(
-                memory.known.begin(), memory.known.end(), f,
-                [](const Remembered& r, const Feature& feature) { return r.feature < feature; });
-            if (known != memory.known.end() && known->feature == f) {
-                p.impulse = sub.h * known->force;
-            }
-            memory.persistent.push_back(p);
+            memory.persistent.push_back({c});
         }
         if (rests || c.touch.gap < -located) {
             memory.held.push_back(f);
@@ -86,6 +79,7 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
     }
     thin_out(memory.persistent, first);
     std::sort(memory.held.begin(), memory.held.end());
+    recall_forces(memory, sub.h);
 }
 
 void plan_free_motion(const StepContext& context, const SubStep& sub)
@@ -242,16 +236,6 @@ void predict_free_motion(const StepContext& context, const SubStep& sub)
 {
     plan_free_motion(context, sub);
     predict(context.memory, sub, sub.h);
-}
-
-void remember(ContactMemory& memory, double h)
-{
-    memory.recent.clear();
-    for (const Persistent& p : memory.persistent) {
-        memory.recent.push_back({p.candidate.feature, p.impulse / h});
-    }
-    sort_by_feature(memory.recent);
-    memory.known = memory.recent;
 }
 
 void plan_motion(const StepContext& context, const SubStep& sub)

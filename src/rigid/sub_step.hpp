@@ -33,6 +33,10 @@ struct SubStep {
 /// `rest` [s].
 double sub_step_length(const StepContext& context, const Cluster& cluster, double rest);
 
+/// First guesses of the impulses of the persistent contacts: the force that the same feature had in
+/// the last sub-step, or else the nearest one of the pair, because two faces in contact may be
+/// described by other features a moment later.
+void recall_forces(ContactMemory& memory, double h);
 /// The forces of the persistent contacts of the last sub-step, for the warm start of what follows.
 void remember(ContactMemory& memory, double h);
 

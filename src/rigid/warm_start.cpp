@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The forces of the last sub-step as the first guess of the next.
+#include "sub_step.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+Vec3 place_on_first(const ContactMemory& memory, const Candidate& c)
+{
+    const Pose& pose = memory.poses[c.feature.a];
+    return pose.R.transpose() * (c.touch.point - pose.x);
+}
+
+std::span<const Remembered> of_pair(std::span<const Remembered> known, const Feature& f)
+{
+    const auto of = [](const Remembered& r) { return std::pair(r.feature.a, r.feature.b); };
+    const auto found = std::ranges::equal_range(known, std::pair(f.a, f.b), {}, of);
+    return {found.begin(), found.end()};
+}
+
+// The nearest force of the pair that no other contact took and that can push here; none: -1.
+std::ptrdiff_t nearest_untaken(const ContactMemory& memory, const Persistent& p,
+                               std::span<const Remembered> forces)
+{
+    std::ptrdiff_t best = -1;
+    double least = infinity;
+    for (const Remembered& r : forces) {
+        const std::ptrdiff_t k = &r - memory.known.data();
+        const double distance = (r.place - p.place).squaredNorm();
+        if (memory.taken[static_cast<std::size_t>(k)] == 0 && distance < least &&
+            r.force.dot(p.candidate.touch.normal) > 0) {
+            least = distance;
+            best = k;
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+void recall_forces(ContactMemory& memory, double h)
+{
+    memory.taken.assign(memory.known.size(), 0);
+    const auto take = [&](Persistent& p, std::ptrdiff_t k) {
+        p.impulse = h * memory.known[static_cast<std::size_t>(k)].force;
+        memory.taken[static_cast<std::size_t>(k)] = 1;
+        p.recalled = true;
+    };
+    for (Persistent& p : memory.persistent) {
+        const Feature& f = p.candidate.feature;
+        p.place = place_on_first(memory, p.candidate);
+        const auto known = std::ranges::lower_bound(memory.known, f, {}, &Remembered::feature);
+        if (known != memory.known.end() && known->feature == f) {
+            take(p, known - memory.known.begin());
+        }
+    }
+    for (Persistent& p : memory.persistent) {
+        if (!p.recalled) {
+            const auto forces = of_pair(memory.known, p.candidate.feature);
+            if (const std::ptrdiff_t k = nearest_untaken(memory, p, forces); k >= 0) {
+                take(p, k);
+            }
+        }
+    }
+}
+
+void remember(ContactMemory& memory, double h)
+{
+    memory.recent.clear();
+    for (const Persistent& p : memory.persistent) {
+        memory.recent.push_back({p.candidate.feature, p.impulse / h, p.place});
+    }
+    sort_by_feature(memory.recent);
+    memory.known = memory.recent;
+}
+
+} // namespace hyoryu
