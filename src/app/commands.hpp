@@ -66,6 +66,15 @@ struct VerifyOptions {
 };
 int verify(const VerifyOptions& options);
 
+struct StudyOptions {
+    std::filesystem::path file;
+    std::filesystem::path folder; // empty: study stem + "-results" in the current folder
+    int threads = 1;              // of each run
+    int jobs = 1;                 // runs side by side
+    bool force = false;           // run again what is done
+};
+int run_study(const StudyOptions& options);
+
 /// Version, commit and build options.
 std::string version_text();
 

@@ -86,6 +86,21 @@ void add_verify(CLI::App& app, VerifyOptions& options)
     verify_->add_flag("--force", options.force, "replace the results of an earlier verify");
 }
 
+void add_study(CLI::App& app, StudyOptions& options)
+{
+    auto* study = app.add_subcommand("study", "accuracy against cost over values of case keys");
+    study->add_option("STUDY", options.file, "study file (TOML)")->required();
+    study->add_option("-o,--output", options.folder,
+                      "results folder (default: the study's name + -results, here)");
+    study->add_option("--threads", options.threads, "threads of each run (default: 1)")
+        ->check(CLI::Range(1, 4096));
+    study
+        ->add_option("--jobs", options.jobs,
+                     "runs side by side, where memory allows; disturbs wall times (default: 1)")
+        ->check(CLI::Range(1, 4096));
+    study->add_flag("--force", options.force, "run again what an earlier call has done");
+}
+
 } // namespace
 
 int run_command_line(int argc, const char* const* argv)
@@ -102,12 +117,14 @@ int run_command_line(int argc, const char* const* argv)
     RenderOptions render_;
     ReportOptions report;
     VerifyOptions verify_;
+    StudyOptions study;
     add_run(app, run);
     add_check(app, check);
     add_describe(app, describe_);
     add_render(app, render_);
     add_report(app, report);
     add_verify(app, verify_);
+    add_study(app, study);
     app.add_subcommand("info", "what a results folder holds")
         ->add_option("RESULTS", info.folder, "results folder")
         ->required();
@@ -135,6 +152,9 @@ int run_command_line(int argc, const char* const* argv)
     }
     if (app.got_subcommand("verify")) {
         return verify(verify_);
+    }
+    if (app.got_subcommand("study")) {
+        return run_study(study);
     }
     return render_results(render_);
 }

@@ -74,6 +74,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
         wall_seconds > 0 ? static_cast<double>(n.particles()) * steps / wall_seconds : 0;
     json["fluid_particle_steps_per_second"] =
         wall_seconds > 0 ? static_cast<double>(fluid_now) * steps / wall_seconds : 0;
+    json["pair_interactions"] = sim.pair_visits;
     json["pairs_per_second"] = wall_seconds > 0 ? sim.pair_visits / wall_seconds : 0;
     json["peak_memory_bytes"] = peak_memory();
     json["stages"] = ordered_json::object();

@@ -22,60 +22,6 @@ namespace fs = std::filesystem;
 constexpr const char* file_name = "verify.toml";
 constexpr std::array<std::string_view, 3> tiers{"quick", "nightly", "release"};
 
-BenchmarkFile open_file(const fs::path& file, std::string& text)
-{
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream whole;
-    whole << stream.rdbuf();
-    BenchmarkFile result{.file = file, .lines = {}, .mistakes = {}};
-    if (!stream) {
-        result.error({}, "", "cannot be read");
-        throw CaseError(result.mistakes);
-    }
-    text = whole.str();
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        result.lines.push_back(line);
-    }
-    return result;
-}
-
-TomlNode parse(BenchmarkFile& file, const std::string& text)
-{
-    try {
-        return parse_toml(text);
-    } catch (const TomlFault& fault) {
-        file.error(fault.place, "", fault.what);
-        throw CaseError(file.mistakes);
-    }
-}
-
-Constants read_constants(Section& root)
-{
-    Constants constants;
-    Scope scope;
-    for (const TomlEntry* entry : root.entries("constants")) {
-        const std::string key = "constants." + entry->key;
-        const std::string text = checked_expression(root.file(), entry->node, key);
-        try {
-            scope.numbers[entry->key] = evaluate(text, scope);
-        } catch (const FormulaError& fault) {
-            root.file().error(entry->node.place, key, fault.what());
-        }
-        constants.emplace_back(entry->key, text);
-    }
-    return constants;
-}
-
-std::map<std::string, std::string> read_columns(Section& root)
-{
-    std::map<std::string, std::string> columns;
-    for (const TomlEntry* entry : root.entries("columns")) {
-        columns[entry->key] = checked_expression(root.file(), entry->node, "columns." + entry->key);
-    }
-    return columns;
-}
-
 Benchmark read_root(Section& root)
 {
     Benchmark benchmark;
@@ -122,6 +68,55 @@ void keep_runs_of(Tier tier, Benchmark& benchmark)
 
 } // namespace
 
+OpenedFile open_toml(const fs::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream whole;
+    whole << stream.rdbuf();
+    OpenedFile opened{{.file = file, .lines = {}, .mistakes = {}}, {}};
+    if (!stream) {
+        opened.file.error({}, "", "cannot be read");
+        throw CaseError(opened.file.mistakes);
+    }
+    std::istringstream lines(whole.str());
+    for (std::string line; std::getline(lines, line);) {
+        opened.file.lines.push_back(line);
+    }
+    try {
+        opened.document = parse_toml(whole.str());
+    } catch (const TomlFault& fault) {
+        opened.file.error(fault.place, "", fault.what);
+        throw CaseError(opened.file.mistakes);
+    }
+    return opened;
+}
+
+Constants read_constants(Section& root)
+{
+    Constants constants;
+    Scope scope;
+    for (const TomlEntry* entry : root.entries("constants")) {
+        const std::string key = "constants." + entry->key;
+        const std::string text = checked_expression(root.file(), entry->node, key);
+        try {
+            scope.numbers[entry->key] = evaluate(text, scope);
+        } catch (const FormulaError& fault) {
+            root.file().error(entry->node.place, key, fault.what());
+        }
+        constants.emplace_back(entry->key, text);
+    }
+    return constants;
+}
+
+std::map<std::string, std::string> read_columns(Section& root)
+{
+    std::map<std::string, std::string> columns;
+    for (const TomlEntry* entry : root.entries("columns")) {
+        columns[entry->key] = checked_expression(root.file(), entry->node, "columns." + entry->key);
+    }
+    return columns;
+}
+
 std::string to_string(Tier tier)
 {
     return std::string(tiers[static_cast<std::size_t>(tier)]);
@@ -146,10 +141,9 @@ Tier read_tier(Section& section, Tier fallback)
 
 Benchmark read_benchmark(const fs::path& folder)
 {
-    std::string text;
-    BenchmarkFile file = open_file(folder / file_name, text);
-    const TomlNode document = parse(file, text);
-    Section root(file, document, "");
+    OpenedFile opened = open_toml(folder / file_name);
+    BenchmarkFile& file = opened.file;
+    Section root(file, opened.document, "");
     Benchmark benchmark = read_root(root);
     if (!file.mistakes.empty()) {
         throw CaseError(file.mistakes);

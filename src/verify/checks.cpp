@@ -58,42 +58,6 @@ Measure read_measure(Section& check)
     return Measure::last;
 }
 
-Quantity read_quantity(Section& check)
-{
-    Quantity quantity;
-    quantity.series = read_series(check, "value");
-    quantity.measure = read_measure(check);
-    if (auto band = check.table("band")) {
-        quantity.band = Band{read_series(*band, "lower"), band->expression("upper")};
-        band->require("file");
-        band->require("upper");
-        band->finish();
-    }
-    if (quantity.band.has_value() != (quantity.measure == Measure::share_within)) {
-        check.error("band", "belongs to the measure \"share_within\", and that measure to it");
-    }
-    quantity.index = static_cast<int>(check.integer("index", 1));
-    quantity.time = check.expression("time");
-    quantity.level = check.expression("level");
-    quantity.from = check.expression("from");
-    quantity.until = check.expression("until");
-    if (quantity.index < 1) {
-        check.error("index", "counts from 1");
-    }
-    if (quantity.measure == Measure::at && quantity.time.empty()) {
-        check.error("time", "is missing: the measure \"at\" needs it");
-    }
-    if (quantity.measure == Measure::crossing && quantity.level.empty()) {
-        check.error("level", "is missing: the measure \"crossing\" needs it");
-    }
-    return quantity;
-}
-
-bool is_error_measure(Measure measure)
-{
-    return measure == Measure::rms_error || measure == Measure::largest_error;
-}
-
 /// Exactly one of `expected`, `at_most`, `at_least` and `reference`.
 void read_expectation(Section& section, Check& check)
 {
@@ -171,6 +135,42 @@ Check read_check(Section& section, const std::vector<BenchmarkRun>& runs)
 }
 
 } // namespace
+
+Quantity read_quantity(Section& check)
+{
+    Quantity quantity;
+    quantity.series = read_series(check, "value");
+    quantity.measure = read_measure(check);
+    if (auto band = check.table("band")) {
+        quantity.band = Band{read_series(*band, "lower"), band->expression("upper")};
+        band->require("file");
+        band->require("upper");
+        band->finish();
+    }
+    if (quantity.band.has_value() != (quantity.measure == Measure::share_within)) {
+        check.error("band", "belongs to the measure \"share_within\", and that measure to it");
+    }
+    quantity.index = static_cast<int>(check.integer("index", 1));
+    quantity.time = check.expression("time");
+    quantity.level = check.expression("level");
+    quantity.from = check.expression("from");
+    quantity.until = check.expression("until");
+    if (quantity.index < 1) {
+        check.error("index", "counts from 1");
+    }
+    if (quantity.measure == Measure::at && quantity.time.empty()) {
+        check.error("time", "is missing: the measure \"at\" needs it");
+    }
+    if (quantity.measure == Measure::crossing && quantity.level.empty()) {
+        check.error("level", "is missing: the measure \"crossing\" needs it");
+    }
+    return quantity;
+}
+
+bool is_error_measure(Measure measure)
+{
+    return measure == Measure::rms_error || measure == Measure::largest_error;
+}
 
 Series read_series(Section& section, std::string_view key)
 {

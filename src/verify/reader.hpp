@@ -2,8 +2,7 @@
 // The parts of the reader of benchmark files.
 #pragma once
 
-#include "hyoryu/verify/benchmark.hpp"
-#include "section.hpp"
+#include "hyoryu/verify/read.hpp"
 
 namespace hyoryu {
 
@@ -13,9 +12,6 @@ std::vector<BenchmarkRun> read_runs(Section& root, const Constants& constants, T
 std::vector<Check> read_checks(Section& root, const std::vector<BenchmarkRun>& runs);
 std::vector<Figure> read_figures(Section& root, const std::vector<BenchmarkRun>& runs);
 std::vector<SummaryTable> read_summary_tables(Section& root, const Benchmark& benchmark);
-
-/// Which rows of which file, and the expression `key` of their columns.
-Series read_series(Section& section, std::string_view key);
 
 /// Patterns, each of which must fit a run.
 std::vector<std::string> read_patterns(Section& section, std::string_view key,

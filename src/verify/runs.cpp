@@ -20,18 +20,6 @@ struct Axis {
     std::vector<RunParameter> values;
 };
 
-std::optional<RunParameter> parameter_of(const TomlNode& node)
-{
-    if (const auto* text = std::get_if<std::string>(&node.value)) {
-        return *text;
-    }
-    if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
-        return static_cast<double>(*integer);
-    }
-    const auto* number = std::get_if<double>(&node.value);
-    return number != nullptr ? std::optional<RunParameter>(*number) : std::nullopt;
-}
-
 std::vector<Axis> read_grid(Section& run)
 {
     std::vector<Axis> axes;
@@ -164,6 +152,18 @@ bool fits(std::string_view pattern, std::string_view name)
 }
 
 } // namespace
+
+std::optional<RunParameter> parameter_of(const TomlNode& node)
+{
+    if (const auto* text = std::get_if<std::string>(&node.value)) {
+        return *text;
+    }
+    if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
+        return static_cast<double>(*integer);
+    }
+    const auto* number = std::get_if<double>(&node.value);
+    return number != nullptr ? std::optional<RunParameter>(*number) : std::nullopt;
+}
 
 std::vector<BenchmarkRun> read_runs(Section& root, const Constants& constants, Tier tier)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "section.hpp"
+#include "hyoryu/verify/section.hpp"
 
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
@@ -210,6 +210,24 @@ std::vector<Section> Section::tables(std::string_view key)
         sections.emplace_back(*file_, (*items)[k], fmt::format("{}[{}]", full(key), k));
     }
     return sections;
+}
+
+std::vector<const TomlNode*> Section::items(std::string_view key)
+{
+    const TomlEntry* entry = ask(key);
+    std::vector<const TomlNode*> result;
+    if (entry == nullptr) {
+        return result;
+    }
+    const TomlArray* items = entry->node.array();
+    if (items == nullptr) {
+        mistyped(*entry, "a list");
+        return result;
+    }
+    for (const TomlNode& item : *items) {
+        result.push_back(&item);
+    }
+    return result;
 }
 
 std::vector<const TomlEntry*> Section::entries(std::string_view key)

@@ -75,6 +75,8 @@ Verdict verdict_of(bool good, bool known_to_fail)
     return good ? Verdict::pass : Verdict::fail;
 }
 
+} // namespace
+
 RunCost read_cost(RunFiles& files)
 {
     const CsvTable& summary = files.table("summary");
@@ -91,8 +93,6 @@ RunCost read_cost(RunFiles& files)
             .steps = number("steps"),
             .simulated_seconds = number("simulated_seconds")};
 }
-
-} // namespace
 
 std::string to_string(Verdict verdict)
 {

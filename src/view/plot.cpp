@@ -51,7 +51,7 @@ void set_pen(vtkPen& pen, const Rgb& colour, float width)
     pen.SetWidth(width);
 }
 
-vtkSmartPointer<vtkTable> table_of(const PlotCurve& curve)
+vtkSmartPointer<vtkTable> table_of(const PlotCurve& curve, PlotPanel::Axes axes)
 {
     auto table = vtkSmartPointer<vtkTable>::New();
     for (const char* name : {"x", "y"}) {
@@ -59,21 +59,22 @@ vtkSmartPointer<vtkTable> table_of(const PlotCurve& curve)
         column->SetName(name);
         table->AddColumn(column);
     }
-    const auto rows = static_cast<vtkIdType>(std::min(curve.x.size(), curve.y.size()));
-    table->SetNumberOfRows(rows);
-    for (vtkIdType row = 0; row < rows; ++row) {
-        table->SetValue(row, 0, curve.x[static_cast<std::size_t>(row)]);
-        table->SetValue(row, 1, curve.y[static_cast<std::size_t>(row)]);
+    for (std::size_t k = 0; k < std::min(curve.x.size(), curve.y.size()); ++k) {
+        if (axes == PlotPanel::Axes::linear || (curve.x[k] > 0 && curve.y[k] > 0)) {
+            const vtkIdType row = table->InsertNextBlankRow();
+            table->SetValue(row, 0, curve.x[k]);
+            table->SetValue(row, 1, curve.y[k]);
+        }
     }
     return table;
 }
 
-void add_curve(vtkChartXY& chart, const PlotCurve& curve, int number)
+void add_curve(vtkChartXY& chart, const PlotCurve& curve, PlotPanel::Axes axes, int number)
 {
     constexpr float line_width = 2.5F;
     constexpr float marker_size = 7.0F;
     auto* line = vtkPlotLine::SafeDownCast(chart.AddPlot(vtkChart::LINE));
-    line->SetInputData(table_of(curve), 0, 1);
+    line->SetInputData(table_of(curve, axes), 0, 1);
     line->SetLabel(curve.label);
     const bool theory = curve.style == PlotCurve::Style::theory;
     set_pen(*line->GetPen(), theory ? black : pick(colours, number), line_width);
@@ -108,8 +109,12 @@ vtkSmartPointer<vtkChartXY> chart_of(const PlotPanel& panel)
     chart->SetShowLegend(true);
     int number = 0;
     for (const PlotCurve& curve : panel.curves) {
-        add_curve(*chart, curve, number);
+        add_curve(*chart, curve, panel.axes, number);
         number += curve.style == PlotCurve::Style::theory ? 0 : 1;
+    }
+    if (panel.axes == PlotPanel::Axes::logarithmic) {
+        chart->GetAxis(vtkAxis::BOTTOM)->LogScaleOn();
+        chart->GetAxis(vtkAxis::LEFT)->LogScaleOn();
     }
     set_axis(*chart->GetAxis(vtkAxis::BOTTOM), panel.x_axis, panel.x_range);
     set_axis(*chart->GetAxis(vtkAxis::LEFT), panel.y_axis, panel.y_range);

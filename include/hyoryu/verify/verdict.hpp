@@ -39,6 +39,9 @@ struct RunCost {
     double microseconds_per_step() const { return steps > 0 ? 1e6 * solver_seconds / steps : 0; }
 };
 
+/// From the summary of a run that came to its end. Throws IoError.
+RunCost read_cost(RunFiles& files);
+
 struct RunResult {
     BenchmarkRun run;
     RunCost cost;

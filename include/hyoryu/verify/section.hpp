@@ -42,6 +42,8 @@ public:
     /// The sub-table and the elements of a list of tables; none if not there.
     std::optional<Section> table(std::string_view key);
     std::vector<Section> tables(std::string_view key);
+    /// The elements of a list of anything.
+    std::vector<const TomlNode*> items(std::string_view key);
     /// The entries of a table whose keys are free, in the order of the file.
     std::vector<const TomlEntry*> entries(std::string_view key);
 

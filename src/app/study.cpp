@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// `hyoryu study`: runs a case over values of its keys and shows what accuracy costs.
+#include "build_info.hpp"
+#include "commands.hpp"
+#include "options.hpp"
+#include "stop_request.hpp"
+#include "study_figures.hpp"
+#include "study_runs.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/plan.hpp"
+#include "hyoryu/study/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Every run is read and planned before the first one starts: a mistake shows at once.
+std::vector<double> forecast_memory(const Study& study, const std::vector<StudyRun>& runs)
+{
+    std::vector<double> memory;
+    std::vector<Diagnostic> mistakes;
+    for (const StudyRun& run : runs) {
+        try {
+            const Scene scene = read_case(study.case_file, run.run.set);
+            memory.push_back(make_plan(scene, fill(scene)).memory);
+        } catch (const CaseError& error) {
+            for (Diagnostic mistake : error.diagnostics()) {
+                mistake.what = fmt::format("{} (in the run {})", mistake.what, run.run.name);
+                mistakes.push_back(std::move(mistake));
+            }
+        }
+    }
+    if (!mistakes.empty()) {
+        throw CaseError(mistakes);
+    }
+    return memory;
+}
+
+// The case as resolved, so that a result of another version of it is not taken for this one.
+std::string asked_of(const Study& study, const StudyRun& run, int threads)
+{
+    return fmt::format("{}\nthreads {}\n", to_toml(read_case(study.case_file, run.run.set)),
+                       threads);
+}
+
+// Rounds of all runs, so that a machine that slows down for a while slows all of them.
+std::vector<StudyJob> jobs_of(const Study& study, const std::vector<StudyRun>& runs,
+                              const StudyOptions& options, const fs::path& folder)
+{
+    const std::vector<double> memory = forecast_memory(study, runs);
+    std::vector<StudyJob> jobs;
+    for (int repeat = 1; repeat <= study.repeats; ++repeat) {
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const fs::path place =
+                repeat == 1 ? folder / "runs" / runs[k].run.name
+                            : folder / "repeats" / fmt::format("{}-{}", runs[k].run.name, repeat);
+            jobs.push_back(
+                {k, repeat, place, asked_of(study, runs[k], options.threads), memory[k]});
+        }
+    }
+    return jobs;
+}
+
+double seconds_within_steps(const fs::path& folder)
+{
+    RunFiles files(folder, {});
+    return read_cost(files).solver_seconds;
+}
+
+StudyResult collect_results(const Study& study, const std::vector<StudyRun>& runs,
+                            const std::vector<StudyJob>& jobs,
+                            const std::vector<std::string>& job_errors)
+{
+    std::vector<fs::path> folders(runs.size());
+    std::vector<std::string> errors(runs.size());
+    std::vector<std::vector<double>> walls(runs.size());
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+        const StudyJob& job = jobs[j];
+        if (job.repeat == 1) {
+            folders[job.run] = job.folder;
+            errors[job.run] = job_errors[j];
+        }
+        if (job_errors[j].empty()) {
+            walls[job.run].push_back(seconds_within_steps(job.folder));
+        }
+    }
+    return evaluate_study(study, folders, errors, walls);
+}
+
+void write_results(const StudyResult& result, const StudyInfo& info, const fs::path& folder)
+{
+    write_text(folder / "study.csv", study_csv(result));
+    write_text(folder / "study.json", study_json(result, info));
+    const StudyPictures pictures = draw_study(result, folder);
+    for (const std::string& note : pictures.notes) {
+        fmt::print("{}\n", note);
+    }
+    write_text(folder / "study.md", study_markdown(result, info, pictures.files));
+    std::vector<fs::path> files;
+    for (const std::string& file : pictures.files) {
+        files.push_back(folder / file);
+    }
+    write_text(folder / "study.html", study_page(result, info, files));
+}
+
+void print_tables(const StudyResult& result)
+{
+    for (const StudyTable& table : study_tables(result)) {
+        fmt::print("\n{}\n", table.title);
+        std::vector<std::size_t> widths;
+        for (std::size_t c = 0; c < table.table.heads.size(); ++c) {
+            std::size_t width = table.table.heads[c].text.size();
+            for (const auto& row : table.table.rows) {
+                width = std::max(width, row[c].size());
+            }
+            widths.push_back(width);
+            fmt::print("{:<{}}  ", table.table.heads[c].text, width);
+        }
+        fmt::print("\n");
+        for (const auto& row : table.table.rows) {
+            for (std::size_t c = 0; c < row.size(); ++c) {
+                fmt::print("{:<{}}  ", row[c], widths[c]);
+            }
+            fmt::print("\n");
+        }
+    }
+}
+
+} // namespace
+
+int run_study(const StudyOptions& options)
+{
+    const Study study = read_study(options.file);
+    const fs::path folder = options.folder.empty()
+                                ? fs::path(options.file.stem().string() + "-results")
+                                : options.folder;
+    const std::vector<StudyRun> runs = runs_of(study);
+    const std::vector<StudyJob> jobs = jobs_of(study, runs, options, folder);
+    if (options.force) {
+        fs::remove_all(folder / "runs");
+        fs::remove_all(folder / "repeats");
+    }
+    watch_for_stop();
+    const std::vector<std::string> errors =
+        run_jobs(study, runs, jobs, {.threads = options.threads, .side_by_side = options.jobs});
+    if (stop_requested()) {
+        fmt::print("stopped; the same command goes on\n");
+        return exit_code::interrupted;
+    }
+    const StudyResult result = collect_results(study, runs, jobs, errors);
+    write_results(result,
+                  {.version = std::string(build_info::version),
+                   .commit = std::string(build_info::commit),
+                   .build = fmt::format("{}, {}", build_info::type, build_info::compiler),
+                   .threads = options.threads,
+                   .jobs = options.jobs},
+                  folder);
+    print_tables(result);
+    fmt::print("\nresults in {}\n", (folder / "study.html").string());
+    const bool all_well = std::ranges::all_of(errors, &std::string::empty);
+    return all_well ? exit_code::done : exit_code::numbers;
+}
+
+} // namespace hyoryu

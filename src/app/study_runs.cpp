@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "study_runs.hpp"
+
+#include "stop_request.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/machine_memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* asked_file = "asked.txt";
+constexpr const char* message_file = "message.txt";
+// The share of the machine's memory that runs side by side may fill by their forecasts.
+constexpr double usable_memory = 0.8;
+
+std::string read_all(const fs::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+bool is_done(const StudyJob& job)
+{
+    return fs::exists(job.folder / "summary.json") &&
+           read_all(job.folder / asked_file) == job.asked;
+}
+
+std::vector<std::string> command_of(const Study& study, const BenchmarkRun& run,
+                                    const StudyJob& job, int threads)
+{
+    std::vector<std::string> command{
+        "hyoryu",  "run",       study.case_file.string(), "-o", job.folder.string(), "--quiet",
+        "--force", "--threads", std::to_string(threads)};
+    for (const std::string& set : run.set) {
+        command.insert(command.end(), {"--set", set});
+    }
+    return command;
+}
+
+// Starts this program with other words; its messages go to a file beside the folder.
+pid_t start(std::vector<std::string> command, const fs::path& messages)
+{
+    std::vector<char*> words;
+    for (std::string& word : command) {
+        words.push_back(word.data());
+    }
+    words.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+        posix_spawn_file_actions_addopen(&files, stream, messages.c_str(),
+                                         O_WRONLY | O_CREAT | O_APPEND, 0644);
+    }
+    pid_t process = 0;
+    const int fault =
+        posix_spawn(&process, "/proc/self/exe", &files, nullptr, words.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (fault != 0) {
+        throw IoError(fmt::format("cannot start a run: {}", std::strerror(fault)));
+    }
+    return process;
+}
+
+fs::path messages_of(const StudyJob& job)
+{
+    return job.folder.string() + "." + message_file;
+}
+
+struct Running {
+    std::size_t job = 0;
+    pid_t process = 0;
+};
+
+// Repeats are there for their times: nothing else of them is kept.
+void keep_summary_only(const fs::path& folder)
+{
+    std::vector<fs::path> others;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().filename() != "summary.json") {
+            others.push_back(entry.path());
+        }
+    }
+    for (const fs::path& other : others) {
+        fs::remove_all(other);
+    }
+}
+
+// Why the process ended; empty if the run came to its end.
+std::string outcome(const StudyJob& job, int status)
+{
+    const fs::path messages = messages_of(job);
+    std::string text = read_all(messages);
+    fs::remove(messages);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        if (job.repeat > 1) {
+            keep_summary_only(job.folder);
+        }
+        write_text(job.folder / asked_file, job.asked);
+        return {};
+    }
+    while (!text.empty() && text.back() == '\n') {
+        text.pop_back();
+    }
+    const std::string code = WIFEXITED(status) ? fmt::format("exit code {}", WEXITSTATUS(status))
+                                               : fmt::format("signal {}", WTERMSIG(status));
+    return text.empty() ? code : text;
+}
+
+class Pool {
+public:
+    Pool(const Study& study, const std::vector<StudyRun>& runs, const std::vector<StudyJob>& jobs,
+         const StudyJobSettings& settings)
+        : study_(study), runs_(runs), jobs_(jobs), settings_(settings)
+    {
+    }
+
+    std::vector<std::string> run()
+    {
+        std::vector<std::string> errors(jobs_.size());
+        for (std::size_t k = 0; k < jobs_.size() && !stop_requested(); ++k) {
+            if (is_done(jobs_[k])) {
+                tell(k, "done before");
+                continue;
+            }
+            while (!fits(jobs_[k])) {
+                wait_for_one(errors);
+            }
+            fs::create_directories(jobs_[k].folder.parent_path());
+            running_.push_back(
+                {k, start(command_of(study_, runs_[jobs_[k].run].run, jobs_[k], settings_.threads),
+                          messages_of(jobs_[k]))});
+        }
+        while (!running_.empty()) {
+            wait_for_one(errors);
+        }
+        return stop_requested() ? std::vector<std::string>{} : errors;
+    }
+
+private:
+    bool fits(const StudyJob& job) const
+    {
+        double memory = job.memory;
+        for (const Running& other : running_) {
+            memory += jobs_[other.job].memory;
+        }
+        return running_.empty() || (static_cast<int>(running_.size()) < settings_.side_by_side &&
+                                    memory <= usable_memory * machine_memory());
+    }
+
+    void wait_for_one(std::vector<std::string>& errors)
+    {
+        int status = 0;
+        const pid_t ended = waitpid(-1, &status, 0);
+        const auto at = std::ranges::find(running_, ended, &Running::process);
+        if (at == running_.end()) {
+            return;
+        }
+        const std::size_t k = at->job;
+        running_.erase(at);
+        if (stop_requested()) {
+            fs::remove(messages_of(jobs_[k]));
+            return;
+        }
+        errors[k] = outcome(jobs_[k], status);
+        tell(k,
+             errors[k].empty() ? "done" : "stopped: " + errors[k].substr(0, errors[k].find('\n')));
+    }
+
+    void tell(std::size_t k, const std::string& what) const
+    {
+        const StudyJob& job = jobs_[k];
+        fmt::print("{:>4}/{}  {}{}: {}\n", k + 1, jobs_.size(), runs_[job.run].run.name,
+                   job.repeat > 1 ? fmt::format(" (repeat {})", job.repeat) : "", what);
+        std::fflush(stdout);
+    }
+
+    const Study& study_;
+    const std::vector<StudyRun>& runs_;
+    const std::vector<StudyJob>& jobs_;
+    const StudyJobSettings& settings_;
+    std::vector<Running> running_;
+};
+
+} // namespace
+
+std::vector<std::string> run_jobs(const Study& study, const std::vector<StudyRun>& runs,
+                                  const std::vector<StudyJob>& jobs,
+                                  const StudyJobSettings& settings)
+{
+    return Pool(study, runs, jobs, settings).run();
+}
+
+} // namespace hyoryu

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The runs of a study as processes of this program.
+#pragma once
+
+#include "hyoryu/study/study.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+/// One process to start: a run of the study, for the first or another time.
+struct StudyJob {
+    std::size_t run = 0;
+    int repeat = 1;
+    std::filesystem::path folder;
+    std::string
+        asked; // the case and its overrides: what an earlier result must have been made from
+    double memory = 0; // forecast [B]
+};
+
+struct StudyJobSettings {
+    int threads = 1; // of each process
+    int side_by_side = 1;
+};
+
+/// Runs what is not done yet, in order, as many side by side as asked for and as memory holds.
+/// Writes a line for each. Returns why each job stopped, empty if it came to its end; fewer than
+/// jobs if the user asked to stop.
+std::vector<std::string> run_jobs(const Study& study, const std::vector<StudyRun>& runs,
+                                  const std::vector<StudyJob>& jobs,
+                                  const StudyJobSettings& settings);
+
+} // namespace hyoryu
