@@ -18,10 +18,11 @@ MAY_INCLUDE = {
     "io": {"core"},
     "verify": {"core", "scene", "sim", "io"},
     "report": {"core", "scene", "io"},
+    "bench": {"core", "fluid", "rigid", "coupling", "scene", "sim", "io"},
     "view": {"core", "io"},
     "vtk": {"core", "io", "geometry", "view"},
     "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "verify",
-            "report", "view"},
+            "report", "bench", "view"},
 }
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')

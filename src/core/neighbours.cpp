@@ -364,9 +364,25 @@ Index PairList::entries() const
     return total;
 }
 
+std::size_t ListShop::bytes() const
+{
+    const auto held = [](const auto&... column) {
+        return (0 + ... + (column.capacity() * sizeof(column[0])));
+    };
+    std::size_t bytes = held(chunks, near, entries, packs);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        bytes += held(points[axis], low[axis], high[axis]);
+    }
+    return bytes;
+}
+
 std::size_t PairList::bytes() const
 {
-    return store_->bytes() + blocks_.capacity() * sizeof(ListBlock);
+    std::size_t bytes = store_->bytes() + blocks_.capacity() * sizeof(ListBlock);
+    for (const ListShop& shop : shops_) {
+        bytes += shop.bytes();
+    }
+    return bytes;
 }
 
 } // namespace hyoryu

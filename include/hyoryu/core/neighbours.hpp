@@ -65,6 +65,8 @@ struct ListShop {
     std::vector<SourceChunk> chunks;
     std::array<std::vector<float>, 3> points, low, high; // x, y, z
     std::vector<std::uint16_t> near, entries, packs;
+
+    std::size_t bytes() const;
 };
 
 /// Lists of one pair kind (destination <- source). Blocks are built in parallel and own their
@@ -90,7 +92,7 @@ public:
     int lanes() const { return lanes_; }
     /// Largest number of chunks that a block looks at.
     std::int32_t most_chunks() const;
-    /// Entries including padding, and bytes held.
+    /// Entries including padding, and bytes held, room for making them included.
     Index entries() const;
     std::size_t bytes() const;
 
