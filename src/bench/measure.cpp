@@ -39,7 +39,9 @@ std::vector<StepRates> measure_reference(const Setting& setting)
     setting.tell(fmt::format("the dam break until {} s", extent.developed));
     set_threads(setting.threads);
     sim = make_dam_break(extent.spacing);
-    develop(sim, extent.developed, setting.state);
+    develop(sim, extent.developed,
+            setting.state.empty() ? setting.state
+                                  : setting.state / fmt::format("spacing_{}", extent.spacing));
     setting.tell("steps of the developed flow");
     rates.push_back(measure_steps(sim, "developed", extent, setting.threads));
     return rates;
