@@ -149,6 +149,20 @@ class Bench(ProgramTest):
         self.assertEqual(self.call("bench", "--quick", "--full").returncode, 2)
 
 
+class Costs(ProgramTest):
+    def test_a_run_says_what_its_output_cost(self):
+        done = self.call("run", self.write(FLOOD), "-o", "out", "--until", "0.1", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads(self.read("out", "summary.json"))
+        self.assertEqual(set(summary["output"]), {"histories", "frames", "good state", "checkpoints"})
+        # Frames, and the walls, which are written once.
+        files = [*(self.dir / "out" / "frames").iterdir(), *(self.dir / "out").glob("*.hdf")]
+        self.assertEqual(summary["frame_writer"]["files"], len(files))
+        self.assertGreater(summary["frame_writer"]["thread_seconds"], 0)
+        outside = sum(summary["output"].values())
+        self.assertLess(outside + sum(summary["stages"].values()), summary["wall_seconds"])
+
+
 class Mistakes(ProgramTest):
     def refused(self, text, *expected, arguments=(), **options):
         before = set(self.files())
