@@ -73,7 +73,7 @@ def picture(document):
             filled = colour if loop["smoothing_ratio"] == 1.5 else "white"
             parts.append(f'<circle cx="{x_of(x):.1f}" cy="{y_of(y):.1f}" r="5" fill="{filled}"'
                          f' stroke="{colour}" stroke-width="2"/>')
-    parts.append(text(x_of(0.25), y_of(0.25 * bandwidth) - 10, f"memory: {bandwidth:.0f} GB/s"))
+    parts.append(text(x_of(1), y_of(bandwidth) - 6, f"memory: {bandwidth:.0f} GB/s", "end"))
     parts.append(text(LEFT, 18, "Pair loop over all terms (pressure, diffusion, continuity, viscosity): "
                                 "filled h/dp 1.5, open h/dp 1.732"))
     body = "\n".join(parts)
