@@ -15,7 +15,7 @@ def rates(document):
     found = {}
     for loop in document["loops"]:
         peak = limits[f"fma_{loop['precision']}"]
-        name = f"{loop['precision']}, h/dp {loop['smoothing_ratio']:g}"
+        name = f"{loop['precision']}, h/dp {loop['smoothing_ratio']:g}, {loop['particles']}"
         for key, what in (("all_terms_pairs_per_second", "all terms"),
                           ("force_stage_pairs_per_second", "forces"),
                           ("rate_stage_pairs_per_second", "rates"),
@@ -33,12 +33,12 @@ def rates(document):
 
 def main():
     now, before = (rates(json.loads(pathlib.Path(name).read_text())) for name in sys.argv[1:3])
-    print(f"{'':<48}{'now':>12}{'before':>12}{'ratio':>8}{'of shares':>11}")
+    print(f"{'':<56}{'now':>12}{'before':>12}{'ratio':>8}{'of shares':>11}")
     for name, (value, limit) in now.items():
         if name in before:
             old, old_limit = before[name]
             of_shares = f"{value / limit * old_limit / old:>11.2f}" if limit else ""
-            print(f"{name:<48}{value:>12.4g}{old:>12.4g}{value / old:>8.2f}{of_shares}")
+            print(f"{name:<56}{value:>12.4g}{old:>12.4g}{value / old:>8.2f}{of_shares}")
     return 0
 
 
