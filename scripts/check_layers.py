@@ -19,10 +19,11 @@ MAY_INCLUDE = {
     "verify": {"core", "scene", "sim", "io"},
     "report": {"core", "scene", "io"},
     "study": {"core", "scene", "io", "verify", "report"},
+    "bench": {"core", "fluid", "rigid", "coupling", "scene", "sim", "io"},
     "view": {"core", "io"},
     "vtk": {"core", "io", "geometry", "view"},
     "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "verify",
-            "report", "study", "view"},
+            "report", "study", "bench", "view"},
 }
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')

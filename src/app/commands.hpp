@@ -75,6 +75,16 @@ struct StudyOptions {
 };
 int run_study(const StudyOptions& options);
 
+struct BenchOptions {
+    bool quick = false;
+    bool full = false;
+    std::vector<double> sizes;   // numbers of fluid particles for cost against N; empty: as extent
+    int threads = 0;             // 0: all
+    std::filesystem::path json;  // where the results go as JSON; empty: nowhere
+    std::filesystem::path state; // folder that keeps the developed state; empty: none
+};
+int run_bench(const BenchOptions& options);
+
 /// Version, commit and build options.
 std::string version_text();
 

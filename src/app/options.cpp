@@ -101,6 +101,25 @@ void add_study(CLI::App& app, StudyOptions& options)
     study->add_flag("--force", options.force, "run again what an earlier call has done");
 }
 
+void add_bench(CLI::App& app, BenchOptions& options)
+{
+    auto* bench = app.add_subcommand(
+        "bench", "measure the limits of this machine and how near the solver comes to them");
+    auto* quick = bench->add_flag("--quick", options.quick, "small scenes: that it works");
+    bench->add_flag("--full", options.full, "up to 4 million fluid particles (half an hour)")
+        ->excludes(quick);
+    bench
+        ->add_option("--sizes", options.sizes,
+                     "numbers of fluid particles for the cost against size")
+        ->delimiter(',')
+        ->check(CLI::Range(1e2, 1e8));
+    bench->add_option("--threads", options.threads, "threads to use (default: all)")
+        ->check(CLI::Range(1, 4096));
+    bench->add_option("--json", options.json, "write the results to this file as well");
+    bench->add_option("--state", options.state,
+                      "keep the developed flow in this folder, and take it from there");
+}
+
 } // namespace
 
 int run_command_line(int argc, const char* const* argv)
@@ -118,6 +137,7 @@ int run_command_line(int argc, const char* const* argv)
     ReportOptions report;
     VerifyOptions verify_;
     StudyOptions study;
+    BenchOptions bench;
     add_run(app, run);
     add_check(app, check);
     add_describe(app, describe_);
@@ -125,6 +145,7 @@ int run_command_line(int argc, const char* const* argv)
     add_report(app, report);
     add_verify(app, verify_);
     add_study(app, study);
+    add_bench(app, bench);
     app.add_subcommand("info", "what a results folder holds")
         ->add_option("RESULTS", info.folder, "results folder")
         ->required();
@@ -155,6 +176,9 @@ int run_command_line(int argc, const char* const* argv)
     }
     if (app.got_subcommand("study")) {
         return run_study(study);
+    }
+    if (app.got_subcommand("bench")) {
+        return run_bench(bench);
     }
     return render_results(render_);
 }

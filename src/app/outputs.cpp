@@ -113,19 +113,23 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
 
 void Outputs::update(Simulation& sim)
 {
+    timer_.begin("histories");
     log_contacts(sim);
     if (history_due(sim.clock, sim.scene)) {
         write_histories(sim);
         sim.clock.history += 1;
     }
+    timer_.end();
     if (gauges_ && gauge_due(sim.clock, sim.scene)) {
         write_gauges(sim);
         sim.clock.gauge += 1;
     }
     if (frame_due(sim.clock, sim.scene)) {
+        timer_.begin("frames");
         write_resting(sim);
         write_frame(sim);
         sim.clock.frame += 1;
+        timer_.end();
     }
 }
 

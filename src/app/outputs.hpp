@@ -24,6 +24,10 @@ public:
     void write_checkpoint(const Snapshot& snapshot);
     /// At the end of a run: writes the resting contacts since the last frame.
     void close_interval(const Simulation& sim);
+    /// What the thread that writes frames has cost.
+    FrameWriter::Cost frame_cost() const { return frames_->cost(); }
+    /// Time of the solver's side by what is written.
+    StageTimer& timer() { return timer_; }
 
 private:
     // Sum of the resting contacts of one pair over the present output interval.
@@ -47,6 +51,7 @@ private:
     std::unique_ptr<FrameWriter> frames_;
     std::optional<History> bodies_, contacts_, energy_, gauges_;
     std::map<PairKey, Resting> resting_;
+    StageTimer timer_;
 };
 
 } // namespace hyoryu

@@ -84,16 +84,26 @@ struct Job {
 void write_closing(Job& job, const std::string& reason)
 {
     write_text(job.folder / "summary.json",
-               summary_json(job.sim, reason, job.progress.wall_seconds(), job.first_step));
+               summary_json(job.sim, reason, job.progress.wall_seconds(), job.first_step,
+                            job.outputs.timer(), job.outputs.frame_cost()));
     write_master(job.folder, job.case_text, std::string(build_info::version));
 }
 
 // The old state goes before the new one comes: a state is as large as that of the particles.
 void keep_good_state(Job& job)
 {
+    job.outputs.timer().begin("good state");
     job.last_good = {};
     job.last_good = job.outputs.snapshot(job.sim);
     job.last_good.texts["case"] = job.case_text;
+    job.outputs.timer().end();
+}
+
+void write_checkpoint(Job& job)
+{
+    job.outputs.timer().begin("checkpoints");
+    job.outputs.write_checkpoint(job.last_good);
+    job.outputs.timer().end();
 }
 
 void advance(Job& job)
@@ -109,7 +119,7 @@ void advance(Job& job)
         }
         if (job.progress.wall_seconds() - saved > sim.scene.output.checkpoint_every) {
             keep_good_state(job);
-            job.outputs.write_checkpoint(job.last_good);
+            write_checkpoint(job);
             saved = job.progress.wall_seconds();
         }
         job.progress.update(sim);
@@ -147,7 +157,7 @@ int finish(Job& job)
         job.outputs.close_interval(job.sim);
     }
     keep_good_state(job);
-    job.outputs.write_checkpoint(job.last_good);
+    write_checkpoint(job);
     write_closing(job, reason);
     job.progress.end(job.sim);
     tell_doubts(job);
@@ -171,7 +181,7 @@ int carry_out(Job& job)
     } catch (const NumericalError& error) {
         // The state of the last frame was good; a run can go on from it with other settings.
         job.progress.line(fmt::format("error: the numbers went wrong: {}", error.what()));
-        job.outputs.write_checkpoint(job.last_good);
+        write_checkpoint(job);
         write_closing(job, "numerical error");
         throw;
     }
@@ -192,7 +202,7 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
             std::move(outputs), {}};
     job.outputs.update(job.sim);
     keep_good_state(job);
-    job.outputs.write_checkpoint(job.last_good);
+    write_checkpoint(job);
     return job;
 }
 
@@ -222,7 +232,7 @@ int run_case(const RunOptions& options)
 {
     set_threads(options.threads);
     const Scene scene = read_case(options.case_file, options.overrides);
-    const Filling filling = fill(scene);
+    Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
     watch_for_stop();
     if (!options.quiet) {
@@ -234,6 +244,7 @@ int run_case(const RunOptions& options)
     const fs::path folder = results_folder(options);
     Job job = options.resume ? resume(options, folder, scene, plan, filling)
                              : start(options, folder, scene, plan, filling);
+    filling = {}; // as large as the state of the fluid, and no more needed
     job.until = options.until.value_or(infinity);
     return carry_out(job);
 }

@@ -29,6 +29,15 @@ ordered_json energies(const Totals& t)
             {"body_potential", t.body_potential}};
 }
 
+ordered_json seconds_by_stage(const StageTimer& timer)
+{
+    ordered_json seconds = ordered_json::object();
+    for (const StageTimer::Stage& stage : timer.stages()) {
+        seconds[stage.name] = stage.seconds;
+    }
+    return seconds;
+}
+
 double peak_memory()
 {
     rusage usage{};
@@ -50,7 +59,8 @@ ordered_json contact_counters(const RigidCounters& c)
 } // namespace
 
 std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
-                         std::int64_t first_step)
+                         std::int64_t first_step, const StageTimer& output,
+                         const FrameWriter::Cost& frames)
 {
     const Totals end = totals(sim);
     const auto steps = static_cast<double>(sim.clock.step - first_step);
@@ -77,10 +87,11 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     json["pair_interactions"] = sim.pair_visits;
     json["pairs_per_second"] = wall_seconds > 0 ? sim.pair_visits / wall_seconds : 0;
     json["peak_memory_bytes"] = peak_memory();
-    json["stages"] = ordered_json::object();
-    for (const StageTimer::Stage& stage : sim.timer.stages()) {
-        json["stages"][stage.name] = stage.seconds;
-    }
+    json["stages"] = seconds_by_stage(sim.timer);
+    json["output"] = seconds_by_stage(output);
+    json["frame_writer"] = {{"files", frames.files},
+                            {"thread_seconds", frames.thread_seconds},
+                            {"waited_seconds", frames.waited_seconds}};
     json["steps_by_limit"] = ordered_json(sim.steps_by_limit);
     json["neighbour_builds"] = sim.fluid ? sim.fluid->neighbours.builds : 0;
     json["counts"] = {{"fluid", fluid_now},

@@ -2,6 +2,7 @@
 // `summary.json`: what a run was and what it cost.
 #pragma once
 
+#include "hyoryu/io/results.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <string>
@@ -9,8 +10,10 @@
 namespace hyoryu {
 
 /// `exit_reason`: "done", "interrupted", "until", "numerical error", "io error". `first_step`: step
-/// at which this process began.
+/// at which this process began; `output`: time of the
+/// solver's side for what is written; `frames`: cost of the thread that writes them.
 std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
-                         std::int64_t first_step);
+                         std::int64_t first_step, const StageTimer& output,
+                         const FrameWriter::Cost& frames);
 
 } // namespace hyoryu

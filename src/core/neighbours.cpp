@@ -5,6 +5,7 @@
 #include "list_loops.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <utility>
 
@@ -341,7 +342,12 @@ void PairList::clear()
 
 void PairList::mark_met(std::vector<std::uint8_t>& marks) const
 {
-    for_each_pair([&](Index, Index j) { marks[at(j)] = 1; });
+    // Blocks may mark the same slot at once; whichever comes last, it is marked.
+    parallel_blocks(0, static_cast<Index>(blocks_.size()), [&](Index block) {
+        for_each_pair_of(blocks_[at(block)], [&](Index, Index j) {
+            std::atomic_ref(marks[at(j)]).store(1, std::memory_order_relaxed);
+        });
+    });
 }
 
 std::int32_t PairList::most_chunks() const
@@ -364,9 +370,25 @@ Index PairList::entries() const
     return total;
 }
 
+std::size_t ListShop::bytes() const
+{
+    const auto held = [](const auto&... column) {
+        return (0 + ... + (column.capacity() * sizeof(column[0])));
+    };
+    std::size_t bytes = held(chunks, near, entries, packs);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        bytes += held(points[axis], low[axis], high[axis]);
+    }
+    return bytes;
+}
+
 std::size_t PairList::bytes() const
 {
-    return store_->bytes() + blocks_.capacity() * sizeof(ListBlock);
+    std::size_t bytes = store_->bytes() + blocks_.capacity() * sizeof(ListBlock);
+    for (const ListShop& shop : shops_) {
+        bytes += shop.bytes();
+    }
+    return bytes;
 }
 
 } // namespace hyoryu

@@ -58,4 +58,12 @@ std::vector<ColumnInfo> Particles::active_columns() const
     return columns;
 }
 
+std::size_t Particles::bytes() const
+{
+    const auto held = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
+    const std::size_t fields = std::apply(
+        [&](const auto&... column) { return (std::size_t(0) + ... + held(column)); }, columns_);
+    return fields + held(id_) + held(owner_) + held(room_);
+}
+
 } // namespace hyoryu

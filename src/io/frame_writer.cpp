@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
+#include <ctime>
 #include <deque>
 #include <exception>
 #include <map>
@@ -64,6 +66,13 @@ void insert(std::vector<SeriesEntry>& entries, const SeriesEntry& entry)
     entries.insert(std::upper_bound(entries.begin(), entries.end(), entry, later), entry);
 }
 
+double thread_seconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 } // namespace
 
 struct FrameWriter::State {
@@ -76,6 +85,7 @@ struct FrameWriter::State {
     bool working = false;
     bool closing = false;
     std::exception_ptr error;
+    Cost cost;
 
     std::thread thread;
 
@@ -103,11 +113,14 @@ std::size_t FrameWriter::State::waiting_frames() const
 
 void FrameWriter::State::put(Job job)
 {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point asked = Clock::now();
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] {
         const bool same_frame = !queue.empty() && queue.back().index() == job.index();
         return error || same_frame || waiting_frames() < frames_that_wait;
     });
+    cost.waited_seconds += std::chrono::duration<double>(Clock::now() - asked).count();
     if (error) {
         std::rethrow_exception(error);
     }
@@ -143,6 +156,8 @@ void FrameWriter::State::run()
         }
         lock.lock();
         working = false;
+        cost.files += 1;
+        cost.thread_seconds = thread_seconds();
         error = failure;
         changed.notify_all();
         if (error) {
@@ -163,6 +178,12 @@ void FrameWriter::State::write(const Job& job)
         insert(entries, {file, job.time()});
         write_series(series_file(folder, job.name()), entries);
     }
+}
+
+FrameWriter::Cost FrameWriter::cost() const
+{
+    const std::scoped_lock lock(state_->mutex);
+    return state_->cost;
 }
 
 FrameWriter::FrameWriter(std::filesystem::path folder)

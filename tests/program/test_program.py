@@ -81,7 +81,7 @@ class Commands(ProgramTest):
 
     def test_help_of_every_command(self):
         for command in ([], ["run"], ["check"], ["describe"], ["info"], ["render"],
-                        ["report"], ["verify"]):
+                        ["report"], ["verify"], ["bench"]):
             self.assertEqual(self.call(*command, "--help").returncode, 0, command)
 
     def test_wrong_usage_is_the_users_mistake(self):
@@ -121,6 +121,46 @@ class Commands(ProgramTest):
             done = self.call("check", case)
             self.assertEqual(done.returncode, 0, f"{case}: {done.stderr}")
             self.assertTrue((case.parent / "README.md").exists(), case)
+
+
+class Bench(ProgramTest):
+    def test_quick_results_are_whole(self):
+        done = self.call("bench", "--quick", "--threads", "2", "--json", "bench.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("share of limit", done.stdout)
+        bench = json.loads((self.dir / "bench.json").read_text())
+        limits = bench["limits"]
+        self.assertTrue(all(value > 1e8 for value in limits.values()), limits)
+        self.assertEqual({(row["precision"], row["smoothing_ratio"]) for row in bench["loops"]},
+                         {(p, h) for p in ("single", "double") for h in (1.5, 1.732)})
+        for row in bench["loops"]:
+            # No loop does better than the machine, and the lists hold more than the pairs.
+            self.assertTrue(0 < row["share_of_limit"] < 1, row)
+            self.assertTrue(0.5 < row["hit_share"] < 1, row)
+        self.assertEqual([row["scene"] for row in bench["steps"]], ["start", "developed"])
+        for row in bench["steps"] + bench["sizes"]:
+            parts = sum(stage["one_thread_seconds"] for stage in row["stages"].values())
+            self.assertAlmostEqual(parts / row["one_thread_step_seconds"], 1, delta=0.1)
+            self.assertAlmostEqual(sum(row["bytes_per_particle_of"].values()) / row["bytes_per_particle"],
+                                   1, delta=1e-6)
+        self.assertEqual(self.files(), ["bench.json"])
+
+    def test_extents_exclude_each_other(self):
+        self.assertEqual(self.call("bench", "--quick", "--full").returncode, 2)
+
+
+class Costs(ProgramTest):
+    def test_a_run_says_what_its_output_cost(self):
+        done = self.call("run", self.write(FLOOD), "-o", "out", "--until", "0.1", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads(self.read("out", "summary.json"))
+        self.assertEqual(set(summary["output"]), {"histories", "frames", "good state", "checkpoints"})
+        # Frames, and the walls, which are written once.
+        files = [*(self.dir / "out" / "frames").iterdir(), *(self.dir / "out").glob("*.hdf")]
+        self.assertEqual(summary["frame_writer"]["files"], len(files))
+        self.assertGreater(summary["frame_writer"]["thread_seconds"], 0)
+        outside = sum(summary["output"].values())
+        self.assertLess(outside + sum(summary["stages"].values()), summary["wall_seconds"])
 
 
 class Mistakes(ProgramTest):

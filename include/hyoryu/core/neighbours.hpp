@@ -65,6 +65,8 @@ struct ListShop {
     std::vector<SourceChunk> chunks;
     std::array<std::vector<float>, 3> points, low, high; // x, y, z
     std::vector<std::uint16_t> near, entries, packs;
+
+    std::size_t bytes() const;
 };
 
 /// Lists of one pair kind (destination <- source). Blocks are built in parallel and own their
@@ -90,7 +92,7 @@ public:
     int lanes() const { return lanes_; }
     /// Largest number of chunks that a block looks at.
     std::int32_t most_chunks() const;
-    /// Entries including padding, and bytes held.
+    /// Entries including padding, and bytes held, room for making them included.
     Index entries() const;
     std::size_t bytes() const;
 
@@ -98,20 +100,25 @@ public:
     void for_each_pair(auto&& f) const
     {
         for (const ListBlock& block : blocks_) {
-            const std::uint16_t* entry = block.entry;
-            for (std::int32_t i = block.first; i < block.last; ++i) {
-                const int count = lanes_ * block.packs[i - block.first];
-                for (int k = 0; k < count; ++k, ++entry) {
-                    const int chunk = *entry / chunk_slots;
-                    if (chunk < block.chunks) {
-                        f(Index(i), Index(block.chunk[chunk].slot + *entry % chunk_slots));
-                    }
+            for_each_pair_of(block, f);
+        }
+    }
+
+private:
+    void for_each_pair_of(const ListBlock& block, const auto& f) const
+    {
+        const std::uint16_t* entry = block.entry;
+        for (std::int32_t i = block.first; i < block.last; ++i) {
+            const int count = lanes_ * block.packs[i - block.first];
+            for (int k = 0; k < count; ++k, ++entry) {
+                const int chunk = *entry / chunk_slots;
+                if (chunk < block.chunks) {
+                    f(Index(i), Index(block.chunk[chunk].slot + *entry % chunk_slots));
                 }
             }
         }
     }
 
-private:
     int lanes_ = 1;
     std::vector<ListBlock> blocks_;
     std::vector<ListShop> shops_; // by thread

@@ -139,6 +139,8 @@ public:
     void permute_fluid(std::span<const std::int32_t> order);
 
     std::vector<ColumnInfo> active_columns() const;
+    /// Bytes held, columns and room for permutations.
+    std::size_t bytes() const;
 
     /// Calls `f(tag, span)` for each active column.
     void for_each_column(auto&& f)

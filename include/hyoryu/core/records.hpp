@@ -50,6 +50,8 @@ public:
     }
 
     const Row* data() const { return rows_.data(); }
+    /// Bytes held.
+    std::size_t bytes() const { return rows_.capacity() * sizeof(Row); }
 
 private:
     Row& at(Index slot) { return rows_[static_cast<std::size_t>(slot)]; }

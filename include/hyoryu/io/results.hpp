@@ -66,6 +66,14 @@ public:
     /// Waits until everything is on disk and throws what went wrong.
     void finish();
 
+    /// What frames have cost so far.
+    struct Cost {
+        std::int64_t files = 0;
+        double thread_seconds = 0; // CPU time of the thread
+        double waited_seconds = 0; // of the solver's side, until a place was free
+    };
+    Cost cost() const;
+
 private:
     struct State;
     std::unique_ptr<State> state_;
