@@ -121,7 +121,8 @@ std::string general_text(const Scene& scene)
 
 std::string fluid_text(const FluidSettings& fluid)
 {
-    std::string text = "\n[fluid]\n" + line("density", fluid.density) + "formulation = \"sph\"\n" +
+    std::string text = "\n[fluid]\n" + line("density", fluid.density) +
+                       line("formulation", std::string(name(fluid.formulation))) +
                        line("sound_speed", fluid.sound_speed) +
                        line("smoothing_ratio", fluid.smoothing_ratio);
     text += "\n[fluid.viscosity]\n";

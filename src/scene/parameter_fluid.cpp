@@ -33,8 +33,9 @@ std::vector<Parameter> model_parameters()
     return {
         table_row("fluid", "The water; without this table no fluid is simulated at all."),
         positive("fluid.density", "kg/m3", "1000", "Density of the fluid at rest."),
-        choice_row("fluid.formulation", {"sph"}, "sph",
-                   "How the fluid is solved: \"sph\" is weakly compressible SPH."),
+        choice_row("fluid.formulation", {"sph", "mps"}, "sph",
+                   "How the fluid is solved: \"sph\" is weakly compressible SPH, \"mps\" weakly "
+                   "compressible MPS."),
         positive(
             "fluid.sound_speed", "m/s", "",
             "Artificial speed of sound; without it ten times the largest speed that the scene lets "

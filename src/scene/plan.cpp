@@ -73,6 +73,7 @@ FluidParameters fluid_parameters(const Scene& scene, double speed)
     const FluidSettings& settings = *scene.fluid;
     FluidParameters f;
     f.dimensions = scene.dimensions;
+    f.formulation = settings.formulation;
     f.spacing = scene.spacing;
     f.h = settings.smoothing_ratio * scene.spacing;
     f.mass = settings.density * std::pow(scene.spacing, scene.dimensions);
@@ -136,7 +137,12 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
     const bool fluid = plan.fluid.has_value();
     const std::string none = "the scene has no fluid";
     const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
-    census.add("pressure", when(fluid, "the scene has a fluid"), none);
+    const bool mps = fluid && plan.fluid->formulation == FormulationKind::mps;
+    census.add("pressure",
+               when(fluid, mps ? "the scene has a fluid; `fluid.formulation` is \"mps\": corrected "
+                                 "differences, symmetric near the surface"
+                               : "the scene has a fluid"),
+               none);
     census.add("continuity", when(fluid, "the scene has a fluid"), none);
     census.add("wall_extrapolation", when(solids, "the fluid meets walls or bodies"),
                fluid ? "the fluid meets no wall and no body" : none);
@@ -214,6 +220,7 @@ void list_fields(Plan& plan)
     }
     // The columns follow from the effects by the same function that makes them; no row is needed.
     Fluid probe;
+    probe.parameters = *plan.fluid;
     probe.effects = plan.effects;
     allocate(probe, 0, std::min<Index>(plan.counts.wall, 1), std::min<Index>(plan.counts.body, 1));
     for (const ColumnInfo& column : probe.particles.active_columns()) {

@@ -137,7 +137,8 @@ void read_fluid(TableReader table, Scene& scene)
     }
     FluidSettings fluid;
     fluid.density = table.number("density");
-    table.choice("formulation");
+    fluid.formulation =
+        table.choice("formulation") == "mps" ? FormulationKind::mps : FormulationKind::sph;
     fluid.sound_speed = table.find_number("sound_speed");
     fluid.smoothing_ratio = table.number("smoothing_ratio");
     read_viscosity(table.table("viscosity"), fluid);

@@ -93,6 +93,8 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
     fluid.effects = sim.plan.effects;
     fluid.kernel =
         make_kernel(fluid.parameters.h, fluid.parameters.spacing, fluid.parameters.dimensions);
+    fluid.mps_kernel = make_mps_kernel(fluid.kernel.support, fluid.parameters.spacing,
+                                       fluid.parameters.dimensions);
     // A particle may graze the edge of the domain; two spacings beyond it is gone for good.
     const Vec3 margin = Vec3::Constant(2 * fluid.parameters.spacing);
     fluid.domain_min = filling.domain.min - margin;

@@ -52,7 +52,8 @@ struct Fluid {
     InstructionSet instruction_set = widest_instruction_set();
     FluidEffects effects;
     Particles particles;
-    Kernel kernel;
+    Kernel kernel;        // of the loops in SPH, and of gauges in any formulation
+    MpsKernel mps_kernel; // of the loops in MPS
     FluidNeighbours neighbours;
     std::variant<PairData<float>, PairData<double>> pair_data; // as the precision says
     Vec3 domain_min{-infinity, -infinity, -infinity};

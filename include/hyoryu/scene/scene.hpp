@@ -83,6 +83,7 @@ struct FluidBlock {
 };
 
 struct FluidSettings {
+    FormulationKind formulation = FormulationKind::sph;
     double density = 1000.0;           // rho_0 [kg/m3]
     std::optional<double> sound_speed; // c_0 [m/s]; none: 10 x the largest expected speed
     ViscosityModel viscosity = ViscosityModel::artificial;
