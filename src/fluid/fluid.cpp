@@ -100,7 +100,7 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
             using Own = Union<Core, typename std::remove_cvref_t<decltype(effect)>::Writes...>;
             fluid.particles.allocate(Own{}, fluid_count, wall_count, body_count);
         },
-        fluid.effects.diffusion, fluid.effects.viscosity);
+        fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting);
     if (wall_count + body_count > 0) {
         fluid.particles.add(WallExtrapolation::Writes{});
     }
@@ -262,6 +262,31 @@ real effective_viscosity(const Fluid& fluid)
     const auto* viscosity = std::get_if<Viscosity>(&fluid.effects.viscosity);
     return viscosity != nullptr ? viscosity->kappa / laminar_kappa(1, fluid.parameters.dimensions)
                                 : 0;
+}
+
+void shift(Fluid& fluid, real dt)
+{
+    const auto* shifting = std::get_if<Shifting>(&fluid.effects.shifting);
+    if (shifting == nullptr) {
+        return;
+    }
+    constexpr real most_spacings = 0.05;
+    Particles& particles = fluid.particles;
+    const FluidParameters& f = fluid.parameters;
+    const FluidNeighbours& n = fluid.neighbours;
+    const Rows rows = particles.fluid();
+    const FluidTerms terms = terms_of(fluid, dt);
+    const real scale = shifting->coefficient * f.h * top_speed(fluid) * dt;
+    clear(particles, rows, Shifting::Writes{});
+    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.shifting; });
+    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.shifting; });
+    const auto x = particles[field::position];
+    const auto S = particles[field::shift_gradient];
+    parallel_for(rows.begin, rows.end, [&](Index i) {
+        const real way = scale * S[at(i)].norm();
+        const real most = most_spacings * f.spacing;
+        x[at(i)] -= (way > most ? most / way : 1) * scale * S[at(i)];
+    });
 }
 
 std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid)

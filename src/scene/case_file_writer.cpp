@@ -115,6 +115,13 @@ std::string general_text(const Scene& scene)
             line("precision", std::string(name(scene.precision)));
     if (scene.domain) {
         text += "\n[domain]\n" + line("min", scene.domain->min) + line("max", scene.domain->max);
+        std::vector<std::string> periodic;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (scene.domain->periodic[axis]) {
+                periodic.emplace_back(1, "xyz"[axis]);
+            }
+        }
+        text += periodic.empty() ? "" : line("periodic", periodic);
     }
     return text;
 }
@@ -141,7 +148,9 @@ std::string fluid_text(const FluidSettings& fluid)
         text += fmt::format("model = \"{}\"\n", fourtakas ? "fourtakas" : "molteni");
         text += line("delta", fluid.delta);
     }
-    text += "\n[fluid.shifting]\nmodel = \"none\"\n";
+    text += "\n[fluid.shifting]\n";
+    text += fluid.shifting ? "model = \"sun\"\n" + line("coefficient", *fluid.shifting)
+                           : "model = \"none\"\n";
     for (const FluidBlock& block : fluid.blocks) {
         text += "\n[[fluid.block]]\n" + shape_lines(block.shape) + line("position", block.centre) +
                 line("rotation", block.rotation);

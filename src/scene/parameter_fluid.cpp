@@ -58,8 +58,11 @@ std::vector<Parameter> model_parameters()
         not_negative("fluid.density_diffusion.delta", "", "0.1",
                      "Coefficient of the density diffusion."),
         table_row("fluid.shifting", "Evening out of the particles' places."),
-        choice_row("fluid.shifting.model", {"none"}, "none",
-                   "This version does not shift particles."),
+        choice_row("fluid.shifting.model", {"none", "sun"}, "none",
+                   "\"sun\" moves particles from where they are dense, for flows without a free "
+                   "surface, which it would make swell; \"none\" switches it off."),
+        not_negative("fluid.shifting.coefficient", "", "8",
+                     "Strength of the shifting: C in -C h |v|max dt times the crowding."),
     };
 }
 

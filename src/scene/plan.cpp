@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace hyoryu {
@@ -107,6 +108,10 @@ FluidEffects fluid_effects(const Scene& scene, const FluidParameters& f)
     if (kappa > 0) {
         effects.viscosity = Viscosity{f.eos.rho0, kappa, f.h};
     }
+    if (settings.shifting && *settings.shifting > 0) {
+        const Kernel kernel = make_kernel(f.h, f.spacing, f.dimensions);
+        effects.shifting = Shifting{*settings.shifting, 1 / kernel(Vec<real>{f.spacing, 0, 0}).w};
+    }
     return effects;
 }
 
@@ -167,7 +172,14 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                when(!std::holds_alternative<Off>(plan.effects.diffusion),
                     "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise"),
                fluid ? "`fluid.density_diffusion.model` is \"none\"" : none);
-    census.add("shifting", std::nullopt, fluid ? "`fluid.shifting.model` is \"none\"" : none);
+    census.add("shifting",
+               when(!std::holds_alternative<Off>(plan.effects.shifting),
+                    "`fluid.shifting.model` is \"sun\": evens out the particles' places"),
+               fluid ? "`fluid.shifting.model` is \"none\"" : none);
+    const bool periodic =
+        scene.domain && std::ranges::any_of(scene.domain->periodic, std::identity{});
+    census.add("periodic", when(periodic, "`domain.periodic` names directions"),
+               "`domain.periodic` names no direction");
     const bool coupled = fluid && plan.counts.bodies > 0;
     census.add("body_load", when(coupled, "bodies stand in or may meet the fluid"),
                fluid ? "the scene has no bodies" : none);

@@ -55,7 +55,7 @@ struct SweepView {
     ColumnPointers columns;                         // by row
     const std::int32_t* row = nullptr;              // of the destination slots, from `first_slot`
     Index first_slot = 0;
-    real edge = 0; // of a tile [m]
+    Vec3 edge{0, 0, 0}; // of a tile [m]
     PairKernel kernel;
 };
 
@@ -95,12 +95,12 @@ template <int bytes, class List, class Real>
 void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>* local)
 {
     using Row = RecordRow<List, Real>;
-    const real edge = view.edge;
+    const real edge[3] = {view.edge.x(), view.edge.y(), view.edge.z()};
     for (std::int32_t c = 0; c < block.chunks; ++c) {
         const SourceChunk chunk = block.chunk[c];
         Row step;
         for (int axis = 0; axis < 3; ++axis) {
-            step.value[axis] = static_cast<Real>(static_cast<real>(chunk.step[axis]) * edge);
+            step.value[axis] = static_cast<Real>(static_cast<real>(chunk.step[axis]) * edge[axis]);
         }
         const Real* from = view.records[chunk.slot].value;
         Real* to = local[c * chunk_slots].value;
@@ -113,7 +113,7 @@ void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>
     constexpr real far_in_edges = 1e6; // its square is finite, and it is beyond every support
     Row& nothing = local[block.chunks * chunk_slots];
     nothing = Row{};
-    nothing.value[0] = static_cast<Real>(far_in_edges * edge);
+    nothing.value[0] = static_cast<Real>(far_in_edges * edge[0]);
 }
 
 /// get(0), get(1), ..., sixteen bytes each, one behind the other in one register.

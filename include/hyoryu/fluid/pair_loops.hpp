@@ -35,6 +35,7 @@ struct PairLoops {
     Loop film_forces = nullptr;   // body <- solid and back: pressure in thin films
     Loop fluid_rates = nullptr;   // fluid <- fluid: continuity and viscosity
     Loop solid_rates = nullptr;   // fluid <- solid: continuity
+    Loop shifting = nullptr;      // fluid <- fluid or solid: crowding
 };
 
 /// Of every formulation, in either precision.

@@ -61,6 +61,12 @@ struct Loops {
         sweep_block<bytes>(view, block, local, Continuity{});
     }
 
+    static void shifting(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        with(terms.effects.shifting,
+             [&](const auto& shift) { sweep_block<bytes>(view, block, local, shift); });
+    }
+
     // Where solids feel the opposite of what the fluid does, one loop serves both.
     static constexpr auto loads =
         std::is_same_v<SolidPressure, WallPressureForce> ? solid_forces : solid_loads;
@@ -71,7 +77,8 @@ struct Loops {
                                                         loads,
                                                         film_forces,
                                                         fluid_rates,
-                                                        solid_rates};
+                                                        solid_rates,
+                                                        shifting};
 };
 
 } // namespace
