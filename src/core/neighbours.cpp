@@ -60,7 +60,7 @@ public:
         : destination_(destination), sources_(sources), loops_(*loops_of(settings.set)),
           lanes_(settings.lanes), choice_(choice), shop_(shop), store_(store), out_(out)
     {
-        const auto edge = static_cast<float>(destination.lattice.edge);
+        const auto edge = static_cast<float>(destination.lattice.edge.maxCoeff());
         radius_ = static_cast<float>(settings.radius) + rounding * edge;
     }
 
@@ -128,8 +128,8 @@ private:
             for (int z = -1; z <= 1; ++z) {
                 for (int y = -1; y <= 1; ++y) {
                     for (int x = -1; x <= 1; ++x) {
-                        const Index tile = source->find(
-                            TileLattice::tile_at({place[0] + x, place[1] + y, place[2] + z}));
+                        const Index tile =
+                            source->find(destination_.lattice.beside(place, {x, y, z}));
                         if (tile >= 0) {
                             collect_tile(*source, tile, {x, y, z}, bounds);
                         }
@@ -142,10 +142,10 @@ private:
     void collect_tile(const Tiles& source, Index tile, const std::array<int, 3>& way,
                       const ChunkBox& bounds)
     {
-        const auto edge = static_cast<float>(source.lattice.edge);
-        const std::array<float, 3> step{edge * static_cast<float>(way[0]),
-                                        edge * static_cast<float>(way[1]),
-                                        edge * static_cast<float>(way[2])};
+        const Vec3& edge = source.lattice.edge;
+        const std::array<float, 3> step{static_cast<float>(edge.x()) * static_cast<float>(way[0]),
+                                        static_cast<float>(edge.y()) * static_cast<float>(way[1]),
+                                        static_cast<float>(edge.z()) * static_cast<float>(way[2])};
         const Index end = source.start[at(tile + 1)];
         Index slot = source.start[at(tile)];
         const std::array columns{&source.x, &source.y, &source.z};
@@ -321,7 +321,7 @@ std::size_t PageStore::bytes() const
 void PairList::build(const Tiles& destination, std::span<const Tiles* const> sources,
                      const Settings& settings, const ListChoice& choice)
 {
-    expects(settings.radius <= destination.lattice.edge);
+    expects(settings.radius <= destination.lattice.edge.minCoeff());
     lanes_ = settings.lanes;
     store_->reset();
     blocks_.clear();

@@ -170,12 +170,15 @@ void find_tiles(Tiles& tiles, const SortSpace& space, Index count)
 
 std::uint64_t TileLattice::cell_of(const Vec3& point) const
 {
-    const Vec3 scaled = (point - origin) * (cells / edge);
+    const Vec3 scaled = (point - origin).cwiseProduct((cells / edge.array()).matrix());
     std::array<std::int64_t, 3> tile{};
     std::int64_t cell = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto place =
+        auto place =
             static_cast<std::int64_t>(std::floor(scaled[static_cast<Index>(axis)])) + reach;
+        if (period[axis] > 0) { // what rounding puts on the far side belongs to the last cell
+            place = std::min(place, reach + cells * period[axis] - 1);
+        }
         tile[axis] = place / cells;
         cell += (place % cells) << (2 * axis);
     }
@@ -200,23 +203,70 @@ std::uint64_t TileLattice::tile_at(const std::array<std::int64_t, 3>& place)
 Vec3 TileLattice::centre(std::uint64_t tile) const
 {
     const auto place = place_of(tile);
-    return origin + edge * Vec3(static_cast<real>(place[0]) + 0.5,
-                                static_cast<real>(place[1]) + 0.5,
-                                static_cast<real>(place[2]) + 0.5);
+    return origin + edge.cwiseProduct(Vec3(static_cast<real>(place[0]) + 0.5,
+                                           static_cast<real>(place[1]) + 0.5,
+                                           static_cast<real>(place[2]) + 0.5));
+}
+
+std::uint64_t TileLattice::beside(const std::array<std::int64_t, 3>& place,
+                                  const std::array<int, 3>& way) const
+{
+    std::array<std::int64_t, 3> there{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        there[axis] = place[axis] + way[axis];
+        if (period[axis] > 0) {
+            there[axis] = (there[axis] + period[axis]) % period[axis];
+        }
+    }
+    return tile_at(there);
+}
+
+Vec3 TileLattice::wrapped(const Vec3& point) const
+{
+    Vec3 image = point;
+    for (Index axis = 0; axis < 3; ++axis) {
+        const auto tiles = period[static_cast<std::size_t>(axis)];
+        if (tiles > 0) {
+            const real length = static_cast<real>(tiles) * edge[axis];
+            image[axis] -= length * std::floor((point[axis] - origin[axis]) / length);
+        }
+    }
+    return image;
+}
+
+Vec3 TileLattice::shortest(const Vec3& r) const
+{
+    Vec3 image = r;
+    for (Index axis = 0; axis < 3; ++axis) {
+        const auto tiles = period[static_cast<std::size_t>(axis)];
+        if (tiles > 0) {
+            const real length = static_cast<real>(tiles) * edge[axis];
+            image[axis] -= length * std::round(r[axis] / length);
+        }
+    }
+    return image;
 }
 
 real TileLattice::unit(int digits) const
 {
     // A tile sees points up to one and a half edges from its centre, and a little more once they
     // have moved: two edges must fit into the digits.
-    return std::exp2(std::ceil(std::log2(2 * edge)) - digits);
+    return std::exp2(std::ceil(std::log2(2 * edge.maxCoeff())) - digits);
 }
 
-TileLattice make_lattice(const Vec3& origin, real edge)
+TileLattice make_lattice(const Vec3& origin, real edge, const Vec3& period)
 {
-    TileLattice lattice{origin, edge};
+    TileLattice lattice{origin, Vec3::Constant(edge)};
+    for (Index axis = 0; axis < 3; ++axis) {
+        if (period[axis] > 0) {
+            const real tiles = std::floor(period[axis] / edge);
+            expects(tiles >= 1);
+            lattice.period[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(tiles);
+            lattice.edge[axis] = period[axis] / tiles;
+        }
+    }
     const real unit = lattice.unit(std::numeric_limits<float>::digits);
-    lattice.edge = std::ceil(edge / unit) * unit;
+    lattice.edge = (lattice.edge.array() / unit).ceil() * unit;
     return lattice;
 }
 

@@ -51,26 +51,35 @@ void for_wet_solids(const Fluid& fluid, const auto& f)
     parallel_for(bodies.begin, bodies.end, [&](Index i) { f(at(i)); });
 }
 
+// f(formulation, kernel of its pairs).
+auto with_formulation(const Fluid& fluid, const auto& f)
+{
+    return fluid.parameters.formulation == FormulationKind::mps ? f(Mps{}, fluid.mps_kernel)
+                                                                : f(Sph{}, fluid.kernel);
+}
+
 // Runs one of the pair loops over all blocks of a list; `which` names it.
 void run(Fluid& fluid, const PairList& pairs, const Tiles& destination, const FluidTerms& terms,
          const auto& which)
 {
-    std::visit(
-        [&]<class Real>(PairData<Real>& data) {
-            const auto& loops = std::get<PairLoops<Real>>(fluid_loops(fluid.instruction_set));
-            const SweepView<Stored, Real> view{pairs.blocks().data(),
-                                               data.records.data(),
-                                               fluid.particles.pointers(),
-                                               destination.row.data(),
-                                               destination.first_slot,
-                                               destination.lattice.edge,
-                                               fluid.kernel};
-            const auto loop = which(loops);
-            parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
-                loop(view, block, data.local[at(worker())].data(), terms);
-            });
-        },
-        fluid.pair_data);
+    const auto sweep = [&]<class Real, class Formulation>(PairData<Real>& data, Formulation,
+                                                          const auto& kernel) {
+        using Loops = PairLoops<Real, Formulation>;
+        const auto loop = which(std::get<Loops>(fluid_loops(fluid.instruction_set)));
+        const typename Loops::View view{pairs.blocks().data(),
+                                        data.records.data(),
+                                        fluid.particles.pointers(),
+                                        destination.row.data(),
+                                        destination.first_slot,
+                                        destination.lattice.edge,
+                                        kernel};
+        parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
+            loop(view, block, data.local[at(worker())].data(), terms);
+        });
+    };
+    with_formulation(fluid, [&](auto formulation, const auto& kernel) {
+        std::visit([&](auto& data) { sweep(data, formulation, kernel); }, fluid.pair_data);
+    });
 }
 
 } // namespace
@@ -86,17 +95,18 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
         fluid.pair_data.emplace<PairData<double>>();
     }
     using Core = Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>;
-    using Solid = WallExtrapolation::Writes;
     std::visit(
         [&](const auto&... effect) {
             using Own = Union<Core, typename std::remove_cvref_t<decltype(effect)>::Writes...>;
-            if (wall_count + body_count > 0) {
-                fluid.particles.allocate(Union<Own, Solid>{}, fluid_count, wall_count, body_count);
-            } else {
-                fluid.particles.allocate(Own{}, fluid_count, wall_count, body_count);
-            }
+            fluid.particles.allocate(Own{}, fluid_count, wall_count, body_count);
         },
-        fluid.effects.diffusion, fluid.effects.viscosity);
+        fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting);
+    if (wall_count + body_count > 0) {
+        fluid.particles.add(WallExtrapolation::Writes{});
+    }
+    if (fluid.parameters.formulation == FormulationKind::mps) {
+        fluid.particles.add(MpsGradient::Writes{});
+    }
 }
 
 void drift(Fluid& fluid, real dt)
@@ -155,17 +165,24 @@ void update_forces(Fluid& fluid, real dt)
     Particles& particles = fluid.particles;
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, dt);
+    const bool mps = fluid.parameters.formulation == FormulationKind::mps;
     clear(particles, particles.fluid(), Fields<Force>{});
     for_wet_solids(fluid, [&](std::size_t i) { particles[field::force][i].setZero(); });
+    if (mps) {
+        clear(particles, particles.fluid(), MpsGradient::Writes{});
+    }
     if (particles.has(field::diffusion_rate)) {
         clear(particles, particles.fluid(), Fields<DiffusionRate>{});
     }
     run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_forces; });
     run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_forces; });
-    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_forces; });
-    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_loads; });
+    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_loads; });
     run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
     run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
+    if (mps) {
+        add_corrected_pressure(fluid.parameters, particles);
+    }
 }
 
 void kick(Fluid& fluid, real dt)
@@ -245,6 +262,31 @@ real effective_viscosity(const Fluid& fluid)
     const auto* viscosity = std::get_if<Viscosity>(&fluid.effects.viscosity);
     return viscosity != nullptr ? viscosity->kappa / laminar_kappa(1, fluid.parameters.dimensions)
                                 : 0;
+}
+
+void shift(Fluid& fluid, real dt)
+{
+    const auto* shifting = std::get_if<Shifting>(&fluid.effects.shifting);
+    if (shifting == nullptr) {
+        return;
+    }
+    constexpr real most_spacings = 0.05;
+    Particles& particles = fluid.particles;
+    const FluidParameters& f = fluid.parameters;
+    const FluidNeighbours& n = fluid.neighbours;
+    const Rows rows = particles.fluid();
+    const FluidTerms terms = terms_of(fluid, dt);
+    const real scale = shifting->coefficient * f.h * top_speed(fluid) * dt;
+    clear(particles, rows, Shifting::Writes{});
+    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.shifting; });
+    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.shifting; });
+    const auto x = particles[field::position];
+    const auto S = particles[field::shift_gradient];
+    parallel_for(rows.begin, rows.end, [&](Index i) {
+        const real way = scale * S[at(i)].norm();
+        const real most = most_spacings * f.spacing;
+        x[at(i)] -= (way > most ? most / way : 1) * scale * S[at(i)];
+    });
 }
 
 std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid)

@@ -36,8 +36,8 @@ void find_touching(const Tiles& tiles, const Tiles& others, std::vector<TileTouc
         for (int z = -1; z <= 1; ++z) {
             for (int y = -1; y <= 1; ++y) {
                 for (int x = -1; x <= 1; ++x) {
-                    touch[at(t)][k++] = static_cast<std::int32_t>(others.find(
-                        TileLattice::tile_at({place[0] + x, place[1] + y, place[2] + z})));
+                    touch[at(t)][k++] = static_cast<std::int32_t>(
+                        others.find(tiles.lattice.beside(place, {x, y, z})));
                 }
             }
         }

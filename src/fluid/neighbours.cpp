@@ -28,7 +28,8 @@ real tile_ratio(int dimensions)
 TileLattice lattice_of(const Fluid& fluid)
 {
     const Vec3 origin = fluid.domain_min.allFinite() ? fluid.domain_min : Vec3(Vec3::Zero());
-    return make_lattice(origin, tile_ratio(fluid.parameters.dimensions) * fluid.kernel.support);
+    return make_lattice(origin, tile_ratio(fluid.parameters.dimensions) * fluid.kernel.support,
+                        fluid.period);
 }
 
 Displacement measure(Fluid& fluid)
@@ -56,7 +57,7 @@ Displacement measure(Fluid& fluid)
 bool stale(const Fluid& fluid, const Displacement& motion)
 {
     const FluidNeighbours& n = fluid.neighbours;
-    const real between = n.fluid.lattice.edge - fluid.kernel.support;
+    const real between = n.fluid.lattice.edge.minCoeff() - fluid.kernel.support;
     return motion.fluid > n.skins.fluid || motion.solid > n.skins.solid ||
            2 * motion.absolute > between;
 }
@@ -82,6 +83,11 @@ void sort_fluid(Fluid& fluid)
     Particles& particles = fluid.particles;
     SortSpace& space = fluid.neighbours.space;
     const TileLattice lattice = lattice_of(fluid);
+    if (fluid.period != Vec3(0, 0, 0)) {
+        const auto x = particles[field::position];
+        const Rows rows = particles.fluid();
+        parallel_for(rows.begin, rows.end, [&](Index i) { x[at(i)] = lattice.wrapped(x[at(i)]); });
+    }
     const Index kept = sort_rows(lattice, particles[field::position], particles.fluid(),
                                  fluid.domain_min, fluid.domain_max, space);
     const std::span<const std::int32_t> order = space.row;

@@ -115,13 +115,21 @@ std::string general_text(const Scene& scene)
             line("precision", std::string(name(scene.precision)));
     if (scene.domain) {
         text += "\n[domain]\n" + line("min", scene.domain->min) + line("max", scene.domain->max);
+        std::vector<std::string> periodic;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (scene.domain->periodic[axis]) {
+                periodic.emplace_back(1, "xyz"[axis]);
+            }
+        }
+        text += periodic.empty() ? "" : line("periodic", periodic);
     }
     return text;
 }
 
 std::string fluid_text(const FluidSettings& fluid)
 {
-    std::string text = "\n[fluid]\n" + line("density", fluid.density) + "formulation = \"sph\"\n" +
+    std::string text = "\n[fluid]\n" + line("density", fluid.density) +
+                       line("formulation", std::string(name(fluid.formulation))) +
                        line("sound_speed", fluid.sound_speed) +
                        line("smoothing_ratio", fluid.smoothing_ratio);
     text += "\n[fluid.viscosity]\n";
@@ -140,7 +148,9 @@ std::string fluid_text(const FluidSettings& fluid)
         text += fmt::format("model = \"{}\"\n", fourtakas ? "fourtakas" : "molteni");
         text += line("delta", fluid.delta);
     }
-    text += "\n[fluid.shifting]\nmodel = \"none\"\n";
+    text += "\n[fluid.shifting]\n";
+    text += fluid.shifting ? "model = \"sun\"\n" + line("coefficient", *fluid.shifting)
+                           : "model = \"none\"\n";
     for (const FluidBlock& block : fluid.blocks) {
         text += "\n[[fluid.block]]\n" + shape_lines(block.shape) + line("position", block.centre) +
                 line("rotation", block.rotation);

@@ -33,8 +33,9 @@ std::vector<Parameter> model_parameters()
     return {
         table_row("fluid", "The water; without this table no fluid is simulated at all."),
         positive("fluid.density", "kg/m3", "1000", "Density of the fluid at rest."),
-        choice_row("fluid.formulation", {"sph"}, "sph",
-                   "How the fluid is solved: \"sph\" is weakly compressible SPH."),
+        choice_row("fluid.formulation", {"sph", "mps"}, "sph",
+                   "How the fluid is solved: \"sph\" is weakly compressible SPH, \"mps\" weakly "
+                   "compressible MPS."),
         positive(
             "fluid.sound_speed", "m/s", "",
             "Artificial speed of sound; without it ten times the largest speed that the scene lets "
@@ -57,8 +58,11 @@ std::vector<Parameter> model_parameters()
         not_negative("fluid.density_diffusion.delta", "", "0.1",
                      "Coefficient of the density diffusion."),
         table_row("fluid.shifting", "Evening out of the particles' places."),
-        choice_row("fluid.shifting.model", {"none"}, "none",
-                   "This version does not shift particles."),
+        choice_row("fluid.shifting.model", {"none", "sun"}, "none",
+                   "\"sun\" moves particles from where they are dense, for flows without a free "
+                   "surface, which it would make swell; \"none\" switches it off."),
+        not_negative("fluid.shifting.coefficient", "", "8",
+                     "Strength of the shifting: C in -C h |v|max dt times the crowding."),
     };
 }
 

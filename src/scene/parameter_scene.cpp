@@ -98,10 +98,10 @@ std::vector<Parameter> general_parameters()
                   "the scene."),
         vector_row("domain.min", "m", required, "Lower corner of the domain."),
         vector_row("domain.max", "m", required, "Upper corner of the domain."),
-        texts_row(
-            "domain.periodic", {}, "[]",
-            "Directions in which the domain repeats itself; this version has none, so the list "
-            "must be empty."),
+        texts_row("domain.periodic", {}, "[]",
+                  "Directions, of \"x\", \"y\", \"z\", in which the domain repeats itself: what "
+                  "leaves on "
+                  "one side enters on the other. For scenes without bodies and moving walls."),
     };
 }
 

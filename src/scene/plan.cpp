@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace hyoryu {
@@ -73,6 +74,7 @@ FluidParameters fluid_parameters(const Scene& scene, double speed)
     const FluidSettings& settings = *scene.fluid;
     FluidParameters f;
     f.dimensions = scene.dimensions;
+    f.formulation = settings.formulation;
     f.spacing = scene.spacing;
     f.h = settings.smoothing_ratio * scene.spacing;
     f.mass = settings.density * std::pow(scene.spacing, scene.dimensions);
@@ -106,6 +108,10 @@ FluidEffects fluid_effects(const Scene& scene, const FluidParameters& f)
     if (kappa > 0) {
         effects.viscosity = Viscosity{f.eos.rho0, kappa, f.h};
     }
+    if (settings.shifting && *settings.shifting > 0) {
+        const Kernel kernel = make_kernel(f.h, f.spacing, f.dimensions);
+        effects.shifting = Shifting{*settings.shifting, 1 / kernel(Vec<real>{f.spacing, 0, 0}).w};
+    }
     return effects;
 }
 
@@ -136,7 +142,12 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
     const bool fluid = plan.fluid.has_value();
     const std::string none = "the scene has no fluid";
     const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
-    census.add("pressure", when(fluid, "the scene has a fluid"), none);
+    const bool mps = fluid && plan.fluid->formulation == FormulationKind::mps;
+    census.add("pressure",
+               when(fluid, mps ? "the scene has a fluid; `fluid.formulation` is \"mps\": corrected "
+                                 "differences, symmetric near the surface"
+                               : "the scene has a fluid"),
+               none);
     census.add("continuity", when(fluid, "the scene has a fluid"), none);
     census.add("wall_extrapolation", when(solids, "the fluid meets walls or bodies"),
                fluid ? "the fluid meets no wall and no body" : none);
@@ -161,7 +172,14 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                when(!std::holds_alternative<Off>(plan.effects.diffusion),
                     "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise"),
                fluid ? "`fluid.density_diffusion.model` is \"none\"" : none);
-    census.add("shifting", std::nullopt, fluid ? "`fluid.shifting.model` is \"none\"" : none);
+    census.add("shifting",
+               when(!std::holds_alternative<Off>(plan.effects.shifting),
+                    "`fluid.shifting.model` is \"sun\": evens out the particles' places"),
+               fluid ? "`fluid.shifting.model` is \"none\"" : none);
+    const bool periodic =
+        scene.domain && std::ranges::any_of(scene.domain->periodic, std::identity{});
+    census.add("periodic", when(periodic, "`domain.periodic` names directions"),
+               "`domain.periodic` names no direction");
     const bool coupled = fluid && plan.counts.bodies > 0;
     census.add("body_load", when(coupled, "bodies stand in or may meet the fluid"),
                fluid ? "the scene has no bodies" : none);
@@ -214,6 +232,7 @@ void list_fields(Plan& plan)
     }
     // The columns follow from the effects by the same function that makes them; no row is needed.
     Fluid probe;
+    probe.parameters = *plan.fluid;
     probe.effects = plan.effects;
     allocate(probe, 0, std::min<Index>(plan.counts.wall, 1), std::min<Index>(plan.counts.body, 1));
     for (const ColumnInfo& column : probe.particles.active_columns()) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace hyoryu {
@@ -293,12 +294,33 @@ void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>
     }
 }
 
+void check_periods(const Scene& scene, std::vector<Diagnostic>& errors)
+{
+    if (!scene.domain || std::ranges::none_of(scene.domain->periodic, std::identity{})) {
+        return;
+    }
+    if (!scene.bodies.empty()) {
+        errors.push_back(diagnostic_at(scene, {}, "domain.periodic",
+                                       "bodies do not go through the sides of a domain yet",
+                                       "leave the bodies out, or give walls to the sides"));
+    }
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        if (moves(scene.walls[w].motion)) {
+            errors.push_back(
+                diagnostic_at(scene, scene.walls[w].place, fmt::format("wall[{}].motion", w),
+                              "walls do not go through the sides of a periodic domain yet",
+                              "leave the motion out, or give walls to the sides"));
+        }
+    }
+}
+
 } // namespace
 
 void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
 {
     std::vector<Diagnostic> errors;
     check_overlaps(scene, errors);
+    check_periods(scene, errors);
     check_step(scene, plan, errors);
     check_outputs(scene, plan, errors);
     check_gauges(scene, filling, plan, errors);

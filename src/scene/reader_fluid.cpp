@@ -6,9 +6,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hyoryu {
 
 namespace {
+
+// Spacings in the shortest period: 2.5 supports of the widest kernel, 2 h of 2 spacings.
+constexpr int least_period = 10;
 
 void read_viscosity(TableReader table, FluidSettings& fluid)
 {
@@ -92,6 +98,50 @@ void read_time(TableReader table, Scene& scene)
     table.finish();
 }
 
+// A period holds a whole number of spacings, so that the lattice of the start goes on across it,
+// and a tile of the neighbour search (see `tile_ratio`), below which a particle would meet its own
+// image.
+void check_period(TableReader& table, const Scene& scene, int axis, std::string_view name)
+{
+    const double length = scene.domain->max[axis] - scene.domain->min[axis];
+    const double cells = length / scene.spacing;
+    if (!(length > 0 && scene.spacing > 0)) {
+        return; // already an error
+    }
+    if (std::abs(cells - std::round(cells)) > 1e-6 * cells) {
+        table.error("periodic",
+                    fmt::format("along {} the domain is {:.6g} spacings long", name, cells),
+                    "a period must be a whole number of `particles.spacing`");
+    }
+    if (cells < least_period) {
+        table.error("periodic",
+                    fmt::format("along {} the domain is {:.6g} spacings long", name, cells),
+                    fmt::format("a period must be at least {} spacings", least_period));
+    }
+    if (scene.gravity[axis] != 0) {
+        table.error("periodic", fmt::format("`gravity` points along {}", name),
+                    "what falls without end has no hydrostatic pressure; turn one of them");
+    }
+}
+
+void read_periods(TableReader& table, Scene& scene)
+{
+    constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+    for (const std::string& name : table.texts("periodic")) {
+        const auto found = std::find(axes.begin(), axes.end(), name);
+        const bool flat = scene.dimensions == 2 && name == "y";
+        if (found == axes.end() || flat) {
+            table.error("periodic", fmt::format("\"{}\" is no direction of this case", name),
+                        scene.dimensions == 2 ? "there are \"x\" and \"z\""
+                                              : "there are \"x\", \"y\" and \"z\"");
+            continue;
+        }
+        const auto axis = static_cast<std::size_t>(found - axes.begin());
+        scene.domain->periodic[axis] = true;
+        check_period(table, scene, static_cast<int>(axis), name);
+    }
+}
+
 void read_domain(TableReader table, Scene& scene)
 {
     if (!table.present()) {
@@ -107,10 +157,7 @@ void read_domain(TableReader table, Scene& scene)
             table.error("max", "must lie above `min` in every direction");
         }
     }
-    if (!table.texts("periodic").empty()) {
-        table.error("periodic", "this version does not have periodic sides yet",
-                    "leave the key out, or give walls to the sides");
-    }
+    read_periods(table, scene);
     table.finish();
 }
 
@@ -137,13 +184,20 @@ void read_fluid(TableReader table, Scene& scene)
     }
     FluidSettings fluid;
     fluid.density = table.number("density");
-    table.choice("formulation");
+    fluid.formulation =
+        table.choice("formulation") == "mps" ? FormulationKind::mps : FormulationKind::sph;
     fluid.sound_speed = table.find_number("sound_speed");
     fluid.smoothing_ratio = table.number("smoothing_ratio");
     read_viscosity(table.table("viscosity"), fluid);
     read_diffusion(table.table("density_diffusion"), fluid);
     TableReader shifting = table.table("shifting");
-    shifting.choice("model");
+    if (shifting.choice("model") == "sun") {
+        fluid.shifting = shifting.number("coefficient");
+        if (fluid.formulation == FormulationKind::mps) {
+            shifting.error("model", "is written for the kernel of SPH",
+                           "leave shifting out with formulation = \"mps\"");
+        }
+    }
     shifting.finish();
     for (TableReader& block : table.tables("block")) {
         fluid.blocks.push_back(read_block(block));

@@ -196,6 +196,19 @@ double depth_in(const SolidWall& solid, const Vec3& p, int dimensions)
     return -signed_distance({&solid.shape, solid.centre, solid.rotation, dimensions}, p);
 }
 
+// Beyond a period stand the images of what is within it.
+bool in_period(const Scene& scene, const Vec3& point)
+{
+    for (Index axis = 0; axis < 3; ++axis) {
+        const bool repeats = scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)];
+        if (repeats &&
+            !(point[axis] >= scene.domain->min[axis] && point[axis] < scene.domain->max[axis])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 } // namespace
 
 void fill_walls(const Scene& scene, Filling& filling)
@@ -208,7 +221,7 @@ void fill_walls(const Scene& scene, Filling& filling)
         std::visit([&](const auto& geometry) { add_points(geometry, lattice, points); },
                    scene.walls[w].geometry);
         for (const Vec3& p : points) {
-            if (crowd.add(p)) {
+            if (in_period(scene, p) && crowd.add(p)) {
                 filling.wall.push_back(p);
                 filling.wall_owner.push_back(static_cast<std::int32_t>(w));
             }

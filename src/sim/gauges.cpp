@@ -24,6 +24,12 @@ Pair<real> pair_at(const Fluid& fluid, const Vec3& r)
     return fluid.kernel(Vec<real>{r.x(), r.y(), r.z()});
 }
 
+// From a particle, or its nearest image, to a place.
+Vec3 way(const Fluid& fluid, const Vec3& from, const Vec3& to)
+{
+    return fluid.neighbours.fluid.lattice.shortest(to - from);
+}
+
 // Particles about a vertical line.
 struct Column {
     std::vector<Index> fluid, solid;
@@ -37,7 +43,7 @@ Column column_about(const Fluid& fluid, const Vec3& place)
     const Index fluid_rows = fluid.particles.fluid().end;
     Column column;
     for (Index j = 0; j < fluid.particles.size(); ++j) {
-        const Vec3 r = x[at(j)] - place;
+        const Vec3 r = way(fluid, x[at(j)], place);
         if (std::hypot(r.x(), r.y()) >= fluid.kernel.support) {
             continue;
         }
@@ -59,7 +65,7 @@ double filled(const Fluid& fluid, const std::vector<Index>& near, const Vec3& po
     const auto V = fluid.particles[field::volume];
     double sum_ = 0;
     for (const Index j : near) {
-        sum_ += V[at(j)] * pair_at(fluid, point - x[at(j)]).w;
+        sum_ += V[at(j)] * pair_at(fluid, way(fluid, x[at(j)], point)).w;
     }
     return sum_;
 }
@@ -95,7 +101,7 @@ T average(const Fluid& fluid, const Vec3& place, const T& zero, const T& dry, co
     T weighted = zero;
     double weight = 0;
     for (Index j = rows.begin; j < rows.end; ++j) {
-        const Vec3 r = place - x[at(j)];
+        const Vec3 r = way(fluid, x[at(j)], place);
         if (r.squaredNorm() < sq(fluid.kernel.support)) {
             const double w = V[at(j)] * pair_at(fluid, r).w;
             weighted += w * value(at(j));

@@ -93,10 +93,18 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
     fluid.effects = sim.plan.effects;
     fluid.kernel =
         make_kernel(fluid.parameters.h, fluid.parameters.spacing, fluid.parameters.dimensions);
+    fluid.mps_kernel = make_mps_kernel(fluid.kernel.support, fluid.parameters.spacing,
+                                       fluid.parameters.dimensions);
     // A particle may graze the edge of the domain; two spacings beyond it is gone for good.
     const Vec3 margin = Vec3::Constant(2 * fluid.parameters.spacing);
     fluid.domain_min = filling.domain.min - margin;
     fluid.domain_max = filling.domain.max + margin;
+    for (Index axis = 0; axis < 3; ++axis) {
+        if (sim.scene.domain && sim.scene.domain->periodic[at(axis)]) {
+            fluid.domain_min[axis] = filling.domain.min[axis];
+            fluid.period[axis] = filling.domain.max[axis] - filling.domain.min[axis];
+        }
+    }
     allocate(fluid, static_cast<Index>(filling.fluid.size()),
              static_cast<Index>(filling.wall.size()),
              static_cast<Index>(sim.body_particles.points.size()));
@@ -192,6 +200,7 @@ void step(Simulation& sim)
         move_walls(sim, sim.clock.time + dt / 2, next.end);
         update_rates(fluid);
         sim.pair_visits += static_cast<double>(fluid.neighbours.visits);
+        shift(fluid, dt);
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
         move_walls(sim, next.end, next.end);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The fused sweep against hand-made numbers, its scalar reference, and the promise of the absent
 // effect.
+#include "hyoryu/core/mps_kernel.hpp"
 #include "hyoryu/core/sweep.hpp"
 
 #include <gtest/gtest.h>
@@ -236,6 +237,44 @@ TEST(Kernel, IsOneAndLinearOnItsLattice)
         EXPECT_NEAR(one, 1, 1e-14);
         EXPECT_NEAR(moment, 1, 1e-14);
     }
+}
+
+TEST(MpsKernel, IsOneAndLinearOnItsLattice)
+{
+    for (const int dimensions : {2, 3}) {
+        const real dp = 0.1;
+        const MpsKernel kernel = make_mps_kernel(3 * dp, dp, dimensions);
+        const real cell = std::pow(dp, dimensions);
+        real one = 0;
+        real moment = 0;
+        const int reach_y = dimensions == 2 ? 0 : 4;
+        for (int i = -4; i <= 4; ++i) {
+            for (int j = -reach_y; j <= reach_y; ++j) {
+                for (int k = -4; k <= 4; ++k) {
+                    const auto pair = kernel(Vec<real>{i * dp, j * dp, k * dp});
+                    one += i != 0 || j != 0 || k != 0 ? pair.w * cell : 0;
+                    moment -= pair.f * sq(k * dp) * cell;
+                }
+            }
+        }
+        EXPECT_NEAR(one, 1, 1e-14);
+        EXPECT_NEAR(moment, 1, 1e-14);
+    }
+}
+
+TEST(MpsKernel, HasTheShapeOfTheWeight)
+{
+    const real dp = 0.1;
+    const MpsKernel kernel = make_mps_kernel(3 * dp, dp, 3);
+    const auto w = [&](real r) { return (3 * dp - r) / std::hypot(r, dp / 2); };
+    const auto near = kernel(Vec<real>{dp, 0, 0});
+    const auto far = kernel(Vec<real>{2 * dp, 0, 0});
+    EXPECT_NEAR(near.w / far.w, w(dp) / w(2 * dp), 1e-12);
+    // F is the weight over r^2 + (dp/2)^2.
+    EXPECT_NEAR(near.f / far.f * far.w / near.w, 4.25 / 1.25, 1e-12);
+    EXPECT_LT(near.f, 0);
+    EXPECT_EQ(kernel(Vec<real>{0.31, 0, 0}).f, 0);
+    EXPECT_EQ(kernel(Vec<real>{1e30, 0, 0}).w, 0);
 }
 
 TEST(Kernel, EndsAtItsSupportAndStaysFiniteFarAway)

@@ -48,6 +48,15 @@ struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"Dif
 struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N"}; };
 /// Sum of pair forces that depend on velocities.
 struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N"}; };
+/// Uncorrected sum for the gradient of the pressure, of which one side alone is known.
+struct PressureGradient { using type = Vec3; static constexpr FieldInfo info{"PressureGradient", "Pa/m"}; };
+/// Sum of V grad W: the gradient of the share of space that particles fill.
+struct CrowdingGradient { using type = Vec3; static constexpr FieldInfo info{"CrowdingGradient", "1/m"}; };
+/// Second moments of V grad W, by which a gradient is corrected: xx, yy, zz and yz, xz, xy.
+struct Moments         { using type = Vec3; static constexpr FieldInfo info{"Moments", "1"}; };
+struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"MixedMoments", "1"}; };
+/// Sum that points to where particles are dense, by which they are shifted.
+struct ShiftGradient   { using type = Vec3; static constexpr FieldInfo info{"ShiftGradient", "1/m"}; };
 /// Kernel sums by which a solid particle takes over the state of the fluid before it.
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
 struct PressureSum     { using type = real; static constexpr FieldInfo info{"PressureSum", "Pa/m3"}; };
@@ -63,6 +72,11 @@ inline constexpr DensityRate     density_rate{};
 inline constexpr DiffusionRate   diffusion_rate{};
 inline constexpr Force           force{};
 inline constexpr ViscousForce    viscous_force{};
+inline constexpr PressureGradient pressure_gradient{};
+inline constexpr CrowdingGradient crowding_gradient{};
+inline constexpr Moments         moments{};
+inline constexpr MixedMoments    mixed_moments{};
+inline constexpr ShiftGradient   shift_gradient{};
 inline constexpr ShepardSum      shepard_sum{};
 inline constexpr PressureSum     pressure_sum{};
 } // namespace field

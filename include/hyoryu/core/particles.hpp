@@ -16,7 +16,8 @@ namespace hyoryu {
 
 /// Every field that a column can be made of. A new field is one line here and one in fields.hpp.
 using AllFields = Fields<Position, Velocity, Density, Pressure, Volume, DensityRate, DiffusionRate,
-                         Force, ViscousForce, ShepardSum, PressureSum>;
+                         Force, ViscousForce, ShepardSum, PressureSum, PressureGradient,
+                         CrowdingGradient, Moments, MixedMoments, ShiftGradient>;
 
 /// Consecutive rows [begin, end).
 struct Rows {
@@ -86,6 +87,13 @@ public:
         (make_column<F>(), ...);
         id_.assign(static_cast<std::size_t>(size()), 0);
         owner_.assign(static_cast<std::size_t>(size()), no_owner);
+    }
+
+    /// Makes more columns, zeroed, for the rows there are.
+    template <class... F>
+    void add(Fields<F...>)
+    {
+        (make_column<F>(), ...);
     }
 
     Index size() const { return body_.end; }

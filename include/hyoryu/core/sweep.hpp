@@ -48,15 +48,15 @@ concept PairTerm = std::copyable<T> &&
 
 /// All that the sweeps of one pair kind read and write, as plain addresses: the hot loops call
 /// nothing that is shared between instruction sets.
-template <class List, class Real>
+template <class List, class Real, class PairKernel = Kernel>
 struct SweepView {
     const ListBlock* blocks = nullptr;
     const RecordRow<List, Real>* records = nullptr; // by slot
     ColumnPointers columns;                         // by row
     const std::int32_t* row = nullptr;              // of the destination slots, from `first_slot`
     Index first_slot = 0;
-    real edge = 0; // of a tile [m]
-    Kernel kernel;
+    Vec3 edge{0, 0, 0}; // of a tile [m]
+    PairKernel kernel;
 };
 
 namespace detail {
@@ -92,16 +92,15 @@ Quad<Real> load_quad(const Real* from)
 /// The points that a block looks at, copied side by side, relative to the centre of its tile, and
 /// behind them the point of the padding: far from everything and otherwise zero.
 template <int bytes, class List, class Real>
-void copy_chunks(const ListBlock& block, const SweepView<List, Real>& view,
-                 RecordRow<List, Real>* local)
+void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>* local)
 {
     using Row = RecordRow<List, Real>;
-    const real edge = view.edge;
+    const real edge[3] = {view.edge.x(), view.edge.y(), view.edge.z()};
     for (std::int32_t c = 0; c < block.chunks; ++c) {
         const SourceChunk chunk = block.chunk[c];
         Row step;
         for (int axis = 0; axis < 3; ++axis) {
-            step.value[axis] = static_cast<Real>(static_cast<real>(chunk.step[axis]) * edge);
+            step.value[axis] = static_cast<Real>(static_cast<real>(chunk.step[axis]) * edge[axis]);
         }
         const Real* from = view.records[chunk.slot].value;
         Real* to = local[c * chunk_slots].value;
@@ -114,7 +113,7 @@ void copy_chunks(const ListBlock& block, const SweepView<List, Real>& view,
     constexpr real far_in_edges = 1e6; // its square is finite, and it is beyond every support
     Row& nothing = local[block.chunks * chunk_slots];
     nothing = Row{};
-    nothing.value[0] = static_cast<Real>(far_in_edges * edge);
+    nothing.value[0] = static_cast<Real>(far_in_edges * edge[0]);
 }
 
 /// get(0), get(1), ..., sixteen bytes each, one behind the other in one register.
@@ -218,15 +217,15 @@ void accumulate(const ColumnPointers& columns, Index row, const auto& sum)
 /// all chunks of the block and one row more.
 // Flat: a record of packs that is handed over through memory costs more than the pair. Kernel and
 // terms are copies: what only this function sees need not be read again after every store.
-template <int bytes, class List, class Real, PairTerm... Terms>
-[[gnu::flatten]] void sweep_block(const SweepView<List, Real>& view, Index block_index,
+template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms>
+[[gnu::flatten]] void sweep_block(const SweepView<List, Real, PairKernel>& view, Index block_index,
                                   RecordRow<List, Real>* local, const Terms... terms)
 {
     using Out = Union<typename Terms::Writes...>;
     using N = Pack<Real, bytes>;
     if constexpr (Out::count > 0) {
         const ListBlock block = view.blocks[block_index];
-        const Kernel kernel = view.kernel;
+        const PairKernel kernel = view.kernel;
         detail::copy_chunks<bytes>(block, view, local);
         const std::uint16_t* entry = block.entry;
         for (std::int32_t slot = block.first; slot < block.last; ++slot) {
@@ -252,7 +251,7 @@ template <int bytes, class List, class Real, PairTerm... Terms>
 /// one is tested against. `row` is the row of a slot.
 template <class List, class... Terms>
 void sweep_reference(Particles& particles, const PairList& pairs, const auto& row,
-                     const Kernel& kernel, const Terms&... terms)
+                     const auto& kernel, const Terms&... terms)
 {
     using Out = Union<typename Terms::Writes...>;
     const auto record = [&](Index slot) {

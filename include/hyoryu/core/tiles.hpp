@@ -12,15 +12,17 @@
 
 namespace hyoryu {
 
-/// Space cut into cubic tiles of one edge, numbered along a Morton curve. A tile has 4^3 cells
-/// along a Hilbert curve, by which its points are ordered.
+/// Space cut into tiles, cubes unless a period asks for other edges, numbered along a Morton curve.
+/// A tile has 4^3 cells along a Hilbert curve, by which its points are ordered.
 ///
 /// Positions of pairs are relative to the centre of a tile and are multiples of a unit, a power of
 /// two, so that they, their differences and the step from one tile to its neighbour are exact in
 /// the number of the pair loops: r_ij = -r_ji bit for bit, whichever tile looks.
 struct TileLattice {
     Vec3 origin{0, 0, 0}; // a corner of tiles [m]
-    real edge = 1;        // of a tile; a multiple of the unit [m]
+    Vec3 edge{1, 1, 1};   // of a tile; multiples of the unit [m]
+    /// Tiles after which space repeats itself, by axis, from the origin on; 0: never.
+    std::array<std::int64_t, 3> period{0, 0, 0};
 
     /// Cells on an edge of a tile, and the farthest that a point may lie from the origin, in cells.
     static constexpr int cells = 4;
@@ -32,12 +34,21 @@ struct TileLattice {
     static std::array<std::int64_t, 3> place_of(std::uint64_t tile);
     static std::uint64_t tile_at(const std::array<std::int64_t, 3>& place);
     Vec3 centre(std::uint64_t tile) const;
+    /// The number of the tile so many tiles away from a place, which may be an image of it.
+    std::uint64_t beside(const std::array<std::int64_t, 3>& place,
+                         const std::array<int, 3>& way) const;
+    /// The image of a point that lies in the first period.
+    Vec3 wrapped(const Vec3& point) const;
+    /// Shortest vector between images of points r apart.
+    Vec3 shortest(const Vec3& r) const;
     /// The unit of positions for numbers of so many binary digits [m].
     real unit(int digits) const;
 };
 
-/// The lattice of the least edge that is not below `edge` and a multiple of its units.
-TileLattice make_lattice(const Vec3& origin, real edge);
+/// The lattice of the least edge that is not below `edge` and a multiple of its units. Along an
+/// axis of a period greater than 0 whole tiles fill it, to the unit of single precision; it must
+/// not be shorter than `edge`.
+TileLattice make_lattice(const Vec3& origin, real edge, const Vec3& period = Vec3(0, 0, 0));
 
 /// Slots that are consecutive, near each other and tested together when lists are made.
 inline constexpr int chunk_slots = 8;

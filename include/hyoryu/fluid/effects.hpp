@@ -6,6 +6,7 @@
 #include "hyoryu/fluid/continuity.hpp"
 #include "hyoryu/fluid/density_diffusion.hpp"
 #include "hyoryu/fluid/pressure.hpp"
+#include "hyoryu/fluid/shifting.hpp"
 #include "hyoryu/fluid/viscosity.hpp"
 #include "hyoryu/fluid/wall.hpp"
 
@@ -18,6 +19,7 @@ namespace hyoryu {
 struct FluidEffects {
     std::variant<Off, DensityDiffusion> diffusion; // with the pressure force
     std::variant<Off, Viscosity> viscosity;        // with continuity
+    std::variant<Off, Shifting> shifting;          // after it
 };
 
 } // namespace hyoryu

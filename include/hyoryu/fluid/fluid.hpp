@@ -52,11 +52,13 @@ struct Fluid {
     InstructionSet instruction_set = widest_instruction_set();
     FluidEffects effects;
     Particles particles;
-    Kernel kernel;
+    Kernel kernel;        // of the loops in SPH, and of gauges in any formulation
+    MpsKernel mps_kernel; // of the loops in MPS
     FluidNeighbours neighbours;
     std::variant<PairData<float>, PairData<double>> pair_data; // as the precision says
     Vec3 domain_min{-infinity, -infinity, -infinity};
     Vec3 domain_max{infinity, infinity, infinity};
+    Vec3 period{0, 0, 0}; // from domain_min on; 0 along an axis that does not repeat itself [m]
     LostParticles lost;
     bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
@@ -93,6 +95,9 @@ void kick(Fluid& fluid, real dt);
 
 /// R = rho sum V (v_i - v_j).r F + D and the viscous force, from the new velocities.
 void update_rates(Fluid& fluid);
+
+/// Moves the fluid particles by the shifting of a step, if that effect is on.
+void shift(Fluid& fluid, real dt);
 
 /// Largest speed [m/s] and acceleration [m/s2] of the fluid; NaN if any value is not finite.
 real top_speed(const Fluid& fluid);

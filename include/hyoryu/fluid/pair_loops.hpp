@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hyoryu/fluid/effects.hpp"
+#include "hyoryu/fluid/formulation.hpp"
 
 #include <tuple>
 
@@ -19,24 +20,27 @@ struct FluidTerms {
     FluidEffects effects;
 };
 
-/// The loops in the number Real, each over one block of lists.
-template <class Real>
+/// The loops of a formulation in the number Real, each over one block of lists.
+template <class Real, class Formulation = Sph>
 struct PairLoops {
-    using View = SweepView<Stored, Real>;
+    using View = SweepView<Stored, Real, typename Formulation::PairKernel>;
     using Row = RecordRow<Stored, Real>;
     using Loop = void (*)(const View& view, Index block, Row* local, const FluidTerms& terms);
 
     int lanes = 1;                // of a pack
     Loop extrapolation = nullptr; // solid <- fluid: the pressure before a solid
     Loop fluid_forces = nullptr;  // fluid <- fluid: pressure and diffusion
-    Loop solid_forces = nullptr;  // fluid <- solid and back: pressure and backstop
+    Loop solid_forces = nullptr;  // fluid <- solid: pressure and backstop
+    Loop solid_loads = nullptr;   // solid <- fluid: pressure and backstop
     Loop film_forces = nullptr;   // body <- solid and back: pressure in thin films
     Loop fluid_rates = nullptr;   // fluid <- fluid: continuity and viscosity
     Loop solid_rates = nullptr;   // fluid <- solid: continuity
+    Loop shifting = nullptr;      // fluid <- fluid or solid: crowding
 };
 
-/// In either precision.
-using FluidLoops = std::tuple<PairLoops<float>, PairLoops<double>>;
+/// Of every formulation, in either precision.
+using FluidLoops = std::tuple<PairLoops<float, Sph>, PairLoops<double, Sph>, PairLoops<float, Mps>,
+                              PairLoops<double, Mps>>;
 
 /// The loops for an instruction set, which must be available.
 const FluidLoops& fluid_loops(InstructionSet set);

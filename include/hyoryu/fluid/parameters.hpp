@@ -34,9 +34,18 @@ constexpr std::string_view name(Precision precision)
     return precision == Precision::single_precision ? "single" : "double";
 }
 
+/// How the equations become sums over pairs.
+enum class FormulationKind { sph, mps };
+
+constexpr std::string_view name(FormulationKind kind)
+{
+    return kind == FormulationKind::mps ? "mps" : "sph";
+}
+
 /// A fluid of equal particles; in two dimensions masses and forces are per metre of width.
 struct FluidParameters {
     int dimensions = 3;
+    FormulationKind formulation = FormulationKind::sph;
     EquationOfState eos;
     real spacing = 0;          // dp [m]
     real h = 0;                // smoothing length [m]

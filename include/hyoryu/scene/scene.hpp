@@ -62,8 +62,9 @@ struct TimeSettings {
 };
 
 struct DomainSettings {
-    Vec3 min{0, 0, 0}; // [m]
-    Vec3 max{0, 0, 0}; // [m]
+    Vec3 min{0, 0, 0};              // [m]
+    Vec3 max{0, 0, 0};              // [m]
+    std::array<bool, 3> periodic{}; // x y z
 };
 
 enum class ViscosityModel { none, artificial, laminar };
@@ -83,14 +84,16 @@ struct FluidBlock {
 };
 
 struct FluidSettings {
+    FormulationKind formulation = FormulationKind::sph;
     double density = 1000.0;           // rho_0 [kg/m3]
     std::optional<double> sound_speed; // c_0 [m/s]; none: 10 x the largest expected speed
     ViscosityModel viscosity = ViscosityModel::artificial;
     double alpha = 0.02;               // of the artificial viscosity [1]
     double kinematic_viscosity = 1e-6; // of the laminar viscosity [m2/s]
     DiffusionModel diffusion = DiffusionModel::fourtakas;
-    double delta = 0.1;           // of the density diffusion [1]
-    double smoothing_ratio = 1.5; // h / spacing [1]
+    double delta = 0.1;             // of the density diffusion [1]
+    std::optional<double> shifting; // its coefficient [1]; none: off
+    double smoothing_ratio = 1.5;   // h / spacing [1]
     std::vector<FluidBlock> blocks;
 };
 

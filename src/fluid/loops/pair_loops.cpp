@@ -21,10 +21,12 @@ void with(const std::variant<Effects...>& slot, const auto& f)
     (try_one(std::get_if<Effects>(&slot)), ...);
 }
 
-template <class Real>
+template <class Real, class Formulation>
 struct Loops {
-    using View = typename PairLoops<Real>::View;
-    using Row = typename PairLoops<Real>::Row;
+    using View = typename PairLoops<Real, Formulation>::View;
+    using Row = typename PairLoops<Real, Formulation>::Row;
+    using FluidPressure = typename Formulation::FluidPressure;
+    using SolidPressure = typename Formulation::SolidPressure;
 
     static void extrapolation(const View& view, Index block, Row* local, const FluidTerms& terms)
     {
@@ -33,10 +35,14 @@ struct Loops {
     static void fluid_forces(const View& view, Index block, Row* local, const FluidTerms& terms)
     {
         with(terms.effects.diffusion, [&](const auto& diffusion) {
-            sweep_block<bytes>(view, block, local, PressureForce{}, diffusion);
+            sweep_block<bytes>(view, block, local, FluidPressure{}, diffusion);
         });
     }
     static void solid_forces(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        sweep_block<bytes>(view, block, local, SolidPressure{}, terms.backstop);
+    }
+    static void solid_loads(const View& view, Index block, Row* local, const FluidTerms& terms)
     {
         sweep_block<bytes>(view, block, local, WallPressureForce{}, terms.backstop);
     }
@@ -55,13 +61,24 @@ struct Loops {
         sweep_block<bytes>(view, block, local, Continuity{});
     }
 
-    static constexpr PairLoops<Real> table{Pack<Real, bytes>::lanes,
-                                           extrapolation,
-                                           fluid_forces,
-                                           solid_forces,
-                                           film_forces,
-                                           fluid_rates,
-                                           solid_rates};
+    static void shifting(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        with(terms.effects.shifting,
+             [&](const auto& shift) { sweep_block<bytes>(view, block, local, shift); });
+    }
+
+    // Where solids feel the opposite of what the fluid does, one loop serves both.
+    static constexpr auto loads =
+        std::is_same_v<SolidPressure, WallPressureForce> ? solid_forces : solid_loads;
+    static constexpr PairLoops<Real, Formulation> table{Pack<Real, bytes>::lanes,
+                                                        extrapolation,
+                                                        fluid_forces,
+                                                        solid_forces,
+                                                        loads,
+                                                        film_forces,
+                                                        fluid_rates,
+                                                        solid_rates,
+                                                        shifting};
 };
 
 } // namespace
@@ -69,7 +86,8 @@ struct Loops {
 template <>
 const FluidLoops* fluid_loops<bytes>()
 {
-    static constexpr FluidLoops loops{Loops<float>::table, Loops<double>::table};
+    static constexpr FluidLoops loops{Loops<float, Sph>::table, Loops<double, Sph>::table,
+                                      Loops<float, Mps>::table, Loops<double, Mps>::table};
     return &loops;
 }
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/fluid/mps.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+// Least eigenvalues of the moments at which the correction begins and is whole: 1 inside, about one
+// half on a flat surface.
+constexpr real surface = 0.8;
+constexpr real inside = 0.95;
+
+Mat3 moment_matrix(const Vec3& moments, const Vec3& mixed, int dimensions)
+{
+    Mat3 M = moments.asDiagonal();
+    M(1, 2) = M(2, 1) = mixed[0];
+    M(0, 2) = M(2, 0) = mixed[1];
+    M(0, 1) = M(1, 0) = mixed[2];
+    if (dimensions == 2) {
+        M(1, 1) = 1;
+    }
+    return M;
+}
+
+// How much of the corrected gradient is used, 0 to 1.
+real corrected_share(const Mat3& M)
+{
+    Eigen::SelfAdjointEigenSolver<Mat3> solver;
+    solver.computeDirect(M, Eigen::EigenvaluesOnly);
+    const real least = solver.eigenvalues().minCoeff();
+    return std::clamp((least - surface) / (inside - surface), real(0), real(1));
+}
+
+} // namespace
+
+void add_corrected_pressure(const FluidParameters& fluid, Particles& particles)
+{
+    const auto p = particles[field::pressure];
+    const auto V = particles[field::volume];
+    const auto G = particles[field::pressure_gradient];
+    const auto S = particles[field::crowding_gradient];
+    const auto moments = particles[field::moments];
+    const auto mixed = particles[field::mixed_moments];
+    const auto F = particles[field::force];
+    const Rows rows = particles.fluid();
+    parallel_for(rows.begin, rows.end, [&](Index row) {
+        const auto i = static_cast<std::size_t>(row);
+        const Mat3 M = moment_matrix(moments[i], mixed[i], fluid.dimensions);
+        const real b = corrected_share(M);
+        Vec3 gradient = (1 - b) * (G[i] + 2 * p[i] * S[i]);
+        if (b > 0) {
+            const Vec3 corrected = M.inverse() * G[i];
+            const real push = std::clamp(p[i], real(0), fluid.spacing * corrected.norm());
+            gradient += b * (corrected + push * S[i]);
+        }
+        F[i] -= V[i] * gradient;
+    });
+}
+
+} // namespace hyoryu
