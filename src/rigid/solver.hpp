@@ -10,18 +10,27 @@
 
 namespace hyoryu {
 
+/// Velocity of the centre of mass and spin of a body.
+struct Twist {
+    Vec3 v{0, 0, 0};     // [m/s]
+    Vec3 omega{0, 0, 0}; // [rad/s]
+};
+
 /// Scratch of the solvers, kept between calls.
 struct SolverWork {
     Eigen::LLT<Eigen::MatrixXd> factor;
     Eigen::MatrixXd W;
     Eigen::VectorXd rhs;
     Eigen::VectorXd solution;
-    std::vector<Response> before;
     std::vector<int> states;
     std::vector<int> columns;
-    std::vector<Vec3> directions, impulses, momenta, start;
+    std::vector<Vec3> directions, momenta;
     Colours colours;
-    std::vector<double> changes; // of each row in a sweep [m/s]
+    std::vector<double> changes;    // of each row in a sweep [m/s]
+    std::vector<Vec3> start;        // of the sweep, momentum included
+    std::vector<Vec3> impulses;     // after the last sweep
+    std::vector<int> moved;         // bodies that are not held, sorted
+    std::vector<Twist> velocities; // theirs after the last sweep
 };
 
 /// What a solve may cost and what it may leave.

@@ -28,6 +28,61 @@ double next_theta(double theta)
     return 0.5 * (std::sqrt(sq(square) + 4 * square) - square);
 }
 
+// The bodies that the rows move, and where the sequence starts.
+void remember_start(std::span<const Row> rows, const std::vector<Response>& bodies,
+                    SolverWork& work)
+{
+    work.impulses.clear();
+    work.moved.clear();
+    for (const Row& row : rows) {
+        work.impulses.push_back(row.p);
+        for (const int body : {row.a, row.b}) {
+            if (body >= 0 && bodies[body].movable) {
+                work.moved.push_back(body);
+            }
+        }
+    }
+    std::ranges::sort(work.moved);
+    work.moved.erase(std::ranges::unique(work.moved).begin(), work.moved.end());
+    work.velocities.clear();
+    for (const int body : work.moved) {
+        work.velocities.push_back({bodies[body].v, bodies[body].omega});
+    }
+    work.start = work.impulses;
+    work.changes.resize(rows.size());
+}
+
+// Whether the last sweep went back on the way that momentum took.
+bool leads_uphill(std::span<const Row> rows, const SolverWork& work)
+{
+    return sum(0, static_cast<Index>(rows.size()), 0.0, [&](Index i) {
+               const auto k = static_cast<std::size_t>(i);
+               return (rows[k].cone.K * (work.start[k] - rows[k].p))
+                   .dot(rows[k].p - work.impulses[k]);
+           }) > 0;
+}
+
+// Goes on by `beta` of the way that the last sweep went. Velocities are linear in the impulses, so
+// that those of the bodies go on by themselves, whatever rows they share.
+void add_momentum(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work, double beta)
+{
+    parallel_for(0, static_cast<Index>(rows.size()), [&](Index i) {
+        const auto k = static_cast<std::size_t>(i);
+        const Vec3 solved = rows[k].p;
+        rows[k].p += beta * (solved - work.impulses[k]);
+        work.impulses[k] = solved;
+        work.start[k] = rows[k].p;
+    });
+    parallel_for(0, static_cast<Index>(work.moved.size()), [&](Index i) {
+        const auto k = static_cast<std::size_t>(i);
+        Response& body = bodies[work.moved[k]];
+        const Twist solved{body.v, body.omega};
+        body.v += beta * (solved.v - work.velocities[k].v);
+        body.omega += beta * (solved.omega - work.velocities[k].omega);
+        work.velocities[k] = solved;
+    });
+}
+
 } // namespace
 
 double residual(std::span<Row> rows, const std::vector<Response>& bodies)
@@ -60,39 +115,22 @@ double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, So
                           const Sweeps& sweeps)
 {
     sort_by_colour(rows, bodies, work.colours);
-    const std::size_t n = rows.size();
-    std::vector<Vec3>& previous = work.impulses; // after the last sweep
-    std::vector<Vec3>& start = work.start;       // of this sweep, momentum included
-    previous.resize(n);
-    work.changes.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        previous[k] = rows[k].p;
-    }
-    start = previous;
+    remember_start(rows, bodies, work);
+    const auto n = static_cast<Index>(rows.size());
     double theta = 1;
     double change = infinity;
     for (int sweep = 1; sweep <= sweeps.most && change > sweeps.settled; ++sweep) {
         for_each_row(work.colours,
                      [&](std::size_t k) { work.changes[k] = change_of(rows[k], bodies); });
-        const double last = std::exchange(change, *std::ranges::max_element(work.changes));
-        double uphill = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-            uphill += (rows[k].cone.K * (start[k] - rows[k].p)).dot(rows[k].p - previous[k]);
-        }
+        const double last = std::exchange(change, largest(0, n, 0, [&](Index k) {
+                                              return work.changes[static_cast<std::size_t>(k)];
+                                          }));
         // Friction is no gradient: momentum that carries past the solution, or away from it, ends.
-        const bool astray = uphill > 0 || change > last;
+        const bool astray = change > last || leads_uphill(rows, work);
         const double next = next_theta(theta);
-        const double beta = astray ? 0 : theta * (1 - theta) / (sq(theta) + next);
+        const bool goes_on = sweep < sweeps.most && change > sweeps.settled && !astray;
+        add_momentum(rows, bodies, work, goes_on ? theta * (1 - theta) / (sq(theta) + next) : 0);
         theta = astray ? 1 : next;
-        const bool goes_on = sweep < sweeps.most && change > sweeps.settled;
-        for_each_row(work.colours, [&](std::size_t k) {
-            const Vec3 solved = rows[k].p;
-            if (goes_on) {
-                push(rows[k], beta * (solved - previous[k]), bodies);
-            }
-            previous[k] = solved;
-            start[k] = rows[k].p;
-        });
     }
     return change;
 }
