@@ -257,4 +257,10 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     book_dissipation(context, before);
 }
 
+void plan_again(const StepContext& context, const SubStep& sub)
+{
+    set_responses(context, sub.cluster);
+    plan_motion(context, sub);
+}
+
 } // namespace hyoryu

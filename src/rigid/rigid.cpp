@@ -103,6 +103,7 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
         const double h = sub_step_length(context, cluster, rest);
         SubStep sub{cluster, context.start + done, h, slow, most_rounds};
         plan_motion(context, sub);
+        end_with_turn(context, sub);
         end_with_slip(context, sub);
         const double s = first_event(context, sub);
         const double now = sub.time + s;

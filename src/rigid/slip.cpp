@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The end of sliding within a sub-step. Friction jumps there, and a step across it would be of
-// first order: the sub-step ends where the first contact stops sliding. It ends sooner where a
-// contact of rods turns fast.
+// first order: the sub-step ends where the first contact stops sliding.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -21,11 +20,6 @@ constexpr int most_tries = 8;
 constexpr std::size_t most_contacts = 16;
 // A rest of sliding of this part of the sub-step is left to the next one.
 constexpr double settled = 1e-4;
-// A normal between two curves may turn by this much in a sub-step: over more, where the contact
-// will be is not foreseen and rods sink into each other [rad].
-constexpr double most_turn = 0.01;
-constexpr double short_of_turn = 0.8;
-constexpr double most_shortening = 0.1;
 // Round-off of a slip that has stopped, as a part of what it was.
 constexpr double stopped = 1e-9;
 
@@ -56,45 +50,10 @@ bool stops(const std::vector<Persistent>& contacts)
     });
 }
 
-// From the velocities at the start of the sub-step.
-void plan_again(const StepContext& context, const SubStep& sub)
-{
-    set_responses(context, sub.cluster);
-    plan_motion(context, sub);
-}
-
-// The largest turn of a normal between two curves within the sub-step [rad].
-double largest_turn(const std::vector<Persistent>& contacts)
-{
-    double largest = 0;
-    for (const Persistent& p : contacts) {
-        const FeatureKind kind = p.candidate.feature.kind;
-        if (kind == FeatureKind::side_line || kind == FeatureKind::rim_line ||
-            kind == FeatureKind::rim_rim) {
-            largest = std::max(largest, (p.touches.see.normal - p.candidate.touch.normal).norm());
-        }
-    }
-    return largest;
-}
-
-// The contact of two rods that cross at a small angle runs along them much faster than they turn.
-void end_with_turn(const StepContext& context, SubStep& sub)
-{
-    for (int k = 0; k < most_tries; ++k) {
-        const double turn = largest_turn(context.memory.persistent);
-        if (turn <= most_turn) {
-            return;
-        }
-        sub.h *= std::max(most_shortening, short_of_turn * most_turn / turn);
-        plan_again(context, sub);
-    }
-}
-
 } // namespace
 
 void end_with_slip(const StepContext& context, SubStep& sub)
 {
-    end_with_turn(context, sub);
     std::vector<Persistent>& contacts = context.memory.persistent;
     if (contacts.size() > most_contacts || !stops(contacts)) {
         return;

@@ -61,8 +61,14 @@ void predict_free_motion(const StepContext& context, const SubStep& sub);
 /// which makes the scheme second order.
 void plan_motion(const StepContext& context, const SubStep& sub);
 
+/// The smooth motion over the sub-step, whose length has changed, from the velocities at its start.
+void plan_again(const StepContext& context, const SubStep& sub);
+
+/// Shortens the planned sub-step until no contact between curves turns too far in it.
+void end_with_turn(const StepContext& context, SubStep& sub);
+
 /// Where a sliding contact stops or turns back within the planned sub-step, shortens it to that
-/// time and plans it again. Before that, shortens it until no contact between curves turns too far.
+/// time and plans it again.
 void end_with_slip(const StepContext& context, SubStep& sub);
 
 /// The first time within the sub-step at which a contact that is not held closes; h if none does.
