@@ -25,6 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of the limits on the time step; what still goes wrong there is not cured by shorter steps.
+constexpr double least_share = 1.0 / 32;
+
 fs::path results_folder(const RunOptions& options)
 {
     return options.folder.empty() ? fs::path(options.case_file.stem().string() + "-results")
@@ -75,9 +78,11 @@ struct Job {
     std::string case_text;
     Simulation sim;
     Progress progress;
-    Outputs outputs;
-    Snapshot last_good;
+    std::optional<Outputs> outputs;
+    Snapshot last_good; // at the last frame
     std::int64_t first_step = 0;
+    std::int64_t good_step = 0;  // of `last_good`
+    std::int64_t saved_step = 0; // of the last checkpoint
     double until = infinity;
 };
 
@@ -85,25 +90,68 @@ void write_closing(Job& job, const std::string& reason)
 {
     write_text(job.folder / "summary.json",
                summary_json(job.sim, reason, job.progress.wall_seconds(), job.first_step,
-                            job.outputs.timer(), job.outputs.frame_cost()));
+                            job.outputs->timer(), job.outputs->frame_cost()));
     write_master(job.folder, job.case_text, std::string(build_info::version));
+}
+
+Snapshot state_of(const Job& job)
+{
+    Snapshot state = job.outputs->snapshot(job.sim);
+    state.texts["case"] = job.case_text;
+    return state;
 }
 
 // The old state goes before the new one comes: a state is as large as that of the particles.
 void keep_good_state(Job& job)
 {
-    job.outputs.timer().begin("good state");
+    job.outputs->timer().begin("good state");
     job.last_good = {};
-    job.last_good = job.outputs.snapshot(job.sim);
-    job.last_good.texts["case"] = job.case_text;
-    job.outputs.timer().end();
+    job.last_good = state_of(job);
+    job.good_step = job.sim.clock.step;
+    job.outputs->timer().end();
 }
 
-void write_checkpoint(Job& job)
+void write_checkpoint(Job& job, const Snapshot& state)
 {
-    job.outputs.timer().begin("checkpoints");
-    job.outputs.write_checkpoint(job.last_good);
-    job.outputs.timer().end();
+    job.outputs->timer().begin("checkpoints");
+    job.outputs->write_checkpoint(state);
+    job.outputs->timer().end();
+}
+
+// Goes back to the last frame, to go on from there with half the step. What was written since is
+// taken back.
+void recover(Job& job, const NumericalError& error)
+{
+    const Scene& scene = job.sim.scene;
+    Simulation sim = make_simulation(scene, job.sim.plan, fill(scene));
+    restore(sim, job.last_good);
+    sim.clock.share = 0.5 * job.sim.clock.share;
+    sim.timer = job.sim.timer;
+    sim.steps_by_limit = job.sim.steps_by_limit;
+    sim.pair_visits = job.sim.pair_visits;
+    job.progress.line(fmt::format("note: the numbers went wrong: {}", error.what()));
+    job.progress.line(
+        fmt::format("recovery: back to t = {} s, and from there to the end with steps "
+                    "of {} of what the limits allow",
+                    sim.clock.time, sim.clock.share));
+    job.outputs.reset(); // all that it holds back is on disk before it is read again
+    job.outputs.emplace(job.folder, sim, job.last_good);
+    job.sim = std::move(sim);
+}
+
+// One step; false if it went wrong and the run has gone back to where shorter ones start.
+bool step_or_recover(Job& job)
+{
+    try {
+        step(job.sim);
+        return true;
+    } catch (const NumericalError& error) {
+        if (!job.sim.scene.time.recover || job.sim.clock.share <= least_share) {
+            throw;
+        }
+        recover(job, error);
+        return false;
+    }
 }
 
 void advance(Job& job)
@@ -111,15 +159,17 @@ void advance(Job& job)
     Simulation& sim = job.sim;
     double saved = job.progress.wall_seconds();
     while (!finished(sim.clock, sim.scene) && sim.clock.time < job.until && !stop_requested()) {
-        step(sim);
+        if (!step_or_recover(job)) {
+            continue;
+        }
         const std::int64_t frame = sim.clock.frame;
-        job.outputs.update(sim);
+        job.outputs->update(sim);
         if (sim.clock.frame != frame) {
             keep_good_state(job);
         }
         if (job.progress.wall_seconds() - saved > sim.scene.output.checkpoint_every) {
-            keep_good_state(job);
-            write_checkpoint(job);
+            write_checkpoint(job, state_of(job));
+            job.saved_step = sim.clock.step;
             saved = job.progress.wall_seconds();
         }
         job.progress.update(sim);
@@ -154,10 +204,10 @@ int finish(Job& job)
     const bool stopped = !done && stop_requested();
     const std::string reason = done ? "done" : (stopped ? "interrupted" : "until");
     if (done) {
-        job.outputs.close_interval(job.sim);
+        job.outputs->close_interval(job.sim);
     }
     keep_good_state(job);
-    write_checkpoint(job);
+    write_checkpoint(job, job.last_good);
     write_closing(job, reason);
     job.progress.end(job.sim);
     tell_doubts(job);
@@ -181,7 +231,9 @@ int carry_out(Job& job)
     } catch (const NumericalError& error) {
         // The state of the last frame was good; a run can go on from it with other settings.
         job.progress.line(fmt::format("error: the numbers went wrong: {}", error.what()));
-        write_checkpoint(job);
+        if (job.good_step > job.saved_step) {
+            write_checkpoint(job, job.last_good);
+        }
         write_closing(job, "numerical error");
         throw;
     }
@@ -200,9 +252,9 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     Outputs outputs(folder, sim, filling.domain);
     Job job{std::move(lock),    folder, case_text, std::move(sim), std::move(progress),
             std::move(outputs), {}};
-    job.outputs.update(job.sim);
+    job.outputs->update(job.sim);
     keep_good_state(job);
-    write_checkpoint(job);
+    write_checkpoint(job, job.last_good);
     return job;
 }
 
@@ -223,7 +275,7 @@ Job resume(const RunOptions& options, const fs::path& folder, const Scene& scene
     }
     Outputs outputs(folder, sim, snapshot);
     return {std::move(lock),    folder,   to_toml(scene), std::move(sim), std::move(progress),
-            std::move(outputs), snapshot, first_step};
+            std::move(outputs), snapshot, first_step,     first_step,     first_step};
 }
 
 } // namespace

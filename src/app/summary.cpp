@@ -93,6 +93,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                             {"thread_seconds", frames.thread_seconds},
                             {"waited_seconds", frames.waited_seconds}};
     json["steps_by_limit"] = ordered_json(sim.steps_by_limit);
+    json["share_of_time_step"] = sim.clock.share; // below 1 after recoveries
     json["neighbour_builds"] = sim.fluid ? sim.fluid->neighbours.builds : 0;
     json["counts"] = {{"fluid", fluid_now},
                       {"wall", n.wall},

@@ -110,7 +110,7 @@ std::string general_text(const Scene& scene)
     text += line("gravity", scene.gravity);
     text += fmt::format("seed = {}\n", scene.seed);
     text += "\n[time]\n" + line("end", scene.time.end) + line("step", scene.time.step) +
-            line("cfl", scene.time.cfl);
+            line("cfl", scene.time.cfl) + (scene.time.recover ? "recover = true\n" : "");
     text += "\n[particles]\n" + line("spacing", scene.spacing) +
             line("precision", std::string(name(scene.precision)));
     if (scene.domain) {

@@ -84,6 +84,12 @@ std::vector<Parameter> general_parameters()
             "viscosity and force allow."),
         positive("time.cfl", "", "0.6",
                  "Factor on the limits of the adaptive time step; smaller is safer and slower."),
+        {.key = "time.recover",
+         .kind = ValueKind::boolean,
+         .fallback = "false",
+         .meaning = "When the numbers go wrong, goes back to the last frame and on with half the "
+                    "time step, at most five times. What was written since is taken back, and "
+                    "`run.log` says so."},
         table_row("particles", "The resolution."),
         positive(
             "particles.spacing", "m", required,

@@ -91,6 +91,11 @@ void read_time(TableReader table, Scene& scene)
     scene.time.end = table.number("end");
     scene.time.step = table.find_number("step");
     scene.time.cfl = table.number("cfl");
+    scene.time.recover = table.flag("recover");
+    if (scene.time.recover && scene.time.step) {
+        table.error("recover", "has no meaning beside a fixed `time.step`",
+                    "leave `time.step` out for an adaptive step, which can be halved");
+    }
     if (scene.time.step && scene.time.end > 0 && *scene.time.step > scene.time.end) {
         table.error("step", fmt::format("{} s is longer than the run of {} s", *scene.time.step,
                                         scene.time.end));

@@ -326,7 +326,7 @@ Snapshot save(const Simulation& sim)
     const Clock& c = sim.clock;
     add(snapshot, "clock",
         {c.time, static_cast<double>(c.step), c.dt, static_cast<double>(c.frame),
-         static_cast<double>(c.history)});
+         static_cast<double>(c.history), c.share});
     add(snapshot, "ledger", numbers_of(sim.ledger));
     Numbers loads;
     for (const Wrench& load : sim.loads.bodies) {
@@ -354,6 +354,7 @@ void restore(Simulation& sim, const Snapshot& snapshot)
     sim.clock.dt = clock.number();
     sim.clock.frame = static_cast<std::int64_t>(clock.number());
     sim.clock.history = static_cast<std::int64_t>(clock.number());
+    sim.clock.share = clock.number();
     restore_ledger(sim.ledger, snapshot);
     Reader loads(snapshot, "loads");
     for (Wrench& load : sim.loads.bodies) {

@@ -56,13 +56,14 @@ NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limi
     const auto due = frame_due(clock, scene) ? clock.frame + 1 : clock.frame;
     const double goal = std::min(static_cast<double>(due) * scene.output.every, scene.time.end);
     const double rest = goal - clock.time;
-    if (limit.dt >= rest) {
+    const double dt = clock.share * limit.dt;
+    if (dt >= rest) {
         return {rest, goal, "frame"};
     }
-    if (limit.dt > rest / 2) {
+    if (dt > rest / 2) {
         return {rest / 2, clock.time + rest / 2, "frame"};
     }
-    return {limit.dt, clock.time + limit.dt, std::string(limit.name)};
+    return {dt, clock.time + dt, std::string(limit.name)};
 }
 
 } // namespace hyoryu

@@ -296,6 +296,21 @@ class Runs(ProgramTest):
         self.assertEqual(list(out.rglob("*.tmp")), [])
         self.assertEqual(self.call("info", "out").returncode, 0)
 
+    def test_a_run_that_goes_wrong_recovers_where_the_case_allows(self):
+        bold = FLOOD.replace("end = 0.5\n", "end = 0.5\ncfl = 3\n")
+        self.write(bold)
+        self.assertEqual(self.call("run", "case.toml", "-o", "lost").returncode, 3)
+        self.write(bold.replace("cfl = 3\n", "cfl = 3\nrecover = true\n"))
+        done = self.call("run", "case.toml", "-o", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        log = (self.dir / "out" / "run.log").read_text()
+        self.assertRegex(log, "the numbers went wrong: step .* particle .* `time.cfl` = 3 is too large")
+        self.assertIn("recovery: back to t = ", log)
+        self.assertLess(json.loads((self.dir / "out" / "summary.json").read_text())["share_of_time_step"], 1)
+        times = [float(line.split(",")[0]) for line in (self.dir / "out" / "energy.csv").read_text().splitlines()[2:]]
+        self.assertTrue(all(a < b for a, b in zip(times, times[1:])), "no row of what was taken back is left")
+        self.assertEqual(times[-1], 0.5)
+
     def test_the_resolved_case_gives_the_same_bits(self):
         self.run_flood("out")
         done = self.call("run", "out/case.toml", "-o", "again")

@@ -194,6 +194,14 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
     }
 }
 
+TEST(CaseFileErrors, RecoveryNeedsAStepThatCanBeHalved)
+{
+    const auto all = mistakes("[time]\nend = 1\nstep = 0.1\nrecover = true\n");
+    const Diagnostic d = mistake_at(all, "time.recover");
+    EXPECT_EQ(d.line, 4);
+    EXPECT_NE(d.hint.find("can be halved"), std::string::npos) << to_string(d);
+}
+
 TEST(CaseFileErrors, AllAreToldAtOnceInTheOrderOfTheFile)
 {
     const auto all = mistakes(

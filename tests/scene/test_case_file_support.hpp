@@ -20,6 +20,7 @@ seed = 7
 end = 3.0
 step = 0.001
 cfl = 0.2
+recover = false
 
 [particles]
 spacing = 0.02

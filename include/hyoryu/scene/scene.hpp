@@ -59,6 +59,7 @@ struct TimeSettings {
     double end = 0;             // [s]
     std::optional<double> step; // fixed time step [s]; none: adaptive
     double cfl = 0.6;           // scales the adaptive limits
+    bool recover = false;       // when the numbers go wrong, go back and halve the step
 };
 
 struct DomainSettings {

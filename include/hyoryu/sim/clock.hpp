@@ -16,6 +16,7 @@ struct Clock {
     std::int64_t frame = 0;   // number of the next frame
     std::int64_t history = 0; // number of the next history row, if they are spaced in time
     std::int64_t gauge = 0;   // likewise of the gauges
+    double share = 1;         // of the limits that steps take: halved by every recovery
 };
 
 /// What the next step is to be.
@@ -25,9 +26,9 @@ struct NextStep {
     std::string limit; // the limit that set dt: "acoustic", "frame", "fixed" ...
 };
 
-/// A fixed step counts time as a multiple of itself; an adaptive one is the shortest limit,
-/// shortened to meet the next frame or the end exactly, and halved before a remainder would become
-/// tiny.
+/// A fixed step counts time as a multiple of itself; an adaptive one is the clock's share
+/// of the shortest limit, shortened to meet the next frame or the end exactly, and halved before a
+/// remainder would become tiny.
 NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limit);
 
 /// Whether the run is over.
