@@ -286,6 +286,20 @@ void fill_fluid(const Scene& scene, Filling& filling)
     }
 }
 
+// The box of a wall over its whole motion: a path does not overshoot its points.
+Bounds swept(const Bounds& box, const Motion& motion, double end)
+{
+    Bounds all = box;
+    const auto add = [&](const Vec3& d) { all.add(Bounds{box.min + d, box.max + d}); };
+    add(displacement(motion, end));
+    for (std::size_t k = 0; k < motion.times.size(); ++k) {
+        if (motion.times[k] < end) {
+            add(motion.places[k]);
+        }
+    }
+    return all;
+}
+
 } // namespace
 
 int wall_layers(double smoothing_ratio)
@@ -309,9 +323,10 @@ Bounds domain_of(const Scene& scene)
     }
     for (const Wall& wall : scene.walls) {
         if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
-            box.add(Bounds{basin->min, basin->max});
+            box.add(swept({basin->min, basin->max}, wall.motion, scene.time.end));
         } else if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
-            box.add(bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}));
+            box.add(swept(bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}),
+                          wall.motion, scene.time.end));
         }
     }
     if (box.empty()) {

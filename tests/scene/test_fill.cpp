@@ -88,6 +88,41 @@ normal = [0.0, 0.0, 1.0]
     }
 }
 
+TEST(Fill, TheDomainHoldsWallsWhereverTheyMove)
+{
+    const Scene scene = parse_case(R"(
+[time]
+end = 2.0
+[particles]
+spacing = 0.1
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0, 0, 0]
+max = [1, 1, 1]
+[[wall]]
+shape = "basin"
+min = [0, 0, 0]
+max = [1, 1, 2]
+[wall.motion]
+times = [0, 1, 3]
+places = [[0, 0, 0], [-0.5, 0, 0], [8, 0, 0]]
+[[wall]]
+shape = "box"
+min = [0.4, 0.4, 0.8]
+max = [0.6, 0.6, 0.9]
+[wall.motion]
+velocity = [0, 1, 0]
+)",
+                                   "test.toml");
+    const Bounds domain = domain_of(scene);
+    EXPECT_EQ(domain.min.x(), -0.5);
+    // Halfway to 8 m when the run ends, and not there yet.
+    EXPECT_GT(domain.max.x(), 2.0);
+    EXPECT_LT(domain.max.x(), 8.0);
+    EXPECT_DOUBLE_EQ(domain.max.y(), 2.6);
+}
+
 TEST(Aggregate, LayersConformToTheSurface)
 {
     const double R = 0.5;
