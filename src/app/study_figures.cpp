@@ -87,7 +87,7 @@ PlotPanel cost_panel(const StudyResult& result, std::size_t quantity)
 PlotPanel sweep_panel(const StudyResult& result, std::size_t quantity, std::size_t sweep)
 {
     const StudySweep& s = result.study.sweeps[sweep];
-    PlotPanel panel{.title = "error against " + s.key,
+    PlotPanel panel{.title = "error against " + s.label(),
                     .x_axis = s.name,
                     .y_axis = "relative error",
                     .curves = {}};
@@ -95,7 +95,8 @@ PlotPanel sweep_panel(const StudyResult& result, std::size_t quantity, std::size
         if (series.quantity != quantity || series.sweep != sweep) {
             continue;
         }
-        PlotCurve curve{.label = series.others, .x = {}, .y = {}, .style = PlotCurve::Style::line};
+        PlotCurve curve{
+            .label = series.others, .x = {}, .y = {}, .style = PlotCurve::Style::marked};
         if (series.order) {
             curve.label += fmt::format("{}order {:.2f}", curve.label.empty() ? "" : ", ",
                                        series.order->exponent);
@@ -105,10 +106,11 @@ PlotPanel sweep_panel(const StudyResult& result, std::size_t quantity, std::size
             curve.x.push_back(std::get<double>(s.values[value]));
             curve.y.push_back(error_of(result, k, quantity));
         }
-        panel.curves.push_back(curve);
-        curve.style = PlotCurve::Style::points;
-        curve.label.clear();
         panel.curves.push_back(std::move(curve));
+    }
+    // Errors rise with the number, or fall with it: the legend keeps out of their way.
+    if (s.finest == StudySweep::Finest::smallest) {
+        panel.legend = PlotPanel::Legend::bottom_right;
     }
     return finished(std::move(panel));
 }

@@ -45,13 +45,19 @@ bool is_done(const StudyJob& job)
            read_all(job.folder / asked_file) == job.asked;
 }
 
-std::vector<std::string> command_of(const Study& study, const BenchmarkRun& run,
-                                    const StudyJob& job, int threads)
+std::vector<std::string> command_of(const Study& study, const StudyRun& run, const StudyJob& job,
+                                    int threads)
 {
-    std::vector<std::string> command{
-        "hyoryu",  "run",       study.case_file.string(), "-o", job.folder.string(), "--quiet",
-        "--force", "--threads", std::to_string(threads)};
-    for (const std::string& set : run.set) {
+    std::vector<std::string> command{"hyoryu",
+                                     "run",
+                                     study.case_file.string(),
+                                     "-o",
+                                     job.folder.string(),
+                                     "--quiet",
+                                     "--force",
+                                     "--threads",
+                                     std::to_string(run.threads > 0 ? run.threads : threads)};
+    for (const std::string& set : run.run.set) {
         command.insert(command.end(), {"--set", set});
     }
     return command;
@@ -147,7 +153,7 @@ public:
             }
             fs::create_directories(jobs_[k].folder.parent_path());
             running_.push_back(
-                {k, start(command_of(study_, runs_[jobs_[k].run].run, jobs_[k], settings_.threads),
+                {k, start(command_of(study_, runs_[jobs_[k].run], jobs_[k], settings_.threads),
                           messages_of(jobs_[k]))});
         }
         while (!running_.empty()) {

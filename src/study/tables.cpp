@@ -52,7 +52,7 @@ StudyTable table_of_runs(const StudyResult& result, std::size_t quantity)
     const StudyQuantity& q = result.study.quantities[quantity];
     StudyTable out{q.unit.empty() ? q.name : fmt::format("{} [{}]", q.name, q.unit), {}};
     for (const StudySweep& sweep : result.study.sweeps) {
-        out.table.heads.push_back({sweep.key, Align::right});
+        out.table.heads.push_back({sweep.label(), Align::right});
     }
     for (const char* head : {"value", "expected", "error"}) {
         out.table.heads.push_back({head, Align::right});
@@ -100,24 +100,39 @@ std::string floor_text(const std::optional<PowerWithFloor>& fit)
                : "-";
 }
 
+std::string rungs_text(const std::vector<double>& orders)
+{
+    std::string text;
+    for (const double order : orders) {
+        text += text.empty() ? "" : ", ";
+        text += std::isfinite(order) ? fmt::format("{:.2f}", order) : "-";
+    }
+    return text.empty() ? "-" : text;
+}
+
 StudyTable table_of_orders(const StudyResult& result)
 {
     StudyTable out{"Orders", {}};
     for (const char* head : {"quantity", "swept", "the others"}) {
         out.table.heads.push_back({head, Align::left});
     }
-    for (const char* head : {"order (95 %)", "m of cost^-m (95 %)", "error = C cost^-m + floor",
-                             "extrapolated", "GCI of the finest"}) {
+    for (const char* head :
+         {"order (95 %)", "from rung to rung", "order and floor", "m of cost^-m (95 %)",
+          "error = C cost^-m + floor", "extrapolated", "GCI of the finest"}) {
         out.table.heads.push_back({head, Align::right});
     }
     for (const StudySeries& s : result.series) {
-        if (!result.study.sweeps[s.sweep].numeric()) {
+        if (!result.study.sweeps[s.sweep].ordered()) {
             continue;
         }
         out.table.rows.push_back(
-            {result.study.quantities[s.quantity].name, result.study.sweeps[s.sweep].key,
-             s.others.empty() ? "-" : s.others, interval(s.order, 1), interval(s.by_work, -1),
-             floor_text(s.floor), s.extrapolation ? number(s.extrapolation->limit) : "-",
+            {result.study.quantities[s.quantity].name, result.study.sweeps[s.sweep].label(),
+             s.others.empty() ? "-" : s.others, interval(s.order, 1), rungs_text(s.rungs),
+             s.to_floor
+                 ? fmt::format("{:.3g} to {}", s.to_floor->exponent, percent(s.to_floor->floor))
+                 : "-",
+             interval(s.by_work, -1), floor_text(s.floor),
+             s.extrapolation ? number(s.extrapolation->limit) : "-",
              s.extrapolation ? percent(s.extrapolation->gci) : "-"});
     }
     return out;
@@ -152,6 +167,14 @@ ordered_json json_of(const Power& power)
             {"points", power.points}};
 }
 
+ordered_json json_of(const PowerWithFloor& fit)
+{
+    return {{"factor", fit.factor},
+            {"exponent", fit.exponent},
+            {"floor", fit.floor},
+            {"misfit", fit.misfit}};
+}
+
 ordered_json json_of(const StudyResult& result, const StudyRunResult& run)
 {
     ordered_json json{{"name", run.run.run.name},
@@ -175,19 +198,16 @@ ordered_json json_of(const StudyResult& result, const StudyRunResult& run)
 ordered_json json_of(const StudyResult& result, const StudySeries& s)
 {
     ordered_json json{{"quantity", result.study.quantities[s.quantity].name},
-                      {"sweep", result.study.sweeps[s.sweep].key},
+                      {"sweep", result.study.sweeps[s.sweep].label()},
                       {"others", s.others}};
     for (const std::size_t k : s.runs) {
         json["runs"].push_back(result.runs[k].run.run.name);
     }
     json["order"] = s.order ? json_of(*s.order) : ordered_json();
+    json["orders_between_rungs"] = s.rungs;
+    json["order_and_floor"] = s.to_floor ? json_of(*s.to_floor) : ordered_json();
     json["error_by_work"] = s.by_work ? json_of(*s.by_work) : ordered_json();
-    if (s.floor) {
-        json["floor_fit"] = {{"factor", s.floor->factor},
-                             {"exponent", s.floor->exponent},
-                             {"floor", s.floor->floor},
-                             {"misfit", s.floor->misfit}};
-    }
+    json["error_by_work_and_floor"] = s.floor ? json_of(*s.floor) : ordered_json();
     if (s.extrapolation) {
         json["extrapolation"] = {{"order", s.extrapolation->order},
                                  {"limit", s.extrapolation->limit},

@@ -83,6 +83,8 @@ void add_curve(vtkChartXY& chart, const PlotCurve& curve, PlotPanel::Axes axes, 
     }
     if (curve.style == PlotCurve::Style::points) {
         line->GetPen()->SetLineType(vtkPen::NO_PEN);
+    }
+    if (curve.style == PlotCurve::Style::points || curve.style == PlotCurve::Style::marked) {
         line->SetMarkerStyle(vtkPlotPoints::CIRCLE);
         line->SetMarkerSize(marker_size);
     }
@@ -97,7 +99,7 @@ void set_axis(vtkAxis& axis, const std::string& title, const std::vector<double>
     set_pen(*axis.GetGridPen(), grey, 1.0F);
     if (!range.empty()) {
         axis.SetBehavior(vtkAxis::FIXED);
-        axis.SetRange(range[0], range[1]);
+        axis.SetUnscaledRange(range[0], range[1]);
     }
 }
 
@@ -120,7 +122,9 @@ vtkSmartPointer<vtkChartXY> chart_of(const PlotPanel& panel)
     set_axis(*chart->GetAxis(vtkAxis::LEFT), panel.y_axis, panel.y_range);
     use_sans(*chart->GetLegend()->GetLabelProperties(), text_size - 2);
     chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
-    chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
+    chart->GetLegend()->SetVerticalAlignment(panel.legend == PlotPanel::Legend::top_right
+                                                 ? vtkChartLegend::TOP
+                                                 : vtkChartLegend::BOTTOM);
     return chart;
 }
 

@@ -38,6 +38,8 @@ struct StudySeries {
     std::vector<std::size_t> runs; // from coarse to fine
     // Of the error against the swept number, which falls with it for `Finest::smallest`:
     std::optional<Power> order;              // positive if the error falls towards the finest
+    std::vector<double> rungs;               // the order from each run to the next
+    std::optional<PowerWithFloor> to_floor;  // order and floor together
     std::optional<Power> by_work;            // exponent of the error in the work
     std::optional<PowerWithFloor> floor;     // of the error in the work
     std::optional<Richardson> extrapolation; // without an exact answer

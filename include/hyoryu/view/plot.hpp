@@ -9,21 +9,24 @@
 namespace hyoryu {
 
 struct PlotCurve {
-    enum class Style { line, dashed, points, theory };
+    enum class Style { line, dashed, points, marked, theory };
     std::string label; // in the legend; empty: not there
     std::vector<double> x, y;
-    Style style = Style::line; // theory: a black line, and no colour is used up
+    Style style = Style::line; // marked: a line with a point at each value; theory: black, no
+                               // colour is used up
 };
 
 struct PlotPanel {
     enum class Axes {
         linear,
         logarithmic
-    };                                    // both axes; the latter leaves out what is not positive
+    }; // both axes; the latter leaves out what is not positive
+    enum class Legend { top_right, bottom_right };
     std::string title, x_axis, y_axis;    // axes with their unit: "time [s]"
     std::vector<double> x_range, y_range; // lowest and highest; empty: those of the curves
     std::vector<PlotCurve> curves;
     Axes axes = Axes::linear;
+    Legend legend = Legend::top_right;
 };
 
 struct Plot {
