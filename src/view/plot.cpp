@@ -37,6 +37,8 @@ constexpr Rgb grey{214, 214, 214};
 constexpr std::array<Rgb, 6> colours{
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 
+constexpr std::array markers{vtkPlotPoints::CIRCLE, vtkPlotPoints::DIAMOND, vtkPlotPoints::SQUARE};
+
 void use_sans(vtkTextProperty& text, int size)
 {
     text.SetFontFamilyToArial();
@@ -73,19 +75,25 @@ void add_curve(vtkChartXY& chart, const PlotCurve& curve, PlotPanel::Axes axes, 
 {
     constexpr float line_width = 2.5F;
     constexpr float marker_size = 7.0F;
-    auto* line = vtkPlotLine::SafeDownCast(chart.AddPlot(vtkChart::LINE));
-    line->SetInputData(table_of(curve, axes), 0, 1);
+    const auto table = table_of(curve, axes);
+    if (table->GetNumberOfRows() == 0) {
+        return;
+    }
+    // VTK complains about a line through one point.
+    const bool points = curve.style == PlotCurve::Style::points || table->GetNumberOfRows() == 1;
+    auto* line =
+        vtkPlotPoints::SafeDownCast(chart.AddPlot(points ? vtkChart::POINTS : vtkChart::LINE));
+    line->SetInputData(table, 0, 1);
     line->SetLabel(curve.label);
     const bool theory = curve.style == PlotCurve::Style::theory;
     set_pen(*line->GetPen(), theory ? black : pick(colours, number), line_width);
     if (curve.style == PlotCurve::Style::dashed) {
         line->GetPen()->SetLineType(vtkPen::DASH_LINE);
     }
-    if (curve.style == PlotCurve::Style::points) {
-        line->GetPen()->SetLineType(vtkPen::NO_PEN);
-    }
-    if (curve.style == PlotCurve::Style::points || curve.style == PlotCurve::Style::marked) {
-        line->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+    if (points || curve.style == PlotCurve::Style::marked) {
+        // Colours come again after a while: other shapes then.
+        const auto round = static_cast<std::size_t>(number) / colours.size();
+        line->SetMarkerStyle(markers[round % markers.size()]);
         line->SetMarkerSize(marker_size);
     }
 }
@@ -122,9 +130,7 @@ vtkSmartPointer<vtkChartXY> chart_of(const PlotPanel& panel)
     set_axis(*chart->GetAxis(vtkAxis::LEFT), panel.y_axis, panel.y_range);
     use_sans(*chart->GetLegend()->GetLabelProperties(), text_size - 2);
     chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
-    chart->GetLegend()->SetVerticalAlignment(panel.legend == PlotPanel::Legend::top_right
-                                                 ? vtkChartLegend::TOP
-                                                 : vtkChartLegend::BOTTOM);
+    chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
     return chart;
 }
 

@@ -102,7 +102,7 @@ TEST_F(StudyFiles, ChoicesSetWhatTheySayFromTheValuesOfAllSweeps)
     EXPECT_EQ(runs[2].run.name, "step=0.01,method=impulse");
     EXPECT_EQ(runs[2].run.set, (Texts{"time.step=0.01"}));
     EXPECT_EQ(runs[3].run.set,
-              (Texts{"time.step=0.01", "contact.method=penalty", "contact.penalty.step=0.0001"}));
+              (Texts{"time.step=0.01", "contact.method=penalty", "contact.penalty.step=1e-04"}));
 }
 
 TEST_F(StudyFiles, ThreadsAreSweptWithoutAKeyOfTheCase)

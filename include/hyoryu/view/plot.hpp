@@ -21,12 +21,10 @@ struct PlotPanel {
         linear,
         logarithmic
     }; // both axes; the latter leaves out what is not positive
-    enum class Legend { top_right, bottom_right };
     std::string title, x_axis, y_axis;    // axes with their unit: "time [s]"
     std::vector<double> x_range, y_range; // lowest and highest; empty: those of the curves
     std::vector<PlotCurve> curves;
     Axes axes = Axes::linear;
-    Legend legend = Legend::top_right;
 };
 
 struct Plot {
