@@ -55,7 +55,7 @@ void read_values(Section& section, StudySweep& sweep)
                 fmt::format("expected a number or a text, found {}", found(*node)));
         }
     }
-    if (sweep.values.empty()) {
+    if (sweep.values.empty() && section.has("values")) {
         section.error("values", "is empty: give the values to try");
     }
 }
@@ -112,7 +112,7 @@ StudySweep read_sweep(Section& section)
         section.text("name", dot == std::string::npos ? sweep.key : sweep.key.substr(dot + 1));
     if (has_choices) {
         read_choices(section, sweep);
-    } else if (section.has("values")) {
+    } else {
         read_values(section, sweep);
     }
     if (has_choices && !sweep.key.empty()) {
