@@ -62,7 +62,7 @@ void set_error(const StudyQuantity& q, const Scope& scope, StudyValue& v)
 StudyValue value_in(const Study& study, const StudyQuantity& q, const StudyRunResult& run,
                     RunFiles& files)
 {
-    StudyValue v{none, none, none, run.error};
+    StudyValue v{.value = none, .expected = none, .error = none, .finest = {}, .why = run.error};
     if (!run.error.empty()) {
         return v;
     }
@@ -109,6 +109,7 @@ void hold_against_finest(StudyResult& result, std::size_t quantity)
         StudyRunResult& run = result.runs[k];
         StudyValue& v = run.values[quantity];
         const std::size_t finest = finest_like(result, k);
+        v.finest = finest;
         if (finest == k) {
             v.why = v.why.empty() ? "the finest run" : v.why;
             continue;
@@ -245,7 +246,8 @@ std::vector<std::size_t> frontier(const StudyResult& result, std::size_t quantit
 {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < result.runs.size(); ++k) {
-        if (std::isfinite(result.runs[k].values[quantity].error)) {
+        const StudyValue& v = result.runs[k].values[quantity];
+        if (std::isfinite(v.error) && v.finest == result.runs[0].values[quantity].finest) {
             order.push_back(k);
         }
     }

@@ -20,9 +20,14 @@
 #include <vtkPen.h>
 #include <vtkPlotLine.h>
 #include <vtkRenderer.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
 
 namespace hyoryu {
 
@@ -98,6 +103,51 @@ void add_curve(vtkChartXY& chart, const PlotCurve& curve, PlotPanel::Axes axes, 
     }
 }
 
+// The largest of 1, 2 and 5 times a power of ten that is not above the value.
+double round_down(double value)
+{
+    const double power = std::pow(10, std::floor(std::log10(value)));
+    const double mantissa = value / power;
+    return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * power;
+}
+
+// Values to mark on a logarithmic axis; VTK's own are odd where the axis is shorter than a decade.
+std::vector<double> logarithmic_ticks(double low, double high)
+{
+    std::vector<double> ticks;
+    if (high < 4 * low) {
+        const double step = round_down((high - low) / 4);
+        for (double k = std::ceil(low / step); k * step <= high; ++k) {
+            ticks.push_back(k * step);
+        }
+        return ticks;
+    }
+    const double ratio = high / low;
+    const std::vector<double> mantissas = ratio > 1e4  ? std::vector<double>{1}
+                                          : ratio > 25 ? std::vector<double>{1, 2, 5}
+                                                       : std::vector<double>{1, 1.5, 2, 3, 4, 5, 7};
+    for (double decade = std::floor(std::log10(low)); decade <= std::log10(high); ++decade) {
+        for (const double mantissa : mantissas) {
+            const double tick = mantissa * std::pow(10, decade);
+            if (tick >= low && tick <= high) {
+                ticks.push_back(tick);
+            }
+        }
+    }
+    return ticks;
+}
+
+void mark_logarithms(vtkAxis& axis, const std::vector<double>& range)
+{
+    vtkNew<vtkDoubleArray> positions;
+    vtkNew<vtkStringArray> labels;
+    for (const double tick : logarithmic_ticks(range[0], range[1])) {
+        positions->InsertNextValue(std::log10(tick));
+        labels->InsertNextValue(fmt::format("{:.6g}", tick));
+    }
+    axis.SetCustomTickPositions(positions, labels);
+}
+
 void set_axis(vtkAxis& axis, const std::string& title, const std::vector<double>& range)
 {
     axis.SetTitle(title);
@@ -108,6 +158,9 @@ void set_axis(vtkAxis& axis, const std::string& title, const std::vector<double>
     if (!range.empty()) {
         axis.SetBehavior(vtkAxis::FIXED);
         axis.SetUnscaledRange(range[0], range[1]);
+        if (axis.GetLogScaleActive()) {
+            mark_logarithms(axis, range);
+        }
     }
 }
 

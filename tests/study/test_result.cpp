@@ -130,6 +130,19 @@ TEST_F(StudyResults, WithoutAnExactAnswerTheFinestRunStandsForItAndTheLimitIsTol
     EXPECT_EQ(frontier(result, 0), (Runs{0, 1})) << "what is held against itself proves nothing";
 }
 
+TEST_F(StudyResults, ErrorsAgainstDifferentRunsAreNotRanked)
+{
+    // Spacing 2 and 1, then the factor 0.6 and 0.3 at a spacing whose error it does not see.
+    StudySweep factor = sweep({0.6, 0.3});
+    factor.key = "time.cfl";
+    factor.name = "cfl";
+    const StudyResult result = evaluated(study({sweep({4, 2, 1}), factor}, last_x("")),
+                                         {{80, 1}, {95, 8}, {100, 64}, {95, 8}, {95.1, 16}});
+    EXPECT_NEAR(result.runs[3].values[0].error, 0.1 / 95.1, 1e-12);
+    EXPECT_EQ(frontier(result, 0), (Runs{0, 1}));
+    EXPECT_EQ(cheapest(result, 0, 0.01), std::nullopt) << "0.1 % is of the factor alone";
+}
+
 TEST_F(StudyResults, TheStaircaseLeavesOutWhatIsDearerAndNoBetter)
 {
     // Errors 8, 2, 3, 0.8 and 0.8 % at costs 10, 20, 30, 40 and 50.
