@@ -58,8 +58,8 @@ std::vector<double> range_of(const std::vector<PlotCurve>& curves,
 void make_room(const std::vector<PlotCurve>& curves, std::vector<double>& range)
 {
     constexpr double row = 0.045; // of the height
-    const auto rows = std::ranges::count_if(
-        curves, [](const PlotCurve& curve) { return !curve.label.empty(); });
+    const auto rows =
+        std::ranges::count_if(curves, [](const PlotCurve& curve) { return !curve.label.empty(); });
     const double share = std::min(0.6, row * static_cast<double>(rows) + 0.03);
     if (!range.empty()) {
         range[1] *= std::pow(range[1] / range[0], share / (1 - share));

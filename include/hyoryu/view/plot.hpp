@@ -20,7 +20,7 @@ struct PlotPanel {
     enum class Axes {
         linear,
         logarithmic
-    }; // both axes; the latter leaves out what is not positive
+    };                                    // both axes; the latter leaves out what is not positive
     std::string title, x_axis, y_axis;    // axes with their unit: "time [s]"
     std::vector<double> x_range, y_range; // lowest and highest; empty: those of the curves
     std::vector<PlotCurve> curves;
