@@ -106,6 +106,15 @@ class Commands(ProgramTest):
         self.assertEqual(plan["counts"]["fluid"], 0)
         self.assertEqual(self.files(), [])
 
+    def test_check_says_what_error_to_expect_where_it_is_asked_to(self):
+        case = CASES / "hydrostatic_tank" / "case.toml"
+        done = self.call("check", case, "--accuracy")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"pressure at rest: 0\.\d+ % \(c0 = 20 sqrt\(g H\)\)")
+        self.assertIn("to halve it: ", done.stdout)
+        self.assertNotIn("accuracy", self.call("check", case).stdout)
+        self.assertEqual(self.call("check", case, "--accuracy", "--json").returncode, 2)
+
     def test_check_prints_the_mixing_rule_and_every_pair_of_materials(self):
         done = self.call("check", CASES / "bouncing_box" / "case.toml")
         self.assertIn("nothing is averaged", done.stdout)
