@@ -102,11 +102,7 @@ ExpectedError arrival_of_bore(const Scene& scene, double depth)
 double longest_edge(const BodySettings& body, int dimensions)
 {
     const Bounds box = bounds({.shape = &body.shape, .dimensions = dimensions});
-    Vec3 edges = box.max - box.min;
-    if (dimensions == 2) {
-        edges.y() = 0; // a metre of width is no length of the scene
-    }
-    return edges.maxCoeff();
+    return (box.max - box.min).maxCoeff();
 }
 
 ExpectedError motion_of(const Scene& scene, const Plan& plan, double length)
