@@ -102,8 +102,8 @@ StudySweep read_sweep(Section& section)
     if (has_choices == section.has("values")) {
         section.error("", "give one of `values` and `choices`");
     }
-    if (!has_choices && !section.has("set")) {
-        section.require("key");
+    if (!has_choices && !section.has("set") && !section.has("key")) {
+        section.error("", "says nothing to vary", "give `key`, or `set` with a `name`");
     }
     sweep.key = section.text("key");
     sweep.set = section.texts("set");
@@ -112,7 +112,8 @@ StudySweep read_sweep(Section& section)
         section.text("name", dot == std::string::npos ? sweep.key : sweep.key.substr(dot + 1));
     if (has_choices) {
         read_choices(section, sweep);
-    } else {
+    }
+    if (!has_choices || section.has("values")) {
         read_values(section, sweep);
     }
     if (has_choices && !sweep.key.empty()) {

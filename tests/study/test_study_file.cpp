@@ -146,6 +146,20 @@ TEST_F(StudyFiles, MistakesAreAllToldWithTheirPlace)
     }
 }
 
+TEST_F(StudyFiles, ASweepVariesOneThingInOneWay)
+{
+    const std::string both = "values = [1]\nchoices = { a = [] }\n";
+    const Texts all = mistakes(head + "[[sweep]]\nname = \"n\"\n" + both + place);
+    ASSERT_EQ(all.size(), 1u) << fmt::format("{}", fmt::join(all, "\n"));
+    EXPECT_NE(all[0].find("3:1: sweep[0]: give one of `values` and `choices`"), std::string::npos);
+    EXPECT_NE(mistake(head + "[[sweep]]\nname = \"n\"\nvalues = [1]\n" + place)
+                  .find("3:1: sweep[0]: says nothing to vary"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + "[[sweep]]\nname = \"n\"\nchoices = { a = [1] }\n" + place)
+                  .find("sweep[0].choices.a: expected a list of texts"),
+              std::string::npos);
+}
+
 TEST_F(StudyFiles, WhatIsMissingIsTold)
 {
     const std::string told = fmt::format("{}", fmt::join(mistakes("title = \"t\"\n"), "\n"));
