@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The study file: runs in their order, and every mistake with its place.
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/study/study.hpp"
 #include "io/results_fixture.hpp"
 
@@ -158,6 +159,27 @@ TEST_F(StudyFiles, ASweepVariesOneThingInOneWay)
     EXPECT_NE(mistake(head + "[[sweep]]\nname = \"n\"\nchoices = { a = [1] }\n" + place)
                   .find("sweep[0].choices.a: expected a list of texts"),
               std::string::npos);
+}
+
+TEST_F(StudyFiles, ShippedStudiesAreReadAndTheirCasesKnowEveryOverride)
+{
+    int studies = 0;
+    const std::filesystem::path root = HYORYU_SOURCE_DIR;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "cases")) {
+        if (entry.path().filename().string().starts_with("study") &&
+            entry.path().extension() == ".toml") {
+            SCOPED_TRACE(entry.path().string());
+            const Study study = read_study(entry.path());
+            for (const StudyRun& run : runs_of(study)) {
+                EXPECT_NO_THROW(read_case(study.case_file, run.run.set)) << run.run.name;
+            }
+            const auto kept = root / "docs" / "studies" / entry.path().parent_path().filename() /
+                              entry.path().stem();
+            EXPECT_TRUE(std::filesystem::exists(kept / "study.md")) << "no results are kept";
+            ++studies;
+        }
+    }
+    EXPECT_GE(studies, 9);
 }
 
 TEST_F(StudyFiles, WhatIsMissingIsTold)
