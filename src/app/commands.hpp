@@ -27,6 +27,7 @@ struct CheckOptions {
     std::filesystem::path case_file;
     std::vector<std::string> overrides;
     bool json = false;
+    bool accuracy = false; // also what error to expect
 };
 int check_case(const CheckOptions& options);
 

@@ -10,6 +10,7 @@
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/parameter.hpp"
+#include "hyoryu/study/accuracy.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -76,6 +77,9 @@ int check_case(const CheckOptions& options)
         return exit_code::done;
     }
     fmt::print("{}", plan_text(scene, plan));
+    if (options.accuracy) {
+        fmt::print("\n{}", expected_errors_text(expected_errors(scene, filling, plan)));
+    }
     for (const Diagnostic& warning : plan.warnings) {
         fmt::print(stderr, "{}\n", to_string(warning));
     }

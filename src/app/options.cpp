@@ -35,7 +35,11 @@ void add_check(CLI::App& app, CheckOptions& options)
         ->add_option("--set", options.overrides,
                      "change a key of the case: key.path=VALUE; repeatable")
         ->allow_extra_args(false);
-    check->add_flag("--json", options.json, "print the plan as JSON");
+    auto* json = check->add_flag("--json", options.json, "print the plan as JSON");
+    check
+        ->add_flag("--accuracy", options.accuracy,
+                   "also the error to expect, from the standing studies")
+        ->excludes(json);
 }
 
 void add_describe(CLI::App& app, DescribeOptions& options)

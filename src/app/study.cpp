@@ -49,7 +49,7 @@ std::vector<double> forecast_memory(const Study& study, const std::vector<StudyR
 std::string asked_of(const Study& study, const StudyRun& run, int threads)
 {
     return fmt::format("{}\nthreads {}\n", to_toml(read_case(study.case_file, run.run.set)),
-                       threads);
+                       run.threads > 0 ? run.threads : threads);
 }
 
 // Rounds of all runs, so that a machine that slows down for a while slows all of them.

@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* asked_file = "asked.txt";
-constexpr const char* message_file = "message.txt";
 // The share of the machine's memory that runs side by side may fill by their forecasts.
 constexpr double usable_memory = 0.8;
 
@@ -39,19 +37,40 @@ std::string read_all(const fs::path& file)
     return text.str();
 }
 
-bool is_done(const StudyJob& job)
+// Beside the folder of the run, in which a run tolerates no files but its own.
+fs::path beside(const StudyJob& job, const char* what)
 {
-    return fs::exists(job.folder / "summary.json") &&
-           read_all(job.folder / asked_file) == job.asked;
+    return fmt::format("{}.{}.txt", job.folder.string(), what);
 }
 
-std::vector<std::string> command_of(const Study& study, const BenchmarkRun& run,
-                                    const StudyJob& job, int threads)
+fs::path asked_of(const StudyJob& job)
 {
-    std::vector<std::string> command{
-        "hyoryu",  "run",       study.case_file.string(), "-o", job.folder.string(), "--quiet",
-        "--force", "--threads", std::to_string(threads)};
-    for (const std::string& set : run.set) {
+    return beside(job, "asked");
+}
+
+fs::path messages_of(const StudyJob& job)
+{
+    return beside(job, "messages");
+}
+
+bool is_done(const StudyJob& job)
+{
+    return fs::exists(job.folder / "summary.json") && read_all(asked_of(job)) == job.asked;
+}
+
+std::vector<std::string> command_of(const Study& study, const StudyRun& run, const StudyJob& job,
+                                    int threads)
+{
+    std::vector<std::string> command{"hyoryu",
+                                     "run",
+                                     study.case_file.string(),
+                                     "-o",
+                                     job.folder.string(),
+                                     "--quiet",
+                                     "--force",
+                                     "--threads",
+                                     std::to_string(run.threads > 0 ? run.threads : threads)};
+    for (const std::string& set : run.run.set) {
         command.insert(command.end(), {"--set", set});
     }
     return command;
@@ -79,11 +98,6 @@ pid_t start(std::vector<std::string> command, const fs::path& messages)
         throw IoError(fmt::format("cannot start a run: {}", std::strerror(fault)));
     }
     return process;
-}
-
-fs::path messages_of(const StudyJob& job)
-{
-    return job.folder.string() + "." + message_file;
 }
 
 struct Running {
@@ -115,7 +129,7 @@ std::string outcome(const StudyJob& job, int status)
         if (job.repeat > 1) {
             keep_summary_only(job.folder);
         }
-        write_text(job.folder / asked_file, job.asked);
+        write_text(asked_of(job), job.asked);
         return {};
     }
     while (!text.empty() && text.back() == '\n') {
@@ -146,8 +160,9 @@ public:
                 wait_for_one(errors);
             }
             fs::create_directories(jobs_[k].folder.parent_path());
+            fs::remove(asked_of(jobs_[k])); // what stands there is about to be replaced
             running_.push_back(
-                {k, start(command_of(study_, runs_[jobs_[k].run].run, jobs_[k], settings_.threads),
+                {k, start(command_of(study_, runs_[jobs_[k].run], jobs_[k], settings_.threads),
                           messages_of(jobs_[k]))});
         }
         while (!running_.empty()) {

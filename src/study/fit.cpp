@@ -133,15 +133,23 @@ std::optional<Richardson> extrapolate(const std::array<double, 3>& h,
     if (!(r21 > 1) || !(r32 > 1) || !(e32 / e21 > 0)) {
         return std::nullopt;
     }
-    double p = std::log(e32 / e21) / std::log(r21);
-    for (int k = 0; k < 200; ++k) { // the fixed point of the source, equation 3
-        const double q = std::log((std::pow(r21, p) - 1) / (std::pow(r32, p) - 1));
-        p = (std::log(e32 / e21) + q) / std::log(r21);
-    }
-    const double gain = std::pow(r21, p) - 1;
-    if (!(p > 0) || !std::isfinite(gain)) {
+    // Equation 3 of the source, r21^p (r32^p - 1)/(r21^p - 1) = e32/e21, whose left side rises with
+    // p. Its fixed point iteration crawls where the ratios differ much, so the root is bracketed.
+    const auto excess = [&](double p) {
+        return p * std::log(r21) + std::log(std::expm1(p * std::log(r32))) -
+               std::log(std::expm1(p * std::log(r21))) - std::log(e32 / e21);
+    };
+    double low = 1e-6;
+    double high = 50; // no scheme is of such an order
+    if (excess(low) > 0 || excess(high) < 0) {
         return std::nullopt;
     }
+    for (int k = 0; k < 100; ++k) {
+        const double middle = 0.5 * (low + high);
+        (excess(middle) < 0 ? low : high) = middle;
+    }
+    const double p = 0.5 * (low + high);
+    const double gain = std::expm1(p * std::log(r21));
     const double limit = values[0] - e21 / gain;
     return Richardson{p, limit, safety * std::abs(e21 / values[0]) / gain};
 }

@@ -17,20 +17,24 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // The value, and what it ought to be where that is known from this run alone.
-void measure_value(const StudyQuantity& q, const Scope& scope, RunFiles& files, StudyValue& v)
+void measure_value(const StudyQuantity& q, const BenchmarkRun& run, const Scope& scope,
+                   RunFiles& files, StudyValue& v)
 {
+    Quantity quantity = q.quantity;
+    quantity.series = expanded(quantity.series, run, scope);
+    const Series reference = expanded(q.reference, run, scope);
     Measured got;
-    if (is_error_measure(q.quantity.measure)) {
+    if (is_error_measure(quantity.measure)) {
         got = q.against == StudyQuantity::Against::reference
-                  ? error_from(q.quantity, q.reference, scope, files)
-                  : error_from(q.quantity, q.expected, scope, files);
+                  ? error_from(quantity, reference, scope, files)
+                  : error_from(quantity, q.expected, scope, files);
         v.expected = 0;
     } else {
-        got = measure(q.quantity, scope, samples(q.quantity.series, scope, files));
+        got = measure(quantity, scope, samples(quantity.series, scope, files));
         if (q.against == StudyQuantity::Against::expected) {
             v.expected = evaluate(q.expected, scope);
         } else if (q.against == StudyQuantity::Against::reference) {
-            const Measured right = measure(q.quantity, scope, samples(q.reference, scope, files));
+            const Measured right = measure(quantity, scope, samples(reference, scope, files));
             v.expected = right.value;
             v.why = right.why;
         }
@@ -58,12 +62,12 @@ void set_error(const StudyQuantity& q, const Scope& scope, StudyValue& v)
 StudyValue value_in(const Study& study, const StudyQuantity& q, const StudyRunResult& run,
                     RunFiles& files)
 {
-    StudyValue v{none, none, none, run.error};
+    StudyValue v{.value = none, .expected = none, .error = none, .finest = {}, .why = run.error};
     if (!run.error.empty()) {
         return v;
     }
     const Scope scope = scope_of(study, run.run.run);
-    measure_value(q, scope, files, v);
+    measure_value(q, run.run.run, scope, files, v);
     if (q.against != StudyQuantity::Against::finest && std::isfinite(v.value)) {
         set_error(q, scope, v);
     }
@@ -88,7 +92,7 @@ std::size_t finest_like(const StudyResult& result, std::size_t k)
 {
     std::vector<int> wanted = result.runs[k].run.value_of;
     for (std::size_t s = 0; s < wanted.size(); ++s) {
-        if (wanted[s] >= 0 && result.study.sweeps[s].numeric()) {
+        if (wanted[s] >= 0 && result.study.sweeps[s].ordered()) {
             wanted[s] = static_cast<int>(finest_value(result.study.sweeps[s]));
         }
     }
@@ -105,6 +109,7 @@ void hold_against_finest(StudyResult& result, std::size_t quantity)
         StudyRunResult& run = result.runs[k];
         StudyValue& v = run.values[quantity];
         const std::size_t finest = finest_like(result, k);
+        v.finest = finest;
         if (finest == k) {
             v.why = v.why.empty() ? "the finest run" : v.why;
             continue;
@@ -155,6 +160,15 @@ std::optional<Richardson> extrapolation(const StudyResult& result, const StudySe
     return extrapolate(spacing, values);
 }
 
+std::vector<double> orders_between(const std::vector<double>& h, const std::vector<double>& error)
+{
+    std::vector<double> orders;
+    for (std::size_t k = 1; k < h.size(); ++k) {
+        orders.push_back(std::log(error[k - 1] / error[k]) / std::log(h[k - 1] / h[k]));
+    }
+    return orders;
+}
+
 StudySeries analyse(const StudyResult& result, std::size_t sweep, std::size_t quantity,
                     const std::vector<std::size_t>& list)
 {
@@ -163,7 +177,7 @@ StudySeries analyse(const StudyResult& result, std::size_t sweep, std::size_t qu
                        .quantity = quantity,
                        .others = others_of(study, result.runs[list.front()].run, sweep),
                        .runs = list};
-    if (!study.sweeps[sweep].numeric()) {
+    if (!study.sweeps[sweep].ordered()) {
         return series;
     }
     std::vector<double> h;
@@ -175,6 +189,8 @@ StudySeries analyse(const StudyResult& result, std::size_t sweep, std::size_t qu
         work.push_back(result.runs[k].work);
     }
     series.order = fit_power(h, error);
+    series.rungs = orders_between(h, error);
+    series.to_floor = fit_power_with_floor(h, error);
     series.by_work = fit_power(work, error);
     series.floor = fit_power_with_floor(work, error);
     if (study.quantities[quantity].against == StudyQuantity::Against::finest) {
@@ -230,7 +246,8 @@ std::vector<std::size_t> frontier(const StudyResult& result, std::size_t quantit
 {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < result.runs.size(); ++k) {
-        if (std::isfinite(result.runs[k].values[quantity].error)) {
+        const StudyValue& v = result.runs[k].values[quantity];
+        if (std::isfinite(v.error) && v.finest == result.runs[0].values[quantity].finest) {
             order.push_back(k);
         }
     }

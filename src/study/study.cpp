@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <set>
 
 namespace hyoryu {
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> modes{"one_at_a_time", "grid"};
-constexpr std::array<std::string_view, 2> ends{"smallest", "largest"};
+constexpr std::array<std::string_view, 3> ends{"smallest", "largest", "none"};
 
 // The index of the text among the known ones; a mistake is noted, and the first taken.
 template <std::size_t N>
@@ -37,15 +38,14 @@ std::size_t read_choice(Section& section, std::string_view key,
     return static_cast<std::size_t>(at - known.begin());
 }
 
-StudySweep read_sweep(Section& section)
+bool is_count(const RunParameter& value)
 {
-    StudySweep sweep;
-    section.require("key");
-    section.require("values");
-    sweep.key = section.text("key");
-    const auto dot = sweep.key.find_last_of('.');
-    sweep.name =
-        section.text("name", dot == std::string::npos ? sweep.key : sweep.key.substr(dot + 1));
+    const auto* number = std::get_if<double>(&value);
+    return number != nullptr && *number >= 1 && *number <= 4096 && std::floor(*number) == *number;
+}
+
+void read_values(Section& section, StudySweep& sweep)
+{
     for (const TomlNode* node : section.items("values")) {
         if (const auto value = parameter_of(*node)) {
             sweep.values.push_back(*value);
@@ -55,14 +55,78 @@ StudySweep read_sweep(Section& section)
                 fmt::format("expected a number or a text, found {}", found(*node)));
         }
     }
-    sweep.finest = static_cast<StudySweep::Finest>(read_choice(section, "finest", ends));
+    if (sweep.values.empty() && section.has("values")) {
+        section.error("values", "is empty: give the values to try");
+    }
+}
+
+// `choices`: a name and a list of overrides for each.
+void read_choices(Section& section, StudySweep& sweep)
+{
+    for (const TomlEntry* entry : section.entries("choices")) {
+        sweep.values.emplace_back(entry->key);
+        sweep.choices.emplace_back();
+        const TomlArray* items = entry->node.array();
+        const TomlArray none;
+        for (const TomlNode& item : items != nullptr ? *items : none) {
+            if (const auto* text = std::get_if<std::string>(&item.value)) {
+                sweep.choices.back().push_back(*text);
+            } else {
+                items = nullptr;
+                break;
+            }
+        }
+        if (items == nullptr) {
+            section.file().error(entry->node.place, section.full("choices." + entry->key),
+                                 "expected a list of texts, overrides of the case as in `set`");
+        }
+    }
+}
+
+void check_name(Section& section, const StudySweep& sweep)
+{
     const bool is_name =
-        !sweep.name.empty() && std::ranges::all_of(sweep.name, [](unsigned char c) {
-            return std::isalnum(c) != 0 || c == '_';
-        });
+        !sweep.name.empty() && std::isdigit(static_cast<unsigned char>(sweep.name[0])) == 0 &&
+        std::ranges::all_of(sweep.name,
+                            [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
     if (!is_name) {
         section.error("name", fmt::format("\"{}\" cannot stand in an expression", sweep.name),
                       "letters, digits and _");
+    }
+}
+
+StudySweep read_sweep(Section& section)
+{
+    StudySweep sweep;
+    const bool has_choices = section.has("choices");
+    if (has_choices == section.has("values")) {
+        section.error("", "give one of `values` and `choices`");
+    }
+    if (!has_choices && !section.has("set") && !section.has("key")) {
+        section.error("", "says nothing to vary", "give `key`, or `set` with a `name`");
+    }
+    sweep.key = section.text("key");
+    sweep.set = section.texts("set");
+    const auto dot = sweep.key.find_last_of('.');
+    sweep.name =
+        section.text("name", dot == std::string::npos ? sweep.key : sweep.key.substr(dot + 1));
+    if (has_choices) {
+        read_choices(section, sweep);
+    }
+    if (!has_choices || section.has("values")) {
+        read_values(section, sweep);
+    }
+    if (has_choices && !sweep.key.empty()) {
+        section.error("key", "has no meaning with `choices`, which say what they set");
+    }
+    sweep.finest = static_cast<StudySweep::Finest>(read_choice(section, "finest", ends));
+    if (sweep.key == threads_key && !std::ranges::all_of(sweep.values, is_count)) {
+        section.error("values", "expected whole numbers of threads, 1 to 4096");
+    }
+    if (!sweep.key.empty() || section.has("name")) {
+        check_name(section, sweep);
+    } else {
+        section.require("name");
     }
     section.finish();
     return sweep;
@@ -179,20 +243,63 @@ std::string file_name(std::string name)
     return name;
 }
 
+// The overrides of one sweep in a run whose parameters are complete.
+void apply(const StudySweep& sweep, std::size_t value, const Scope& scope, StudyRun& run)
+{
+    const RunParameter& taken = sweep.values[value];
+    if (sweep.key == threads_key) {
+        run.threads = static_cast<int>(std::get<double>(taken));
+    } else if (!sweep.key.empty()) {
+        run.run.set.push_back(sweep.key + "=" + toml_of(taken));
+    }
+    for (const std::string& text : sweep.set) {
+        run.run.set.push_back(expanded(text, run.run, scope));
+    }
+    if (!sweep.choices.empty()) {
+        for (const std::string& text : sweep.choices[value]) {
+            run.run.set.push_back(expanded(text, run.run, scope));
+        }
+    }
+}
+
 StudyRun run_with(const Study& study, const std::vector<int>& value_of)
 {
-    StudyRun run{{.name = "", .set = study.set}, value_of};
+    StudyRun run{.run = {.name = "", .set = {}}, .value_of = value_of};
     for (std::size_t k = 0; k < study.sweeps.size(); ++k) {
         if (value_of[k] >= 0) {
             const StudySweep& sweep = study.sweeps[k];
             const RunParameter& value = sweep.values[static_cast<std::size_t>(value_of[k])];
             run.run.name += (run.run.name.empty() ? "" : ",") + sweep.name + "=" + text_of(value);
-            run.run.set.push_back(sweep.key + "=" + toml_of(value));
             run.run.parameters.emplace_back(sweep.name, value);
         }
     }
     run.run.name = file_name(run.run.name);
+    const Scope scope = scope_of(study, run.run);
+    for (const std::string& text : study.set) {
+        run.run.set.push_back(expanded(text, run.run, scope));
+    }
+    for (std::size_t k = 0; k < study.sweeps.size(); ++k) {
+        if (value_of[k] >= 0) {
+            apply(study.sweeps[k], static_cast<std::size_t>(value_of[k]), scope, run);
+        }
+    }
     return run;
+}
+
+// Overrides that cannot be evaluated, and values whose runs would share a folder.
+void check_runs(Section& root, const Study& study)
+{
+    try {
+        std::set<std::string> names;
+        for (const StudyRun& run : runs_of(study)) {
+            if (!names.insert(run.run.name).second) {
+                root.error("sweep", fmt::format("the run \"{}\" stands twice", run.run.name),
+                           "give every value once");
+            }
+        }
+    } catch (const FormulaError& fault) {
+        root.error("sweep", fault.what());
+    }
 }
 
 } // namespace
@@ -211,6 +318,9 @@ Study read_study(const fs::path& file)
     if (!study.case_file.empty() && !fs::exists(study.case_file)) {
         root.error("case", fmt::format("there is no file `{}`", study.case_file.string()),
                    "the path is relative to the study");
+    }
+    if (opened.file.mistakes.empty()) {
+        check_runs(root, study);
     }
     if (!opened.file.mistakes.empty()) {
         throw CaseError(opened.file.mistakes);

@@ -21,6 +21,12 @@ std::string number(double value)
     return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
 }
 
+// Counts in full as long as they can be read.
+std::string count_text(double count)
+{
+    return count < 1e6 && count == std::floor(count) ? fmt::format("{:.0f}", count) : number(count);
+}
+
 std::string percent(double share)
 {
     return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : "-";
@@ -28,9 +34,6 @@ std::string percent(double share)
 
 std::string value_text(const StudySweep& sweep, int index)
 {
-    if (index < 0) {
-        return "as in the case";
-    }
     const RunParameter& value = sweep.values[static_cast<std::size_t>(index)];
     const auto* figure = std::get_if<double>(&value);
     return figure != nullptr ? cell(*figure) : std::get<std::string>(value);
@@ -47,14 +50,43 @@ std::string spread(const std::vector<double>& walls)
                : fmt::format("{} ({} to {})", number(median(walls)), number(*least), number(*most));
 }
 
+// A column for each sweep of a grid; one at a time they would be empty but for one.
+bool has_column_a_sweep(const Study& study)
+{
+    return study.mode == Study::Mode::grid || study.sweeps.size() == 1;
+}
+
+std::vector<HtmlTable::Head> heads_of_settings(const Study& study)
+{
+    if (!has_column_a_sweep(study)) {
+        return {{"setting", Align::left}, {"value", Align::right}};
+    }
+    std::vector<HtmlTable::Head> heads;
+    for (const StudySweep& sweep : study.sweeps) {
+        heads.push_back({sweep.label(), Align::right});
+    }
+    return heads;
+}
+
+std::vector<std::string> settings_of(const Study& study, const StudyRun& run)
+{
+    std::vector<std::string> cells;
+    for (std::size_t s = 0; s < study.sweeps.size(); ++s) {
+        if (has_column_a_sweep(study)) {
+            cells.push_back(value_text(study.sweeps[s], run.value_of[s]));
+        } else if (run.value_of[s] >= 0) {
+            cells = {study.sweeps[s].label(), value_text(study.sweeps[s], run.value_of[s])};
+        }
+    }
+    return cells;
+}
+
 StudyTable table_of_runs(const StudyResult& result, std::size_t quantity)
 {
     const StudyQuantity& q = result.study.quantities[quantity];
     StudyTable out{q.unit.empty() ? q.name : fmt::format("{} [{}]", q.name, q.unit), {}};
-    for (const StudySweep& sweep : result.study.sweeps) {
-        out.table.heads.push_back({sweep.key, Align::right});
-    }
-    for (const char* head : {"value", "expected", "error"}) {
+    out.table.heads = heads_of_settings(result.study);
+    for (const char* head : {"measured", "expected", "error"}) {
         out.table.heads.push_back({head, Align::right});
     }
     out.table.heads.push_back({result.work_unit, Align::right});
@@ -64,13 +96,10 @@ StudyTable table_of_runs(const StudyResult& result, std::size_t quantity)
     for (std::size_t k = 0; k < result.runs.size(); ++k) {
         const StudyRunResult& run = result.runs[k];
         const StudyValue& v = run.values[quantity];
-        std::vector<std::string> row;
-        for (std::size_t s = 0; s < result.study.sweeps.size(); ++s) {
-            row.push_back(value_text(result.study.sweeps[s], run.run.value_of[s]));
-        }
+        std::vector<std::string> row = settings_of(result.study, run.run);
         const bool on_frontier = std::ranges::find(best, k) != best.end();
         row.insert(row.end(), {number(v.value), number(v.expected), percent(v.error),
-                               number(run.work), spread(run.walls),
+                               count_text(run.work), spread(run.walls),
                                !v.why.empty() ? v.why
                                : on_frontier  ? "on the staircase"
                                               : ""});
@@ -93,11 +122,37 @@ std::string interval(const std::optional<Power>& power, double sign)
                        number(std::max(a, b)));
 }
 
+constexpr const char* no_fall = "does not fall";
+
+// Of the error in the cost, which falls where the exponent is negative.
 std::string floor_text(const std::optional<PowerWithFloor>& fit)
 {
-    return fit ? fmt::format("{} cost^-{} + {}", number(fit->factor), number(-fit->exponent),
-                             percent(fit->floor))
-               : "-";
+    if (!fit) {
+        return "-";
+    }
+    return fit->exponent < 0 ? fmt::format("{} cost^-{} + {}", number(fit->factor),
+                                           number(-fit->exponent), percent(fit->floor))
+                             : no_fall;
+}
+
+// Of the error in the swept number, which falls towards the finest where the exponent is positive.
+std::string order_and_floor(const std::optional<PowerWithFloor>& fit)
+{
+    if (!fit) {
+        return "-";
+    }
+    return fit->exponent > 0 ? fmt::format("{:.3g} to {}", fit->exponent, percent(fit->floor))
+                             : no_fall;
+}
+
+std::string rungs_text(const std::vector<double>& orders)
+{
+    std::string text;
+    for (const double order : orders) {
+        text += text.empty() ? "" : ", ";
+        text += std::isfinite(order) ? fmt::format("{:.2f}", order) : "-";
+    }
+    return text.empty() ? "-" : text;
 }
 
 StudyTable table_of_orders(const StudyResult& result)
@@ -106,18 +161,21 @@ StudyTable table_of_orders(const StudyResult& result)
     for (const char* head : {"quantity", "swept", "the others"}) {
         out.table.heads.push_back({head, Align::left});
     }
-    for (const char* head : {"order (95 %)", "m of cost^-m (95 %)", "error = C cost^-m + floor",
-                             "extrapolated", "GCI of the finest"}) {
+    for (const char* head :
+         {"order (95 %)", "from rung to rung", "order and floor", "m of cost^-m (95 %)",
+          "error = C cost^-m + floor", "extrapolated", "GCI of the finest"}) {
         out.table.heads.push_back({head, Align::right});
     }
     for (const StudySeries& s : result.series) {
-        if (!result.study.sweeps[s.sweep].numeric()) {
+        constexpr std::size_t fewest = 3; // two runs have a slope, but no order
+        if (!result.study.sweeps[s.sweep].ordered() || s.runs.size() < fewest) {
             continue;
         }
         out.table.rows.push_back(
-            {result.study.quantities[s.quantity].name, result.study.sweeps[s.sweep].key,
-             s.others.empty() ? "-" : s.others, interval(s.order, 1), interval(s.by_work, -1),
-             floor_text(s.floor), s.extrapolation ? number(s.extrapolation->limit) : "-",
+            {result.study.quantities[s.quantity].name, result.study.sweeps[s.sweep].label(),
+             s.others.empty() ? "-" : s.others, interval(s.order, 1), rungs_text(s.rungs),
+             order_and_floor(s.to_floor), interval(s.by_work, -1), floor_text(s.floor),
+             s.extrapolation ? number(s.extrapolation->limit) : "-",
              s.extrapolation ? percent(s.extrapolation->gci) : "-"});
     }
     return out;
@@ -135,7 +193,7 @@ StudyTable table_of_cheapest(const StudyResult& result)
         for (const double target : study_targets) {
             const auto k = cheapest(result, q, target);
             row.push_back(k ? fmt::format("{}: {} {}, {} s", result.runs[*k].run.run.name,
-                                          number(result.runs[*k].work), result.work_unit,
+                                          count_text(result.runs[*k].work), result.work_unit,
                                           number(median(result.runs[*k].walls)))
                             : "none of these");
         }
@@ -150,6 +208,14 @@ ordered_json json_of(const Power& power)
             {"low", power.low},
             {"high", power.high},
             {"points", power.points}};
+}
+
+ordered_json json_of(const PowerWithFloor& fit)
+{
+    return {{"factor", fit.factor},
+            {"exponent", fit.exponent},
+            {"floor", fit.floor},
+            {"misfit", fit.misfit}};
 }
 
 ordered_json json_of(const StudyResult& result, const StudyRunResult& run)
@@ -175,19 +241,16 @@ ordered_json json_of(const StudyResult& result, const StudyRunResult& run)
 ordered_json json_of(const StudyResult& result, const StudySeries& s)
 {
     ordered_json json{{"quantity", result.study.quantities[s.quantity].name},
-                      {"sweep", result.study.sweeps[s.sweep].key},
+                      {"sweep", result.study.sweeps[s.sweep].label()},
                       {"others", s.others}};
     for (const std::size_t k : s.runs) {
         json["runs"].push_back(result.runs[k].run.run.name);
     }
     json["order"] = s.order ? json_of(*s.order) : ordered_json();
+    json["orders_between_rungs"] = s.rungs;
+    json["order_and_floor"] = s.to_floor ? json_of(*s.to_floor) : ordered_json();
     json["error_by_work"] = s.by_work ? json_of(*s.by_work) : ordered_json();
-    if (s.floor) {
-        json["floor_fit"] = {{"factor", s.floor->factor},
-                             {"exponent", s.floor->exponent},
-                             {"floor", s.floor->floor},
-                             {"misfit", s.floor->misfit}};
-    }
+    json["error_by_work_and_floor"] = s.floor ? json_of(*s.floor) : ordered_json();
     if (s.extrapolation) {
         json["extrapolation"] = {{"order", s.extrapolation->order},
                                  {"limit", s.extrapolation->limit},

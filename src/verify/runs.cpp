@@ -224,6 +224,11 @@ Scope scope_of(const Benchmark& benchmark, const BenchmarkRun& run)
     return scope;
 }
 
+std::string expanded(const std::string& text, const BenchmarkRun& run, const Scope& scope)
+{
+    return expand(text, run.parameters, scope);
+}
+
 Series expanded(Series series, const BenchmarkRun& run, const Scope& scope)
 {
     series.file = expand(series.file, run.parameters, scope);

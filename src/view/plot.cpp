@@ -20,9 +20,14 @@
 #include <vtkPen.h>
 #include <vtkPlotLine.h>
 #include <vtkRenderer.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
 
 namespace hyoryu {
 
@@ -36,6 +41,8 @@ constexpr Rgb grey{214, 214, 214};
 // Okabe & Ito (2008), "Color Universal Design", the darker ones first.
 constexpr std::array<Rgb, 6> colours{
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
+
+constexpr std::array markers{vtkPlotPoints::CIRCLE, vtkPlotPoints::DIAMOND, vtkPlotPoints::SQUARE};
 
 void use_sans(vtkTextProperty& text, int size)
 {
@@ -73,19 +80,72 @@ void add_curve(vtkChartXY& chart, const PlotCurve& curve, PlotPanel::Axes axes, 
 {
     constexpr float line_width = 2.5F;
     constexpr float marker_size = 7.0F;
-    auto* line = vtkPlotLine::SafeDownCast(chart.AddPlot(vtkChart::LINE));
-    line->SetInputData(table_of(curve, axes), 0, 1);
+    const auto table = table_of(curve, axes);
+    if (table->GetNumberOfRows() == 0) {
+        return;
+    }
+    // VTK complains about a line through one point.
+    const bool points = curve.style == PlotCurve::Style::points || table->GetNumberOfRows() == 1;
+    auto* line =
+        vtkPlotPoints::SafeDownCast(chart.AddPlot(points ? vtkChart::POINTS : vtkChart::LINE));
+    line->SetInputData(table, 0, 1);
     line->SetLabel(curve.label);
     const bool theory = curve.style == PlotCurve::Style::theory;
     set_pen(*line->GetPen(), theory ? black : pick(colours, number), line_width);
     if (curve.style == PlotCurve::Style::dashed) {
         line->GetPen()->SetLineType(vtkPen::DASH_LINE);
     }
-    if (curve.style == PlotCurve::Style::points) {
-        line->GetPen()->SetLineType(vtkPen::NO_PEN);
-        line->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+    if (points || curve.style == PlotCurve::Style::marked) {
+        // Colours come again after a while: other shapes then.
+        const auto round = static_cast<std::size_t>(number) / colours.size();
+        line->SetMarkerStyle(markers[round % markers.size()]);
         line->SetMarkerSize(marker_size);
     }
+}
+
+// The largest of 1, 2 and 5 times a power of ten that is not above the value.
+double round_down(double value)
+{
+    const double power = std::pow(10, std::floor(std::log10(value)));
+    const double mantissa = value / power;
+    return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * power;
+}
+
+// Values to mark on a logarithmic axis; VTK's own are odd where the axis is shorter than a decade.
+std::vector<double> logarithmic_ticks(double low, double high)
+{
+    std::vector<double> ticks;
+    if (high < 4 * low) {
+        const double step = round_down((high - low) / 4);
+        for (double k = std::ceil(low / step); k * step <= high; ++k) {
+            ticks.push_back(k * step);
+        }
+        return ticks;
+    }
+    const double ratio = high / low;
+    const std::vector<double> mantissas = ratio > 1e4  ? std::vector<double>{1}
+                                          : ratio > 25 ? std::vector<double>{1, 2, 5}
+                                                       : std::vector<double>{1, 1.5, 2, 3, 4, 5, 7};
+    for (double decade = std::floor(std::log10(low)); decade <= std::log10(high); ++decade) {
+        for (const double mantissa : mantissas) {
+            const double tick = mantissa * std::pow(10, decade);
+            if (tick >= low && tick <= high) {
+                ticks.push_back(tick);
+            }
+        }
+    }
+    return ticks;
+}
+
+void mark_logarithms(vtkAxis& axis, const std::vector<double>& range)
+{
+    vtkNew<vtkDoubleArray> positions;
+    vtkNew<vtkStringArray> labels;
+    for (const double tick : logarithmic_ticks(range[0], range[1])) {
+        positions->InsertNextValue(std::log10(tick));
+        labels->InsertNextValue(fmt::format("{:.6g}", tick));
+    }
+    axis.SetCustomTickPositions(positions, labels);
 }
 
 void set_axis(vtkAxis& axis, const std::string& title, const std::vector<double>& range)
@@ -97,7 +157,10 @@ void set_axis(vtkAxis& axis, const std::string& title, const std::vector<double>
     set_pen(*axis.GetGridPen(), grey, 1.0F);
     if (!range.empty()) {
         axis.SetBehavior(vtkAxis::FIXED);
-        axis.SetRange(range[0], range[1]);
+        axis.SetUnscaledRange(range[0], range[1]);
+        if (axis.GetLogScaleActive()) {
+            mark_logarithms(axis, range);
+        }
     }
 }
 

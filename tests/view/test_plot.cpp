@@ -75,6 +75,35 @@ TEST_F(Plots, ShowTheCurvesOfEachPanelInBlueOnWhite)
     EXPECT_GT(pixels(*image, 650, 255, 255, 255), 200);
 }
 
+TEST_F(Plots, LogarithmicAxesShowCurvesAndLonePoints)
+{
+    PlotPanel panel{.title = "",
+                    .x_axis = "step [s]",
+                    .y_axis = "error",
+                    .x_range = {1, 100},
+                    .y_range = {1, 1000},
+                    .curves = {}};
+    panel.axes = PlotPanel::Axes::logarithmic;
+    // Through the middle of the decades, and a point that has no logarithm on the way.
+    panel.curves.push_back({.label = "", .x = {1, 0, 100}, .y = {30, 30, 30}});
+    const Plot plot{.title = "", .panels = {panel, panel}, .panel_width = 400, .height = 300};
+    Plot lone = plot;
+    lone.panels[1].curves[0] = {
+        .label = "", .x = {10}, .y = {30}, .style = PlotCurve::Style::marked};
+    if (!drawn(lone)) {
+        GTEST_SKIP() << "no off-screen context";
+    }
+    const auto image = picture();
+    EXPECT_GE(pixels(*image, 250, 0, 114, 178), 1) << "the line is not there";
+    EXPECT_LE(pixels(*image, 250, 0, 114, 178), 5);
+    int of_the_point = 0;
+    for (int x = 400; x < 800; ++x) {
+        of_the_point += pixels(*image, x, 0, 114, 178);
+    }
+    EXPECT_GE(of_the_point, 9) << "the point is not there";
+    EXPECT_LE(of_the_point, 100);
+}
+
 } // namespace
 } // namespace hyoryu
 #endif

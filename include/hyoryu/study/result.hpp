@@ -19,6 +19,8 @@ struct StudyValue {
     double value = 0;
     double expected = 0; // of no meaning for measures that are differences
     double error = 0;    // relative to its scale, not negative [1]
+    /// The run that stands for the exact answer, for Against::finest.
+    std::optional<std::size_t> finest;
     std::string why;
 };
 
@@ -38,6 +40,8 @@ struct StudySeries {
     std::vector<std::size_t> runs; // from coarse to fine
     // Of the error against the swept number, which falls with it for `Finest::smallest`:
     std::optional<Power> order;              // positive if the error falls towards the finest
+    std::vector<double> rungs;               // the order from each run to the next
+    std::optional<PowerWithFloor> to_floor;  // order and floor together
     std::optional<Power> by_work;            // exponent of the error in the work
     std::optional<PowerWithFloor> floor;     // of the error in the work
     std::optional<Richardson> extrapolation; // without an exact answer
@@ -57,6 +61,8 @@ StudyResult evaluate_study(const Study& study, const std::vector<std::filesystem
                            const std::vector<std::vector<double>>& walls);
 
 /// Runs than which no other is both cheaper and more accurate in this quantity, cheapest first.
+/// Errors against different runs cannot be compared: where there is no exact answer, only runs that
+/// are held against the same one as the first run.
 std::vector<std::size_t> frontier(const StudyResult& result, std::size_t quantity);
 
 /// The cheapest run whose error is at most `target`; none if there is no such run.

@@ -11,15 +11,23 @@
 
 namespace hyoryu {
 
-/// A key of the case and the values it takes.
+/// What is varied: a key of the case, or anything that overrides of the case can say.
 struct StudySweep {
-    enum class Finest { smallest, largest };
-    std::string key;
+    enum class Finest { smallest, largest, none };
+    std::string key;                  // of the case, or `threads`; may be empty
     std::string name;                 // of the value in expressions; the last part of the key
     std::vector<RunParameter> values; // numbers or texts
+    std::vector<std::string> set;     // overrides with `${...}`, for every value
+    std::vector<std::vector<std::string>> choices; // overrides for each value; may be empty
     Finest finest = Finest::smallest; // which end of the numbers is meant to be the most accurate
+    const std::string& label() const { return key.empty() ? name : key; }
     bool numeric() const;
+    /// Numbers of which one end is meant to be the most accurate: an order has a meaning.
+    bool ordered() const { return numeric() && finest != Finest::none; }
 };
+
+/// The key of a sweep over the threads of a run, which no case has.
+inline constexpr const char* threads_key = "threads";
 
 /// A measured number and what it ought to be.
 struct StudyQuantity {
@@ -62,8 +70,10 @@ Study read_study(const std::filesystem::path& file);
 struct StudyRun {
     BenchmarkRun run;
     std::vector<int> value_of;
+    int threads = 0; // 0: as the command says
 };
-/// All combinations of the values, or one sweep at a time; each run once.
+/// All combinations of the values, or one sweep at a time. Throws FormulaError for an override that
+/// cannot be evaluated.
 std::vector<StudyRun> runs_of(const Study& study);
 
 /// Constants, derived columns and parameters, for the expressions of a run. Throws FormulaError.

@@ -179,6 +179,10 @@ const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name
 /// constant of its name. Throws FormulaError.
 Scope scope_of(const Benchmark& benchmark, const BenchmarkRun& run);
 
+/// The text with every `${...}` replaced by the run's parameter of that name if it is a text, else
+/// by the number that the expression gives. Throws FormulaError.
+std::string expanded(const std::string& text, const BenchmarkRun& run, const Scope& scope);
+
 /// The series with every `${...}` in its file and its cells replaced by what it is in that run.
 /// Throws FormulaError.
 Series expanded(Series series, const BenchmarkRun& run, const Scope& scope);

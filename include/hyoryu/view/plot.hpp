@@ -9,10 +9,11 @@
 namespace hyoryu {
 
 struct PlotCurve {
-    enum class Style { line, dashed, points, theory };
+    enum class Style { line, dashed, points, marked, theory };
     std::string label; // in the legend; empty: not there
     std::vector<double> x, y;
-    Style style = Style::line; // theory: a black line, and no colour is used up
+    Style style = Style::line; // marked: a line with a point at each value; theory: black, no
+                               // colour is used up
 };
 
 struct PlotPanel {

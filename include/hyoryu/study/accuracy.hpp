@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What error a scene may expect, from the standing studies (docs/accuracy.md).
+#pragma once
+
+#include "hyoryu/scene/plan.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+/// One quantity of a scene; `error` is NaN where the setting lies outside what was studied.
+struct ExpectedError {
+    std::string quantity;
+    double error = 0;    // relative [1]
+    std::string why;     // the number of the scene that it follows from
+    std::string halving; // what would halve it, and what that costs
+    std::string study;   // folder below docs/studies
+};
+
+/// The main quantities of the scene. Empty for a scene of which no study says anything.
+std::vector<ExpectedError> expected_errors(const Scene& scene, const Filling& filling,
+                                           const Plan& plan);
+
+/// For a terminal.
+std::string expected_errors_text(const std::vector<ExpectedError>& errors);
+
+/// A rung of a study: the number that is turned and the error there.
+struct StudiedRung {
+    double number = 0;
+    double error = 0; // [1]
+};
+/// Pressure of still water against c0/sqrt(g H), SPH; arrival of a bore against spacings in the
+/// depth; motion of the timber of 1 m against the step [s]: what docs/studies holds.
+std::span<const StudiedRung> still_water_rungs();
+std::span<const StudiedRung> bore_rungs();
+std::span<const StudiedRung> timber_rungs();
+
+} // namespace hyoryu
