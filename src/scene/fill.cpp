@@ -42,7 +42,8 @@ struct BlockPoints {
     Bounds box;
 };
 
-// A block on its own lattice, so that its faces are half a spacing from the outermost particles.
+// A block on its own lattice, so that its faces are half a spacing from the outermost particles, or
+// in layers that follow a round surface.
 BlockPoints lattice_of(const Scene& scene, const FluidBlock& block)
 {
     BlockPoints result;
@@ -55,6 +56,12 @@ BlockPoints lattice_of(const Scene& scene, const FluidBlock& block)
                                         (corner & 4) != 0 ? b.max.z() : b.min.z()});
         result.top = std::max(result.top, h);
         result.bottom = std::min(result.bottom, h);
+    }
+    if (block.layers) {
+        for (const Vec3& p : aggregate(block.shape, scene.spacing, scene.dimensions).points) {
+            result.points.push_back(block.centre + block.rotation * p);
+        }
+        return result;
     }
     const Aggregate filled = [&] {
         const Vec3 size = result.box.max - result.box.min;
@@ -310,6 +317,9 @@ Bounds domain_of(const Scene& scene)
     for (const Wall& wall : scene.walls) {
         if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
             box.add(Bounds{basin->min, basin->max});
+        } else if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+            box.add(Bounds{round->centre - Vec3::Constant(round->radius),
+                           round->centre + Vec3::Constant(round->radius)});
         } else if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
             box.add(bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}));
         }
