@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/fill.hpp"
 
+#include "conform.hpp"
 #include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
@@ -354,6 +355,10 @@ Filling fill(const Scene& scene)
     }
     for (const BodySettings& body : scene.bodies) {
         filling.bodies.push_back(aggregate(body.shape, body.spacing, scene.dimensions));
+        if (const auto* mesh = std::get_if<MeshShape>(&body.shape);
+            mesh != nullptr && scene.fluid) {
+            conform_to_surface(*mesh, body.spacing, filling.bodies.back().points);
+        }
         if (scene.fluid) {
             take_out(placed(scene, body), scene.spacing, filling);
         }
