@@ -21,21 +21,31 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// The place of the surface nearest to a point, among those in a direction that differs from the
-// ones taken by more than 40 degrees; infinitely far if there is none.
-Vec3 nearest_elsewhere(const MeshShape& mesh, const Vec3& p, std::span<const Vec3> taken)
+// A side of the surface as seen from a point within.
+struct Side {
+    double depth = infinity; // below it [m]
+    Vec3 outward{0, 0, 0};   // unit
+};
+
+// The nearest triangle that faces the point and is turned against the ones taken by more than 75
+// degrees: coplanar ones are one side, and at a blunt edge the particles of both sides would meet.
+Side nearest_side(const MeshShape& mesh, double spacing, const Vec3& p, std::span<const Side> taken)
 {
-    constexpr double alike = 0.77; // cosine of the angle
-    Vec3 best = Vec3::Constant(infinity);
-    double least = infinity;
+    constexpr double facing = 0.77; // cosines of the angles
+    constexpr double alike = 0.25;
+    Side best;
     for (const auto& triangle : mesh.triangles) {
-        const Vec3 q = closest_on_triangle(mesh, triangle, p);
-        const double distance = (q - p).norm();
-        const bool new_side = std::ranges::none_of(
-            taken, [&](const Vec3& n) { return (q - p).dot(n) > alike * distance; });
-        if (distance < least && distance > 0 && new_side) {
-            least = distance;
-            best = q;
+        const auto corner = [&](std::size_t k) {
+            return mesh.corners[static_cast<std::size_t>(triangle[k])];
+        };
+        const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+        const Vec3 way = closest_on_triangle(mesh, triangle, p) - p;
+        const double depth = way.norm();
+        const bool faces = way.dot(normal) > facing * depth || depth < 0.01 * spacing;
+        const bool is_new = std::ranges::none_of(
+            taken, [&](const Side& t) { return normal.dot(t.outward) > alike; });
+        if (depth < best.depth && faces && is_new) {
+            best = {depth, normal};
         }
     }
     return best;
@@ -45,25 +55,23 @@ Vec3 nearest_elsewhere(const MeshShape& mesh, const Vec3& p, std::span<const Vec
 // whether there was one.
 bool snap(const MeshShape& mesh, double spacing, Vec3& p)
 {
-    std::array<Vec3, 3> taken;
-    for (std::size_t side = 0; side < taken.size(); ++side) {
-        const Vec3 q = nearest_elsewhere(mesh, p, std::span(taken).first(side));
-        const double depth = (q - p).norm();
-        if (!(depth < layers * spacing)) {
-            return side > 0;
+    std::array<Side, 3> taken;
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+        Side& side = taken[k];
+        side = nearest_side(mesh, spacing, p, std::span(taken).first(k));
+        if (!(side.depth < layers * spacing)) {
+            return k > 0;
         }
-        taken[side] = (q - p) / depth;
-        p += (depth - (std::floor(depth / spacing) + 0.5) * spacing) * taken[side];
+        const double wanted = (std::floor(side.depth / spacing) + 0.5) * spacing;
+        p += (side.depth - wanted) * side.outward;
     }
     return true;
 }
 
-// sum V F r over the points about one, which points to where they are dense [1/m].
-Vec3 crowding(const CellGrid& grid, std::span<const Vec3> points, const Kernel& kernel,
-              double volume, Index i)
+// Calls f for the points in the cells about a place.
+void for_near(const CellGrid& grid, const Vec3& place, const auto& f)
 {
-    const auto home = grid.cell_of(points[at(i)]);
-    Vec3 sum(0, 0, 0);
+    const auto home = grid.cell_of(place);
     for (Index z = std::max<Index>(home[2] - 1, 0); z < std::min(home[2] + 2, grid.count[2]); ++z) {
         for (Index y = std::max<Index>(home[1] - 1, 0); y < std::min(home[1] + 2, grid.count[1]);
              ++y) {
@@ -71,12 +79,44 @@ Vec3 crowding(const CellGrid& grid, std::span<const Vec3> points, const Kernel& 
             const Index first = row + std::max<Index>(home[0] - 1, 0);
             const Index last = row + std::min(home[0] + 2, grid.count[0]);
             for (Index k = grid.start[at(first)]; k < grid.start[at(last)]; ++k) {
-                const Vec3 r = points[at(i)] - points[at(grid.order[at(k)])];
-                sum += volume * kernel(Vec<real>{r.x(), r.y(), r.z()}).f * r;
+                f(Index(grid.order[at(k)]));
             }
         }
     }
+}
+
+// sum V F r over the points about one, which points to where they are dense [1/m].
+Vec3 crowding(const CellGrid& grid, std::span<const Vec3> points, const Kernel& kernel,
+              double volume, Index i)
+{
+    Vec3 sum(0, 0, 0);
+    for_near(grid, points[at(i)], [&](Index j) {
+        const Vec3 r = points[at(i)] - points[at(j)];
+        sum += volume * kernel(Vec<real>{r.x(), r.y(), r.z()}).f * r;
+    });
     return sum;
+}
+
+// Drops points that are nearer than 0.6 spacings to an earlier one: at a sharp edge the layers of
+// its two sides have room for fewer than the lattice had.
+void thin(double spacing, std::vector<Vec3>& points)
+{
+    const double least = 0.6 * spacing;
+    CellGrid grid;
+    build(grid, points, 0, spacing);
+    std::vector<std::uint8_t> kept(points.size(), 1);
+    std::vector<Vec3> result;
+    for (Index i = 0; i < static_cast<Index>(points.size()); ++i) {
+        for_near(grid, points[at(i)], [&](Index j) {
+            const bool meets =
+                j < i && kept[at(j)] != 0 && (points[at(i)] - points[at(j)]).norm() < least;
+            kept[at(i)] = meets ? 0 : kept[at(i)];
+        });
+        if (kept[at(i)] != 0) {
+            result.push_back(points[at(i)]);
+        }
+    }
+    points = std::move(result);
 }
 
 } // namespace
@@ -106,6 +146,7 @@ void conform_to_surface(const MeshShape& mesh, double spacing, std::vector<Vec3>
         });
         points = std::move(moved);
     }
+    thin(spacing, points);
 }
 
 } // namespace hyoryu

@@ -357,7 +357,10 @@ Filling fill(const Scene& scene)
         filling.bodies.push_back(aggregate(body.shape, body.spacing, scene.dimensions));
         if (const auto* mesh = std::get_if<MeshShape>(&body.shape);
             mesh != nullptr && scene.fluid) {
-            conform_to_surface(*mesh, body.spacing, filling.bodies.back().points);
+            Aggregate& filled = filling.bodies.back();
+            conform_to_surface(*mesh, body.spacing, filled.points);
+            filled.particle_volume =
+                volume(body.shape, scene.dimensions) / static_cast<double>(filled.points.size());
         }
         if (scene.fluid) {
             take_out(placed(scene, body), scene.spacing, filling);

@@ -79,9 +79,8 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "domain.periodic", "is no direction", "\"x\""},
         {"[domain]\nmin = [0,0,0]\nmax = [1,1,1]\nperiodic = [\"z\"]\n", 4, 12, 5,
          "domain.periodic", "`gravity` points along z", ""},
-        {"[particles]\nspacing = 0.3\n[domain]\nmin = [0,0,0]\nmax = [4,4,4]\n"
-         "periodic = [\"x\"]\n",
-         6, 12, 5, "domain.periodic", "13.3333 spacings long", "whole number"},
+        {"[domain]\nmin = [0,0,0]\nmax = [4.03,4,4]\nperiodic = [\"x\"]\n", 4, 12, 5,
+         "domain.periodic", "40.3 spacings long", "whole number"},
         {"[domain]\nmin = [0,0,0]\n", 1, 1, 8, "domain.max", "is missing", "Upper corner"},
         {"[wall]\nshape = \"plane\"\n", 1, 1, 6, "wall", "expected a list of tables", "[[wall]]"},
         {"[[output]]\nevery = 1\n", 1, 1, 10, "output", "expected a table", "[output]"},
