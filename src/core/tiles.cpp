@@ -234,6 +234,20 @@ Vec3 TileLattice::wrapped(const Vec3& point) const
     return image;
 }
 
+// Whole periods are taken off, so that the image is as exact as the point.
+Vec3 TileLattice::image_near(const Vec3& point, const Vec3& other) const
+{
+    Vec3 image = point;
+    for (Index axis = 0; axis < 3; ++axis) {
+        const auto tiles = period[static_cast<std::size_t>(axis)];
+        if (tiles > 0) {
+            const real length = static_cast<real>(tiles) * edge[axis];
+            image[axis] -= length * std::round((point[axis] - other[axis]) / length);
+        }
+    }
+    return image;
+}
+
 Vec3 TileLattice::shortest(const Vec3& r) const
 {
     Vec3 image = r;

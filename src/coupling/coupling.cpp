@@ -10,6 +10,25 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
+// What the fluid does to a solid particle: pressure and, where it sticks, friction.
+class SolidForce {
+public:
+    explicit SolidForce(const Fluid& fluid)
+        : F_(fluid.particles[field::force]),
+          friction_(sticks_to_solids(fluid) && fluid.particles.has(field::viscous_force)
+                        ? fluid.particles[field::viscous_force]
+                        : std::span<const Vec3>())
+    {
+    }
+    Vec3 operator()(Index row) const
+    {
+        return friction_.empty() ? F_[at(row)] : Vec3(F_[at(row)] + friction_[at(row)]);
+    }
+
+private:
+    std::span<const Vec3> F_, friction_;
+};
+
 Quat turned(const Quat& q, const Vec3& angle)
 {
     const double a = angle.norm();
@@ -52,13 +71,13 @@ void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const Bod
 {
     const Index first = fluid.particles.body().begin;
     const auto x = fluid.particles[field::position];
-    const auto F = fluid.particles[field::force];
+    const SolidForce force(fluid);
     loads.resize(bodies.of.size());
     // One body a row of the loop: its sum has one writer and one order.
     parallel_for(0, static_cast<Index>(bodies.of.size()), [&](Index b) {
         Wrench load;
         for (Index k = bodies.of[at(b)].begin; k < bodies.of[at(b)].end; ++k) {
-            const Vec3& f = F[at(first + k)];
+            const Vec3 f = force(first + k);
             load.force += f;
             load.torque += (x[at(first + k)] - poses[at(b)].position).cross(f);
         }
@@ -70,10 +89,10 @@ void collect_wall_forces(const Fluid& fluid, std::span<Vec3> forces)
 {
     std::fill(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
     const Rows rows = fluid.particles.wall();
-    const auto F = fluid.particles[field::force];
+    const SolidForce force(fluid);
     const auto owner = fluid.particles.owner();
     for (Index k = rows.begin; k < rows.end; ++k) {
-        forces[at(-1 - owner[at(k)])] += F[at(k)];
+        forces[at(-1 - owner[at(k)])] += force(k);
     }
 }
 

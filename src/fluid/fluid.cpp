@@ -1,88 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/fluid/fluid.hpp"
 
+#include "sweeps.hpp"
+
 #include <cmath>
 
 namespace hyoryu {
 
-namespace {
-
-auto at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 FluidTerms terms_of(const Fluid& fluid, real dt)
 {
     const FluidParameters& f = fluid.parameters;
-    return {{f.eos, f.gravity}, {f.spacing, dt > 0 ? f.mass / (2 * dt) : 0}, fluid.effects};
+    FluidTerms terms{
+        {f.eos, f.gravity}, {f.spacing, dt > 0 ? f.mass / (2 * dt) : 0}, fluid.effects, {}};
+    if (const auto* collision = std::get_if<ParticleCollision>(&fluid.effects.collision)) {
+        terms.collision = collision->term(f.spacing, f.mass, dt);
+    }
+    return terms;
 }
 
-// Copies fields of the particles of some tiles to what the pair loops read.
-void load(Fluid& fluid, const Tiles& tiles, const auto& fields)
+bool sticks_to_solids(const Fluid& fluid)
 {
-    std::visit([&](auto& data) { data.records.load(fluid.particles, tiles, fields); },
-               fluid.pair_data);
+    return std::holds_alternative<NoSlip>(fluid.effects.slip);
 }
-
-// The same for the solid particles that fluid or a body may be near.
-void load_solids(Fluid& fluid, const auto& fields)
-{
-    const FluidNeighbours& n = fluid.neighbours;
-    std::visit(
-        [&](auto& data) {
-            data.records.load(fluid.particles, n.wall, n.wet_walls, fields);
-            data.records.load(fluid.particles, n.body, fields);
-        },
-        fluid.pair_data);
-}
-
-// Calls f for the rows of these particles; dry walls cost nothing.
-void for_wet_solids(const Fluid& fluid, const auto& f)
-{
-    const FluidNeighbours& n = fluid.neighbours;
-    parallel_blocks(0, static_cast<Index>(n.wet_walls.size()), [&](Index k) {
-        const auto tile = at(n.wet_walls[at(k)]);
-        for (std::int32_t slot = n.wall.start[tile]; slot < n.wall.start[tile + 1]; ++slot) {
-            f(at(n.wall.row[at(slot)]));
-        }
-    });
-    const Rows bodies = fluid.particles.body();
-    parallel_for(bodies.begin, bodies.end, [&](Index i) { f(at(i)); });
-}
-
-// f(formulation, kernel of its pairs).
-auto with_formulation(const Fluid& fluid, const auto& f)
-{
-    return fluid.parameters.formulation == FormulationKind::mps ? f(Mps{}, fluid.mps_kernel)
-                                                                : f(Sph{}, fluid.kernel);
-}
-
-// Runs one of the pair loops over all blocks of a list; `which` names it.
-void run(Fluid& fluid, const PairList& pairs, const Tiles& destination, const FluidTerms& terms,
-         const auto& which)
-{
-    const auto sweep = [&]<class Real, class Formulation>(PairData<Real>& data, Formulation,
-                                                          const auto& kernel) {
-        using Loops = PairLoops<Real, Formulation>;
-        const auto loop = which(std::get<Loops>(fluid_loops(fluid.instruction_set)));
-        const typename Loops::View view{pairs.blocks().data(),
-                                        data.records.data(),
-                                        fluid.particles.pointers(),
-                                        destination.row.data(),
-                                        destination.first_slot,
-                                        destination.lattice.edge,
-                                        kernel};
-        parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
-            loop(view, block, data.local[at(worker())].data(), terms);
-        });
-    };
-    with_formulation(fluid, [&](auto formulation, const auto& kernel) {
-        std::visit([&](auto& data) { sweep(data, formulation, kernel); }, fluid.pair_data);
-    });
-}
-
-} // namespace
 
 real stand_in_mass(const Fluid& fluid, std::int32_t owner)
 {
@@ -103,6 +42,15 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
         fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting);
     if (wall_count + body_count > 0) {
         fluid.particles.add(WallExtrapolation::Writes{});
+    }
+    if (sticks_to_solids(fluid) && wall_count + body_count > 0) {
+        fluid.particles.add(Union<NoSlip::Writes, Fields<Depth>>{});
+    }
+    if (std::holds_alternative<EddyViscosity>(fluid.effects.viscosity)) {
+        fluid.particles.add(Union<StrainRate::Writes, Fields<TurbulentViscosity>>{});
+    }
+    if (std::holds_alternative<RenormalisedDiffusion>(fluid.effects.diffusion)) {
+        fluid.particles.add(DensityGradient::Writes{});
     }
     if (fluid.parameters.formulation == FormulationKind::mps) {
         fluid.particles.add(MpsGradient::Writes{});
@@ -180,8 +128,15 @@ void update_forces(Fluid& fluid, real dt)
     run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_loads; });
     run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
     run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
+    if (!std::holds_alternative<Off>(fluid.effects.collision)) {
+        run(fluid, n.fluid_fluid, n.fluid, terms,
+            [](const auto& loops) { return loops.collision; });
+    }
     if (mps) {
         add_corrected_pressure(fluid.parameters, particles);
+    }
+    if (std::holds_alternative<RenormalisedDiffusion>(fluid.effects.diffusion)) {
+        add_renormalised_diffusion(fluid);
     }
 }
 
@@ -193,7 +148,9 @@ void kick(Fluid& fluid, real dt)
     const auto F = particles[field::force];
     const Rows rows = particles.fluid();
     const real dt_m = dt / f.mass;
-    const Vec3 g = dt * f.gravity;
+    const Vec3 g = dt * (f.gravity + f.drive);
+    fluid.lost.momentum += dt * fluid.lost.force;
+    fluid.lost.force.setZero();
     if (!particles.has(field::viscous_force)) {
         parallel_for(rows.begin, rows.end, [&](Index i) { v[at(i)] += dt_m * F[at(i)] + g; });
         return;
@@ -201,32 +158,6 @@ void kick(Fluid& fluid, real dt)
     const auto F_visc = particles[field::viscous_force];
     parallel_for(rows.begin, rows.end,
                  [&](Index i) { v[at(i)] += dt_m * (F[at(i)] + F_visc[at(i)]) + g; });
-}
-
-void update_rates(Fluid& fluid)
-{
-    Particles& particles = fluid.particles;
-    const FluidNeighbours& n = fluid.neighbours;
-    const Rows rows = particles.fluid();
-    const FluidTerms terms = terms_of(fluid, 0);
-    load(fluid, n.fluid, Fields<Velocity>{});
-    load_solids(fluid, Fields<Velocity>{});
-    clear(particles, rows, Continuity::Writes{});
-    if (particles.has(field::viscous_force)) {
-        clear(particles, rows, Fields<ViscousForce>{});
-    }
-    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_rates; });
-    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_rates; });
-
-    const auto rho = particles[field::density];
-    const auto rate = particles[field::density_rate];
-    if (!particles.has(field::diffusion_rate)) {
-        parallel_for(rows.begin, rows.end, [&](Index i) { rate[at(i)] *= rho[at(i)]; });
-        return;
-    }
-    const auto diffusion = particles[field::diffusion_rate];
-    parallel_for(rows.begin, rows.end,
-                 [&](Index i) { rate[at(i)] = rho[at(i)] * rate[at(i)] + diffusion[at(i)]; });
 }
 
 namespace {
@@ -251,7 +182,7 @@ real top_speed(const Fluid& fluid)
 real top_acceleration(const Fluid& fluid)
 {
     const auto F = fluid.particles[field::force];
-    const Vec3 weight = fluid.parameters.mass * fluid.parameters.gravity;
+    const Vec3 weight = fluid.parameters.mass * (fluid.parameters.gravity + fluid.parameters.drive);
     const real squared =
         worst(fluid.particles, [&](Index i) { return (F[at(i)] + weight).squaredNorm(); });
     return std::sqrt(squared) / fluid.parameters.mass;
@@ -259,9 +190,22 @@ real top_acceleration(const Fluid& fluid)
 
 real effective_viscosity(const Fluid& fluid)
 {
-    const auto* viscosity = std::get_if<Viscosity>(&fluid.effects.viscosity);
-    return viscosity != nullptr ? viscosity->kappa / laminar_kappa(1, fluid.parameters.dimensions)
-                                : 0;
+    const real unit = laminar_kappa(1, fluid.parameters.dimensions);
+    if (const auto* viscosity = std::get_if<Viscosity>(&fluid.effects.viscosity)) {
+        return viscosity->kappa / unit;
+    }
+    if (const auto* morris = std::get_if<MorrisViscosity>(&fluid.effects.viscosity)) {
+        return morris->mu / fluid.parameters.eos.rho0;
+    }
+    const auto* eddies = std::get_if<EddyViscosity>(&fluid.effects.viscosity);
+    if (eddies == nullptr) {
+        return 0;
+    }
+    if (!fluid.particles.has(field::turbulent_viscosity)) {
+        return eddies->kappa / unit;
+    }
+    const auto nu = fluid.particles[field::turbulent_viscosity];
+    return eddies->kappa / unit + worst(fluid.particles, [&](Index i) { return nu[at(i)]; });
 }
 
 void shift(Fluid& fluid, real dt)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/fluid/mps.hpp"
 
+#include "moments.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -13,18 +15,6 @@ namespace {
 // half on a flat surface.
 constexpr real surface = 0.8;
 constexpr real inside = 0.95;
-
-Mat3 moment_matrix(const Vec3& moments, const Vec3& mixed, int dimensions)
-{
-    Mat3 M = moments.asDiagonal();
-    M(1, 2) = M(2, 1) = mixed[0];
-    M(0, 2) = M(2, 0) = mixed[1];
-    M(0, 1) = M(1, 0) = mixed[2];
-    if (dimensions == 2) {
-        M(1, 1) = 1;
-    }
-    return M;
-}
 
 // How much of the corrected gradient is used, 0 to 1.
 real corrected_share(const Mat3& M)

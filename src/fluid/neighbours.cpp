@@ -74,6 +74,9 @@ void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
         fluid.lost.momentum += m * vi;
         fluid.lost.energy +=
             0.5 * m * vi.squaredNorm() - m * fluid.parameters.gravity.dot(x[at(i)]);
+        if (fluid.particles.has(field::viscous_force)) {
+            fluid.lost.force += fluid.particles[field::viscous_force][at(i)];
+        }
     }
 }
 
@@ -101,6 +104,9 @@ void sort_solids(Fluid& fluid, Rows rows, Tiles& tiles)
 {
     const TileLattice lattice = lattice_of(fluid);
     const auto x = fluid.particles[field::position];
+    if (fluid.moving_walls && fluid.period != Vec3(0, 0, 0)) {
+        parallel_for(rows.begin, rows.end, [&](Index i) { x[at(i)] = lattice.wrapped(x[at(i)]); });
+    }
     SortSpace& space = fluid.neighbours.space;
     sort_rows(lattice, x, rows, everywhere_low, everywhere_high, space);
     make_tiles(tiles, lattice, x, space, rows.size());

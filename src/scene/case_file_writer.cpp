@@ -131,12 +131,18 @@ std::string fluid_text(const FluidSettings& fluid)
     std::string text = "\n[fluid]\n" + line("density", fluid.density) +
                        line("formulation", std::string(name(fluid.formulation))) +
                        line("sound_speed", fluid.sound_speed) +
-                       line("smoothing_ratio", fluid.smoothing_ratio);
+                       line("smoothing_ratio", fluid.smoothing_ratio) +
+                       line("walls", std::string(fluid.sticks ? "no_slip" : "free_slip")) +
+                       line("acceleration", fluid.acceleration);
     text += "\n[fluid.viscosity]\n";
     if (fluid.viscosity == ViscosityModel::artificial) {
         text += "model = \"artificial\"\n" + line("alpha", fluid.alpha);
     } else if (fluid.viscosity == ViscosityModel::laminar) {
-        text += "model = \"laminar\"\n" + line("kinematic", fluid.kinematic_viscosity);
+        text += "model = \"laminar\"\n" + line("kinematic", fluid.kinematic_viscosity) +
+                line("form", std::string(fluid.morris ? "morris" : "central"));
+    } else if (fluid.viscosity == ViscosityModel::sps) {
+        text += "model = \"sps\"\n" + line("kinematic", fluid.kinematic_viscosity) +
+                line("smagorinsky", fluid.smagorinsky);
     } else {
         text += "model = \"none\"\n";
     }
@@ -144,16 +150,19 @@ std::string fluid_text(const FluidSettings& fluid)
     if (fluid.diffusion == DiffusionModel::none) {
         text += "model = \"none\"\n";
     } else {
-        const bool fourtakas = fluid.diffusion == DiffusionModel::fourtakas;
-        text += fmt::format("model = \"{}\"\n", fourtakas ? "fourtakas" : "molteni");
+        constexpr std::array<const char*, 4> models{"none", "fourtakas", "molteni", "antuono"};
+        text += line("model", std::string(models[static_cast<std::size_t>(fluid.diffusion)]));
         text += line("delta", fluid.delta);
     }
     text += "\n[fluid.shifting]\n";
     text += fluid.shifting ? "model = \"sun\"\n" + line("coefficient", *fluid.shifting)
                            : "model = \"none\"\n";
+    text += "\n[fluid.collision]\n";
+    text += fluid.collision ? "model = \"dynamic\"\n" + line("restitution", *fluid.collision)
+                            : "model = \"none\"\n";
     for (const FluidBlock& block : fluid.blocks) {
         text += "\n[[fluid.block]]\n" + shape_lines(block.shape) + line("position", block.centre) +
-                line("rotation", block.rotation);
+                line("rotation", block.rotation) + (block.layers ? "layers = true\n" : "");
         text += block.velocity_field.empty() ? line("velocity", block.velocity)
                                              : line("velocity_field", block.velocity_field);
         text += block.pressure_field.empty() ? "" : line("pressure_field", block.pressure_field);
@@ -169,6 +178,10 @@ std::string geometry_lines(const Wall& wall)
     if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
         return "shape = \"basin\"\n" + line("min", basin->min) + line("max", basin->max) +
                line("open", named(basin->open, {"-x", "+x", "-y", "+y", "-z", "+z"}));
+    }
+    if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+        return "shape = \"round_basin\"\n" + line("radius", round->radius) +
+               line("position", round->centre);
     }
     const auto& solid = std::get<SolidWall>(wall.geometry);
     return shape_lines(solid.shape) + line("position", solid.centre) +

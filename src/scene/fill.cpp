@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/fill.hpp"
 
+#include "conform.hpp"
 #include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
@@ -42,7 +43,8 @@ struct BlockPoints {
     Bounds box;
 };
 
-// A block on its own lattice, so that its faces are half a spacing from the outermost particles.
+// A block on its own lattice, so that its faces are half a spacing from the outermost particles, or
+// in layers that follow a round surface.
 BlockPoints lattice_of(const Scene& scene, const FluidBlock& block)
 {
     BlockPoints result;
@@ -55,6 +57,12 @@ BlockPoints lattice_of(const Scene& scene, const FluidBlock& block)
                                         (corner & 4) != 0 ? b.max.z() : b.min.z()});
         result.top = std::max(result.top, h);
         result.bottom = std::min(result.bottom, h);
+    }
+    if (block.layers) {
+        for (const Vec3& p : aggregate(block.shape, scene.spacing, scene.dimensions).points) {
+            result.points.push_back(block.centre + block.rotation * p);
+        }
+        return result;
     }
     const Aggregate filled = [&] {
         const Vec3 size = result.box.max - result.box.min;
@@ -324,6 +332,10 @@ Bounds domain_of(const Scene& scene)
     for (const Wall& wall : scene.walls) {
         if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
             box.add(swept({basin->min, basin->max}, wall.motion, scene.time.end));
+        } else if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+            box.add(swept({round->centre - Vec3::Constant(round->radius),
+                           round->centre + Vec3::Constant(round->radius)},
+                          wall.motion, scene.time.end));
         } else if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
             box.add(swept(bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}),
                           wall.motion, scene.time.end));
@@ -359,6 +371,13 @@ Filling fill(const Scene& scene)
     }
     for (const BodySettings& body : scene.bodies) {
         filling.bodies.push_back(aggregate(body.shape, body.spacing, scene.dimensions));
+        if (const auto* mesh = std::get_if<MeshShape>(&body.shape);
+            mesh != nullptr && scene.fluid) {
+            Aggregate& filled = filling.bodies.back();
+            conform_to_surface(*mesh, body.spacing, filled.points);
+            filled.particle_volume =
+                volume(body.shape, scene.dimensions) / static_cast<double>(filled.points.size());
+        }
         if (scene.fluid) {
             take_out(placed(scene, body), scene.spacing, filling);
         }

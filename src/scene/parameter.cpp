@@ -33,8 +33,6 @@ std::map<std::string_view, const Parameter*> by_key()
 }
 
 constexpr std::array planned = {
-    PlannedKey{"fluid.viscosity.model", "sps"},
-    PlannedKey{"fluid.viscosity.smagorinsky", ""},
     PlannedKey{"fluid.block[].shape", "particles"},
     PlannedKey{"wall[].shape", "terrain"},
 };

@@ -42,19 +42,34 @@ std::vector<Parameter> model_parameters()
             "expect, which keeps density within 1 % of that at rest."),
         smoothing_row(),
         table_row("fluid.viscosity", "Internal friction of the fluid."),
-        choice_row("fluid.viscosity.model", {"artificial", "laminar", "none"}, "artificial",
+        choice_row("fluid.walls", {"free_slip", "no_slip"}, "free_slip",
+                   "Along walls and bodies the fluid slips freely, or it sticks to them by its "
+                   "viscosity."),
+        vector_row("fluid.acceleration", "m/s2", "[0.0, 0.0, 0.0]",
+                   "What drives the fluid besides gravity, for instance the pressure gradient of a "
+                   "channel, over the density: walls and bodies do not feel it as a pressure."),
+        choice_row("fluid.viscosity.model", {"artificial", "laminar", "sps", "none"}, "artificial",
                    "\"artificial\" damps with `alpha`, \"laminar\" takes a physical viscosity "
-                   "(`kinematic`), \"none\" is inviscid."),
+                   "(`kinematic`), \"sps\" adds an eddy viscosity to that, \"none\" is inviscid."),
         not_negative(
             "fluid.viscosity.alpha", "", "0.02",
             "Coefficient of the artificial viscosity; 0.01 to 0.1 for dam breaks and bores."),
         not_negative("fluid.viscosity.kinematic", "m2/s", "1e-6",
                      "Kinematic viscosity of the laminar model; 1e-6 m2/s is water at 20 degrees."),
+        choice_row(
+            "fluid.viscosity.form", {"central", "morris"}, "central",
+            "Of the laminar model. \"central\" acts along the line between particles and is "
+            "right at free surfaces; \"morris\" is exact in a shear along rows of particles, "
+            "for flows between walls."),
+        not_negative("fluid.viscosity.smagorinsky", "", "0.12",
+                     "Cs of \"sps\": eddies have the length Cs times the particle spacing."),
         table_row("fluid.density_diffusion",
                   "Smoothing of density, which keeps pressure free of noise."),
-        choice_row("fluid.density_diffusion.model", {"fourtakas", "molteni", "none"}, "fourtakas",
+        choice_row("fluid.density_diffusion.model", {"fourtakas", "molteni", "antuono", "none"},
+                   "fourtakas",
                    "\"fourtakas\" corrects for the hydrostatic part and suits deep still water, "
-                   "\"molteni\" does not, \"none\" switches it off."),
+                   "\"molteni\" does not, \"antuono\" corrects for any gradient by two sums more, "
+                   "\"none\" switches it off."),
         not_negative("fluid.density_diffusion.delta", "", "0.1",
                      "Coefficient of the density diffusion."),
         table_row("fluid.shifting", "Evening out of the particles' places."),
@@ -63,6 +78,12 @@ std::vector<Parameter> model_parameters()
                    "surface, which it would make swell; \"none\" switches it off."),
         not_negative("fluid.shifting.coefficient", "", "8",
                      "Strength of the shifting: C in -C h |v|max dt times the crowding."),
+        table_row("fluid.collision", "Collisions of fluid particles, for splashes."),
+        choice_row("fluid.collision.model", {"none", "dynamic"}, "none",
+                   "\"dynamic\" stops fluid particles that approach each other closer than a "
+                   "spacing, which calms splashes and takes energy; \"none\" switches it off."),
+        fraction("fluid.collision.restitution", "0",
+                 "Share of their approach that they fly apart with."),
     };
 }
 
@@ -97,6 +118,12 @@ std::vector<Parameter> fluid_parameters()
          .meaning = "The rotation as a unit quaternion [w, x, y, z], instead of rotation_deg.",
          .shortest = 4,
          .longest = 4},
+        {.key = "fluid.block[].layers",
+         .kind = ValueKind::boolean,
+         .fallback = "false",
+         .meaning =
+             "Whether the particles of a sphere or cylinder are in layers below its surface, "
+             "as those of bodies, instead of on a lattice."},
         vector_row("fluid.block[].velocity", "m/s", "[0.0, 0.0, 0.0]", "Velocity at the start."),
         velocity_field_row(),
         text_row(

@@ -52,8 +52,10 @@ std::vector<Parameter> wall_parameters()
         text_row("wall[].name", "wall.1, wall.2 ...",
                  "Name in results; unique among walls and bodies."),
         choice_row(
-            "wall[].shape", {"plane", "basin", "box", "sphere", "cylinder", "mesh"}, required,
-            "plane: point and normal; basin: the inside of a box; box: min and max, or size and "
+            "wall[].shape", {"plane", "basin", "round_basin", "box", "sphere", "cylinder", "mesh"},
+            required,
+            "plane: point and normal; basin: the inside of a box; round_basin: the inside of a "
+            "sphere, of a circle in two dimensions; box: min and max, or size and "
             "position; sphere, cylinder and mesh as for bodies."),
         vector_row("wall[].point", "m", "[0.0, 0.0, 0.0]", "A point of a plane."),
         vector_row("wall[].normal", "", "[0.0, 0.0, 1.0]",
@@ -65,7 +67,7 @@ std::vector<Parameter> wall_parameters()
         vector_row("wall[].size", "m", "", "Edge lengths of a box, instead of min and max."),
         vector_row("wall[].position", "m", "",
                    "Centre of the shape; of a mesh where its file's origin goes."),
-        positive("wall[].radius", "m", "", "Radius of a sphere or cylinder."),
+        positive("wall[].radius", "m", "", "Radius of a sphere, cylinder or round basin."),
         positive("wall[].length", "m", "", "Length of a cylinder, along x before rotation."),
         text_row("wall[].file", "", "STL or OBJ file of a mesh, relative to the case file."),
         positive("wall[].scale", "", "1", "Factor on the numbers of a mesh file, to metres."),

@@ -40,6 +40,9 @@ double lowest(const Scene& scene, const Filling& filling)
         if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
             low = std::min({low, up.dot(basin->min), up.dot(basin->max)});
         }
+        if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+            low = std::min(low, up.dot(round->centre) - round->radius);
+        }
     }
     return low;
 }
@@ -79,6 +82,7 @@ FluidParameters fluid_parameters(const Scene& scene, double speed)
     f.h = settings.smoothing_ratio * scene.spacing;
     f.mass = settings.density * std::pow(scene.spacing, scene.dimensions);
     f.gravity = scene.gravity;
+    f.drive = settings.acceleration;
     f.cfl = scene.time.cfl;
     f.precision = scene.precision;
     // A fluid at rest without gravity still needs a pressure: any speed of sound will do.
@@ -93,20 +97,36 @@ FluidEffects fluid_effects(const Scene& scene, const FluidParameters& f)
     const FluidSettings& settings = *scene.fluid;
     FluidEffects effects;
     if (settings.diffusion != DiffusionModel::none && settings.delta > 0) {
+        const double strength = 2 * settings.delta * f.h * f.eos.c0;
         const Vec3 hydrostatic = settings.diffusion == DiffusionModel::fourtakas
                                      ? Vec3(f.eos.rho0 / sq(f.eos.c0) * scene.gravity)
                                      : Vec3(Vec3::Zero());
-        effects.diffusion =
-            DensityDiffusion{2 * settings.delta * f.h * f.eos.c0, f.eos, hydrostatic};
+        if (settings.diffusion == DiffusionModel::antuono) {
+            effects.diffusion = RenormalisedDiffusion{strength, f.eos};
+        } else {
+            effects.diffusion = DensityDiffusion{strength, f.eos, hydrostatic};
+        }
     }
     double kappa = 0;
     if (settings.viscosity == ViscosityModel::artificial) {
         kappa = artificial_kappa(settings.alpha, f.h, f.eos.c0);
-    } else if (settings.viscosity == ViscosityModel::laminar) {
+    } else {
         kappa = laminar_kappa(settings.kinematic_viscosity, scene.dimensions);
     }
-    if (kappa > 0) {
+    if (settings.viscosity == ViscosityModel::sps && settings.smagorinsky > 0) {
+        effects.viscosity =
+            EddyViscosity{f.eos.rho0, kappa, f.h, static_cast<real>(scene.dimensions + 2),
+                          settings.smagorinsky * f.spacing};
+    } else if (settings.viscosity == ViscosityModel::laminar && settings.morris && kappa > 0) {
+        effects.viscosity = MorrisViscosity{f.eos.rho0 * settings.kinematic_viscosity};
+    } else if (settings.viscosity != ViscosityModel::none && kappa > 0) {
         effects.viscosity = Viscosity{f.eos.rho0, kappa, f.h};
+    }
+    if (settings.sticks && !std::holds_alternative<Off>(effects.viscosity)) {
+        effects.slip = NoSlip{};
+    }
+    if (settings.collision) {
+        effects.collision = ParticleCollision{*settings.collision};
     }
     if (settings.shifting && *settings.shifting > 0) {
         const Kernel kernel = make_kernel(f.h, f.spacing, f.dimensions);
@@ -168,14 +188,37 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                                       scene.fluid->kinematic_viscosity)
                         : ""),
                fluid ? "`fluid.viscosity` asks for another model or for none" : none);
+    census.add("sps_turbulence",
+               when(viscous && model == ViscosityModel::sps,
+                    fluid ? fmt::format("`fluid.viscosity.model` is \"sps\", kinematic = {} m2/s, "
+                                        "smagorinsky = {}",
+                                        scene.fluid->kinematic_viscosity, scene.fluid->smagorinsky)
+                          : ""),
+               fluid ? "`fluid.viscosity` asks for another model or for none" : none);
+    census.add("no_slip",
+               when(solids && !std::holds_alternative<Off>(plan.effects.slip),
+                    "`fluid.walls` is \"no_slip\": friction at walls and bodies"),
+               !fluid   ? none
+               : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
+                        : "the fluid meets no wall and no body");
+    census.add("drive",
+               when(fluid && scene.fluid->acceleration.norm() > 0,
+                    "`fluid.acceleration` drives the fluid"),
+               fluid ? "`fluid.acceleration` is zero" : none);
     census.add("density_diffusion",
                when(!std::holds_alternative<Off>(plan.effects.diffusion),
-                    "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise"),
+                    fluid && scene.fluid->diffusion == DiffusionModel::antuono
+                        ? "`fluid.density_diffusion` asks for it, with renormalised gradients"
+                        : "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise"),
                fluid ? "`fluid.density_diffusion.model` is \"none\"" : none);
     census.add("shifting",
                when(!std::holds_alternative<Off>(plan.effects.shifting),
                     "`fluid.shifting.model` is \"sun\": evens out the particles' places"),
                fluid ? "`fluid.shifting.model` is \"none\"" : none);
+    census.add("particle_collision",
+               when(!std::holds_alternative<Off>(plan.effects.collision),
+                    "`fluid.collision.model` is \"dynamic\": calms splashes"),
+               fluid ? "`fluid.collision.model` is \"none\"" : none);
     const bool periodic =
         scene.domain && std::ranges::any_of(scene.domain->periodic, std::identity{});
     census.add("periodic", when(periodic, "`domain.periodic` names directions"),

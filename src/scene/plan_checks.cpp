@@ -243,6 +243,20 @@ void warn_about_sound(const Scene& scene, Plan& plan)
     }
 }
 
+// Contact knows no hollow ball.
+void warn_about_round_walls(const Scene& scene, Plan& plan)
+{
+    for (std::size_t w = 0; plan.rigid && w < scene.walls.size(); ++w) {
+        if (std::holds_alternative<RoundWall>(scene.walls[w].geometry)) {
+            warn(
+                scene, scene.walls[w].place, fmt::format("wall[{}]", w),
+                fmt::format("bodies do not meet the round basin \"{}\" itself but the box about it",
+                            scene.walls[w].name),
+                "keep bodies away from it", plan);
+        }
+    }
+}
+
 // Fluid columns with nothing solid below them fall out of the scene.
 void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
 {
@@ -304,14 +318,6 @@ void check_periods(const Scene& scene, std::vector<Diagnostic>& errors)
                                        "bodies do not go through the sides of a domain yet",
                                        "leave the bodies out, or give walls to the sides"));
     }
-    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        if (moves(scene.walls[w].motion)) {
-            errors.push_back(
-                diagnostic_at(scene, scene.walls[w].place, fmt::format("wall[{}].motion", w),
-                              "walls do not go through the sides of a periodic domain yet",
-                              "leave the motion out, or give walls to the sides"));
-        }
-    }
 }
 
 } // namespace
@@ -333,6 +339,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
         throw CaseError(errors);
     }
     warn_about_bodies(scene, plan);
+    warn_about_round_walls(scene, plan);
     if (scene.fluid) {
         warn_about_sound(scene, plan);
         warn_about_leaks(scene, filling, plan);

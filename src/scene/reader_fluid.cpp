@@ -25,8 +25,31 @@ void read_viscosity(TableReader table, FluidSettings& fluid)
     } else if (model == "laminar") {
         fluid.viscosity = ViscosityModel::laminar;
         fluid.kinematic_viscosity = table.number("kinematic");
+        fluid.morris = table.choice("form") == "morris";
+    } else if (model == "sps") {
+        fluid.viscosity = ViscosityModel::sps;
+        fluid.kinematic_viscosity = table.number("kinematic");
+        fluid.smagorinsky = table.number("smagorinsky");
     } else {
         fluid.viscosity = ViscosityModel::none;
+    }
+    table.finish();
+}
+
+// Friction comes from viscosity.
+void read_slip(TableReader& table, FluidSettings& fluid)
+{
+    fluid.sticks = table.choice("walls") == "no_slip";
+    if (fluid.sticks && fluid.viscosity == ViscosityModel::none) {
+        table.error("walls", "has no meaning without viscosity",
+                    "give `fluid.viscosity` another model than \"none\"");
+    }
+}
+
+void read_collision(TableReader table, FluidSettings& fluid)
+{
+    if (table.choice("model") == "dynamic") {
+        fluid.collision = table.number("restitution");
     }
     table.finish();
 }
@@ -36,6 +59,7 @@ void read_diffusion(TableReader table, FluidSettings& fluid)
     const std::string model = table.choice("model");
     fluid.diffusion = model == "fourtakas" ? DiffusionModel::fourtakas
                       : model == "molteni" ? DiffusionModel::molteni
+                      : model == "antuono" ? DiffusionModel::antuono
                                            : DiffusionModel::none;
     if (fluid.diffusion != DiffusionModel::none) {
         fluid.delta = table.number("delta");
@@ -69,6 +93,9 @@ FluidBlock read_block(TableReader& table)
         block.shape = placed.shape;
         block.centre = placed.centre;
         block.rotation = placed.rotation;
+    }
+    if (kind == "sphere" || kind == "cylinder") {
+        block.layers = table.flag("layers");
     }
     block.velocity = table.planar("velocity");
     block.velocity_field = table.texts("velocity_field");
@@ -194,7 +221,10 @@ void read_fluid(TableReader table, Scene& scene)
     fluid.sound_speed = table.find_number("sound_speed");
     fluid.smoothing_ratio = table.number("smoothing_ratio");
     read_viscosity(table.table("viscosity"), fluid);
+    read_slip(table, fluid);
+    fluid.acceleration = table.planar("acceleration");
     read_diffusion(table.table("density_diffusion"), fluid);
+    read_collision(table.table("collision"), fluid);
     TableReader shifting = table.table("shifting");
     if (shifting.choice("model") == "sun") {
         fluid.shifting = shifting.number("coefficient");

@@ -87,6 +87,12 @@ void claim_name(TableReader& table, const std::string& name)
     }
 }
 
+RoundWall read_round(TableReader& table)
+{
+    table.require("radius");
+    return {table.planar("position"), table.number("radius")};
+}
+
 Wall read_wall(TableReader& table, std::size_t number, double gravity)
 {
     Wall wall;
@@ -98,6 +104,8 @@ Wall read_wall(TableReader& table, std::size_t number, double gravity)
         wall.geometry = read_plane(table);
     } else if (kind == "basin") {
         wall.geometry = read_basin(table);
+    } else if (kind == "round_basin") {
+        wall.geometry = read_round(table);
     } else if (!kind.empty()) {
         PlacedShape placed = read_placed_shape(table, kind);
         wall.geometry = SolidWall{std::move(placed.shape), placed.centre, placed.rotation};

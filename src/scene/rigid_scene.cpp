@@ -188,6 +188,12 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
             inside.open[2] = inside.open[3] = true; // no walls across the section
         }
         boundary.surface = inside;
+    } else if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+        Basin box{round->centre - Vec3::Constant(round->radius),
+                  round->centre + Vec3::Constant(round->radius),
+                  {}};
+        box.open[2] = box.open[3] = dimensions == 2;
+        boundary.surface = box;
     } else {
         const auto& solid = std::get<SolidWall>(wall.geometry);
         if (const auto* mesh = std::get_if<MeshShape>(&solid.shape)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/shapes.hpp"
 
+#include "conform.hpp"
+
 #include "hyoryu/geometry/mesh.hpp"
 
 #include <algorithm>
@@ -166,6 +168,14 @@ double volume_of(const ParticleShape& shape, int)
 }
 
 } // namespace
+
+Vec3 closest_on_triangle(const MeshShape& mesh, const std::array<int, 3>& triangle,
+                         const Vec3& point)
+{
+    return closest_on_triangle(point, mesh.corners[static_cast<std::size_t>(triangle[0])],
+                               mesh.corners[static_cast<std::size_t>(triangle[1])],
+                               mesh.corners[static_cast<std::size_t>(triangle[2])]);
+}
 
 double volume(const Shape& shape, int dimensions)
 {

@@ -177,6 +177,31 @@ void add_wall(TriangleSurface& surface, const BasinWall& basin, const Bounds&, i
     }
 }
 
+// The inside of a ball; in two dimensions a strip of sixty quadrangles behind the circle.
+void add_wall(TriangleSurface& surface, const RoundWall& round, const Bounds&, int dimensions)
+{
+    if (dimensions == 3) {
+        surface = triangles_of(SphereShape{round.radius}, 3);
+        for (Vec3& corner : surface.corners) {
+            corner += round.centre;
+        }
+        for (auto& triangle : surface.triangles) {
+            std::swap(triangle[1], triangle[2]); // seen from inside
+        }
+        return;
+    }
+    constexpr int sides = 60;
+    const auto at = [&](int k, double radius) {
+        const double angle = 2 * std::numbers::pi * k / sides;
+        return Vec3(round.centre + radius * Vec3(std::cos(angle), 0, std::sin(angle)));
+    };
+    const double outside = 1.04 * round.radius;
+    for (int k = 0; k < sides; ++k) {
+        add_polygon(surface, {at(k, round.radius), at(k, outside), at(k + 1, outside),
+                              at(k + 1, round.radius)});
+    }
+}
+
 void add_wall(TriangleSurface& surface, const SolidWall& solid, const Bounds&, int dimensions)
 {
     surface = triangles_of(solid.shape, dimensions);

@@ -110,6 +110,18 @@ void add_points(const BasinWall& basin, const Lattice& lattice, std::vector<Vec3
     });
 }
 
+void add_points(const RoundWall& round, const Lattice& lattice, std::vector<Vec3>& points)
+{
+    // The outermost layers of a larger ball are those behind the surface of this one.
+    const double behind = lattice.layers * lattice.spacing;
+    const SphereShape ball{round.radius + behind};
+    for (const Vec3& p : aggregate(ball, lattice.spacing, lattice.dimensions).points) {
+        if (p.norm() > round.radius) {
+            points.push_back(round.centre + p);
+        }
+    }
+}
+
 void add_points(const SolidWall& solid, const Lattice& lattice, std::vector<Vec3>& points)
 {
     const Placed own{.shape = &solid.shape, .dimensions = lattice.dimensions};
@@ -191,6 +203,10 @@ double depth_in(const BasinWall& basin, const Vec3& p, int dimensions)
     }
     return depth;
 }
+double depth_in(const RoundWall& round, const Vec3& p, int)
+{
+    return (p - round.centre).norm() - round.radius;
+}
 double depth_in(const SolidWall& solid, const Vec3& p, int dimensions)
 {
     return -signed_distance({&solid.shape, solid.centre, solid.rotation, dimensions}, p);
@@ -224,6 +240,9 @@ void fill_walls(const Scene& scene, Filling& filling)
             if (in_period(scene, p) && crowd.add(p)) {
                 filling.wall.push_back(p);
                 filling.wall_owner.push_back(static_cast<std::int32_t>(w));
+                if (scene.fluid->sticks) {
+                    filling.wall_depth.push_back(depth_behind(scene.walls[w], p, scene.dimensions));
+                }
             }
         }
     }

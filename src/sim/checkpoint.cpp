@@ -159,6 +159,18 @@ void restore_tiles(Tiles& tiles, Rows rows, const std::string& name, const Snaps
 // bodies before it is used.
 using Lasting = Fields<Position, Velocity, Density, DensityRate, Force, ViscousForce>;
 
+// Of solid particles: friction, which acts a step later, and the image that the lists know.
+using LastingOfSolids = Fields<Position, ViscousForce>;
+
+bool lasts(const Fluid& fluid, Position)
+{
+    return fluid.moving_walls && fluid.period != Vec3(0, 0, 0);
+}
+bool lasts(const Fluid& fluid, ViscousForce)
+{
+    return sticks_to_solids(fluid) && fluid.particles.has(field::viscous_force);
+}
+
 void save_fluid(const Fluid& fluid, Snapshot& snapshot)
 {
     const Particles& particles = fluid.particles;
@@ -167,6 +179,12 @@ void save_fluid(const Fluid& fluid, Snapshot& snapshot)
         if (particles.has(column)) {
             add(snapshot, fmt::format("fluid/{}", column.info.name),
                 flat(particles[column].first(rows)));
+        }
+    });
+    for_each(LastingOfSolids{}, [&](auto column) {
+        if (lasts(fluid, column)) {
+            add(snapshot, fmt::format("solids/{}", column.info.name),
+                flat(particles[column].subspan(rows)));
         }
     });
     add_values(snapshot, "fluid/id", particles.id().first(rows));
@@ -225,6 +243,12 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
         if (particles.has(column)) {
             const Reader values_of(snapshot, fmt::format("fluid/{}", column.info.name));
             unflat(values_of.all(), particles[column].first(rows));
+        }
+    });
+    for_each(LastingOfSolids{}, [&](auto column) {
+        if (lasts(fluid, column)) {
+            const Reader values_of(snapshot, fmt::format("solids/{}", column.info.name));
+            unflat(values_of.all(), particles[column].subspan(rows));
         }
     });
     const auto& id = values<std::int64_t>(snapshot, "fluid/id");

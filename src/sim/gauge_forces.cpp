@@ -13,12 +13,12 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// Sum of the viscous forces on the particles of a wall or body; zero where walls slip freely.
+// Sum of the viscous forces on the particles of a wall or body; zero where the fluid slips.
 Vec3 viscous_force(const Simulation& sim, int target)
 {
     Vec3 total = Vec3::Zero();
     const Particles& particles = sim.fluid->particles;
-    if (!particles.has(field::viscous_force)) {
+    if (!sticks_to_solids(*sim.fluid) || !particles.has(field::viscous_force)) {
         return total;
     }
     const auto F = particles[field::viscous_force];
@@ -52,10 +52,11 @@ void book_forces(Simulation& sim, double dt)
 {
     for (GaugedForce& force : sim.gauges.forces) {
         if (sim.fluid) {
-            force.pressure = force.target >= 0 ? sim.loads.bodies[at(force.target)].force
-                                               : sim.loads.walls[at(-1 - force.target)];
+            const Vec3 both = force.target >= 0 ? sim.loads.bodies[at(force.target)].force
+                                                : sim.loads.walls[at(-1 - force.target)];
             force.viscous = viscous_force(sim, force.target);
-            force.fluid_impulse += dt * (force.pressure + force.viscous);
+            force.pressure = both - force.viscous;
+            force.fluid_impulse += dt * both;
         }
         force.contact_impulse += contact_impulse(sim.contacts, force.target);
     }

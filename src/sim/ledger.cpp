@@ -78,13 +78,13 @@ Vec3 outside_impulse(const Simulation& sim, double dt)
     return impulse;
 }
 
-// Free weight [N]: locked axes carry their own.
+// Free weight, and what drives the fluid [N]: locked axes carry their own.
 Vec3 weight(const Simulation& sim)
 {
     Vec3 total = Vec3::Zero();
     if (sim.fluid) {
         total += static_cast<double>(sim.fluid->particles.fluid().size()) *
-                 sim.fluid->parameters.mass * sim.scene.gravity;
+                 sim.fluid->parameters.mass * (sim.scene.gravity + sim.fluid->parameters.drive);
     }
     for (const Body& body : sim.rigid.bodies) {
         for (int axis = 0; axis < 3; ++axis) {

@@ -2,6 +2,7 @@
 #include "hyoryu/sim/simulation.hpp"
 
 #include "hyoryu/scene/rigid_scene.hpp"
+#include "hyoryu/scene/shapes.hpp"
 #include "watch.hpp"
 
 #include <cmath>
@@ -46,6 +47,9 @@ void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
         particles[field::position][row] = filling.wall[at(k)];
         particles[field::velocity][row] = velocity(scene.walls[at(wall)].motion, 0);
         particles.owner()[row] = -1 - wall;
+        if (particles.has(field::depth)) {
+            particles[field::depth][row] = filling.wall_depth[at(k)];
+        }
         fluid.moving_walls = fluid.moving_walls || moves(scene.walls[at(wall)].motion);
     }
 }
@@ -66,9 +70,12 @@ void move_walls(Simulation& sim, double place_time, double velocity_time)
     const auto x = particles[field::position];
     const auto v = particles[field::velocity];
     const Rows rows = particles.wall();
+    const TileLattice& lattice = sim.fluid->neighbours.wall.lattice;
     parallel_for(rows.begin, rows.end, [&](Index i) {
         const auto wall = at(-1 - particles.owner()[at(i)]);
-        x[at(i)] = sim.wall_start[at(i - rows.begin)] + places[wall];
+        // In a periodic domain the image that the lists know.
+        const Vec3 place = sim.wall_start[at(i - rows.begin)] + places[wall];
+        x[at(i)] = lattice.image_near(place, x[at(i)]);
         v[at(i)] = velocities[wall];
     });
 }
@@ -80,6 +87,12 @@ void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
         const Rows rows = sim.body_particles.of[b];
         for (Index k = rows.begin; k < rows.end; ++k) {
             fluid.particles.owner()[at(first + k)] = static_cast<std::int32_t>(b);
+            if (fluid.particles.has(field::depth)) {
+                const Placed shape{.shape = &sim.scene.bodies[b].shape,
+                                   .dimensions = sim.scene.dimensions};
+                fluid.particles[field::depth][at(first + k)] =
+                    -signed_distance(shape, sim.body_particles.points[at(k)]);
+            }
         }
         fluid.body_particle_mass.push_back(fluid.parameters.eos.rho0 *
                                            filling.bodies[b].particle_volume);

@@ -209,6 +209,153 @@ TEST_P(Loops, RatesEqualTheirReference)
     }
 }
 
+// The mixture with effects that are rare, all on.
+Fluid make_rare(const Choice& choice,
+                const std::variant<Viscosity, MorrisViscosity, EddyViscosity>& viscosity)
+{
+    Choice plain = choice;
+    plain.diffusion = plain.viscosity = false;
+    Fluid fluid = make_mixture(plain);
+    const Particles before = fluid.particles;
+    const FluidParameters& f = fluid.parameters;
+    fluid.effects.diffusion = RenormalisedDiffusion{0.2 * f.h * 30, f.eos};
+    fluid.effects.collision = ParticleCollision{0.5};
+    fluid.effects.slip = NoSlip{};
+    std::visit([&](const auto& v) { fluid.effects.viscosity = v; }, viscosity);
+    allocate(fluid, before.fluid().size(), before.wall().size(), before.body().size());
+    for_each(Fields<Position, Velocity, Density>{}, [&](auto column) {
+        std::ranges::copy(before[column], fluid.particles[column].begin());
+    });
+    std::ranges::copy(before.owner(), fluid.particles.owner().begin());
+    const Rows solids = fluid.particles.solid();
+    for (Index k = solids.begin; k < solids.end; ++k) {
+        fluid.particles[field::depth][at(k)] = dp * (0.2 + 0.1 * static_cast<real>(k % 13));
+    }
+    return fluid;
+}
+
+// The velocities that solids show to the viscosity, one pair at a time.
+std::vector<Vec3> mirrored_clearly(const Fluid& fluid)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    Particles clearly = fluid.particles;
+    clear(clearly, clearly.solid(), NoSlip::Writes{});
+    sweep_clearly(clearly, fluid, n.wall_fluid, NoSlip{});
+    sweep_clearly(clearly, fluid, n.body_fluid, NoSlip{});
+    std::vector<Vec3> v(clearly[field::velocity].begin(), clearly[field::velocity].end());
+    for (Index k = clearly.solid().begin; k < clearly.size(); ++k) {
+        const real w = clearly[field::shepard_sum][at(k)];
+        if (w > 0) {
+            v[at(k)] = mirrored_velocity(v[at(k)], clearly[field::velocity_sum][at(k)] / w,
+                                         clearly[field::offset_sum][at(k)] / w,
+                                         clearly[field::depth][at(k)], dp);
+        }
+    }
+    return v;
+}
+
+TEST_P(Loops, RareForcesEqualTheirReference)
+{
+    Fluid fluid = make_rare(GetParam(), Viscosity{1000, 0.2, 1.5 * dp});
+    const FluidNeighbours& n = fluid.neighbours;
+    update_neighbours(fluid);
+    update_pressure(fluid);
+    const real dt = 1e-4;
+    update_forces(fluid, dt);
+    const Particles& p = fluid.particles;
+    Particles clearly = p;
+    clear(clearly, p.fluid(), Fields<DiffusionRate>{});
+    clear(clearly, p.fluid(), DensityGradient::Writes{});
+    sweep_clearly(clearly, fluid, n.fluid_fluid, DensityGradient{});
+    for (Index k = 0; k < p.fluid().end; ++k) {
+        const Vec3& m = clearly[field::mixed_moments][at(k)];
+        Mat3 M = clearly[field::moments][at(k)].asDiagonal();
+        M(1, 2) = M(2, 1) = m[0];
+        M(0, 2) = M(2, 0) = m[1];
+        M(0, 1) = M(1, 0) = m[2];
+        clearly[field::velocity][at(k)] = M.inverse() * clearly[field::pressure_gradient][at(k)];
+    }
+    sweep_clearly(clearly, fluid, n.fluid_fluid,
+                  std::get<RenormalisedDiffusion>(fluid.effects.diffusion));
+    // The gradient takes some digits: its matrix is inverted.
+    expect_same(p[field::diffusion_rate], clearly[field::diffusion_rate], p.fluid(),
+                5 * tolerance(), "renormalised diffusion");
+}
+
+TEST_P(Loops, CollisionsAreTheBackstopOfTheFluid)
+{
+    Fluid with = make_rare(GetParam(), Viscosity{1000, 0.2, 1.5 * dp});
+    Fluid without = make_rare(GetParam(), Viscosity{1000, 0.2, 1.5 * dp});
+    without.effects.collision = Off{};
+    const real dt = 1e-4;
+    for (Fluid* fluid : {&with, &without}) {
+        update_neighbours(*fluid);
+        update_pressure(*fluid);
+        update_forces(*fluid, dt);
+    }
+    const Particles& p = with.particles;
+    Particles clearly = without.particles;
+    if (with.parameters.formulation == FormulationKind::sph) {
+        sweep_clearly(clearly, with, with.neighbours.fluid_fluid,
+                      SolidBackstop{dp, 1.5 * with.parameters.mass / (2 * dt)});
+        expect_same(p[field::force], clearly[field::force], p.fluid(), tolerance(), "collisions");
+    }
+    EXPECT_GT((p[field::force][7] - without.particles[field::force][7]).norm(), 0);
+}
+
+TEST_P(Loops, FrictionAndEddiesEqualTheirReference)
+{
+    const std::vector<std::variant<Viscosity, MorrisViscosity, EddyViscosity>> viscosities{
+        Viscosity{1000, 0.2, 1.5 * dp}, MorrisViscosity{5},
+        EddyViscosity{1000, 0.2, 1.5 * dp, 5, 2 * dp}};
+    for (const auto& viscosity : viscosities) {
+        Fluid fluid = make_rare(GetParam(), viscosity);
+        const FluidNeighbours& n = fluid.neighbours;
+        update_neighbours(fluid);
+        update_pressure(fluid);
+        update_forces(fluid, 1e-4);
+        update_rates(fluid);
+        const Particles& p = fluid.particles;
+        Particles clearly = p;
+        const std::vector<Vec3> mirrored = mirrored_clearly(fluid);
+        std::ranges::copy(mirrored, clearly[field::velocity].begin());
+        clear(clearly, {0, p.size()}, Fields<ViscousForce>{});
+        const auto rub = [&](const auto& term) {
+            sweep_clearly(clearly, fluid, n.fluid_fluid, term);
+            for (const PairList* list : {&n.fluid_solid, &n.wall_fluid, &n.body_fluid}) {
+                sweep_clearly(clearly, fluid, *list, term.at_wall());
+            }
+        };
+        if (const auto* term = std::get_if<EddyViscosity>(&viscosity)) {
+            clear(clearly, p.fluid(), StrainRate::Writes{});
+            sweep_clearly(clearly, fluid, n.fluid_fluid, StrainRate{});
+            sweep_clearly(clearly, fluid, n.fluid_solid, StrainRate{});
+            expect_same(p[field::strain], clearly[field::strain], p.fluid(), tolerance(), "strain");
+            expect_same(p[field::mixed_strain], clearly[field::mixed_strain], p.fluid(),
+                        tolerance(), "mixed strain");
+            for (Index k = 0; k < p.size(); ++k) {
+                clearly[field::pressure][at(k)] =
+                    k < p.fluid().end
+                        ? eddy_viscosity(clearly[field::strain][at(k)],
+                                         clearly[field::mixed_strain][at(k)], term->length)
+                        : 0;
+            }
+        }
+        std::visit(rub, viscosity);
+        expect_same(p[field::viscous_force], clearly[field::viscous_force], p.fluid(),
+                    2 * tolerance(), "viscous force on fluid");
+        expect_same(p[field::viscous_force], clearly[field::viscous_force], p.solid(),
+                    2 * tolerance(), "viscous force on solids");
+        Vec3 sum(0, 0, 0);
+        real scale = 0;
+        for (const Vec3& force : p[field::viscous_force]) {
+            sum += force;
+            scale += force.norm();
+        }
+        EXPECT_LT(sum.norm(), tolerance() * scale); // action and reaction
+    }
+}
+
 std::vector<Choice> every_choice()
 {
     std::vector<Choice> choices;

@@ -58,6 +58,31 @@ TEST(Terms, ViscosityByHand)
     EXPECT_DOUBLE_EQ(sum[field::viscous_force].x, 24000);
 }
 
+TEST(Terms, MorrisViscosityByHand)
+{
+    Record<Fields<ViscousForce>, real> sum;
+    // V V 2 mu F dv = 6 * 2 * 0.5 * (-2) * (-4)
+    MorrisViscosity{0.5}(hand, particle(0.5, -4, 2, 0), particle(0, 0, 3, 0), sum);
+    EXPECT_DOUBLE_EQ(sum[field::viscous_force].x, 48);
+}
+
+// du/dz = z on a lattice: the force on a unit of volume is mu d2u/dz2, to the rounding of the
+// calibration of the kernel.
+TEST(Terms, MorrisViscosityIsExactOnALattice)
+{
+    constexpr real dp = 0.1;
+    const Kernel kernel = make_kernel(1.5 * dp, dp, 3);
+    const real V = dp * dp * dp;
+    Record<Fields<ViscousForce>, real> sum;
+    for (int k = 0; k < 7 * 7 * 7; ++k) {
+        const Vec3 x = dp * Vec3(k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3);
+        One j = particle(x.x(), sq(x.z()) / 2, V, 0);
+        MorrisViscosity{0.3}(kernel(Vec<real>{-x.x(), -x.y(), -x.z()}), particle(0, 0, V, 0), j,
+                             sum);
+    }
+    EXPECT_NEAR(sum[field::viscous_force].x, 0.3 * V, 1e-12 * V);
+}
+
 TEST(Terms, HydrostaticPressureDoesNotDiffuse)
 {
     EquationOfState eos{1000, 20};
@@ -84,6 +109,62 @@ TEST(Terms, WallTakesTheHydrostaticPressureOfItsDepth)
     wall(below, particle(0, 0, 1, 0), particle(0, 0, 1, 500), sum);
     EXPECT_DOUBLE_EQ(sum[field::shepard_sum], 3);
     EXPECT_NEAR(sum[field::pressure_sum] / sum[field::shepard_sum], 500 + 1000 * 9.81 * 0.2, 1e-6);
+}
+
+// A lattice of fluid in uniform shear over a wall: the velocity shown in the wall is the line.
+TEST(Terms, MirroredVelocityContinuesAShear)
+{
+    constexpr real dp = 0.1;
+    const Kernel kernel = make_kernel(1.5 * dp, dp, 3);
+    const Vec3 u(0.3, -0.2, 0);
+    const Vec3 shear(2, 1, 0); // dv/dz
+    for (const real depth : {0.5 * dp, 1.5 * dp}) {
+        Record<NoSlip::Writes, real> sum;
+        One wall = particle(0, 0, 1, 0);
+        wall[field::position].z = -depth;
+        for (int k = 0; k < 7 * 7 * 3; ++k) {
+            const Vec3 x = dp * Vec3(k % 7 - 3, k / 7 % 7 - 3, k / 49 + 0.5);
+            const Vec3 v = u + x.z() * shear;
+            One fluid = particle(x.x(), v.x(), 1, 0);
+            fluid[field::position] = {x.x(), x.y(), x.z()};
+            fluid[field::velocity] = {v.x(), v.y(), v.z()};
+            NoSlip{}(kernel(wall[field::position] - fluid[field::position]), wall, fluid, sum);
+        }
+        const auto mean = [&](const Vec<real>& a) {
+            return Vec3(Vec3(a.x, a.y, a.z) / sum[field::shepard_sum]);
+        };
+        const Vec3 v = mirrored_velocity(u, mean(sum[field::velocity_sum]),
+                                         mean(sum[field::offset_sum]), depth, dp);
+        EXPECT_LT((v - (u - depth * shear)).norm(), 1e-12) << depth;
+    }
+}
+
+TEST(Terms, EddyViscosityByHand)
+{
+    // Pure shear du/dz = 3: E_xz = 3, |S| = sqrt(2 S:S) = 3.
+    EXPECT_DOUBLE_EQ(eddy_viscosity(Vec3(0, 0, 0), Vec3(0, 3, 0), 0.1), 0.03);
+    // Strain 2 along x, -2 along z: |S| = sqrt(2 (4 + 4)) = 4.
+    EXPECT_DOUBLE_EQ(eddy_viscosity(Vec3(4, 0, -4), Vec3(0, 0, 0), 0.1), 0.04);
+    Record<EddyViscosity::Writes, real> sum;
+    const EddyViscosity eddies{1000, 0.4, 0, 5, 0.1};
+    eddies(hand, particle(0.5, -4, 2, 0.03), particle(0, 0, 3, 0.01), sum);
+    // kappa = 0.4 + 5 (0.03 + 0.01); the rest as for Viscosity above.
+    EXPECT_DOUBLE_EQ(sum[field::viscous_force].x, 24000 * 0.6 / 0.5);
+}
+
+// With the exact gradient in the place of the velocity, a linear pressure does not diffuse.
+TEST(Terms, LinearPressureDoesNotDiffuseRenormalised)
+{
+    const RenormalisedDiffusion antuono{1.0, {1000, 20}};
+    const Pair<real> apart{{0.1, 0, 0.2}, std::sqrt(0.05), 0.05, 3.0, -2.0};
+    One i = particle(0.1, 70, 1, 100 + 7);
+    One j = particle(0, 70, 1, 100);
+    Record<Fields<DiffusionRate>, real> sum;
+    antuono(apart, i, j, sum);
+    EXPECT_NEAR(sum[field::diffusion_rate], 0, 1e-12);
+    j[field::pressure] = 90;
+    antuono(apart, i, j, sum);
+    EXPECT_LT(sum[field::diffusion_rate], 0);
 }
 
 TEST(Terms, BackstopStopsOnlyWhatApproaches)
@@ -129,6 +210,8 @@ TEST(Terms, ForcesAreAntisymmetricBitForBit)
     expect_pairwise(WallPressureForce{}, field::force);
     expect_pairwise(SolidBackstop{0.6, 2.0}, field::force);
     expect_pairwise(Viscosity{1000, 0.1, 0.9}, field::viscous_force);
+    expect_pairwise(MorrisViscosity{0.7}, field::viscous_force);
+    expect_pairwise(EddyViscosity{1000, 0.1, 0.9, 5, 0.1}, field::viscous_force);
 }
 
 TEST(Effects, AnAbsentEffectHasNoColumn)
@@ -138,6 +221,9 @@ TEST(Effects, AnAbsentEffectHasNoColumn)
     EXPECT_FALSE(bare.particles.has(field::viscous_force));
     EXPECT_FALSE(bare.particles.has(field::diffusion_rate));
     EXPECT_FALSE(bare.particles.has(field::shepard_sum)); // no solids
+    EXPECT_FALSE(bare.particles.has(field::strain));
+    EXPECT_FALSE(bare.particles.has(field::moments));
+    EXPECT_FALSE(bare.particles.has(field::depth));
     Fluid full;
     full.effects.diffusion = DensityDiffusion{};
     full.effects.viscosity = Viscosity{};
@@ -145,6 +231,17 @@ TEST(Effects, AnAbsentEffectHasNoColumn)
     EXPECT_TRUE(full.particles.has(field::viscous_force));
     EXPECT_TRUE(full.particles.has(field::diffusion_rate));
     EXPECT_TRUE(full.particles.has(field::shepard_sum));
+    EXPECT_FALSE(full.particles.has(field::strain));
+    EXPECT_FALSE(full.particles.has(field::velocity_sum));
+    Fluid rare;
+    rare.effects.diffusion = RenormalisedDiffusion{};
+    rare.effects.viscosity = EddyViscosity{};
+    rare.effects.slip = NoSlip{};
+    allocate(rare, 4, 2, 0);
+    EXPECT_TRUE(rare.particles.has(field::moments));
+    EXPECT_TRUE(rare.particles.has(field::strain));
+    EXPECT_TRUE(rare.particles.has(field::velocity_sum));
+    EXPECT_TRUE(rare.particles.has(field::depth));
 }
 
 } // namespace

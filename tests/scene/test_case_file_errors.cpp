@@ -182,8 +182,10 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "has no meaning with model = \"laminar\"", "kinematic"},
         {"[fluid.viscosity]\nkinematic = 1\n", 2, 1, 9, "fluid.viscosity.kinematic",
          "has no meaning with model = \"artificial\"", ""},
-        {"[fluid.viscosity]\nmodel = \"sps\"\n", 2, 9, 5, "fluid.viscosity.model",
-         "does not have \"sps\" yet, it has \"artificial\"", ""},
+        {"[fluid.viscosity]\nmodel = \"sps\"\nalpha = 0.1\n", 3, 1, 5, "fluid.viscosity.alpha",
+         "has no meaning with model = \"sps\"", ""},
+        {"[fluid.collision]\nrestitution = 0.1\n", 2, 1, 11, "fluid.collision.restitution",
+         "has no meaning with model = \"none\"", ""},
         {"[fluid.shifting]\nmodel = \"fickian\"\n", 2, 9, 9, "fluid.shifting.model", "\"fickian\"",
          ""},
         {"[fluid.density_diffusion]\nmodel = \"none\"\ndelta = 0.1\n", 3, 1, 5,
@@ -282,6 +284,13 @@ TEST(CaseFileErrors, RotationsInTwoDimensionsAreAboutY)
     EXPECT_EQ(mistakes(text + "rotation_deg = {axis=[1,0,0], angle=3}\n").size(), 1u);
     EXPECT_EQ(mistakes(text + "angular_velocity = [1,0,0]\n").size(), 1u);
     EXPECT_EQ(mistakes(text + "rotation = [0.8,0.6,0,0]\n").size(), 1u);
+}
+
+TEST(CaseFileErrors, FrictionNeedsViscosity)
+{
+    EXPECT_TRUE(mistakes(short_case, {"fluid.walls=no_slip"}).empty());
+    const auto all = mistakes(short_case, {"fluid.walls=no_slip", "fluid.viscosity.model=none"});
+    EXPECT_EQ(mistake_at(all, "fluid.walls").what, "has no meaning without viscosity");
 }
 
 TEST(CaseFileErrors, OverridesAreNamedAsTheirPlace)

@@ -57,9 +57,17 @@ struct Moments         { using type = Vec3; static constexpr FieldInfo info{"Mom
 struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"MixedMoments", "1"}; };
 /// Sum that points to where particles are dense, by which they are shifted.
 struct ShiftGradient   { using type = Vec3; static constexpr FieldInfo info{"ShiftGradient", "1/m"}; };
+/// Twice the rate of strain, xx, yy, zz and yz, xz, xy, and the eddy viscosity that it makes.
+struct Strain          { using type = Vec3; static constexpr FieldInfo info{"Strain", "1/s"}; };
+struct MixedStrain     { using type = Vec3; static constexpr FieldInfo info{"MixedStrain", "1/s"}; };
+struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"TurbulentViscosity", "m2/s"}; };
 /// Kernel sums by which a solid particle takes over the state of the fluid before it.
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
 struct PressureSum     { using type = real; static constexpr FieldInfo info{"PressureSum", "Pa/m3"}; };
+struct VelocitySum     { using type = Vec3; static constexpr FieldInfo info{"VelocitySum", "1/m2/s"}; };
+struct OffsetSum       { using type = Vec3; static constexpr FieldInfo info{"OffsetSum", "1/m2"}; };
+/// Of a solid particle behind the surface of its solid.
+struct Depth           { using type = real; static constexpr FieldInfo info{"Depth", "m"}; };
 
 /// The values by which columns and records are indexed: `particles[field::velocity]`.
 namespace field {
@@ -79,6 +87,12 @@ inline constexpr MixedMoments    mixed_moments{};
 inline constexpr ShiftGradient   shift_gradient{};
 inline constexpr ShepardSum      shepard_sum{};
 inline constexpr PressureSum     pressure_sum{};
+inline constexpr VelocitySum     velocity_sum{};
+inline constexpr OffsetSum       offset_sum{};
+inline constexpr Depth           depth{};
+inline constexpr Strain          strain{};
+inline constexpr MixedStrain     mixed_strain{};
+inline constexpr TurbulentViscosity turbulent_viscosity{};
 } // namespace field
 // clang-format on
 

@@ -49,6 +49,25 @@ public:
         });
     }
 
+    /// Copies a column to the place that records have for another field, on loan until that is
+    /// loaded again: a record holds no more than most loops read.
+    template <Field From, Field To>
+    void lend(const Particles& particles, const Tiles& tiles, From from, To)
+    {
+        static_assert(width<From> == width<To>);
+        constexpr int to = offset<To, List>;
+        const auto column = particles[from];
+        parallel_blocks(0, tiles.count(), [&](Index k) {
+            const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
+            Real* const value = &at(tiles.first_slot + k).value[to];
+            if constexpr (width<From> == 3) {
+                put(value, column[row]);
+            } else {
+                *value = static_cast<Real>(column[row]);
+            }
+        });
+    }
+
     const Row* data() const { return rows_.data(); }
     /// Bytes held.
     std::size_t bytes() const { return rows_.capacity() * sizeof(Row); }

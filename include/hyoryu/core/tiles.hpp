@@ -39,6 +39,8 @@ struct TileLattice {
                          const std::array<int, 3>& way) const;
     /// The image of a point that lies in the first period.
     Vec3 wrapped(const Vec3& point) const;
+    /// The image of a point that is nearest to another; the point itself without periods.
+    Vec3 image_near(const Vec3& point, const Vec3& other) const;
     /// Shortest vector between images of points r apart.
     Vec3 shortest(const Vec3& r) const;
     /// The unit of positions for numbers of so many binary digits [m].

@@ -28,4 +28,42 @@ struct DensityDiffusion {
     }
 };
 
+/// Sums for the gradient of the density over the fluid about a particle, G_i = sum_j V_j (p_j -
+/// p_i) F r and M_i = -sum_j V_j F r r^T: the gradient of the pressure is M_i^-1 G_i.
+struct DensityGradient {
+    static constexpr std::string_view name = "density_gradient";
+    using Reads = Fields<Volume, Pressure>;
+    using Writes = Fields<PressureGradient, Moments, MixedMoments>;
+
+    template <class N>
+    void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
+    {
+        const Vec<N>& r = ij.r;
+        const Vec<N> step = (j[field::volume] * ij.f) * r;
+        sum[field::pressure_gradient] += (j[field::pressure] - i[field::pressure]) * step;
+        sum[field::moments] += Vec<N>{-(step.x * r.x), -(step.y * r.y), -(step.z * r.z)};
+        sum[field::mixed_moments] += Vec<N>{-(step.y * r.z), -(step.x * r.z), -(step.x * r.y)};
+    }
+};
+
+/// D_i = -2 delta h c0 sum_j V_j [(rho_j - rho_i) - (g_i + g_j)/2 . (r_j - r_i)] F(r), g the
+/// renormalised gradient of the density: what is linear does not diffuse, whatever drives it. The
+/// records lend the place of the velocity to c0^2 g. Source: Antuono, Colagrossi, Marrone & Molteni
+/// (2010), eq. 7.
+struct RenormalisedDiffusion {
+    static constexpr std::string_view name = "renormalised_diffusion";
+    using Reads = Fields<Volume, Pressure, Velocity>;
+    using Writes = Fields<DiffusionRate>;
+    real strength = 0; // 2 delta h c0 [m2/s]
+    EquationOfState eos;
+
+    template <class N>
+    void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
+    {
+        const N linear = 0.5 * dot(i[field::velocity] + j[field::velocity], ij.r);
+        const N difference = (j[field::pressure] - i[field::pressure] + linear) * (1 / sq(eos.c0));
+        sum[field::diffusion_rate] += -strength * j[field::volume] * difference * ij.f;
+    }
+};
+
 } // namespace hyoryu

@@ -3,10 +3,13 @@
 // file with its term and one line here.
 #pragma once
 
+#include "hyoryu/fluid/collision.hpp"
 #include "hyoryu/fluid/continuity.hpp"
 #include "hyoryu/fluid/density_diffusion.hpp"
+#include "hyoryu/fluid/no_slip.hpp"
 #include "hyoryu/fluid/pressure.hpp"
 #include "hyoryu/fluid/shifting.hpp"
+#include "hyoryu/fluid/turbulence.hpp"
 #include "hyoryu/fluid/viscosity.hpp"
 #include "hyoryu/fluid/wall.hpp"
 
@@ -17,9 +20,11 @@ namespace hyoryu {
 /// One slot for each family of exclusive effects; `Off` first. What a slot holds decides the
 /// columns, the terms of the fused sweeps and what the plan says.
 struct FluidEffects {
-    std::variant<Off, DensityDiffusion> diffusion; // with the pressure force
-    std::variant<Off, Viscosity> viscosity;        // with continuity
-    std::variant<Off, Shifting> shifting;          // after it
+    std::variant<Off, DensityDiffusion, RenormalisedDiffusion> diffusion;   // of density
+    std::variant<Off, Viscosity, MorrisViscosity, EddyViscosity> viscosity; // with continuity
+    std::variant<Off, Shifting> shifting;                                   // after it
+    std::variant<Off, NoSlip> slip;                                         // viscosity at solids
+    std::variant<Off, ParticleCollision> collision; // with the pressure force
 };
 
 } // namespace hyoryu

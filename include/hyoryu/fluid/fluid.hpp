@@ -45,6 +45,7 @@ struct LostParticles {
     Index count = 0;
     Vec3 momentum{0, 0, 0}; // [kg m/s]
     real energy = 0;        // kinetic + potential [J]
+    Vec3 force{0, 0, 0};    // viscous, of those of this step: the others' still answer it [N]
 };
 
 struct Fluid {
@@ -63,6 +64,9 @@ struct Fluid {
     bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
 };
+
+/// Whether friction acts between the fluid and solids.
+bool sticks_to_solids(const Fluid& fluid);
 
 /// Mass of the fluid that a particle of this owner stands in for [kg].
 real stand_in_mass(const Fluid& fluid, std::int32_t owner);
@@ -90,7 +94,7 @@ void update_pressure(Fluid& fluid);
 /// dt: length of the step, for the backstop.
 void update_forces(Fluid& fluid, real dt);
 
-/// v += dt (F + F_visc)/m + dt g of the fluid.
+/// v += dt (F + F_visc)/m + dt (g + drive) of the fluid.
 void kick(Fluid& fluid, real dt);
 
 /// R = rho sum V (v_i - v_j).r F + D and the viscous force, from the new velocities.
@@ -106,7 +110,7 @@ real top_acceleration(const Fluid& fluid);
 /// Limits of the next time step.
 std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid);
 
-/// alpha h c0 / (2 (d + 2)) + nu [m2/s]; 0 without viscosity.
+/// alpha h c0 / (2 (d + 2)) + nu + the largest nu_t [m2/s]; 0 without viscosity.
 real effective_viscosity(const Fluid& fluid);
 
 } // namespace hyoryu

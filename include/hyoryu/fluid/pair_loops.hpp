@@ -18,6 +18,7 @@ struct FluidTerms {
     WallExtrapolation extrapolation;
     SolidBackstop backstop;
     FluidEffects effects;
+    SolidBackstop collision;
 };
 
 /// The loops of a formulation in the number Real, each over one block of lists.
@@ -36,6 +37,12 @@ struct PairLoops {
     Loop fluid_rates = nullptr;   // fluid <- fluid: continuity and viscosity
     Loop solid_rates = nullptr;   // fluid <- solid: continuity
     Loop shifting = nullptr;      // fluid <- fluid or solid: crowding
+    Loop collision = nullptr;     // fluid <- fluid: collisions of splashes
+    Loop gradient = nullptr;      // fluid <- fluid: gradient of the density
+    Loop diffusion = nullptr;     // fluid <- fluid: diffusion that knows it
+    Loop mirror = nullptr;        // solid <- fluid: the velocity before a solid
+    Loop friction = nullptr;      // fluid <- solid and back: viscosity with that velocity mirrored
+    Loop strain = nullptr;        // fluid <- fluid or solid: rate of strain
 };
 
 /// Of every formulation, in either precision.

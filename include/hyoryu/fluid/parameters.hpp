@@ -51,6 +51,7 @@ struct FluidParameters {
     real h = 0;                // smoothing length [m]
     real mass = 0;             // of a particle, rho0 dp^d [kg]
     Vec3 gravity{0, 0, -9.81}; // g [m/s2]
+    Vec3 drive{0, 0, 0};       // acceleration besides gravity, not part of hydrostatics [m/s2]
     real cfl = 0.6;            // scales the acoustic, force and viscous limits
     Precision precision = Precision::single_precision;
 };

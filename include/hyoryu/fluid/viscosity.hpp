@@ -19,12 +19,34 @@ struct Viscosity {
     real kappa = 0;   // [m2/s]
     real h = 1;       // [m]
 
+    Viscosity at_wall() const { return *this; }
+
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
         const N approach = dot(i[field::velocity] - j[field::velocity], ij.r);
         const N mu = rho0 * kappa * approach / (ij.distance_squared + 0.01 * sq(h));
         sum[field::viscous_force] += (i[field::volume] * j[field::volume]) * mu * ij.f * ij.r;
+    }
+};
+
+/// F_i = 2 rho0 nu sum_j V_i V_j F(r) (v_i - v_j): the Laplacian of the velocity. On a lattice that
+/// shears along its rows it is exact, where the central form above has 88 to 91 % of its viscosity
+/// at h = 1.5 dp; at a free surface it loses half of the dissipation, and it does not conserve
+/// angular momentum: for flows between walls. Source: Morris, Fox & Zhu (1997), eq. 22.
+struct MorrisViscosity {
+    static constexpr std::string_view name = "morris_viscosity";
+    using Reads = Fields<Velocity, Volume>;
+    using Writes = Fields<ViscousForce>;
+    real mu = 0; // rho0 nu [Pa s]
+
+    MorrisViscosity at_wall() const { return *this; }
+
+    template <class N>
+    void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
+    {
+        sum[field::viscous_force] += (i[field::volume] * j[field::volume]) * (2 * mu) * ij.f *
+                                     (i[field::velocity] - j[field::velocity]);
     }
 };
 

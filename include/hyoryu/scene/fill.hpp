@@ -24,6 +24,7 @@ struct Filling {
     std::vector<double> fluid_pressure;   // above the hydrostatic one [Pa]
     std::vector<Vec3> wall;               // [m]; empty without fluid
     std::vector<std::int32_t> wall_owner; // index of the wall
+    std::vector<double> wall_depth;       // behind the surface [m]; empty where fluid slips
     std::vector<Aggregate> bodies;
     Bounds domain; // what lies outside leaves the run
     std::vector<Diagnostic> warnings;

@@ -68,14 +68,16 @@ struct DomainSettings {
     std::array<bool, 3> periodic{}; // x y z
 };
 
-enum class ViscosityModel { none, artificial, laminar };
-enum class DiffusionModel { none, fourtakas, molteni };
+enum class ViscosityModel { none, artificial, laminar, sps };
+enum class DiffusionModel { none, fourtakas, molteni, antuono };
 
 /// A region that is filled with fluid particles at the start.
 struct FluidBlock {
     Shape shape;
     Vec3 centre{0, 0, 0}; // of the shape [m]
     Quat rotation = Quat::Identity();
+    /// Filled in layers at half a spacing, one and a half, ... below its surface, as bodies are.
+    bool layers = false;
     Vec3 velocity{0, 0, 0}; // [m/s]
     /// Expressions of x, y, z [m] for its components [m/s], in place of `velocity`; or none.
     std::vector<std::string> velocity_field;
@@ -90,11 +92,16 @@ struct FluidSettings {
     std::optional<double> sound_speed; // c_0 [m/s]; none: 10 x the largest expected speed
     ViscosityModel viscosity = ViscosityModel::artificial;
     double alpha = 0.02;               // of the artificial viscosity [1]
-    double kinematic_viscosity = 1e-6; // of the laminar viscosity [m2/s]
+    double kinematic_viscosity = 1e-6; // of the laminar viscosity and of sps [m2/s]
+    bool morris = false;               // the form of the laminar viscosity
+    double smagorinsky = 0.12;         // Cs of sps [1]
+    bool sticks = false;               // to walls and bodies
+    Vec3 acceleration{0, 0, 0};        // besides gravity [m/s2]
     DiffusionModel diffusion = DiffusionModel::fourtakas;
-    double delta = 0.1;             // of the density diffusion [1]
-    std::optional<double> shifting; // its coefficient [1]; none: off
-    double smoothing_ratio = 1.5;   // h / spacing [1]
+    double delta = 0.1;              // of the density diffusion [1]
+    std::optional<double> shifting;  // its coefficient [1]; none: off
+    std::optional<double> collision; // restitution of its particles [1]; none: off
+    double smoothing_ratio = 1.5;    // h / spacing [1]
     std::vector<FluidBlock> blocks;
 };
 
@@ -109,6 +116,12 @@ struct BasinWall {
     Vec3 max{0, 0, 0};          // [m]
     std::array<bool, 6> open{}; // -x +x -y +y -z +z
 };
+/// The inside of a sphere, of a circle in two dimensions, for the fluid; bodies meet the box about
+/// it.
+struct RoundWall {
+    Vec3 centre{0, 0, 0}; // [m]
+    double radius = 0;    // [m]
+};
 /// A solid obstacle.
 struct SolidWall {
     Shape shape;
@@ -118,7 +131,7 @@ struct SolidWall {
 
 struct Wall {
     std::string name;
-    std::variant<PlaneWall, BasinWall, SolidWall> geometry;
+    std::variant<PlaneWall, BasinWall, RoundWall, SolidWall> geometry;
     std::string material; // empty: none named
     Motion motion;        // of [wall.motion]
     Place place;

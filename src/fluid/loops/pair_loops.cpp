@@ -34,8 +34,12 @@ struct Loops {
     }
     static void fluid_forces(const View& view, Index block, Row* local, const FluidTerms& terms)
     {
-        with(terms.effects.diffusion, [&](const auto& diffusion) {
-            sweep_block<bytes>(view, block, local, FluidPressure{}, diffusion);
+        with(terms.effects.diffusion, [&]<class Diffusion>(const Diffusion& diffusion) {
+            if constexpr (std::is_same_v<Diffusion, RenormalisedDiffusion>) {
+                sweep_block<bytes>(view, block, local, FluidPressure{}); // a loop of its own
+            } else {
+                sweep_block<bytes>(view, block, local, FluidPressure{}, diffusion);
+            }
         });
     }
     static void solid_forces(const View& view, Index block, Row* local, const FluidTerms& terms)
@@ -67,6 +71,37 @@ struct Loops {
              [&](const auto& shift) { sweep_block<bytes>(view, block, local, shift); });
     }
 
+    static void collision(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        sweep_block<bytes>(view, block, local, terms.collision);
+    }
+    static void gradient(const View& view, Index block, Row* local, const FluidTerms&)
+    {
+        sweep_block<bytes>(view, block, local, DensityGradient{});
+    }
+    static void diffusion(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        if (const auto* d = std::get_if<RenormalisedDiffusion>(&terms.effects.diffusion)) {
+            sweep_block<bytes>(view, block, local, *d);
+        }
+    }
+    static void mirror(const View& view, Index block, Row* local, const FluidTerms&)
+    {
+        sweep_block<bytes>(view, block, local, NoSlip{});
+    }
+    static void friction(const View& view, Index block, Row* local, const FluidTerms& terms)
+    {
+        with(terms.effects.viscosity, [&]<class V>(const V& viscosity) {
+            if constexpr (!std::is_same_v<V, Off>) {
+                sweep_block<bytes>(view, block, local, viscosity.at_wall());
+            }
+        });
+    }
+    static void strain(const View& view, Index block, Row* local, const FluidTerms&)
+    {
+        sweep_block<bytes>(view, block, local, StrainRate{});
+    }
+
     // Where solids feel the opposite of what the fluid does, one loop serves both.
     static constexpr auto loads =
         std::is_same_v<SolidPressure, WallPressureForce> ? solid_forces : solid_loads;
@@ -78,7 +113,13 @@ struct Loops {
                                                         film_forces,
                                                         fluid_rates,
                                                         solid_rates,
-                                                        shifting};
+                                                        shifting,
+                                                        collision,
+                                                        gradient,
+                                                        diffusion,
+                                                        mirror,
+                                                        friction,
+                                                        strain};
 };
 
 } // namespace

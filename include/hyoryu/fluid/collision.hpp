@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Collisions of fluid particles, for splashes.
+#pragma once
+
+#include "hyoryu/fluid/wall.hpp"
+
+namespace hyoryu {
+
+/// Fluid particles closer than one spacing and still approaching exchange the impulse that stops
+/// (part of) their approach: the term of `SolidBackstop` between two of them, times 1 + e.
+/// Momentum is kept, energy falls. Source: Jandaghian, Krimi & Shakibaeinia (2021), dynamic
+/// particle collision, without the repulsion of receding particles.
+struct ParticleCollision {
+    static constexpr std::string_view name = "particle_collision";
+    using Writes = Fields<>;
+    real restitution = 0; // e [1]
+
+    /// For particles of this mass over a step.
+    SolidBackstop term(real spacing, real mass, real dt) const
+    {
+        return {spacing, dt > 0 ? (1 + restitution) * mass / (2 * dt) : 0};
+    }
+};
+
+} // namespace hyoryu

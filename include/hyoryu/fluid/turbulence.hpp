@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Sub-particle-scale turbulence: an eddy viscosity from the rate of strain.
+#pragma once
+
+#include "hyoryu/core/sweep.hpp"
+
+namespace hyoryu {
+
+/// Sums for twice the rate of strain, E_i = sum_j V_j [(v_j - v_i) r^T + r (v_j - v_i)^T] F. Near a
+/// free surface, where half of the neighbours are missing, they are too small by that half.
+struct StrainRate {
+    static constexpr std::string_view name = "strain_rate";
+    using Reads = Fields<Velocity, Volume>;
+    using Writes = Fields<Strain, MixedStrain>;
+
+    template <class N>
+    void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
+    {
+        const Vec<N> dv = (j[field::volume] * ij.f) * (j[field::velocity] - i[field::velocity]);
+        const Vec<N>& r = ij.r;
+        sum[field::strain] += Vec<N>{2 * dv.x * r.x, 2 * dv.y * r.y, 2 * dv.z * r.z};
+        sum[field::mixed_strain] +=
+            Vec<N>{dv.y * r.z + dv.z * r.y, dv.x * r.z + dv.z * r.x, dv.x * r.y + dv.y * r.x};
+    }
+};
+
+/// nu_t = (Cs dp)^2 |S|, |S| = sqrt(2 S:S), from the sums E = 2 S. Source: Smagorinsky (1963).
+inline real eddy_viscosity(const Vec3& strain, const Vec3& mixed_strain, real length)
+{
+    return sq(length) * std::sqrt((strain.squaredNorm() + 2 * mixed_strain.squaredNorm()) / 2);
+}
+
+/// The pair viscosity with kappa = 2 (d + 2) [nu + (nu_t,i + nu_t,j)/2]; to a solid, which has no
+/// nu_t of its own, that of the fluid particle. The records lend the place of the pressure to nu_t.
+/// Source: Di Mascio, Antuono, Colagrossi & Marrone (2017), with the arithmetic mean; Dalrymple &
+/// Rogers (2006) have the divergence of the stress in its place, which turns rigid rotation at a
+/// free surface into a force.
+struct EddyViscosity {
+    static constexpr std::string_view name = "eddy_viscosity";
+    using Reads = Fields<Velocity, Volume, Pressure>;
+    using Writes = Fields<ViscousForce>;
+    real rho0 = 1000; // [kg/m3]
+    real kappa = 0;   // 2 (d + 2) nu [m2/s]
+    real h = 1;       // [m]
+    real share = 0;   // d + 2; twice that to solids [1]
+    real length = 0;  // Cs dp [m]
+
+    EddyViscosity at_wall() const { return {rho0, kappa, h, 2 * share, length}; }
+
+    template <class N>
+    void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
+    {
+        const N approach = dot(i[field::velocity] - j[field::velocity], ij.r);
+        const N both = kappa + share * (i[field::pressure] + j[field::pressure]);
+        const N mu = rho0 * both * approach / (ij.distance_squared + 0.01 * sq(h));
+        sum[field::viscous_force] += (i[field::volume] * j[field::volume]) * mu * ij.f * ij.r;
+    }
+};
+
+} // namespace hyoryu

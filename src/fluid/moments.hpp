@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The matrix of second moments by which a gradient is corrected.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+namespace hyoryu {
+
+/// M = -sum V F r r^T from its sums; regular across a plane of two dimensions.
+inline Mat3 moment_matrix(const Vec3& moments, const Vec3& mixed, int dimensions)
+{
+    Mat3 M = moments.asDiagonal();
+    M(1, 2) = M(2, 1) = mixed[0];
+    M(0, 2) = M(2, 0) = mixed[1];
+    M(0, 1) = M(1, 0) = mixed[2];
+    if (dimensions == 2) {
+        M(1, 1) = 1;
+    }
+    return M;
+}
+
+} // namespace hyoryu

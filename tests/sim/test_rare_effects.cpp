@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Friction, eddies, renormalised diffusion, collisions, drive: same bits for any thread count and
+// across a restart, momentum closes, and nothing of them where they are not asked for.
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/sim/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace hyoryu {
+namespace {
+
+// A driven channel that repeats itself, with a lid that slides along the period.
+constexpr const char* channel = R"(
+dimensions = 2
+gravity = [0.0, 0.0, 0.0]
+[time]
+end = 10.0
+[particles]
+spacing = 0.05
+[domain]
+min = [0.0, 0.0, 0.0]
+max = [0.8, 0.0, 1.0]
+periodic = ["x"]
+[fluid]
+sound_speed = 10.0
+walls = "no_slip"
+acceleration = [0.5, 0.0, 0.0]
+[fluid.viscosity]
+model = "sps"
+kinematic = 0.02
+smagorinsky = 1.0
+[fluid.density_diffusion]
+model = "antuono"
+[fluid.collision]
+model = "dynamic"
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.8, 0.0, 1.0]
+pressure_field = "1000"
+[[wall]]
+name = "bottom"
+shape = "plane"
+[[wall]]
+name = "lid"
+shape = "plane"
+point = [0.0, 0.0, 1.0]
+normal = [0.0, 0.0, -1.0]
+[wall.motion]
+velocity = [2.0, 0.0, 0.0]
+)";
+
+// A box falls into a basin, with friction.
+constexpr const char* basin = R"(
+[time]
+end = 10.0
+[particles]
+spacing = 0.05
+[fluid]
+walls = "no_slip"
+[fluid.viscosity]
+model = "laminar"
+kinematic = 0.01
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.6, 0.6, 0.4]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.2, 0.6, 1.0]
+open = ["+z"]
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.3, 0.3, 0.3]
+density = 400.0
+position = [0.4, 0.3, 0.6]
+)";
+
+Simulation make(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    const Scene scene = parse_case(text, "test.toml", overrides);
+    const Filling filling = fill(scene);
+    return make_simulation(scene, make_plan(scene, filling), filling);
+}
+
+void advance(Simulation& sim, int steps)
+{
+    for (int k = 0; k < steps; ++k) {
+        step(sim);
+        if (frame_due(sim.clock, sim.scene)) {
+            sim.clock.frame += 1;
+        }
+    }
+}
+
+void expect_same_bits(const Snapshot& a, const Snapshot& b)
+{
+    ASSERT_EQ(a.arrays.size(), b.arrays.size());
+    for (const auto& [name, column] : a.arrays) {
+        EXPECT_EQ(column.values, b.arrays.at(name).values) << name;
+    }
+}
+
+TEST(RareEffects, SameBitsForAnyThreadCountAndAcrossARestart)
+{
+    for (const char* text : {channel, basin}) {
+        set_threads(1);
+        Simulation whole = make(text);
+        advance(whole, 120);
+        const Snapshot middle = save(whole);
+        advance(whole, 90);
+
+        set_threads(2);
+        Simulation resumed = make(text);
+        restore(resumed, middle);
+        advance(resumed, 90);
+        expect_same_bits(save(whole), save(resumed));
+        set_threads(0);
+    }
+}
+
+// The lid goes round the period more than once.
+TEST(RareEffects, MomentumCloses)
+{
+    Simulation sim = make(channel);
+    while (sim.clock.time < 0.5) {
+        advance(sim, 1);
+    }
+    EXPECT_LE(sim.ledger.worst_closure, 2e-7); // of sums in single precision
+    EXPECT_EQ(sim.fluid->lost.count, 0);
+    for (const Vec3& x : sim.fluid->particles[field::position]) {
+        ASSERT_LT(std::abs(x.x() - 0.4), 0.7); // particles of the lid stay about the period
+    }
+    Simulation wet = make(basin);
+    advance(wet, 200);
+    EXPECT_LE(wet.ledger.worst_closure, 2e-7);
+    EXPECT_GT(wet.loads.bodies[0].force.norm(), 0);
+}
+
+// What leaves the domain takes with it what acts on it; what acts on the others stays.
+TEST(RareEffects, MomentumClosesWhereWaterLeaves)
+{
+    Simulation sim = make(R"(
+dimensions = 2
+gravity = [0.0, 0.0, 0.0]
+[time]
+end = 10.0
+[particles]
+spacing = 0.05
+precision = "double"
+[domain]
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 1.0]
+[fluid]
+[fluid.viscosity]
+model = "laminar"
+kinematic = 0.1
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 1.0]
+velocity_field = ["1 + z", "0", "x*z"]
+)");
+    while (sim.fluid->lost.count < 100) {
+        advance(sim, 10);
+    }
+    EXPECT_LE(sim.ledger.worst_closure, 1e-13);
+}
+
+TEST(RareEffects, AreAbsentUnlessAskedFor)
+{
+    const std::array<const char*, 5> effects{"no_slip", "sps_turbulence", "drive",
+                                             "particle_collision", "moving_walls"};
+    const Simulation with = make(channel);
+    for (const char* effect : effects) {
+        EXPECT_TRUE(with.plan.runs(effect)) << effect;
+    }
+    const Simulation without = make(basin, {"fluid.walls=free_slip"});
+    for (const char* effect : effects) {
+        EXPECT_FALSE(without.plan.runs(effect)) << effect;
+    }
+    const Particles& p = without.fluid->particles;
+    EXPECT_FALSE(p.has(field::velocity_sum) || p.has(field::depth) || p.has(field::strain) ||
+                 p.has(field::turbulent_viscosity) || p.has(field::moments));
+}
+
+TEST(RareEffects, EddiesOfNoLengthGiveTheBitsOfLaminarFlow)
+{
+    Simulation laminar = make(basin);
+    Simulation eddies = make(basin, {"fluid.viscosity.model=sps", "fluid.viscosity.smagorinsky=0"});
+    advance(laminar, 60);
+    advance(eddies, 60);
+    expect_same_bits(save(laminar), save(eddies));
+}
+
+} // namespace
+} // namespace hyoryu
