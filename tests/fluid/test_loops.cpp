@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The fused loops of every stage, in both precisions and for every instruction set at hand, against
 // the same terms one pair at a time in double.
+#include "mixtures.hpp"
 #include "hyoryu/core/parallel.hpp"
-#include "hyoryu/fluid/fluid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,72 +10,6 @@
 
 namespace hyoryu {
 namespace {
-
-constexpr real dp = 0.1;
-
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
-struct Choice {
-    Precision precision;
-    InstructionSet set;
-    bool diffusion;
-    bool viscosity;
-    FormulationKind formulation = FormulationKind::sph;
-};
-
-// A jittered lattice: wall below z = 0.3, in the middle two bodies that touch, fluid elsewhere.
-Fluid make_mixture(const Choice& choice)
-{
-    std::mt19937 random(5);
-    std::uniform_real_distribution<real> off(-0.2, 0.2);
-    std::vector<Vec3> places[3];
-    std::vector<std::int32_t> owners;
-    for (int k = 0; k < 14 * 14 * 14; ++k) {
-        const Vec3 lattice(k % 14, k / 14 % 14, k / 196);
-        const real jx = off(random);
-        const real jy = off(random);
-        const Vec3 place = dp * (lattice + Vec3(jx, jy, off(random)));
-        const bool inside = (lattice - Vec3(7, 7, 8)).cwiseAbs().maxCoeff() < 2.5;
-        if (lattice.z() >= 3 && inside) {
-            owners.push_back(lattice.x() < 7 ? 0 : 1);
-        }
-        places[lattice.z() < 3 ? 1 : inside ? 2 : 0].push_back(place);
-    }
-    Fluid fluid;
-    fluid.instruction_set = choice.set;
-    FluidParameters& f = fluid.parameters;
-    f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1, .precision = choice.precision};
-    f.formulation = choice.formulation;
-    fluid.kernel = make_kernel(f.h, dp, 3);
-    fluid.mps_kernel = make_mps_kernel(2 * f.h, dp, 3);
-    if (choice.diffusion) {
-        fluid.effects.diffusion =
-            DensityDiffusion{0.2 * f.h * 30, f.eos, Vec3(f.eos.rho0 / sq(f.eos.c0) * f.gravity)};
-    }
-    if (choice.viscosity) {
-        fluid.effects.viscosity = Viscosity{1000, artificial_kappa(0.1, f.h, 30), f.h};
-    }
-    allocate(fluid, static_cast<Index>(places[0].size()), static_cast<Index>(places[1].size()),
-             static_cast<Index>(places[2].size()));
-    fluid.body_particle_mass = {0.9, 1.1};
-    std::size_t row = 0;
-    for (const auto& kind : places) {
-        for (const Vec3& place : kind) {
-            fluid.particles[field::position][row] = place;
-            fluid.particles[field::velocity][row] = {off(random), 0.1, off(random)};
-            fluid.particles[field::density][row] = 1005 + 20 * off(random);
-            ++row;
-        }
-    }
-    const Rows walls = fluid.particles.wall();
-    std::fill_n(fluid.particles.owner().begin() + walls.begin, walls.size(), -1);
-    std::copy(owners.begin(), owners.end(),
-              fluid.particles.owner().begin() + fluid.particles.body().begin);
-    return fluid;
-}
 
 // Adds up what the terms of a stage write, over one list.
 void sweep_clearly(Particles& particles, const Fluid& fluid, const PairList& pairs,
@@ -382,143 +316,6 @@ std::string choice_name(const testing::TestParamInfo<Choice>& info)
 }
 
 INSTANTIATE_TEST_SUITE_P(Fluid, Loops, testing::ValuesIn(every_choice()), choice_name);
-
-// A linear pressure on a cube of slightly jittered places: inside, the corrected gradient of MPS is
-// exact. The pressure is negative, so that no push between particles is part of it.
-TEST(Mps, GradientOfALinearPressureIsExactInside)
-{
-    Fluid fluid = make_mixture({Precision::double_precision, widest_instruction_set(), false, false,
-                                FormulationKind::mps});
-    constexpr int n = 12;
-    allocate(fluid, n * n * n, 0, 0);
-    std::mt19937 random(7);
-    std::uniform_real_distribution<real> off(-0.03, 0.03);
-    const Vec3 slope(300, -200, 500);
-    for (int k = 0; k < n * n * n; ++k) {
-        const real jx = off(random);
-        const real jy = off(random);
-        const Vec3 place = dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(jx, jy, off(random)));
-        fluid.particles[field::position][at(k)] = place;
-        fluid.particles[field::density][at(k)] =
-            fluid.parameters.eos.density(slope.dot(place) - 2000);
-    }
-    update_neighbours(fluid);
-    update_pressure(fluid);
-    update_forces(fluid, 1e-4);
-    int inside = 0;
-    for (Index k = 0; k < n * n * n; ++k) {
-        const Vec3 place = fluid.particles[field::position][at(k)] / dp;
-        if (place.minCoeff() < 3.1 || place.maxCoeff() > n - 4.1) {
-            continue;
-        }
-        ++inside;
-        const Vec3 gradient =
-            -fluid.particles[field::force][at(k)] / fluid.particles[field::volume][at(k)];
-        // 50 digits of a place in a tile, and p to 1e-16 of rho0 c0^2: 1e-10 Pa over a spacing.
-        EXPECT_LT((gradient - slope).norm(), 1e-8 * slope.norm()) << k;
-    }
-    EXPECT_GT(inside, 20);
-}
-
-// A cube that repeats itself in every direction is everywhere inside: on its lattice nothing pulls,
-// and a shift of all places by any way changes no sum beyond the rounding of places.
-TEST(Periodic, ALatticeHasNoSides)
-{
-    for (const auto formulation : {FormulationKind::sph, FormulationKind::mps}) {
-        Fluid fluid = make_mixture(
-            {Precision::double_precision, widest_instruction_set(), false, false, formulation});
-        constexpr int n = 10;
-        allocate(fluid, n * n * n, 0, 0);
-        fluid.domain_min = Vec3(0, 0, 0);
-        fluid.domain_max = Vec3::Constant(n * dp);
-        fluid.period = Vec3::Constant(n * dp);
-        for (int k = 0; k < n * n * n; ++k) {
-            fluid.particles[field::position][at(k)] =
-                dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(0.4, 7.3, -3.2));
-            fluid.particles[field::density][at(k)] = 1003;
-        }
-        update_neighbours(fluid);
-        update_pressure(fluid);
-        update_forces(fluid, 1e-4);
-        EXPECT_EQ(fluid.particles.fluid().size(), n * n * n);
-        const real scale = 2 * fluid.particles[field::pressure][0] * dp * dp;
-        for (int k = 0; k < n * n * n; ++k) {
-            // The period is that of the tiles, whole units of single precision: 1e-7 of it.
-            EXPECT_LT(fluid.particles[field::force][at(k)].norm(), 1e-5 * scale) << k;
-        }
-    }
-}
-
-// A pair across a side: as far apart and as strong as anywhere else.
-TEST(Periodic, APairAcrossASideIsAPair)
-{
-    Fluid fluid = make_mixture({Precision::double_precision, widest_instruction_set(), true, true});
-    allocate(fluid, 2, 0, 0);
-    fluid.domain_min = Vec3(0, 0, 0);
-    fluid.domain_max = Vec3::Constant(3);
-    fluid.period = Vec3(3, 0, 0);
-    Vec3 across(0, 0, 0);
-    for (const real middle : {1.5, 0.0}) {
-        fluid.neighbours = {};
-        fluid.particles[field::position][0] = {middle - 0.06, 1, 1};
-        fluid.particles[field::position][1] = {middle + 0.05, 1.02, 1};
-        fluid.particles[field::density][0] = 1003;
-        fluid.particles[field::density][1] = 1005;
-        update_neighbours(fluid);
-        update_pressure(fluid);
-        update_forces(fluid, 1e-4);
-        const auto F = fluid.particles[field::force];
-        ASSERT_GT(F[0].norm(), 0);
-        ASSERT_EQ(F[0], Vec3(-F[1]));
-        const Vec3 on_left = fluid.particles[field::density][0] == 1003 ? F[0] : F[1];
-        if (middle == 1.5) {
-            across = on_left;
-        } else {
-            EXPECT_LT((on_left - across).norm(), 1e-5 * across.norm());
-        }
-    }
-}
-
-// The sum of shifting points to where particles are dense, a shift goes the other way and at most
-// 0.05 spacings, and a translating periodic lattice is left alone.
-TEST(Shifting, LeavesALatticeAndEvensOutACrowd)
-{
-    Fluid fluid =
-        make_mixture({Precision::double_precision, widest_instruction_set(), false, false});
-    const Kernel& kernel = fluid.kernel;
-    fluid.effects.shifting = Shifting{8, 1 / kernel(Vec<real>{dp, 0, 0}).w};
-    constexpr int n = 10;
-    allocate(fluid, n * n * n, 0, 0);
-    fluid.domain_min = Vec3(0, 0, 0);
-    fluid.domain_max = Vec3::Constant(n * dp);
-    fluid.period = Vec3::Constant(n * dp);
-    for (const bool crowd : {false, true}) {
-        fluid.neighbours = {};
-        for (int k = 0; k < n * n * n; ++k) {
-            fluid.particles[field::position][at(k)] =
-                dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(0.5, 0.5, 0.5));
-            fluid.particles[field::velocity][at(k)] = {1, 0, 0};
-            fluid.particles[field::density][at(k)] = 1000;
-        }
-        const Vec3 middle = dp * Vec3(5.5, 5.5, 5.5);
-        const Vec3 away = crowd ? Vec3(0.3 * dp, 0, 0) : Vec3(0, 0, 0);
-        fluid.particles[field::position][555] = middle + away;
-        update_neighbours(fluid);
-        update_pressure(fluid);
-        const std::vector<Vec3> before(fluid.particles[field::position].begin(),
-                                       fluid.particles[field::position].end());
-        shift(fluid, 1e-3);
-        for (Index k = 0; k < n * n * n; ++k) {
-            const Vec3 way = fluid.particles[field::position][at(k)] - before[at(k)];
-            if (!crowd) {
-                EXPECT_LT(way.norm(), 1e-6 * dp) << k;
-            } else if ((before[at(k)] - middle - away).norm() < 1e-9) {
-                EXPECT_LT(way.x(), -1e-3 * dp);
-                EXPECT_LE(way.norm(), 0.0501 * dp);
-            }
-        }
-    }
-}
 
 // What one particle feels from another is the opposite of what the other feels, bit for bit, in the
 // loops that run: contraction and tiles included.

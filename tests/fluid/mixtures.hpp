@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Fluids of a few particles for the tests of the loops.
+#pragma once
+
+#include "hyoryu/fluid/fluid.hpp"
+
+#include <random>
+
+namespace hyoryu {
+
+constexpr real dp = 0.1;
+
+inline std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+struct Choice {
+    Precision precision;
+    InstructionSet set;
+    bool diffusion;
+    bool viscosity;
+    FormulationKind formulation = FormulationKind::sph;
+};
+
+// A jittered lattice: wall below z = 0.3, in the middle two bodies that touch, fluid elsewhere.
+inline Fluid make_mixture(const Choice& choice)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<real> off(-0.2, 0.2);
+    std::vector<Vec3> places[3];
+    std::vector<std::int32_t> owners;
+    for (int k = 0; k < 14 * 14 * 14; ++k) {
+        const Vec3 lattice(k % 14, k / 14 % 14, k / 196);
+        const real jx = off(random);
+        const real jy = off(random);
+        const Vec3 place = dp * (lattice + Vec3(jx, jy, off(random)));
+        const bool inside = (lattice - Vec3(7, 7, 8)).cwiseAbs().maxCoeff() < 2.5;
+        if (lattice.z() >= 3 && inside) {
+            owners.push_back(lattice.x() < 7 ? 0 : 1);
+        }
+        places[lattice.z() < 3 ? 1 : inside ? 2 : 0].push_back(place);
+    }
+    Fluid fluid;
+    fluid.instruction_set = choice.set;
+    FluidParameters& f = fluid.parameters;
+    f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1, .precision = choice.precision};
+    f.formulation = choice.formulation;
+    fluid.kernel = make_kernel(f.h, dp, 3);
+    fluid.mps_kernel = make_mps_kernel(2 * f.h, dp, 3);
+    if (choice.diffusion) {
+        fluid.effects.diffusion =
+            DensityDiffusion{0.2 * f.h * 30, f.eos, Vec3(f.eos.rho0 / sq(f.eos.c0) * f.gravity)};
+    }
+    if (choice.viscosity) {
+        fluid.effects.viscosity = Viscosity{1000, artificial_kappa(0.1, f.h, 30), f.h};
+    }
+    allocate(fluid, static_cast<Index>(places[0].size()), static_cast<Index>(places[1].size()),
+             static_cast<Index>(places[2].size()));
+    fluid.body_particle_mass = {0.9, 1.1};
+    std::size_t row = 0;
+    for (const auto& kind : places) {
+        for (const Vec3& place : kind) {
+            fluid.particles[field::position][row] = place;
+            fluid.particles[field::velocity][row] = {off(random), 0.1, off(random)};
+            fluid.particles[field::density][row] = 1005 + 20 * off(random);
+            ++row;
+        }
+    }
+    const Rows walls = fluid.particles.wall();
+    std::fill_n(fluid.particles.owner().begin() + walls.begin, walls.size(), -1);
+    std::copy(owners.begin(), owners.end(),
+              fluid.particles.owner().begin() + fluid.particles.body().begin);
+    return fluid;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Lattices of particles whose forces are known: linear pressures, domains that repeat themselves,
+// crowds.
+#include "mixtures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace hyoryu {
+namespace {
+
+// A linear pressure on a cube of slightly jittered places: inside, the corrected gradient of MPS is
+// exact. The pressure is negative, so that no push between particles is part of it.
+TEST(Mps, GradientOfALinearPressureIsExactInside)
+{
+    Fluid fluid = make_mixture({Precision::double_precision, widest_instruction_set(), false, false,
+                                FormulationKind::mps});
+    constexpr int n = 12;
+    allocate(fluid, n * n * n, 0, 0);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<real> off(-0.03, 0.03);
+    const Vec3 slope(300, -200, 500);
+    for (int k = 0; k < n * n * n; ++k) {
+        const real jx = off(random);
+        const real jy = off(random);
+        const Vec3 place = dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(jx, jy, off(random)));
+        fluid.particles[field::position][at(k)] = place;
+        fluid.particles[field::density][at(k)] =
+            fluid.parameters.eos.density(slope.dot(place) - 2000);
+    }
+    update_neighbours(fluid);
+    update_pressure(fluid);
+    update_forces(fluid, 1e-4);
+    int inside = 0;
+    for (Index k = 0; k < n * n * n; ++k) {
+        const Vec3 place = fluid.particles[field::position][at(k)] / dp;
+        if (place.minCoeff() < 3.1 || place.maxCoeff() > n - 4.1) {
+            continue;
+        }
+        ++inside;
+        const Vec3 gradient =
+            -fluid.particles[field::force][at(k)] / fluid.particles[field::volume][at(k)];
+        // 50 digits of a place in a tile, and p to 1e-16 of rho0 c0^2: 1e-10 Pa over a spacing.
+        EXPECT_LT((gradient - slope).norm(), 1e-8 * slope.norm()) << k;
+    }
+    EXPECT_GT(inside, 20);
+}
+
+// A cube that repeats itself in every direction is everywhere inside: on its lattice nothing pulls,
+// and a shift of all places by any way changes no sum beyond the rounding of places.
+TEST(Periodic, ALatticeHasNoSides)
+{
+    for (const auto formulation : {FormulationKind::sph, FormulationKind::mps}) {
+        Fluid fluid = make_mixture(
+            {Precision::double_precision, widest_instruction_set(), false, false, formulation});
+        constexpr int n = 10;
+        allocate(fluid, n * n * n, 0, 0);
+        fluid.domain_min = Vec3(0, 0, 0);
+        fluid.domain_max = Vec3::Constant(n * dp);
+        fluid.period = Vec3::Constant(n * dp);
+        for (int k = 0; k < n * n * n; ++k) {
+            fluid.particles[field::position][at(k)] =
+                dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(0.4, 7.3, -3.2));
+            fluid.particles[field::density][at(k)] = 1003;
+        }
+        update_neighbours(fluid);
+        update_pressure(fluid);
+        update_forces(fluid, 1e-4);
+        EXPECT_EQ(fluid.particles.fluid().size(), n * n * n);
+        const real scale = 2 * fluid.particles[field::pressure][0] * dp * dp;
+        for (int k = 0; k < n * n * n; ++k) {
+            // The period is that of the tiles, whole units of single precision: 1e-7 of it.
+            EXPECT_LT(fluid.particles[field::force][at(k)].norm(), 1e-5 * scale) << k;
+        }
+    }
+}
+
+// A pair across a side: as far apart and as strong as anywhere else.
+TEST(Periodic, APairAcrossASideIsAPair)
+{
+    Fluid fluid = make_mixture({Precision::double_precision, widest_instruction_set(), true, true});
+    allocate(fluid, 2, 0, 0);
+    fluid.domain_min = Vec3(0, 0, 0);
+    fluid.domain_max = Vec3::Constant(3);
+    fluid.period = Vec3(3, 0, 0);
+    Vec3 across(0, 0, 0);
+    for (const real middle : {1.5, 0.0}) {
+        fluid.neighbours = {};
+        fluid.particles[field::position][0] = {middle - 0.06, 1, 1};
+        fluid.particles[field::position][1] = {middle + 0.05, 1.02, 1};
+        fluid.particles[field::density][0] = 1003;
+        fluid.particles[field::density][1] = 1005;
+        update_neighbours(fluid);
+        update_pressure(fluid);
+        update_forces(fluid, 1e-4);
+        const auto F = fluid.particles[field::force];
+        ASSERT_GT(F[0].norm(), 0);
+        ASSERT_EQ(F[0], Vec3(-F[1]));
+        const Vec3 on_left = fluid.particles[field::density][0] == 1003 ? F[0] : F[1];
+        if (middle == 1.5) {
+            across = on_left;
+        } else {
+            EXPECT_LT((on_left - across).norm(), 1e-5 * across.norm());
+        }
+    }
+}
+
+// The sum of shifting points to where particles are dense, a shift goes the other way and at most
+// 0.05 spacings, and a translating periodic lattice is left alone.
+TEST(Shifting, LeavesALatticeAndEvensOutACrowd)
+{
+    Fluid fluid =
+        make_mixture({Precision::double_precision, widest_instruction_set(), false, false});
+    const Kernel& kernel = fluid.kernel;
+    fluid.effects.shifting = Shifting{8, 1 / kernel(Vec<real>{dp, 0, 0}).w};
+    constexpr int n = 10;
+    allocate(fluid, n * n * n, 0, 0);
+    fluid.domain_min = Vec3(0, 0, 0);
+    fluid.domain_max = Vec3::Constant(n * dp);
+    fluid.period = Vec3::Constant(n * dp);
+    for (const bool crowd : {false, true}) {
+        fluid.neighbours = {};
+        for (int k = 0; k < n * n * n; ++k) {
+            fluid.particles[field::position][at(k)] =
+                dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(0.5, 0.5, 0.5));
+            fluid.particles[field::velocity][at(k)] = {1, 0, 0};
+            fluid.particles[field::density][at(k)] = 1000;
+        }
+        const Vec3 middle = dp * Vec3(5.5, 5.5, 5.5);
+        const Vec3 away = crowd ? Vec3(0.3 * dp, 0, 0) : Vec3(0, 0, 0);
+        fluid.particles[field::position][555] = middle + away;
+        update_neighbours(fluid);
+        update_pressure(fluid);
+        const std::vector<Vec3> before(fluid.particles[field::position].begin(),
+                                       fluid.particles[field::position].end());
+        shift(fluid, 1e-3);
+        for (Index k = 0; k < n * n * n; ++k) {
+            const Vec3 way = fluid.particles[field::position][at(k)] - before[at(k)];
+            if (!crowd) {
+                EXPECT_LT(way.norm(), 1e-6 * dp) << k;
+            } else if ((before[at(k)] - middle - away).norm() < 1e-9) {
+                EXPECT_LT(way.x(), -1e-3 * dp);
+                EXPECT_LE(way.norm(), 0.0501 * dp);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace hyoryu
