@@ -55,32 +55,30 @@ void remember_start(std::span<const Row> rows, const std::vector<Response>& bodi
 // Whether the last sweep went back on the way that momentum took.
 bool leads_uphill(std::span<const Row> rows, const SolverWork& work)
 {
-    return sum(0, static_cast<Index>(rows.size()), 0.0, [&](Index i) {
-               const auto k = static_cast<std::size_t>(i);
-               return (rows[k].cone.K * (work.start[k] - rows[k].p))
-                   .dot(rows[k].p - work.impulses[k]);
-           }) > 0;
+    double uphill = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        uphill += (rows[k].cone.K * (work.start[k] - rows[k].p)).dot(rows[k].p - work.impulses[k]);
+    }
+    return uphill > 0;
 }
 
 // Goes on by `beta` of the way that the last sweep went. Velocities are linear in the impulses, so
 // that those of the bodies go on by themselves, whatever rows they share.
 void add_momentum(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work, double beta)
 {
-    parallel_for(0, static_cast<Index>(rows.size()), [&](Index i) {
-        const auto k = static_cast<std::size_t>(i);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
         const Vec3 solved = rows[k].p;
         rows[k].p += beta * (solved - work.impulses[k]);
         work.impulses[k] = solved;
         work.start[k] = rows[k].p;
-    });
-    parallel_for(0, static_cast<Index>(work.moved.size()), [&](Index i) {
-        const auto k = static_cast<std::size_t>(i);
+    }
+    for (std::size_t k = 0; k < work.moved.size(); ++k) {
         Response& body = bodies[work.moved[k]];
         const Twist solved{body.v, body.omega};
         body.v += beta * (solved.v - work.velocities[k].v);
         body.omega += beta * (solved.omega - work.velocities[k].omega);
         work.velocities[k] = solved;
-    });
+    }
 }
 
 } // namespace
@@ -116,15 +114,12 @@ double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, So
 {
     sort_by_colour(rows, bodies, work.colours);
     remember_start(rows, bodies, work);
-    const auto n = static_cast<Index>(rows.size());
     double theta = 1;
     double change = infinity;
     for (int sweep = 1; sweep <= sweeps.most && change > sweeps.settled; ++sweep) {
         for_each_row(work.colours,
                      [&](std::size_t k) { work.changes[k] = change_of(rows[k], bodies); });
-        const double last = std::exchange(change, largest(0, n, 0, [&](Index k) {
-                                              return work.changes[static_cast<std::size_t>(k)];
-                                          }));
+        const double last = std::exchange(change, *std::ranges::max_element(work.changes));
         // Friction is no gradient: momentum that carries past the solution, or away from it, ends.
         const bool astray = change > last || leads_uphill(rows, work);
         const double next = next_theta(theta);
