@@ -149,7 +149,9 @@ class Bench(ProgramTest):
         self.assertEqual([row["scene"] for row in bench["steps"]], ["start", "developed"])
         for row in bench["steps"] + bench["sizes"]:
             parts = sum(stage["one_thread_seconds"] for stage in row["stages"].values())
-            self.assertAlmostEqual(parts / row["one_thread_step_seconds"], 1, delta=0.1)
+            # No stage is counted twice. Between stages another process may have had the core.
+            self.assertLess(parts / row["one_thread_step_seconds"], 1.1)
+            self.assertGreater(parts / row["one_thread_step_seconds"], 0.5)
             self.assertAlmostEqual(sum(row["bytes_per_particle_of"].values()) / row["bytes_per_particle"],
                                    1, delta=1e-6)
         self.assertEqual(self.files(), ["bench.json"])
