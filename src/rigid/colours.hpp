@@ -6,6 +6,7 @@
 
 #include "hyoryu/core/parallel.hpp"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,28 +30,22 @@ inline constexpr std::size_t worth_colouring = 512;
 /// Groups of a colour below which waking the other threads costs more than they save.
 inline constexpr Index worth_sharing_groups = 256;
 
-/// Calls f(k) for every row k, colour after colour. Small colours do without a parallel region:
-/// even one of a single thread costs as much as a few rows.
+/// Calls f(k) for every row k, colour after colour.
 template <class F>
 void for_each_row(const Colours& colours, const F& f)
 {
     for (std::size_t c = 0; c + 1 < colours.colour_start.size(); ++c) {
-        const auto first = static_cast<Index>(colours.colour_start[c]);
-        const auto last = static_cast<Index>(colours.colour_start[c + 1]);
-        const auto sweep = [&](Index group) {
-            const auto g = static_cast<std::size_t>(group);
-            for (std::size_t k = colours.group_start[g]; k < colours.group_start[g + 1]; ++k) {
-                f(k);
-            }
-        };
         const bool alone = colours.last_alone && c + 2 == colours.colour_start.size();
-        if (alone || last - first < worth_sharing_groups) {
-            for (Index group = first; group < last; ++group) {
-                sweep(group);
-            }
-        } else {
-            parallel_for(first, last, sweep, worth_sharing_groups);
-        }
+        parallel_for(
+            static_cast<Index>(colours.colour_start[c]),
+            static_cast<Index>(colours.colour_start[c + 1]),
+            [&](Index group) {
+                const auto g = static_cast<std::size_t>(group);
+                for (std::size_t k = colours.group_start[g]; k < colours.group_start[g + 1]; ++k) {
+                    f(k);
+                }
+            },
+            alone ? std::numeric_limits<Index>::max() : worth_sharing_groups);
     }
 }
 

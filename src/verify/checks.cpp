@@ -28,6 +28,7 @@ constexpr std::array measures{
     MeasureName{"range", Measure::range},
     MeasureName{"drift", Measure::drift},
     MeasureName{"gain", Measure::gain},
+    MeasureName{"growth", Measure::growth},
     MeasureName{"row", Measure::row},
     MeasureName{"peak", Measure::peak},
     MeasureName{"peak_time", Measure::peak_time},

@@ -236,6 +236,8 @@ double number_of_all(Measure measure, const std::vector<double>& values)
         return values.back() - values.front();
     case Measure::gain:
         return largest_gain(values);
+    case Measure::growth:
+        return *std::max_element(values.begin(), values.end()) / values.front();
     default:
         return none; // not of the values alone
     }

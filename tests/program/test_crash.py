@@ -5,16 +5,12 @@ Usage: test_crash.py PATH_TO_HYORYU [NAME...]. HYORYU_KILLS sets the number of k
 """
 import json
 import os
-import pathlib
 import random
 import signal
 import subprocess
-import sys
 import time
-import unittest
 
-import test_program
-from test_program import ProgramTest
+from program import HYORYU, ProgramTest, main
 
 KILLS = int(os.environ.get("HYORYU_KILLS", "20"))
 
@@ -58,7 +54,7 @@ HISTORIES = ("bodies.csv", "contacts.csv", "energy.csv", "gauges.csv")
 class CrashTest(ProgramTest):
     def start(self, *arguments, **options):
         return subprocess.Popen(
-            [test_program.HYORYU, "run", "case.toml", "-o", "out", "--threads", "1", *arguments],
+            [HYORYU, "run", "case.toml", "-o", "out", "--threads", "1", *arguments],
             cwd=self.dir, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, **options)
 
     def run_whole(self, out, *arguments):
@@ -173,13 +169,13 @@ class Ends(CrashTest):
         os.close(read_end)
         with open("/dev/full", "w") as full, os.fdopen(write_end, "w") as broken:
             for stream in (full, broken):
-                done = subprocess.run([test_program.HYORYU, "run", "case.toml", "-o", "out",
+                done = subprocess.run([HYORYU, "run", "case.toml", "-o", "out",
                                        "--force", "--until", "0.02"], cwd=self.dir, stderr=stream)
                 self.assertEqual(done.returncode, 0)
-            done = subprocess.run([test_program.HYORYU, "run", "nowhere.toml"], cwd=self.dir,
+            done = subprocess.run([HYORYU, "run", "nowhere.toml"], cwd=self.dir,
                                   stderr=full)
             self.assertEqual(done.returncode, 2)
-            done = subprocess.run([test_program.HYORYU, "describe"], stdout=full,
+            done = subprocess.run([HYORYU, "describe"], stdout=full,
                                   stderr=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, 4)
             self.assertIn("No space left", done.stderr)
@@ -227,5 +223,4 @@ class Ends(CrashTest):
 
 
 if __name__ == "__main__":
-    test_program.HYORYU = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main(verbosity=2)
+    main()

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A snapshot that does not fit its case, or holds what no run makes, is an error and no crash.
 #include "hyoryu/core/error.hpp"
-#include "hyoryu/scene/case_file.hpp"
-#include "hyoryu/sim/checkpoint.hpp"
+#include "runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +10,7 @@
 namespace hyoryu {
 namespace {
 
-Simulation make_flood()
-{
-    const Scene scene = parse_case(R"(
+constexpr const char* flood = R"(
 dimensions = 2
 [time]
 end = 0.1
@@ -39,25 +36,18 @@ position = [0.9, 0.0, 0.1]
 name = "push"
 type = "force"
 on = "crate"
-)",
-                                   "test.toml");
-    const Filling filling = fill(scene);
-    return make_simulation(scene, make_plan(scene, filling), filling);
-}
+)";
 
 Snapshot some_state()
 {
-    Simulation sim = make_flood();
-    for (int k = 0; k < 5; ++k) {
-        step(sim);
-        sim.clock.frame += frame_due(sim.clock, sim.scene) ? 1 : 0;
-    }
+    Simulation sim = make(flood);
+    advance(sim, 5);
     return save(sim);
 }
 
 std::string fault_of(const Snapshot& snapshot)
 {
-    Simulation sim = make_flood();
+    Simulation sim = make(flood);
     try {
         restore(sim, snapshot);
     } catch (const IoError& error) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Gauges against numbers known without them: uniform streams, still water, impulses of the books.
 #include "hyoryu/core/error.hpp"
-#include "hyoryu/scene/case_file.hpp"
-#include "hyoryu/sim/checkpoint.hpp"
+#include "runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,28 +65,6 @@ position = [0.4, 0.0, 0.72]
 std::string gauge(const std::string& name, const std::string& rest)
 {
     return "[[gauge]]\nname = \"" + name + "\"\n" + rest + "\n";
-}
-
-Simulation make(const std::string& text)
-{
-    const Scene scene = parse_case(text, "test.toml");
-    const Filling filling = fill(scene);
-    return make_simulation(scene, make_plan(scene, filling), filling);
-}
-
-void step_on(Simulation& sim)
-{
-    step(sim);
-    if (frame_due(sim.clock, sim.scene)) {
-        sim.clock.frame += 1;
-    }
-}
-
-void advance(Simulation& sim, int steps)
-{
-    for (int k = 0; k < steps; ++k) {
-        step_on(sim);
-    }
 }
 
 double read(Simulation& sim, const std::string& column)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Walls that follow a path: their particles, restart, and what they do to the water.
-#include "hyoryu/scene/case_file.hpp"
-#include "hyoryu/sim/checkpoint.hpp"
+#include "runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,28 +35,14 @@ times = [0.0, 0.01, 0.03, 0.08]
 places = [[0, 0, 0], [0.002, 0, 0], [0.008, 0, 0], [0.01, 0, 0]]
 )";
 
-Simulation make()
-{
-    const Scene scene = parse_case(flume, "flume.toml");
-    const Filling filling = fill(scene);
-    return make_simulation(scene, make_plan(scene, filling), filling);
-}
-
-// One step; frames are taken note of as a run does.
-void advance(Simulation& sim)
-{
-    step(sim);
-    sim.clock.frame += frame_due(sim.clock, sim.scene) ? 1 : 0;
-}
-
 TEST(Paddle, ParticlesStandOnThePathAtEveryStep)
 {
-    Simulation sim = make();
+    Simulation sim = make(flume);
     const std::vector<Vec3> start = sim.wall_start;
     ASSERT_FALSE(start.empty());
     Vec3 pushed = Vec3::Zero();
     for (int k = 0; k < 40; ++k) {
-        advance(sim);
+        step_on(sim);
         const Particles& particles = sim.fluid->particles;
         const Rows rows = particles.wall();
         const Motion& motion = sim.scene.walls[1].motion;
@@ -81,15 +66,15 @@ TEST(Paddle, ParticlesStandOnThePathAtEveryStep)
 
 TEST(Paddle, RestartContinuesWithTheSameBits)
 {
-    Simulation whole = make();
+    Simulation whole = make(flume);
     for (int k = 0; k < 40; ++k) {
-        advance(whole);
+        step_on(whole);
     }
-    Simulation second = make();
+    Simulation second = make(flume);
     restore(second, save(whole));
     for (int k = 0; k < 15; ++k) {
-        advance(whole);
-        advance(second);
+        step_on(whole);
+        step_on(second);
     }
     const Snapshot a = save(whole);
     const Snapshot b = save(second);

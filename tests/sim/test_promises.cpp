@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Same bits for any thread count and across a restart; absent effects cost nothing; momentum
 // closes.
-#include "hyoryu/scene/case_file.hpp"
-#include "hyoryu/sim/checkpoint.hpp"
+#include "runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,35 +39,10 @@ density = 600.0
 position = [1.25, 0.3, 0.4]
 )";
 
-Simulation make(const std::string& text)
-{
-    const Scene scene = parse_case(text, "test.toml");
-    const Filling filling = fill(scene);
-    return make_simulation(scene, make_plan(scene, filling), filling);
-}
-
 std::string with_precision(std::string text, const std::string& precision)
 {
     const std::string table = "[particles]\n";
     return text.insert(text.find(table) + table.size(), "precision = \"" + precision + "\"\n");
-}
-
-void advance(Simulation& sim, int steps)
-{
-    for (int k = 0; k < steps; ++k) {
-        step(sim);
-        if (frame_due(sim.clock, sim.scene)) {
-            sim.clock.frame += 1;
-        }
-    }
-}
-
-void expect_same_bits(const Snapshot& a, const Snapshot& b)
-{
-    ASSERT_EQ(a.arrays.size(), b.arrays.size());
-    for (const auto& [name, column] : a.arrays) {
-        EXPECT_EQ(column.values, b.arrays.at(name).values) << name;
-    }
 }
 
 TEST(Promises, SameBitsForOneTwoAndThreeThreads)

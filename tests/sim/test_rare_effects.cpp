@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Friction, eddies, renormalised diffusion, collisions, drive: same bits for any thread count and
 // across a restart, momentum closes, and nothing of them where they are not asked for.
-#include "hyoryu/scene/case_file.hpp"
-#include "hyoryu/sim/checkpoint.hpp"
+#include "runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -80,31 +79,6 @@ size = [0.3, 0.3, 0.3]
 density = 400.0
 position = [0.4, 0.3, 0.6]
 )";
-
-Simulation make(const std::string& text, const std::vector<std::string>& overrides = {})
-{
-    const Scene scene = parse_case(text, "test.toml", overrides);
-    const Filling filling = fill(scene);
-    return make_simulation(scene, make_plan(scene, filling), filling);
-}
-
-void advance(Simulation& sim, int steps)
-{
-    for (int k = 0; k < steps; ++k) {
-        step(sim);
-        if (frame_due(sim.clock, sim.scene)) {
-            sim.clock.frame += 1;
-        }
-    }
-}
-
-void expect_same_bits(const Snapshot& a, const Snapshot& b)
-{
-    ASSERT_EQ(a.arrays.size(), b.arrays.size());
-    for (const auto& [name, column] : a.arrays) {
-        EXPECT_EQ(column.values, b.arrays.at(name).values) << name;
-    }
-}
 
 TEST(RareEffects, SameBitsForAnyThreadCountAndAcrossARestart)
 {

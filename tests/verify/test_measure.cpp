@@ -27,9 +27,10 @@ protected:
                       "time,case,x\n0.5,one,1.5\n1.5,one,3.25\n1.5,two,100\n");
     }
 
-    Measured of_a(Measure measure_, int index = 1, const std::string& time = "") const
+    Measured of_a(Measure measure_, int index = 1, const std::string& time = "",
+                  const std::string& value = "x") const
     {
-        const Quantity quantity{.series = series("x"),
+        const Quantity quantity{.series = series(value),
                                 .measure = measure_,
                                 .index = index,
                                 .time = time,
@@ -56,6 +57,7 @@ TEST_F(Measures, OfWholeSeries)
     EXPECT_EQ(of_a(Measure::sum).value, 13);
     EXPECT_DOUBLE_EQ(of_a(Measure::mean).value, 13.0 / 6);
     EXPECT_EQ(of_a(Measure::gain).value, 4); // from 0 up to 4; from 1 up to 2 is less
+    EXPECT_EQ(of_a(Measure::growth, 1, "", "x + 2").value, 3); // 6 over 2
 }
 
 TEST_F(Measures, AtATimeLinearBetweenRowsAndNowhereOutside)

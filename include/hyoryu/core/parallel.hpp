@@ -16,7 +16,8 @@ int thread_count();
 /// Number of the calling thread within a parallel loop, below thread_count().
 int worker();
 
-// Below these sizes waking the other threads costs more than they save.
+// Below these sizes waking the other threads costs more than they save. The loop then does without
+// a parallel region: even one of a single thread costs as much as some rows.
 inline constexpr Index worth_sharing_rows = 4096;
 inline constexpr Index worth_sharing_blocks = 16;
 
@@ -25,7 +26,13 @@ inline constexpr Index worth_sharing_blocks = 16;
 template <class F>
 void parallel_for(Index begin, Index end, const F& f, Index worth = worth_sharing_rows)
 {
-#pragma omp parallel for schedule(static) if (end - begin >= worth)
+    if (end - begin < worth) {
+        for (Index k = begin; k < end; ++k) {
+            f(k);
+        }
+        return;
+    }
+#pragma omp parallel for schedule(static)
     for (Index k = begin; k < end; ++k) {
         f(k);
     }
@@ -36,7 +43,13 @@ void parallel_for(Index begin, Index end, const F& f, Index worth = worth_sharin
 template <class F>
 void parallel_blocks(Index begin, Index end, const F& f, Index worth = worth_sharing_blocks)
 {
-#pragma omp parallel for schedule(dynamic, 1) if (end - begin >= worth)
+    if (end - begin < worth) {
+        for (Index k = begin; k < end; ++k) {
+            f(k);
+        }
+        return;
+    }
+#pragma omp parallel for schedule(dynamic, 1)
     for (Index k = begin; k < end; ++k) {
         f(k);
     }
@@ -64,10 +77,7 @@ T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
         }
         partial[static_cast<std::size_t>(chunk)] = total;
     };
-#pragma omp parallel for schedule(static) if (chunks >= worth_sharing_blocks)
-    for (Index chunk = 0; chunk < chunks; ++chunk) {
-        add_up(chunk);
-    }
+    parallel_for(0, chunks, add_up, worth_sharing_blocks);
     T total = zero;
     for (Index chunk = 0; chunk < chunks; ++chunk) {
         total = add(total, partial[static_cast<std::size_t>(chunk)]);

@@ -59,6 +59,7 @@ enum class Measure {
     range,         // max - min
     drift,         // last - first
     gain,          // largest rise above an earlier value
+    growth,        // the largest value over the first
     row,           // of number `index`
     peak,          // local maximum of number `index`, by the parabola through three rows
     peak_time,     // when that is [s]

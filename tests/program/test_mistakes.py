@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""What a user gets wrong: messages, places, exit codes."""
+import resource
+import time
+
+from program import FLOOD, ProgramTest, main
+
+
+class Mistakes(ProgramTest):
+    def refused(self, text, *expected, arguments=(), **options):
+        before = set(self.files())
+        name = self.write(text)
+        done = self.call("run", name, "-o", "out", *arguments, **options)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        for part in expected:
+            self.assertIn(part, done.stderr)
+        self.assertEqual(set(self.files()) - before, {"case.toml"} - before, "something was written")
+
+    def test_unknown_key(self):
+        self.refused(FLOOD.replace("[fluid]", "[fluid]\ndensty = 1000.0"),
+                     "case.toml:8:1", "fluid.densty", "density", "^^^^^^")
+
+    def test_wrong_unit(self):
+        self.refused(FLOOD.replace("spacing = 0.05", 'spacing = "5 s"'), "case.toml:6:11",
+                     "particles.spacing")
+
+    def test_negative_density(self):
+        self.refused(FLOOD.replace("density = 400.0", "density = -400.0"), "density", "-400")
+
+    def test_all_mistakes_at_once(self):
+        text = FLOOD.replace("spacing = 0.05", 'spacing = "5 s"').replace("density = 400.0",
+                                                                          "density = -400.0")
+        self.refused(text, "particles.spacing", "density", "-400")
+
+    def test_overlapping_bodies(self):
+        second = '[[body]]\nname = "second"\nshape = "box"\nsize = [0.2, 0.2, 0.2]\n' \
+                 "density = 500.0\nposition = [0.9, 0.26, 0.15]\n"
+        self.refused(FLOOD.replace("[output]", second + "[output]"), "overlaps", "crate", "second")
+
+    def test_body_in_the_floor(self):
+        self.refused(FLOOD.replace("0.26, 0.125]", "0.26, 0.1]"), "overlaps", "basin")
+
+    def test_missing_case(self):
+        done = self.call("run", "nowhere.toml")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nowhere.toml", done.stderr)
+
+    def test_unreadable_mesh(self):
+        (self.dir / "bad.stl").write_text("this is no mesh")
+        mesh = FLOOD.replace('shape = "box"\nsize = [0.25, 0.25, 0.25]',
+                             'shape = "mesh"\nfile = "bad.stl"')
+        self.refused(mesh, "bad.stl")
+        self.refused(mesh.replace("bad.stl", "missing.stl"), "missing.stl")
+
+    def test_non_empty_results_folder(self):
+        (self.dir / "out").mkdir()
+        (self.dir / "out" / "precious.txt").write_text("mine")
+        for arguments in ((), ("--force",)):
+            done = self.call("run", self.write(FLOOD), "-o", "out", *arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertEqual([p.name for p in (self.dir / "out").iterdir()], ["precious.txt"])
+
+    def test_a_fixed_step_beyond_stability(self):
+        self.refused(FLOOD.replace("end = 0.5", "end = 0.5\nstep = 0.1"), "time.step")
+
+    def test_an_absurd_spacing_is_refused_with_the_estimate(self):
+        self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-7"), "particles")
+        self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-5"), "1.7e+14", "particles")
+
+    def test_a_case_beyond_the_memory_is_refused_with_the_estimate(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+        for spacing, expected in (("0.001", "to place them alone takes"), ("0.0025", "the run needs")):
+            self.refused(FLOOD.replace("spacing = 0.05", f"spacing = {spacing}"), expected, "2.",
+                         preexec_fn=limit)
+
+    def test_a_wall_far_beyond_the_domain_is_counted(self):
+        domain = "[domain]\nmin = [0.0, 0.0, 0.0]\nmax = [1.6, 0.5, 1.0]\n[fluid]"
+        self.refused(FLOOD.replace("[fluid]", domain).replace("max = [1.6, 0.5, 1.0]\nopen",
+                                                              "max = [1e7, 1e7, 1.0]\nopen"),
+                     "particles")
+
+    def test_more_outputs_and_steps_than_can_be_are_refused_with_the_estimate(self):
+        self.refused(FLOOD.replace("every = 0.05", "every = 1e-300"), "output.every", "5e+299 frames")
+        self.refused(FLOOD.replace("end = 0.5", "end = 1e300"), "time.end", "at most 1e+15")
+        self.refused(FLOOD.replace("end = 0.5", "end = 0.5\nstep = 1e-300"), "time.end", "5e+299")
+        copies = "[body.copies]\ncount = [1000000000, 1, 1]\npitch = [1.0, 0.0, 0.0]\n[output]"
+        self.refused(FLOOD.replace("[output]", copies), "body[0].copies.count", "1000000000")
+        self.refused(FLOOD.replace("[output]", copies.replace("1000000000, 1, 1", "100000, 9, 9")),
+                     "too many, at most 100000 bodies")
+
+    def test_no_name_leads_out_of_the_results_folder(self):
+        for name in ("../evil", "a/b", "/tmp/evil", "a\\\\b", "nul\\u0000", "line\\n"):
+            self.refused(FLOOD.replace('"crate"', f'"{name}"'), "is no name")
+            self.refused(FLOOD.replace('"basin"\nshape', f'"{name}"\nshape'), "is no name")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+"""The report of a run."""
+import json
+import xml.etree.ElementTree
+
+from program import FLOOD, ProgramTest, main
+
+
+class Report(ProgramTest):
+    CASE = FLOOD.replace("small flood", "flood <&> crate").replace("end = 0.5", "end = 0.1") + """
+[[gauge]]
+name = "level"
+type = "elevation"
+at = [0.8, 0.25]
+[[gauge]]
+name = "load"
+type = "force"
+on = "basin"
+"""
+    # Dropped flat from 20 mm: hits the floor at sqrt(2 g h) = 0.6264 m/s with 8 kg on 4 corners.
+    DROP = """
+title = "drop"
+[time]
+end = 0.08
+step = 0.001
+[particles]
+spacing = 0.05
+[[wall]]
+name = "floor"
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+material = "concrete"
+[[body]]
+name = "cube"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 1000.0
+position = [0.0, 0.0, 0.12]
+material = "pine"
+"""
+
+    def run_case(self, text, out="out"):
+        done = self.call("run", self.write(text), "-o", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def page(self, *arguments):
+        """The page, parsed as XML: raises if it is not well-formed."""
+        done = self.call("report", "out", "-o", "page.html", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.dir / "page.html").read_text()
+        return text, xml.etree.ElementTree.fromstring(text)
+
+    def rows(self, root, heading):
+        """Cells of the first table after the heading."""
+        body = root.find("{*}body")
+        at = [k for k, e in enumerate(body) if (e.text or "") == heading][0]
+        table = next(e for e in body[at:] if e.tag.endswith("}table"))
+        return [["".join(cell.itertext()) for cell in row] for row in table.findall(".//{*}tr")]
+
+    def refused(self, code, *expected):
+        before = sorted(p.name for p in self.dir.rglob("*"))
+        done = self.call("report", "out")
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        for text in expected:
+            self.assertIn(text, done.stderr)
+        self.assertEqual(sorted(p.name for p in self.dir.rglob("*")), before)
+
+    def test_the_page_is_well_formed_and_needs_nothing_else(self):
+        self.run_case(self.CASE)
+        text, root = self.page()
+        self.assertEqual(root.find(".//{*}h1").text, "flood <&> crate")
+        for forbidden in ("<script", "src=", "href=", "url(", "@import", "nan", "inf "):
+            self.assertNotIn(forbidden, text.replace("http://www.w3.org/", ""), forbidden)
+        headings = [h.text for h in root.findall(".//{*}h2")]
+        self.assertEqual(headings, ["Case", "Run", "Impacts", "Tracks of the bodies", "Gauges",
+                                    "Energy and momentum", "Plan", "Cost by stage"])
+
+    def test_the_page_says_what_the_files_of_the_run_say(self):
+        self.run_case(self.CASE)
+        _, root = self.page()
+        summary = json.loads((self.dir / "out" / "summary.json").read_text())
+        plan = json.loads((self.dir / "out" / "plan.json").read_text())
+        run = dict(self.rows(root, "Run")[1:])
+        self.assertEqual(int(run["steps"]), summary["steps"])
+        self.assertEqual(int(run["threads"]), summary["threads"])
+        self.assertAlmostEqual(float(run["worst density error"]), summary["worst_density_error"],
+                               delta=1e-3 * summary["worst_density_error"])
+        self.assertEqual(dict(self.rows(root, "Case")[1:])["particle spacing [m]"], "0.05")
+        on = self.rows(root, "Effects that ran")[1:]
+        self.assertEqual(on, [[e["name"], e["why"]] for e in plan["on"]])
+        off = self.rows(root, "Effects that did not run")[1:]
+        self.assertEqual(off, [[e["name"], e["why"]] for e in plan["off"]])
+        stages = {row[0] for row in self.rows(root, "Cost by stage")}
+        self.assertTrue(set(summary["stages"]) <= stages)
+
+    def test_every_gauge_has_plots_with_its_unit(self):
+        self.run_case(self.CASE)
+        _, root = self.page()
+        charts = {svg.get("aria-label"): "".join(svg.itertext()) for svg in root.findall(".//{*}svg")}
+        self.assertIn("[m]", charts["level"])
+        self.assertIn("[N]", charts["load"])
+        self.assertIn("[N s]", charts["load_fluid_impulse"])
+        for part in ("load_pressure", "load_viscous", "load_contact", "load_contact_impulse"):
+            self.assertIn(part, charts)
+
+    def test_impacts_have_the_numbers_of_the_drop(self):
+        self.run_case(self.DROP)
+        text, root = self.page()
+        self.assertIn("--stiffness K", text)
+        rows = self.rows(root, "On floor")
+        self.assertEqual(len(rows[0]), 6)
+        self.assertAlmostEqual(float(rows[1][0]), (2 * 0.02 / 9.81) ** 0.5, delta=1e-6)
+        self.assertEqual(rows[1][1], "cube")
+        self.assertAlmostEqual(float(rows[1][2]), (2 * 9.81 * 0.02) ** 0.5, delta=1e-4)
+        self.assertIn("impulses together", text)
+        _, root = self.page("--stiffness", "2.5e5")
+        rows = self.rows(root, "On floor")
+        self.assertEqual(rows[0][6], "u sqrt(k m) [N]")
+        u, m = float(rows[1][2]), float(rows[1][4])
+        self.assertAlmostEqual(float(rows[1][6]), u * (2.5e5 * m) ** 0.5, delta=1e-3 * u * (2.5e5 * m) ** 0.5)
+
+    def test_the_stiffness_of_the_case_is_used(self):
+        pair = "[[contact.pair]]\nmaterials = [\"pine\", \"concrete\"]\nrestitution = 0.4\n" \
+               "friction = 0.3\nstiffness = 1.0e6\n"
+        self.run_case(self.DROP + pair)
+        _, root = self.page()
+        rows = self.rows(root, "On floor")
+        u, m = float(rows[1][2]), float(rows[1][4])
+        self.assertAlmostEqual(float(rows[1][6]), u * (1e6 * m) ** 0.5, delta=u * m ** 0.5)
+
+    def test_two_dimensions_are_per_metre_of_width(self):
+        self.run_case("dimensions = 2\n" + self.DROP.strip())
+        text, _ = self.page("--stiffness", "2.5e5")
+        self.assertIn("u sqrt(k m) [N/m]", text)
+        self.assertIn("normal impulse [N s/m]", text)
+        self.assertIn(">z [m]<", text)
+
+    def test_by_default_the_page_stands_in_the_folder_and_force_replaces_it(self):
+        self.run_case(self.DROP)
+        self.assertEqual(self.call("report", "out").returncode, 0)
+        self.assertTrue((self.dir / "out" / "report.html").exists())
+        self.assertEqual(self.call("run", "case.toml", "-o", "out", "--force").returncode, 0)
+        self.assertFalse((self.dir / "out" / "report.html").exists())
+
+    def test_what_is_no_ended_run_is_refused(self):
+        self.refused(2, "not a results folder", "`hyoryu run`")
+        self.run_case(self.DROP)
+        (self.dir / "out" / "summary.json").unlink()
+        self.refused(2, "summary.json", "--resume")
+
+    def test_missing_and_damaged_files_are_told(self):
+        self.run_case(self.CASE)
+        for name, damage in (("energy.csv", "time,fluid_kinetic\n0,1,2\n"),
+                             ("bodies.csv", "# m\ntime,body\n0,crate\n"),
+                             ("contacts.csv", ""), ("gauges.csv", "time,level\n0,wet\n"),
+                             ("case.toml", "title = \n"), ("plan.json", "{"),
+                             ("summary.json", "{}"), ("structures.hdf", "no HDF5")):
+            file = self.dir / "out" / name
+            good = file.read_bytes()
+            file.write_text(damage)
+            self.refused(4, name)
+            if name not in ("plan.json", "summary.json"):
+                file.unlink()
+                self.refused(4, name)
+            file.write_bytes(good)
+
+    def test_an_unusable_stiffness_or_place_is_told(self):
+        self.run_case(self.DROP)
+        self.assertEqual(self.call("report", "out", "--stiffness", "-1").returncode, 2)
+        self.assertEqual(self.call("report", "out", "-o", "no/such/page.html").returncode, 4)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""Studies: a case over values of its keys."""
+import json
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree
+
+from program import FLOOD, HYORYU, ProgramTest, main
+
+
+class Study(ProgramTest):
+    """A brick that slides on a floor until friction stops it, over the time step."""
+
+    STUDY = """
+title = "Sliding brick"
+case = "brick.toml"
+[[sweep]]
+key = "time.step"
+values = [0.02, 0.01, 0.005]
+[[quantity]]
+name = "way"
+unit = "m"
+value = "x"
+measure = "last"
+expected = "1/(2*0.5*9.81)"
+"""
+    CASE = """
+[time]
+end = 0.3
+step = 0.01
+[particles]
+spacing = 0.05
+[[wall]]
+name = "floor"
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+[[body]]
+name = "brick"
+shape = "box"
+size = [0.2, 0.1, 0.1]
+density = 2000.0
+position = [0.0, 0.0, 0.05]
+velocity = [1.0, 0.0, 0.0]
+[contact]
+restitution = 0.0
+friction = 0.5
+[output]
+every = 0.3
+"""
+
+    def study(self, *arguments, text=STUDY):
+        self.write(self.CASE, "brick.toml")
+        self.write(text, "slide.toml")
+        return self.call("study", "slide.toml", *arguments)
+
+    def rows(self, folder="slide-results"):
+        """The table without wall times."""
+        table = [line.split(",") for line in self.read(folder, "study.csv").decode().splitlines()]
+        head = table[1]
+        walls = [k for k, name in enumerate(head) if name.startswith("wall")]
+        return [[cell for k, cell in enumerate(row) if k not in walls] for row in table[1:]]
+
+    def test_results_are_complete_and_agree(self):
+        done = self.study()
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for part in ("3/3", "Cheapest setting", "Orders", "time.step"):
+            self.assertIn(part, done.stdout)
+        report = json.loads(self.read("slide-results", "study.json"))
+        self.assertEqual([run["name"] for run in report["runs"]],
+                         ["step=0.02", "step=0.01", "step=0.005"])
+        exact = 1/(2*0.5*9.81)
+        for run, row in zip(report["runs"], self.rows()[1:]):
+            value = run["values"][0]
+            self.assertAlmostEqual(value["error"], abs(value["value"]/exact - 1), 12)
+            self.assertAlmostEqual(float(row[5]), value["error"], 12)
+            self.assertLess(value["error"], 0.01)
+            self.assertEqual(run["steps"], run["work"])
+        page = xml.etree.ElementTree.fromstring(self.read("slide-results", "study.html"))
+        self.assertEqual(page.tag.rpartition("}")[2], "html")
+        self.assertNotIn(b"src=\"http", self.read("slide-results", "study.html"))
+        self.assertIn("| quantity |", self.read("slide-results", "study.md").decode())
+
+    def test_what_is_done_is_not_run_again_and_gives_the_same_table(self):
+        self.assertEqual(self.study().returncode, 0)
+        table = self.rows()
+        summary = self.dir / "slide-results" / "runs" / "step=0.01" / "summary.json"
+        first = summary.stat().st_mtime_ns
+        done = self.study()
+        self.assertEqual(done.stdout.count("done before"), 3, done.stdout)
+        self.assertEqual(self.rows(), table)
+        self.assertEqual(summary.stat().st_mtime_ns, first)
+        self.assertNotIn("done before", self.study("--force").stdout)
+        self.assertEqual(self.rows(), table)
+
+    def test_a_run_cut_short_and_a_changed_case_are_run_again(self):
+        self.assertEqual(self.study().returncode, 0)
+        table = self.rows()
+        runs = self.dir / "slide-results" / "runs"
+        (runs / "step=0.01" / "summary.json").unlink()
+        self.assertEqual(self.study().stdout.count("done before"), 2)
+        self.assertEqual(self.rows(), table)
+        other = self.STUDY.replace("[[sweep]]", 'set = ["contact.friction=0.4"]\n[[sweep]]', 1)
+        self.assertNotIn("done before", self.study(text=other).stdout)
+        self.assertNotEqual(self.rows(), table)
+
+    def test_stopping_and_resuming_gives_the_same_table(self):
+        self.assertEqual(self.study("-o", "whole").returncode, 0)
+        process = subprocess.Popen([HYORYU, "study", "slide.toml", "-o", "parts"], cwd=self.dir,
+                                   stdout=subprocess.PIPE, text=True)
+        self.assertIn("1/3", process.stdout.readline())
+        process.send_signal(signal.SIGINT)
+        rest = process.communicate(timeout=60)[0]
+        # A machine that is quick may have come to its end first.
+        self.assertIn(process.returncode, (130, 0), rest)
+        done = self.study("-o", "parts")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("done before", done.stdout)
+        self.assertEqual(self.rows("parts"), self.rows("whole"))
+
+    def test_runs_side_by_side_give_the_same_table(self):
+        self.assertEqual(self.study("-o", "one").returncode, 0)
+        self.assertEqual(self.study("-o", "two", "--jobs", "2").returncode, 0)
+        self.assertEqual(self.rows("one"), self.rows("two"))
+
+    def test_repeats_are_timed_in_rounds(self):
+        done = self.study(text=self.STUDY.replace("[[sweep]]", "repeats = 2\n[[sweep]]", 1))
+        self.assertIn("6/6", done.stdout)
+        self.assertLess(done.stdout.index("step=0.005: done"),
+                        done.stdout.index("step=0.02 (repeat 2)"))
+        report = json.loads(self.read("slide-results", "study.json"))
+        self.assertEqual(len(report["runs"][0]["wall_seconds"]), 2)
+
+    def test_mistakes_are_all_told_and_nothing_is_written(self):
+        done = self.study(text=self.STUDY.replace("values", "value").replace("last", "lst"))
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"(?s)slide.toml:6:1.*value.*did you mean \"values\"")
+        self.assertRegex(done.stderr, r"slide.toml:11:11.*measure")
+        done = self.study(text=self.STUDY.replace("time.step", "time.stop"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("time.stop", done.stderr)
+        self.assertIn("in the run stop=0.02", done.stderr)
+        self.assertFalse((self.dir / "slide-results").exists(), "something was written")
+        self.assertEqual(self.call("study", "none.toml").returncode, 2)
+
+    def test_a_run_that_stops_is_told_and_the_others_count(self):
+        # The slower sound speed is far below the flow's own speed: the fluid collapses.
+        self.write(FLOOD, "flood.toml")
+        text = self.STUDY.replace("brick", "flood").replace("time.step", "fluid.sound_speed")
+        text = text.replace("[0.02, 0.01, 0.005]", "[0.6, 40]").replace("1/(2*0.5*9.81)", "0.8")
+        done = self.study(text=text)
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"sound_speed=0.6: stopped: .*fluid particle")
+        report = json.loads(self.read("slide-results", "study.json"))
+        self.assertNotEqual(report["runs"][0]["error"], "")
+        self.assertEqual(report["runs"][1]["error"], "")
+        self.assertIn("fluid particle", self.read("slide-results", "study.md").decode())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Benchmarks held to their references."""
+import json
+
+from program import ProgramTest, main
+
+
+class Verify(ProgramTest):
+    CASE = """
+[time]
+end = 0.1
+step = 0.01
+[particles]
+spacing = 0.02
+[[body]]
+name = "stone"
+shape = "box"
+size = [0.06, 0.06, 0.06]
+density = 2500.0
+position = [0.0, 0.0, 1.0]
+[output]
+every = 0.1
+"""
+    BENCHMARK = """
+title = "Stone in free fall"
+group = "fall"
+source = "exact: g t^2/2"
+[[check]]
+name = "way"
+value = "1 - z"
+measure = "last"
+expected = "9.81*0.1^2/2"
+tolerance = 1e-12
+because = "round-off of a parabola"
+"""
+
+    def benchmark(self, text=BENCHMARK):
+        (self.dir / "mine" / "free_fall").mkdir(parents=True, exist_ok=True)
+        self.write(self.CASE, "mine/free_fall/case.toml")
+        self.write(text, "mine/free_fall/verify.toml")
+
+    def verify(self, *arguments):
+        return self.call("verify", "--cases", "mine", "-o", "out", *arguments)
+
+    def test_a_right_expectation_passes_and_is_reported(self):
+        self.benchmark()
+        done = self.verify("fall", "--json", "copy.json")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("1 passed, 0 failed", done.stdout)
+        report = json.loads((self.dir / "copy.json").read_text())
+        self.assertEqual(report["passed"], 1)
+        run = report["cases"][0]["runs"][0]
+        self.assertEqual(run["steps"], 10)
+        self.assertAlmostEqual(run["checks"][0]["got"], 0.04905, 12)
+        self.assertIn("| way |", (self.dir / "out" / "verify.md").read_text())
+        self.assertTrue((self.dir / "out" / "free_fall" / "run" / "bodies.csv").exists())
+        self.assertEqual(self.verify().returncode, 2, "a full folder was overwritten")
+        self.assertEqual(self.verify("--force").returncode, 0)
+
+    def test_a_wrong_expectation_fails(self):
+        self.benchmark(self.BENCHMARK.replace("9.81*", "9.80*"))
+        done = self.verify("free_fall")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("FAIL", done.stdout)
+
+    def test_a_run_that_stops_fails(self):
+        self.benchmark(self.BENCHMARK + '[[run]]\nname = "odd"\nset = ["body[0].density=-1"]\n')
+        done = self.verify()
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("out of range", done.stdout)
+
+    def test_mistakes_are_the_users(self):
+        self.benchmark()
+        done = self.verify("free_fal")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('did you mean "free_fall"?', done.stderr)
+        self.assertEqual(self.verify("--tier", "quik").returncode, 2)
+        self.benchmark(self.BENCHMARK.replace("measure", "mesure"))
+        done = self.verify()
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"verify.toml:8:1.*mesure")
+        self.assertFalse((self.dir / "out").exists(), "something was written")
+
+    def test_the_shipped_benchmarks_are_found_and_one_passes(self):
+        listed = self.call("verify", "--list")
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertIn("bouncing_box", listed.stdout)
+        done = self.call("verify", "skid_to_roll")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertTrue((self.dir / "verify-results" / "verify.json").exists())
+
+
+if __name__ == "__main__":
+    main()
