@@ -1,3 +1,9 @@
+# What nearly every file reads, parsed once and not once a file, which halves the time of a build.
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without, and so finds an include that a file forgot.
+set(HYORYU_COMMON_HEADERS <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <fstream> <functional>
+  <limits> <map> <memory> <numbers> <numeric> <optional> <span> <sstream> <string> <variant> <vector>
+  <fmt/format.h>)
+
 # hyoryu_layer(NAME LINKS ... PRIVATE_LINKS ...): the static library of src/NAME with the headers of
 # include/hyoryu/NAME; every header must compile alone.
 function(hyoryu_layer name)
@@ -12,6 +18,11 @@ function(hyoryu_layer name)
   target_link_libraries(hyoryu_${name} PUBLIC ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS}
     $<BUILD_INTERFACE:hyoryu_options>)
   set_target_properties(hyoryu_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  if(name STREQUAL "core")
+    target_precompile_headers(hyoryu_core PRIVATE ${HYORYU_COMMON_HEADERS})
+  elseif(NOT name STREQUAL "view") # its files are VTK's, with definitions of their own
+    target_precompile_headers(hyoryu_${name} REUSE_FROM hyoryu_core)
+  endif()
 endfunction()
 
 # hyoryu_hot_loops(LAYER): compiles src/LAYER/loops/*.cpp once for each instruction set and adds the
