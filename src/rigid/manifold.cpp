@@ -14,6 +14,10 @@ constexpr double rim_tolerance = 1e-6;
 // Faces nearer to parallel than acos of this overlap face to face; corners of the reference then
 // count.
 constexpr double face_to_face = 0.9;
+// Edges that meet along the normal of a face, but for this sine, are crossings of that face. Faces
+// at rest on each other tilt by the round-off of their gaps, and so touch at one crossing of their
+// rims, another one every step; the others, a micrometre away, carry the load with it.
+constexpr double nearly_flush = 1e-3;
 
 // The reference face's solid r, the other i, and the normal out of the reference face in world
 // axes.
@@ -154,6 +158,40 @@ void add_faces(const Meeting& m, double distance, std::vector<Candidate>& found)
     }
 }
 
+// The unit axis of two edges in world axes, out of a.
+Vec3 axis_of_edges(const PartPair& parts, const Edge& ea, const Edge& eb)
+{
+    const auto along = [](const Placed& p, const Edge& e) {
+        return Vec3(p.pose.R * (p.solid.corners[e.j] - p.solid.corners[e.i]));
+    };
+    const Vec3 axis = along(parts.a, ea).cross(along(parts.b, eb)).normalized();
+    const Vec3 outward = parts.a.pose.R * (parts.a.solid.corners[ea.i] - parts.a.solid.inside);
+    return axis.dot(outward) < 0 ? Vec3(-axis) : axis;
+}
+
+// The axis of the face of either solid whose normal the axis of the edges all but has; else itself.
+Separation flush(const PartPair& parts, const Separation& axis)
+{
+    const Edge& ea = parts.a.solid.edges[axis.a];
+    const Edge& eb = parts.b.solid.edges[axis.b];
+    const Vec3 n = axis_of_edges(parts, ea, eb);
+    const auto all_but = [](const Placed& p, int face, const Vec3& out) {
+        const Vec3 normal = p.pose.R * p.solid.faces[face].normal;
+        return normal.dot(out) > 0 && normal.cross(out).norm() < nearly_flush;
+    };
+    for (const int face : {ea.left, ea.right}) {
+        if (all_but(parts.a, face, n)) {
+            return {axis.distance, AxisKind::face_of_a, face, 0};
+        }
+    }
+    for (const int face : {eb.left, eb.right}) {
+        if (all_but(parts.b, face, -n)) {
+            return {axis.distance, AxisKind::face_of_b, 0, face};
+        }
+    }
+    return axis;
+}
+
 Meeting meeting(const Pair& pair, const PartPair& parts, const Separation& axis,
                 const Configuration& at)
 {
@@ -174,8 +212,9 @@ Meeting meeting(const Pair& pair, const PartPair& parts, const Separation& axis,
 void add_manifold(const Pair& pair, const PartPair& parts, const Separation& axis,
                   const Configuration& at, std::vector<Candidate>& found)
 {
-    if (axis.kind != AxisKind::edges) {
-        add_faces(meeting(pair, parts, axis, at), axis.distance, found);
+    const Separation meets = axis.kind == AxisKind::edges ? flush(parts, axis) : axis;
+    if (meets.kind != AxisKind::edges) {
+        add_faces(meeting(pair, parts, meets, at), meets.distance, found);
         return;
     }
     const Edge& ea = parts.a.solid.edges[axis.a];
