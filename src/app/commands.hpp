@@ -28,6 +28,7 @@ struct CheckOptions {
     std::vector<std::string> overrides;
     bool json = false;
     bool accuracy = false; // also what error to expect
+    bool time = false;     // times steps of the case for the forecast
 };
 int check_case(const CheckOptions& options);
 

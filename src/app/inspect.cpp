@@ -24,6 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+// Of `check --time`.
+constexpr int timed_steps = 60;
+
 json read_json(const fs::path& file)
 {
     std::ifstream stream(file);
@@ -72,11 +75,15 @@ int check_case(const CheckOptions& options)
     const Scene scene = read_case(options.case_file, options.overrides);
     const Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
+    std::optional<StepCost> timed;
+    if (options.time && plan.fluid) {
+        timed = measure_cost(make_simulation(scene, plan, filling), timed_steps);
+    }
     if (options.json) {
-        fmt::print("{}", plan_json(scene, plan));
+        fmt::print("{}", plan_json(scene, plan, timed));
         return exit_code::done;
     }
-    fmt::print("{}", plan_text(scene, plan));
+    fmt::print("{}", plan_text(scene, plan, timed));
     if (options.accuracy) {
         fmt::print("\n{}", expected_errors_text(expected_errors(scene, filling, plan)));
     }

@@ -40,6 +40,8 @@ void add_check(CLI::App& app, CheckOptions& options)
         ->add_flag("--accuracy", options.accuracy,
                    "also the error to expect, from the standing studies")
         ->excludes(json);
+    check->add_flag("--time", options.time,
+                    "time some steps of the case for the forecast, and what each effect takes");
 }
 
 void add_describe(CLI::App& app, DescribeOptions& options)

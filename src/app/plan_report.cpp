@@ -23,11 +23,22 @@ double gauge_seconds(const Plan& plan)
     return plan.gauge_rows * plan.gauge_looks / gauge_rate;
 }
 
-double forecast(const Plan& plan)
+double forecast(const Plan& plan, const std::optional<StepCost>& timed)
 {
-    return plan.expected_steps * static_cast<double>(plan.counts.fluid) /
-               (measured_rate * thread_count()) +
-           gauge_seconds(plan);
+    const double step =
+        timed ? timed->seconds
+              : static_cast<double>(plan.counts.fluid) / (measured_rate * thread_count());
+    return plan.expected_steps * step + gauge_seconds(plan);
+}
+
+nlohmann::ordered_json cost_json(const StepCost& cost)
+{
+    using nlohmann::ordered_json;
+    ordered_json json{{"seconds_per_step", cost.seconds}, {"effects", ordered_json::object()}};
+    for (const StepCost::Share& share : cost.effects) {
+        json["effects"][share.effect] = share.share;
+    }
+    return json;
 }
 
 std::string gauge_lines(const Scene& scene, const Plan& plan)
@@ -120,7 +131,24 @@ std::string size_lines(const Scene& scene, const Plan& plan)
     return text;
 }
 
-std::string time_lines(const Scene& scene, const Plan& plan)
+std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)
+{
+    const std::string about = readable_seconds(forecast(plan, timed));
+    if (!timed) {
+        return fmt::format("    run time               about {} on {} threads (order of magnitude; "
+                           "--time measures it)\n",
+                           about, thread_count());
+    }
+    std::string text = fmt::format(
+        "    run time               about {} on {} threads, by {:.3g} s a step timed now\n", about,
+        thread_count(), timed->seconds);
+    for (const StepCost::Share& share : timed->effects) {
+        text += fmt::format("      {:<20} {:.0f} % of a step\n", share.effect, 100 * share.share);
+    }
+    return text;
+}
+
+std::string time_lines(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
 {
     std::string text = "  time step\n";
     if (plan.fluid) {
@@ -146,9 +174,7 @@ std::string time_lines(const Scene& scene, const Plan& plan)
     text += fmt::format("    steps                  about {:.0f} to {} s\n", plan.expected_steps,
                         scene.time.end);
     if (plan.fluid) {
-        text +=
-            fmt::format("    run time               about {} on {} threads (order of magnitude)\n",
-                        readable_seconds(forecast(plan)), thread_count());
+        text += run_time_lines(plan, timed);
     }
     return text;
 }
@@ -176,7 +202,7 @@ std::string readable_seconds(double seconds)
                         : fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
-std::string plan_text(const Scene& scene, const Plan& plan)
+std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
 {
     std::string text = fmt::format("plan of \"{}\"\n  on\n{}  off\n{}", scene.title,
                                    join_effects(plan.on), join_effects(plan.off));
@@ -197,10 +223,10 @@ std::string plan_text(const Scene& scene, const Plan& plan)
         text += fmt::format("    {:<22} {:<8} {:>3} B a particle\n", "together", "", bytes);
     }
     return text + material_lines(scene, plan) + gauge_lines(scene, plan) + size_lines(scene, plan) +
-           time_lines(scene, plan);
+           time_lines(scene, plan, timed);
 }
 
-std::string plan_json(const Scene& scene, const Plan& plan)
+std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
 {
     using nlohmann::ordered_json;
     const auto effects = [](const std::vector<Plan::Effect>& list) {
@@ -265,7 +291,10 @@ std::string plan_json(const Scene& scene, const Plan& plan)
     json["forecast"] = {{"memory_bytes", plan.memory},
                         {"frames", plan.frames},
                         {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
-                        {"wall_seconds", forecast(plan)}};
+                        {"wall_seconds", forecast(plan, timed)}};
+    if (timed) {
+        json["cost"] = cost_json(*timed);
+    }
     json["warnings"] = ordered_json::array();
     for (const Diagnostic& warning : plan.warnings) {
         json["warnings"].push_back(to_string(warning));

@@ -2,14 +2,18 @@
 // A plan as text for people and as JSON for programs.
 #pragma once
 
-#include "hyoryu/scene/plan.hpp"
+#include "hyoryu/sim/cost.hpp"
 
+#include <optional>
 #include <string>
 
 namespace hyoryu {
 
-std::string plan_text(const Scene& scene, const Plan& plan);
-std::string plan_json(const Scene& scene, const Plan& plan);
+/// The forecast of the run time is an order of magnitude, unless steps were timed on this machine.
+std::string plan_text(const Scene& scene, const Plan& plan,
+                      const std::optional<StepCost>& timed = {});
+std::string plan_json(const Scene& scene, const Plan& plan,
+                      const std::optional<StepCost>& timed = {});
 
 /// "1.2 GB" and the like.
 std::string readable_bytes(double bytes);

@@ -2,6 +2,7 @@
 // The outer loop of a run: step, write what is due, show how far it is, stop when asked.
 #include "build_info.hpp"
 #include "commands.hpp"
+#include "cost_report.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "plan_report.hpp"
@@ -198,6 +199,15 @@ void tell_doubts(Job& job)
     }
 }
 
+// The state of the end is on disk: the steps that are timed now belong to nothing.
+void tell_cost(Job& job)
+{
+    const auto steps = static_cast<double>(job.sim.clock.step - job.first_step);
+    const double seconds = steps > 0 ? job.progress.wall_seconds() / steps : 0;
+    const int timed = steps_to_time(job.sim.plan, steps);
+    write_cost(job.folder, seconds, time_steps(std::move(job.sim), timed));
+}
+
 int finish(Job& job)
 {
     const bool done = finished(job.sim.clock, job.sim.scene);
@@ -220,6 +230,7 @@ int finish(Job& job)
     job.progress.line(fmt::format("{} after {}; results in {}", done ? "done" : "stopped as asked",
                                   readable_seconds(job.progress.wall_seconds()),
                                   job.folder.string()));
+    tell_cost(job);
     return exit_code::done;
 }
 
@@ -246,7 +257,10 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     check_disk(folder, plan);
     const std::string case_text = to_toml(scene);
     write_text(folder / "case.toml", case_text);
-    write_text(folder / "plan.json", plan_json(scene, plan));
+    const int steps = steps_to_time(plan, plan.expected_steps);
+    const auto timed =
+        steps > 0 ? time_steps(make_simulation(scene, plan, filling), steps) : std::nullopt;
+    write_text(folder / "plan.json", plan_json(scene, plan, timed));
     Simulation sim = make_simulation(scene, plan, filling);
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, 0);
     Outputs outputs(folder, sim, filling.domain);

@@ -113,6 +113,38 @@ std::string run_section(const RunResults& run)
                                         s.at("commit").get<std::string>())}});
 }
 
+// What was foretold beside what was measured; runs that did not end by themselves have none.
+std::string forecast_table(const RunResults& run)
+{
+    if (!run.summary.contains("cost")) {
+        return {};
+    }
+    const ordered_json& cost = run.summary.at("cost");
+    HtmlTable table{
+        .heads = {{"asked"}, {"why"}, {"foretold", Align::right}, {"measured", Align::right}},
+        .rows = {}};
+    const auto cell = [](const ordered_json& value, double factor, const char* unit) {
+        return value.is_number() ? readable(factor * value.get<double>()) + unit : std::string();
+    };
+    const auto add = [&](const std::string& name, const std::string& why,
+                         const ordered_json& values, double factor, const char* unit) {
+        table.rows.push_back({name, why, cell(values.at("predicted"), factor, unit),
+                              cell(values.at("measured"), factor, unit)});
+    };
+    add("a step", "wall time", cost.at("seconds_per_step"), 1e3, " ms");
+    add("steps", "", cost.at("steps"), 1, "");
+    add("memory", "at most", cost.at("memory_bytes"), 1e-6, " MB");
+    for (const ordered_json& effect : cost.at("effects")) {
+        add(effect.at("name").get<std::string>(), effect.at("asked").get<std::string>(), effect,
+            100, " %");
+    }
+    return "<h2>Asked, foretold, measured</h2>\n" + html_table(table) +
+           html_paragraph(
+               "The share of an effect is what a step takes longer with it, timed at the "
+               "start and at the end of the run; effects without a number are not timed "
+               "apart.");
+}
+
 std::string cost_section(const RunResults& run)
 {
     const double wall = number(run.summary.at("wall_seconds"));
@@ -134,7 +166,8 @@ std::string cost_section(const RunResults& run)
            html_paragraph(
                fmt::format("{} particle-steps a second; {} MB of memory at most.",
                            readable(number(run.summary.at("particle_steps_per_second"))),
-                           readable(1e-6 * number(run.summary.at("peak_memory_bytes")))));
+                           readable(1e-6 * number(run.summary.at("peak_memory_bytes"))))) +
+           forecast_table(run);
 }
 
 } // namespace hyoryu

@@ -22,6 +22,8 @@ namespace {
 constexpr double bodies_only_step = 1e-3; // [s]
 // Sound speed over the largest expected speed: Mach 0.1 keeps density within 1 %.
 constexpr double sound_over_speed = 10;
+// The program with its libraries and the buffers of its files, as a run of one box holds it [B].
+constexpr double process_memory = 52e6;
 // Skin of the neighbour lists in spacings that flows come to, for the estimate of memory.
 constexpr double usual_skin = 0.2;
 
@@ -291,12 +293,13 @@ void estimate_cost(const Scene& scene, Plan& plan)
         columns += static_cast<double>(field.bytes_per_particle);
     }
     const auto n = static_cast<double>(plan.counts.particles());
+    plan.memory = process_memory;
     if (plan.fluid) {
         // Columns, ids and owners, pair records, positions at the last build, cells, lists of the
         // fluid rows; the lists of solid rows are short.
         constexpr double records = 64 + 24 + 16 + 12;
-        plan.memory = n * (columns + records) +
-                      static_cast<double>(plan.counts.fluid) * list_bytes(*plan.fluid);
+        plan.memory += n * (columns + records) +
+                       static_cast<double>(plan.counts.fluid) * list_bytes(*plan.fluid);
     }
     plan.frames = std::floor(scene.time.end / scene.output.every) + 1;
     constexpr double frame_row = 12 + 8 + 8 + 1 + 12 + 4 + 4 + 8 + 1 + 4;

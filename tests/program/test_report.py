@@ -74,7 +74,8 @@ material = "pine"
             self.assertNotIn(forbidden, text.replace("http://www.w3.org/", ""), forbidden)
         headings = [h.text for h in root.findall(".//{*}h2")]
         self.assertEqual(headings, ["Case", "Run", "Impacts", "Tracks of the bodies", "Gauges",
-                                    "Energy and momentum", "Plan", "Cost by stage"])
+                                    "Energy and momentum", "Plan", "Cost by stage",
+                                    "Asked, foretold, measured"])
 
     def test_the_page_says_what_the_files_of_the_run_say(self):
         self.run_case(self.CASE)
@@ -93,6 +94,10 @@ material = "pine"
         self.assertEqual(off, [[e["name"], e["why"]] for e in plan["off"]])
         stages = {row[0] for row in self.rows(root, "Cost by stage")}
         self.assertTrue(set(summary["stages"]) <= stages)
+        asked = {row[0]: row for row in self.rows(root, "Asked, foretold, measured")[1:]}
+        self.assertEqual(list(asked)[3:], [e["name"] for e in plan["on"]])
+        self.assertEqual(int(asked["steps"][3]), summary["steps"])
+        self.assertEqual(asked["gravity"][2:], ["", ""]) # not timed apart
 
     def test_every_gauge_has_plots_with_its_unit(self):
         self.run_case(self.CASE)

@@ -30,6 +30,28 @@ class Runs(ProgramTest):
         for frame in frames:
             self.assertEqual(self.read(one, f"frames/{frame}"), self.read(other, f"frames/{frame}"), frame)
 
+    def test_a_run_tells_what_was_foretold_beside_what_it_cost(self):
+        self.call("run", self.write(FLOOD), "-o", "out", "--set", "time.step=2e-4",
+                  "--set", "time.end=0.25")
+        cost = json.loads((self.dir / "out/summary.json").read_text())["cost"]
+        plan = json.loads((self.dir / "out/plan.json").read_text())
+        self.assertEqual([e["name"] for e in cost["effects"]], [e["name"] for e in plan["on"]])
+        by_name = {e["name"]: e for e in cost["effects"]}
+        for name in ("artificial_viscosity", "density_diffusion"):
+            self.assertIsInstance(by_name[name]["predicted"], float)
+            self.assertIsInstance(by_name[name]["measured"], float)
+        self.assertIsNone(by_name["gravity"]["measured"])
+        self.assertEqual(cost["steps"], {"predicted": 1250, "measured": 1250})
+        self.assertGreater(cost["seconds_per_step"]["predicted"], 0)
+        self.assertGreater(cost["memory_bytes"]["predicted"], 1e6)
+
+    def test_a_short_run_is_not_timed(self):
+        self.call("run", self.write(FLOOD), "-o", "out", "--set", "time.end=0.01")
+        self.assertNotIn("cost", json.loads((self.dir / "out/plan.json").read_text()))
+        cost = json.loads((self.dir / "out/summary.json").read_text())["cost"]
+        self.assertTrue(all(e["measured"] is None for e in cost["effects"]))
+        self.assertGreater(cost["seconds_per_step"]["measured"], 0)
+
     def test_results_are_complete(self):
         self.run_flood("out")
         out = self.dir / "out"

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/cost.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr int least_rounds = 2;
+
+// A slot that may be emptied, and the names that what it holds can have in the plan.
+struct Slot {
+    std::array<std::string_view, 3> names;
+    void (*empty)(FluidEffects&);
+};
+
+constexpr std::array slots{
+    Slot{{"artificial_viscosity", "laminar_viscosity", "sps_turbulence"},
+         [](FluidEffects& effects) {
+             effects.viscosity = Off{};
+             effects.slip = Off{}; // it is viscosity at solids
+         }},
+    Slot{{"density_diffusion"}, [](FluidEffects& effects) { effects.diffusion = Off{}; }},
+    Slot{{"no_slip"}, [](FluidEffects& effects) { effects.slip = Off{}; }},
+    Slot{{"shifting"}, [](FluidEffects& effects) { effects.shifting = Off{}; }},
+    Slot{{"particle_collision"}, [](FluidEffects& effects) { effects.collision = Off{}; }},
+};
+
+struct Variant {
+    std::string without; // effect; none in the first
+    FluidEffects effects;
+    double least = infinity; // seconds of a step
+};
+
+std::vector<Variant> variants(const Simulation& sim)
+{
+    std::vector<Variant> all{{"", sim.plan.effects}};
+    for (const Slot& slot : slots) {
+        const auto name = std::ranges::find_if(
+            slot.names, [&](std::string_view effect) { return sim.plan.runs(effect); });
+        if (name != slot.names.end()) {
+            all.push_back({std::string(*name), sim.plan.effects});
+            slot.empty(all.back().effects);
+        }
+    }
+    return all;
+}
+
+double seconds_of_step(Simulation& sim)
+{
+    const auto start = std::chrono::steady_clock::now();
+    step(sim);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+StepCost measure_cost(Simulation&& sim, int steps)
+{
+    // Neither the end nor a frame may cut a step short.
+    sim.scene.time.end = infinity;
+    sim.scene.output.every = infinity;
+    sim.clock.frame = 1;
+    std::vector<Variant> all = variants(sim);
+    const int rounds = std::max(least_rounds, steps / static_cast<int>(all.size()));
+    step(sim); // what is in no cache yet comes into it
+    StepCost cost;
+    for (int round = 0; round < rounds; ++round) {
+        for (Variant& variant : all) {
+            sim.fluid->effects = variant.effects;
+            const double seconds = seconds_of_step(sim);
+            variant.least = std::min(variant.least, seconds);
+            cost.seconds += variant.without.empty() ? seconds / rounds : 0;
+        }
+    }
+    for (const Variant& variant : all) {
+        if (!variant.without.empty()) {
+            cost.effects.push_back({variant.without, 1 - variant.least / all.front().least});
+        }
+    }
+    return cost;
+}
+
+} // namespace hyoryu

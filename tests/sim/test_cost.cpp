@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What a step costs, and what of it each effect takes.
+#include "hyoryu/sim/cost.hpp"
+
+#include "runs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hyoryu {
+namespace {
+
+constexpr const char* tank = R"(
+dimensions = 2
+[time]
+end = 0.01
+[particles]
+spacing = 0.02
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.2, 0.0, 0.2]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [0.2, 0.0, 0.4]
+open = ["+z"]
+)";
+
+std::vector<std::string> names(const StepCost& cost)
+{
+    std::vector<std::string> list;
+    for (const StepCost::Share& share : cost.effects) {
+        list.push_back(share.effect);
+    }
+    return list;
+}
+
+TEST(Cost, NamesTheEffectsThatRunAndNoOther)
+{
+    const std::vector<std::string> usual{"artificial_viscosity", "density_diffusion"};
+    EXPECT_EQ(names(measure_cost(make(tank), 10)), usual);
+    const std::vector<std::string> rich{"laminar_viscosity", "density_diffusion", "no_slip",
+                                        "particle_collision"};
+    EXPECT_EQ(
+        names(measure_cost(make(tank, {"fluid.viscosity.model=laminar", "fluid.viscosity.kinematic=1e-3",
+                                       "fluid.walls=no_slip", "fluid.collision.model=dynamic"}),
+                           10)),
+        rich);
+    EXPECT_TRUE(names(measure_cost(make(tank, {"fluid.viscosity.model=none",
+                                               "fluid.density_diffusion.model=none"}),
+                                   10))
+                    .empty());
+}
+
+// The steps that are timed lie beyond the end, where nothing may shorten them to nothing.
+TEST(Cost, IsMeasuredAtTheEndOfARunToo)
+{
+    Simulation sim = make(tank);
+    while (!finished(sim.clock, sim.scene)) {
+        step_on(sim);
+    }
+    const StepCost cost = measure_cost(std::move(sim), 10);
+    EXPECT_GT(cost.seconds, 0);
+    for (const StepCost::Share& share : cost.effects) {
+        EXPECT_LT(share.share, 1) << share.effect;
+    }
+}
+
+} // namespace
+} // namespace hyoryu
