@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Checks that the arrows between layers point one way: a layer includes only itself and what it may.
+And that no two files define a type of one name: the linker keeps one of their destructors and one
+`std::vector` of them for both, which destroys memory without a word.
 
-Usage: scripts/check_layers.py [ROOT]; exit 1 and one line an offence if any include breaks the order.
+Usage: scripts/check_layers.py [ROOT]; exit 1 and one line an offence.
 """
 import pathlib
 import re
@@ -28,6 +30,7 @@ MAY_INCLUDE = {
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')
 VTK = re.compile(r"#include\s+<vtk")
+TYPE = re.compile(r"(?:struct|class|union|enum class) (\w+)(?![\w:<;])(?!.*;$)")
 
 
 def offences(root):
@@ -43,10 +46,31 @@ def offences(root):
                     yield f"{place}: only src/vtk and src/view may include VTK"
 
 
+def types_of(file):
+    """Types of the file that other files share by name: those outside of unnamed namespaces."""
+    unnamed = False
+    for number, line in enumerate(file.read_text().splitlines(), 1):
+        unnamed = line == "namespace {" or (unnamed and line != "} // namespace")
+        found = TYPE.match(line)
+        if found and not unnamed:
+            yield found[1], number
+
+
+def double_types(root):
+    known = {}
+    for base in (root / "include" / "hyoryu", root / "src"):
+        for file in sorted(base.rglob("*.[hc]pp")):
+            for name, number in types_of(file):
+                place = f"{file.relative_to(root)}:{number}"
+                if name in known:
+                    yield f"{place}: {name} is also defined in {known[name]}"
+                known.setdefault(name, place)
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    found = list(offences(root))
-    print("\n".join(found) if found else "layers: every arrow points one way")
+    found = [*offences(root), *double_types(root)]
+    print("\n".join(found) if found else "layers: every arrow points one way, every type has one definition")
     return 1 if found else 0
 
 

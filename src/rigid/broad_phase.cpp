@@ -25,7 +25,7 @@ struct Box {
     }
 };
 
-Box box_of(const Solid& solid, const Pose& pose, double margin)
+Box box_of(const Solid& solid, const SolidPose& pose, double margin)
 {
     const Vec3 centre = pose.x + pose.R * solid.box_centre;
     const Vec3 half =
@@ -45,7 +45,7 @@ double travel(const StepContext& context, int k)
     return context.dt * (speed + spin * context.memory.geometry.solids[k].reach);
 }
 
-std::vector<Pair> body_pairs(const StepContext& context, const std::vector<double>& margins)
+std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<double>& margins)
 {
     const ContactMemory& memory = context.memory;
     const int n = static_cast<int>(margins.size());
@@ -58,7 +58,7 @@ std::vector<Pair> body_pairs(const StepContext& context, const std::vector<doubl
     std::sort(order.begin(), order.end(), [&](int a, int b) {
         return std::pair(boxes[a].low.x(), a) < std::pair(boxes[b].low.x(), b);
     });
-    std::vector<Pair> pairs;
+    std::vector<BodyPair> pairs;
     for (std::size_t k = 0; k < order.size(); ++k) {
         const int a = order[k];
         for (std::size_t m = k + 1;
@@ -74,10 +74,10 @@ std::vector<Pair> body_pairs(const StepContext& context, const std::vector<doubl
     return pairs;
 }
 
-bool may_touch(const StepContext& context, int body, const Wall& wall, double margin)
+bool may_touch(const StepContext& context, int body, const ContactWall& wall, double margin)
 {
     const Solid& solid = context.memory.geometry.solids[body];
-    const Pose& pose = context.memory.poses[body];
+    const SolidPose& pose = context.memory.poses[body];
     const double room =
         margin + skin +
         context.dt * speed_bound(wall.motion, context.start, context.start + context.dt);
@@ -94,13 +94,13 @@ bool may_touch(const StepContext& context, int body, const Wall& wall, double ma
         const Box box = box_of(solid, pose, room);
         return any_near(wall.mesh.tree, {box.low - shift, box.high - shift});
     }
-    const Pose there = pose_of(wall.pose.x + shift, wall.pose.q);
+    const SolidPose there = pose_of(wall.pose.x + shift, wall.pose.q);
     return box_of(solid, pose, room).meets(box_of(wall.solid, there, 0));
 }
 
-std::vector<Pair> wall_pairs(const StepContext& context, const std::vector<double>& margins)
+std::vector<BodyPair> wall_pairs(const StepContext& context, const std::vector<double>& margins)
 {
-    std::vector<Pair> pairs;
+    std::vector<BodyPair> pairs;
     const auto& walls = context.memory.geometry.walls;
     for (int k = 0; k < static_cast<int>(margins.size()); ++k) {
         for (int w = 0; context.memory.rotors[k].movable && w < static_cast<int>(walls.size());
@@ -123,11 +123,11 @@ int root_of(std::vector<int>& parents, int k)
 }
 
 // Union-find; immovable bodies link nothing.
-std::vector<int> roots(const StepContext& context, const std::vector<Pair>& pairs)
+std::vector<int> roots(const StepContext& context, const std::vector<BodyPair>& pairs)
 {
     std::vector<int> parents(context.memory.rotors.size());
     std::iota(parents.begin(), parents.end(), 0);
-    for (const Pair& pair : pairs) {
+    for (const BodyPair& pair : pairs) {
         if (context.memory.rotors[pair.a].movable && context.memory.rotors[pair.b].movable) {
             const int a = root_of(parents, pair.a);
             const int b = root_of(parents, pair.b);
@@ -142,13 +142,13 @@ std::vector<int> roots(const StepContext& context, const std::vector<Pair>& pair
 
 // Twice the largest travel of each cluster, boundaries included.
 std::vector<double> widened(const StepContext& context, const std::vector<double>& own,
-                            const std::vector<int>& cluster, const std::vector<Pair>& walls)
+                            const std::vector<int>& cluster, const std::vector<BodyPair>& walls)
 {
     std::vector<double> largest(own.size(), 0);
     for (std::size_t k = 0; k < own.size(); ++k) {
         largest[cluster[k]] = std::max(largest[cluster[k]], own[k]);
     }
-    for (const Pair& pair : walls) {
+    for (const BodyPair& pair : walls) {
         double& most = largest[cluster[pair.a]];
         most = std::max(most,
                         context.dt * speed_bound(context.memory.geometry.walls[-1 - pair.b].motion,
@@ -170,8 +170,8 @@ void find_clusters(const StepContext& context)
     for (int k = 0; k < n; ++k) {
         own.push_back(travel(context, k));
     }
-    std::vector<Pair> pairs = body_pairs(context, own);
-    std::vector<Pair> walls = wall_pairs(context, own);
+    std::vector<BodyPair> pairs = body_pairs(context, own);
+    std::vector<BodyPair> walls = wall_pairs(context, own);
     std::vector<int> cluster = roots(context, pairs);
     for (int pass = 0; pass < widenings && !(pairs.empty() && walls.empty()); ++pass) {
         const std::vector<double> margins = widened(context, own, cluster, walls);
@@ -190,11 +190,11 @@ void find_clusters(const StepContext& context)
             clusters[cluster[k]].bodies.push_back(k);
         }
     }
-    for (const Pair& pair : pairs) {
+    for (const BodyPair& pair : pairs) {
         const int k = context.memory.rotors[pair.a].movable ? pair.a : pair.b;
         clusters[cluster[k]].pairs.push_back(pair);
     }
-    for (const Pair& pair : walls) {
+    for (const BodyPair& pair : walls) {
         clusters[cluster[pair.a]].pairs.push_back(pair);
     }
     std::erase_if(clusters, [](const Cluster& c) { return c.bodies.empty(); });

@@ -84,7 +84,7 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
     ContactMemory& memory = context.memory;
     memory.candidates.clear();
     const Configuration now = configuration(memory, memory.poses, time);
-    for (const Pair& pair : cluster.pairs) {
+    for (const BodyPair& pair : cluster.pairs) {
         find_candidates(pair, now, clearly_apart, memory.candidates);
     }
     double& worst = context.rigid.counters.worst_penetration;

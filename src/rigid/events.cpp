@@ -36,7 +36,7 @@ public:
             double high = sub_.h * look / looks;
             bool found = false;
             place_all(high);
-            for (const Pair& pair : sub_.cluster.pairs) {
+            for (const BodyPair& pair : sub_.cluster.pairs) {
                 if (tired(memory_, pair.a, pair.b) || !closes(pair, high)) {
                     continue;
                 }
@@ -69,10 +69,10 @@ private:
         }
     }
 
-    bool holds(const Pair& pair) const
+    bool holds(const BodyPair& pair) const
     {
         const auto first = std::lower_bound(memory_.held.begin(), memory_.held.end(), pair,
-                                            [](const Feature& f, const Pair& p) {
+                                            [](const Feature& f, const BodyPair& p) {
                                                 return std::pair(f.a, f.b) < std::pair(p.a, p.b);
                                             });
         return first != memory_.held.end() && first->a == pair.a && first->b == pair.b;
@@ -90,7 +90,7 @@ private:
             return wall_velocity(memory_, k, sub_.time + s);
         }
         const Path& path = memory_.paths[k];
-        const Pose& pose = memory_.trial[k];
+        const SolidPose& pose = memory_.trial[k];
         const double part = s / path.h;
         const Vec3 L = path.L0 + part * (path.L1 - path.L0);
         const Vec3 omega = inverse_inertia(memory_.rotors[k], pose.R) * L;
@@ -105,7 +105,7 @@ private:
 
     // Whether the pair has closed at the trial poses. What falls fast enough to bounce is no play
     // of the description.
-    bool closes(const Pair& pair, double s)
+    bool closes(const BodyPair& pair, double s)
     {
         if (!has_axis(pair, memory_.geometry) || !holds(pair)) {
             return clearance(pair, s) < closed;
@@ -118,7 +118,7 @@ private:
     }
 
     // The smallest gap of the pair at the trial poses, held features left out.
-    double clearance(const Pair& pair, double s)
+    double clearance(const BodyPair& pair, double s)
     {
         const Configuration at = configuration(memory_, memory_.trial, sub_.time + s);
         if (has_axis(pair, memory_.geometry) && !holds(pair)) {
@@ -135,7 +135,7 @@ private:
         return smallest;
     }
 
-    double clearance_at(const Pair& pair, double s)
+    double clearance_at(const BodyPair& pair, double s)
     {
         place(pair.a, s);
         place(pair.b, s);
@@ -144,7 +144,7 @@ private:
 
     // Illinois method between an open and a closed time; bisection when a feature changes in
     // between.
-    double closing_time(const Pair& pair, double low, double high)
+    double closing_time(const BodyPair& pair, double low, double high)
     {
         double f_high = clearance_at(pair, high);
         double f_low = clearance_at(pair, low);
@@ -192,7 +192,7 @@ private:
                                           memory_.paths[k].L1.norm());
             looks = std::max(looks, turn > half_look ? 2.0 : 1.0);
         }
-        for (const Pair& pair : sub_.cluster.pairs) {
+        for (const BodyPair& pair : sub_.cluster.pairs) {
             if (pair.b >= 0 || memory_.geometry.walls[-1 - pair.b].half_spaces.empty()) {
                 looks = std::max(looks, std::ceil(relative_travel(pair) / thickness(pair)));
             }
@@ -200,7 +200,7 @@ private:
         return static_cast<int>(std::min<double>(looks, most_looks));
     }
 
-    double relative_travel(const Pair& pair) const
+    double relative_travel(const BodyPair& pair) const
     {
         const auto velocity = [&](int k) {
             return k < 0 ? wall_velocity(memory_, k, sub_.time)
@@ -218,7 +218,7 @@ private:
                memory_.geometry.solids[k].reach;
     }
 
-    double thickness(const Pair& pair) const
+    double thickness(const BodyPair& pair) const
     {
         const Solid& b = pair.b >= 0 ? memory_.geometry.solids[pair.b]
                                      : memory_.geometry.walls[-1 - pair.b].solid;

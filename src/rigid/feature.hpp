@@ -16,12 +16,12 @@
 namespace hyoryu {
 
 /// Position and orientation, with the rotation matrix at hand.
-struct Pose {
+struct SolidPose {
     Vec3 x{0, 0, 0};
     Quat q = Quat::Identity();
     Mat3 R = Mat3::Identity();
 };
-Pose pose_of(const Vec3& x, const Quat& q);
+SolidPose pose_of(const Vec3& x, const Quat& q);
 
 /// A half-space of a boundary at time 0; it holds points within [lower, upper] only, and only while
 /// they are less than `slack` reaches of their body behind it.
@@ -35,14 +35,14 @@ struct HalfSpace {
 };
 
 /// A boundary as the contact search sees it: half-spaces, a mesh, or a solid.
-struct Wall {
+struct ContactWall {
     std::vector<HalfSpace> half_spaces;
     MeshTable mesh;
     Solid solid;
-    Pose pose; // of the solid at time 0
+    SolidPose pose; // of the solid at time 0
     Motion motion;
 };
-Wall wall_of(const Boundary& boundary, int dimensions);
+ContactWall wall_of(const Boundary& boundary, int dimensions);
 
 enum class FeatureKind {
     corner_plane, // corner i of a, half-space or patch f
@@ -93,22 +93,22 @@ struct Candidate {
 /// All that geometry is made of; bodies by index, poses that change.
 struct Geometry {
     std::vector<Solid> solids;
-    std::vector<Wall> walls;
+    std::vector<ContactWall> walls;
 };
 
 /// A geometry with the poses at one time.
 struct Configuration {
     const Geometry& geometry;
-    std::span<const Pose> poses;
+    std::span<const SolidPose> poses;
     double time = 0;
 };
 
 /// A solid and where it is.
-struct Placed {
+struct PlacedSolid {
     const Solid& solid;
-    Pose pose;
+    SolidPose pose;
 };
-Placed placed(const Configuration& at, int index);
+PlacedSolid placed(const Configuration& at, int index);
 
 /// The touch of known features at these poses.
 Touch touch_of(const Feature& feature, const Configuration& at);

@@ -16,7 +16,7 @@ namespace {
 constexpr double no_direction = 1e-9;
 
 // A half-space of a boundary or the plane of a patch of its mesh, at time 0.
-Plane plane_of(const Wall& wall, int side)
+Plane plane_of(const ContactWall& wall, int side)
 {
     if (!wall.mesh.patches.empty()) {
         const Patch& patch = wall.mesh.patches[side];
@@ -29,9 +29,9 @@ Plane plane_of(const Wall& wall, int side)
 
 Touch plane_touch(const Feature& feature, const Configuration& at)
 {
-    const Wall& wall = at.geometry.walls[-1 - feature.b];
+    const ContactWall& wall = at.geometry.walls[-1 - feature.b];
     const Plane plane = plane_of(wall, feature.f);
-    const Placed body{at.geometry.solids[feature.a], at.poses[feature.a]};
+    const PlacedSolid body{at.geometry.solids[feature.a], at.poses[feature.a]};
     Touch touch;
     touch.normal = plane.normal;
     if (feature.kind == FeatureKind::corner_plane) {
@@ -55,8 +55,8 @@ Touch over_face(const Face& face, const Vec3& p)
 Touch round_touch(const Feature& feature, const Configuration& at)
 {
     const bool ball_is_a = feature.owner == 0;
-    const Placed ball = placed(at, ball_is_a ? feature.a : feature.b);
-    const Placed other = placed(at, ball_is_a ? feature.b : feature.a);
+    const PlacedSolid ball = placed(at, ball_is_a ? feature.a : feature.b);
+    const PlacedSolid other = placed(at, ball_is_a ? feature.b : feature.a);
     const Mat3& R = other.pose.R;
     const Solid& part = convex_parts(other.solid)[static_cast<std::size_t>(feature.f)];
     const Vec3 centre = R.transpose() * (ball.pose.x - other.pose.x);
@@ -70,8 +70,8 @@ Touch round_touch(const Feature& feature, const Configuration& at)
 Touch face_touch(const Feature& feature, const Configuration& at)
 {
     const bool owner_is_a = feature.owner == 0;
-    const Placed owner = placed(at, owner_is_a ? feature.a : feature.b);
-    const Placed other = placed(at, owner_is_a ? feature.b : feature.a);
+    const PlacedSolid owner = placed(at, owner_is_a ? feature.a : feature.b);
+    const PlacedSolid other = placed(at, owner_is_a ? feature.b : feature.a);
     const Face& face = other.solid.faces[feature.f];
     Vec3 c = owner.solid.corners[feature.i];
     if (feature.kind == FeatureKind::crossing) {
@@ -93,7 +93,7 @@ Touch face_touch(const Feature& feature, const Configuration& at)
 }
 
 // The middle of the part that has a corner.
-Vec3 middle_at(const Placed& body, int corner)
+Vec3 middle_at(const PlacedSolid& body, int corner)
 {
     return body.pose.x + body.pose.R * part_of_corner(body.solid, corner).inside;
 }
@@ -101,8 +101,8 @@ Vec3 middle_at(const Placed& body, int corner)
 // Nearest points of two lines, kept on the edges.
 Touch edge_touch(const Feature& feature, const Configuration& at)
 {
-    const Placed a = placed(at, feature.a);
-    const Placed b = placed(at, feature.b);
+    const PlacedSolid a = placed(at, feature.a);
+    const PlacedSolid b = placed(at, feature.b);
     const Vec3 p = a.pose.x + a.pose.R * a.solid.corners[feature.i];
     const Vec3 q = b.pose.x + b.pose.R * b.solid.corners[feature.k];
     const Vec3 u = a.pose.R * (a.solid.corners[feature.j] - a.solid.corners[feature.i]);
@@ -127,18 +127,18 @@ Touch edge_touch(const Feature& feature, const Configuration& at)
 
 } // namespace
 
-Pose pose_of(const Vec3& x, const Quat& q)
+SolidPose pose_of(const Vec3& x, const Quat& q)
 {
     return {x, q, q.toRotationMatrix()};
 }
 
-Placed placed(const Configuration& at, int index)
+PlacedSolid placed(const Configuration& at, int index)
 {
     if (index >= 0) {
         return {at.geometry.solids[index], at.poses[index]};
     }
-    const Wall& wall = at.geometry.walls[-1 - index];
-    Pose pose = wall.pose;
+    const ContactWall& wall = at.geometry.walls[-1 - index];
+    SolidPose pose = wall.pose;
     pose.x += displacement(wall.motion, at.time);
     return {wall.solid, pose};
 }

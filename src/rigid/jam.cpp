@@ -47,7 +47,7 @@ double travel(const ContactMemory& memory, int k, const SubStep& sub)
 }
 
 // The features of a pair that touch, or that close on the free paths within the sub-step.
-void find_closing(const StepContext& context, const Pair& pair, const SubStep& sub,
+void find_closing(const StepContext& context, const BodyPair& pair, const SubStep& sub,
                   std::vector<Candidate>& found)
 {
     const ContactMemory& memory = context.memory;
@@ -75,7 +75,7 @@ void find_closing(const StepContext& context, const Pair& pair, const SubStep& s
 void find_all_closing(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
-    const std::vector<Pair>& pairs = sub.cluster.pairs;
+    const std::vector<BodyPair>& pairs = sub.cluster.pairs;
     const auto count = static_cast<Index>(pairs.size());
     const Index blocks = (count + pairs_per_block - 1) / pairs_per_block;
     memory.found.resize(std::max(memory.found.size(), static_cast<std::size_t>(blocks)));

@@ -22,10 +22,10 @@ constexpr double nearly_flush = 1e-3;
 // The reference face's solid r, the other i, and the normal out of the reference face in world
 // axes.
 struct Meeting {
-    const Pair& pair;
+    const BodyPair& pair;
     const Configuration& at;
-    Placed r;
-    Placed i;
+    PlacedSolid r;
+    PlacedSolid i;
     int reference = 0;
     int incident = 0;
     int owner = 0; // 0 if the incident solid is a
@@ -34,7 +34,7 @@ struct Meeting {
     double tolerance = 0;
 };
 
-Vec3 seen_from(const Placed& frame, const Placed& other, const Vec3& point)
+Vec3 seen_from(const PlacedSolid& frame, const PlacedSolid& other, const Vec3& point)
 {
     return frame.pose.R.transpose() * (other.pose.x + other.pose.R * point - frame.pose.x);
 }
@@ -161,7 +161,7 @@ void add_faces(const Meeting& m, double distance, std::vector<Candidate>& found)
 // The unit axis of two edges in world axes, out of a.
 Vec3 axis_of_edges(const PartPair& parts, const Edge& ea, const Edge& eb)
 {
-    const auto along = [](const Placed& p, const Edge& e) {
+    const auto along = [](const PlacedSolid& p, const Edge& e) {
         return Vec3(p.pose.R * (p.solid.corners[e.j] - p.solid.corners[e.i]));
     };
     const Vec3 axis = along(parts.a, ea).cross(along(parts.b, eb)).normalized();
@@ -175,7 +175,7 @@ Separation flush(const PartPair& parts, const Separation& axis)
     const Edge& ea = parts.a.solid.edges[axis.a];
     const Edge& eb = parts.b.solid.edges[axis.b];
     const Vec3 n = axis_of_edges(parts, ea, eb);
-    const auto all_but = [](const Placed& p, int face, const Vec3& out) {
+    const auto all_but = [](const PlacedSolid& p, int face, const Vec3& out) {
         const Vec3 normal = p.pose.R * p.solid.faces[face].normal;
         return normal.dot(out) > 0 && normal.cross(out).norm() < nearly_flush;
     };
@@ -192,7 +192,7 @@ Separation flush(const PartPair& parts, const Separation& axis)
     return axis;
 }
 
-Meeting meeting(const Pair& pair, const PartPair& parts, const Separation& axis,
+Meeting meeting(const BodyPair& pair, const PartPair& parts, const Separation& axis,
                 const Configuration& at)
 {
     const bool a_refers = axis.kind == AxisKind::face_of_a;
@@ -209,7 +209,7 @@ Meeting meeting(const Pair& pair, const PartPair& parts, const Separation& axis,
 
 } // namespace
 
-void add_manifold(const Pair& pair, const PartPair& parts, const Separation& axis,
+void add_manifold(const BodyPair& pair, const PartPair& parts, const Separation& axis,
                   const Configuration& at, std::vector<Candidate>& found)
 {
     const Separation meets = axis.kind == AxisKind::edges ? flush(parts, axis) : axis;

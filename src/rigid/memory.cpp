@@ -13,7 +13,7 @@ constexpr std::size_t numbers_per_force = 15;
 
 } // namespace
 
-Pose pose_at(const Path& path, const Rotor& rotor, double s)
+SolidPose pose_at(const Path& path, const Rotor& rotor, double s)
 {
     const double part = path.h > 0 ? s / path.h : 0;
     const Vec3 x = path.start.x + s * path.v0 + 0.5 * s * part * (path.v1 - path.v0);
@@ -67,7 +67,7 @@ void sort_by_feature(std::vector<Remembered>& forces)
               [](const Remembered& a, const Remembered& b) { return a.feature < b.feature; });
 }
 
-Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses,
+Configuration configuration(const ContactMemory& memory, const std::vector<SolidPose>& poses,
                             double time)
 {
     return {memory.geometry, poses, time};

@@ -10,12 +10,12 @@ namespace hyoryu {
 /// The path of a body over a smooth sub-step of length h: V and L change linearly, x is the
 /// parabola, q the free rotor with the mean momentum up to the time asked for.
 struct Path {
-    Pose start;
+    SolidPose start;
     Vec3 v0{0, 0, 0}, v1{0, 0, 0}; // V [m/s]
     Vec3 L0{0, 0, 0}, L1{0, 0, 0}; // L [kg m2/s]
     double h = 0;                  // [s]
 };
-Pose pose_at(const Path& path, const Rotor& rotor, double s);
+SolidPose pose_at(const Path& path, const Rotor& rotor, double s);
 
 /// The force of a persistent contact: the warm start of the next step.
 struct Remembered {
@@ -29,7 +29,7 @@ void sort_by_feature(std::vector<Remembered>& forces);
 /// Bodies that may meet within a step, with all their pairs.
 struct Cluster {
     std::vector<int> bodies;
-    std::vector<Pair> pairs;
+    std::vector<BodyPair> pairs;
 };
 
 /// A persistent contact of the current sub-step.
@@ -59,7 +59,7 @@ struct ContactMemory {
     std::vector<Rotor> rotors;
 
     // Scratch, by body.
-    std::vector<Pose> poses, trial, middle, end;
+    std::vector<SolidPose> poses, trial, middle, end;
     std::vector<Path> paths;
     std::vector<Response> responses;
     std::vector<int> events; // located events of this step
@@ -97,7 +97,7 @@ struct StepContext {
 /// Builds the tables if there are none for these bodies, and takes the poses of the bodies.
 void prepare(Rigid& rigid);
 
-Configuration configuration(const ContactMemory& memory, const std::vector<Pose>& poses,
+Configuration configuration(const ContactMemory& memory, const std::vector<SolidPose>& poses,
                             double time);
 
 /// Velocity of a boundary at a time, zero for a body.

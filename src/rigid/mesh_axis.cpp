@@ -87,7 +87,7 @@ void improve_by_edges(TriangleAxis& best, const PartAt& part, const FlatTriangle
 
 } // namespace
 
-PartAt part_at(const Solid& whole, const Solid& part, const Pose& pose, const Vec3& shift)
+PartAt part_at(const Solid& whole, const Solid& part, const SolidPose& pose, const Vec3& shift)
 {
     PartAt at{whole, part, pose, {}, {}, {}, {}, {}};
     at.pose.x -= shift;

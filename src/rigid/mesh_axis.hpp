@@ -10,7 +10,7 @@ namespace hyoryu {
 struct PartAt {
     const Solid& whole; // of the body
     const Solid& solid; // the part
-    Pose pose;          // of the body
+    SolidPose pose;     // of the body
     std::vector<Vec3> corners;
     std::vector<Vec3> normals; // of the faces
     std::vector<double> offsets;
@@ -19,7 +19,7 @@ struct PartAt {
 };
 
 /// `shift`: the displacement of the mesh.
-PartAt part_at(const Solid& whole, const Solid& part, const Pose& pose, const Vec3& shift);
+PartAt part_at(const Solid& whole, const Solid& part, const SolidPose& pose, const Vec3& shift);
 
 /// The axis along which a part is farthest in front of a triangle, or overlaps it least.
 struct TriangleAxis {

@@ -40,7 +40,7 @@ double past_sides(const FlatTriangle& t, const Vec3& p)
 // Collects the features of one convex part of a body and a mesh.
 class PartSearch {
 public:
-    PartSearch(const Pair& pair, const Configuration& at, const PartAt& part,
+    PartSearch(const BodyPair& pair, const Configuration& at, const PartAt& part,
                std::vector<Candidate>& found)
         : pair_(pair), at_(at), mesh_(at.geometry.walls[number(-1 - pair.b)].mesh), part_(part),
           found_(found), first_(found.size())
@@ -169,7 +169,7 @@ private:
 
     Vec3 in_body(const Vec3& p) const { return part_.pose.R.transpose() * (p - part_.pose.x); }
 
-    const Pair& pair_;
+    const BodyPair& pair_;
     const Configuration& at_;
     const MeshTable& mesh_;
     const PartAt& part_;
@@ -181,10 +181,11 @@ private:
 
 } // namespace
 
-void find_mesh_candidates(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+void find_mesh_candidates(const BodyPair& pair, const Configuration& at,
+                          std::vector<Candidate>& found)
 {
     const Solid& solid = at.geometry.solids[number(pair.a)];
-    const Wall& wall = at.geometry.walls[number(-1 - pair.b)];
+    const ContactWall& wall = at.geometry.walls[number(-1 - pair.b)];
     if (solid.form == Form::ball || solid.form == Form::rod) {
         find_round_on_mesh(pair, at, found);
         return;
@@ -201,10 +202,10 @@ void find_mesh_candidates(const Pair& pair, const Configuration& at, std::vector
     }
 }
 
-double mesh_distance(const Pair& pair, const Configuration& at)
+double mesh_distance(const BodyPair& pair, const Configuration& at)
 {
     const Solid& solid = at.geometry.solids[number(pair.a)];
-    const Wall& wall = at.geometry.walls[number(-1 - pair.b)];
+    const ContactWall& wall = at.geometry.walls[number(-1 - pair.b)];
     double smallest = infinity;
     std::vector<int> near;
     for (const Solid& own : convex_parts(solid)) {

@@ -25,7 +25,7 @@ std::size_t number(int k)
     return static_cast<std::size_t>(k);
 }
 
-AlignedBox box_of(const Solid& solid, const Pose& pose)
+AlignedBox box_of(const Solid& solid, const SolidPose& pose)
 {
     const Vec3 half =
         solid.form == Form::ball ? solid.box_half : Vec3(pose.R.cwiseAbs() * solid.box_half);
@@ -43,7 +43,7 @@ double past_sides(const FlatTriangle& t, const Vec3& p)
 
 class RoundSearch {
 public:
-    RoundSearch(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+    RoundSearch(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
         : pair_(pair), at_(at), wall_(at.geometry.walls[number(-1 - pair.b)]), mesh_(wall_.mesh),
           solid_(at.geometry.solids[number(pair.a)]), pose_(at.poses[number(pair.a)]),
           found_(found), first_(found.size())
@@ -193,19 +193,20 @@ private:
         }
     }
 
-    const Pair& pair_;
+    const BodyPair& pair_;
     const Configuration& at_;
-    const Wall& wall_;
+    const ContactWall& wall_;
     const MeshTable& mesh_;
     const Solid& solid_;
-    Pose pose_; // in the axes of the mesh at time 0
+    SolidPose pose_; // in the axes of the mesh at time 0
     std::vector<Candidate>& found_;
     std::size_t first_;
 };
 
 } // namespace
 
-void find_round_on_mesh(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+void find_round_on_mesh(const BodyPair& pair, const Configuration& at,
+                        std::vector<Candidate>& found)
 {
     RoundSearch(pair, at, found).search();
 }

@@ -29,7 +29,7 @@ Line line_of(const MeshTable& mesh, const Crease& crease, const Vec3& shift)
     return {a + shift, mesh.corners[number(crease.j)].point - a};
 }
 
-Touch edge_on_crease(const Feature& feature, const Placed& a, const Line& line,
+Touch edge_on_crease(const Feature& feature, const PlacedSolid& a, const Line& line,
                      const Crease& crease)
 {
     const Vec3 p = a.pose.x + a.pose.R * a.solid.corners[number(feature.i)];
@@ -51,7 +51,7 @@ Touch edge_on_crease(const Feature& feature, const Placed& a, const Line& line,
     return {0.5 * (on_a + on_b), n, n.dot(on_a - on_b)};
 }
 
-Touch ball_on_point(const Placed& ball, const Vec3& point)
+Touch ball_on_point(const PlacedSolid& ball, const Vec3& point)
 {
     const Vec3 out = ball.pose.x - point;
     const double distance = out.norm();
@@ -63,8 +63,8 @@ Touch ball_on_point(const Placed& ball, const Vec3& point)
 
 Touch mesh_touch(const Feature& feature, const Configuration& at)
 {
-    const Wall& wall = at.geometry.walls[number(-1 - feature.b)];
-    const Placed a = placed(at, feature.a);
+    const ContactWall& wall = at.geometry.walls[number(-1 - feature.b)];
+    const PlacedSolid a = placed(at, feature.a);
     const Vec3 shift = displacement(wall.motion, at.time);
     if (feature.kind == FeatureKind::face_corner) {
         const Face& face = a.solid.faces[number(feature.f)];

@@ -17,7 +17,7 @@ namespace {
 constexpr double standing = 0.995;
 
 // A point that a thin side does not hold: past its extent, or so far behind that it is outside.
-bool past(const HalfSpace& plane, const Wall& wall, const Vec3& point, double time)
+bool past(const HalfSpace& plane, const ContactWall& wall, const Vec3& point, double time)
 {
     const Vec3 p = point - displacement(wall.motion, time);
     return ((p - plane.lower).array() < 0).any() || ((p - plane.upper).array() > 0).any();
@@ -51,7 +51,7 @@ void rod_on_plane(Feature feature, const HalfSpace& plane, const Configuration& 
     }
 }
 
-void on_half_spaces(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+void on_half_spaces(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
 {
     const Solid& solid = at.geometry.solids[pair.a];
     for (const HalfSpace& plane : at.geometry.walls[-1 - pair.b].half_spaces) {
@@ -71,12 +71,12 @@ void on_half_spaces(const Pair& pair, const Configuration& at, std::vector<Candi
     }
 }
 
-bool on_planes(const Pair& pair, const Geometry& geometry)
+bool on_planes(const BodyPair& pair, const Geometry& geometry)
 {
     return pair.b < 0 && !geometry.walls[-1 - pair.b].half_spaces.empty();
 }
 
-bool on_mesh(const Pair& pair, const Geometry& geometry)
+bool on_mesh(const BodyPair& pair, const Geometry& geometry)
 {
     return pair.b < 0 && !geometry.walls[-1 - pair.b].mesh.triangles.empty();
 }
@@ -87,10 +87,11 @@ Form form_of(int index, const Geometry& geometry)
 }
 
 // Calls visit(a, b) for all convex parts whose bounding spheres are nearer than that.
-void for_each_part_pair(const Pair& pair, const Configuration& at, double near, const auto& visit)
+void for_each_part_pair(const BodyPair& pair, const Configuration& at, double near,
+                        const auto& visit)
 {
-    const Placed a = placed(at, pair.a);
-    const Placed b = placed(at, pair.b);
+    const PlacedSolid a = placed(at, pair.a);
+    const PlacedSolid b = placed(at, pair.b);
     if ((a.pose.x - b.pose.x).norm() > a.solid.reach + b.solid.reach + near) {
         return;
     }
@@ -106,7 +107,7 @@ void for_each_part_pair(const Pair& pair, const Configuration& at, double near, 
     }
 }
 
-Vec3 in_frame(const Pose& pose, const Vec3& p)
+Vec3 in_frame(const SolidPose& pose, const Vec3& p)
 {
     return pose.R.transpose() * (p - pose.x);
 }
@@ -123,7 +124,7 @@ bool is_open(const Candidate& c, const Separation& axis, const PartPair& parts,
                edge_is_open(whole(f.b), parts.b.solid, parts.b.solid.edges[axis.b],
                             in_frame(parts.b.pose, c.touch.point));
     }
-    const Placed& face = f.owner == 0 ? parts.b : parts.a;
+    const PlacedSolid& face = f.owner == 0 ? parts.b : parts.a;
     return face_is_open(whole(f.owner == 0 ? f.b : f.a), face.solid, f.f - face.solid.first_face,
                         in_frame(face.pose, c.touch.point));
 }
@@ -133,7 +134,7 @@ bool has_rod(const PartPair& parts)
     return parts.a.solid.form == Form::rod || parts.b.solid.form == Form::rod;
 }
 
-void between_parts(const Pair& pair, const Configuration& at, double near,
+void between_parts(const BodyPair& pair, const Configuration& at, double near,
                    std::vector<Candidate>& found)
 {
     for_each_part_pair(pair, at, near, [&](const PartPair& parts) {
@@ -155,11 +156,11 @@ void between_parts(const Pair& pair, const Configuration& at, double near,
 }
 
 // A ball and every convex part of the other.
-void of_ball(const Pair& pair, const Configuration& at, std::vector<Candidate>& found)
+void of_ball(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
 {
     Feature feature{pair.a, pair.b, FeatureKind::round};
     feature.owner = form_of(pair.a, at.geometry) == Form::ball ? 0 : 1;
-    const Placed other = placed(at, feature.owner == 0 ? pair.b : pair.a);
+    const PlacedSolid other = placed(at, feature.owner == 0 ? pair.b : pair.a);
     const auto parts = convex_parts(other.solid);
     if (other.solid.form != Form::compound) {
         found.push_back({feature, touch_of(feature, at)});
@@ -183,7 +184,7 @@ void of_ball(const Pair& pair, const Configuration& at, std::vector<Candidate>& 
 
 } // namespace
 
-bool has_axis(const Pair& pair, const Geometry& geometry)
+bool has_axis(const BodyPair& pair, const Geometry& geometry)
 {
     if (on_mesh(pair, geometry)) {
         const Form form = form_of(pair.a, geometry);
@@ -193,13 +194,13 @@ bool has_axis(const Pair& pair, const Geometry& geometry)
            form_of(pair.b, geometry) != Form::ball;
 }
 
-double axis_distance(const Pair& pair, const Configuration& at)
+double axis_distance(const BodyPair& pair, const Configuration& at)
 {
     if (on_mesh(pair, at.geometry)) {
         return mesh_distance(pair, at);
     }
-    const Placed a = placed(at, pair.a);
-    const Placed b = placed(at, pair.b);
+    const PlacedSolid a = placed(at, pair.a);
+    const PlacedSolid b = placed(at, pair.b);
     const double apart = (a.pose.x - b.pose.x).norm() - a.solid.reach - b.solid.reach;
     if (apart > 0) {
         return apart;
@@ -214,7 +215,7 @@ double axis_distance(const Pair& pair, const Configuration& at)
     return smallest;
 }
 
-void find_candidates(const Pair& pair, const Configuration& at, double near,
+void find_candidates(const BodyPair& pair, const Configuration& at, double near,
                      std::vector<Candidate>& found)
 {
     if (on_planes(pair, at.geometry)) {

@@ -9,9 +9,9 @@
 namespace hyoryu {
 
 /// A body and its partner: another body, or -1 - (index of the boundary).
-struct Pair {
+struct BodyPair {
     int a = 0, b = 0;
-    auto operator<=>(const Pair&) const = default;
+    auto operator<=>(const BodyPair&) const = default;
 };
 
 /// A pair of polytopes or rods farther apart than this has no contact that a located impact needs
@@ -20,14 +20,14 @@ inline constexpr double clearly_apart = 1e-5;
 
 /// Appends the features of the pair that face each other, in a fixed order. Of polytopes and
 /// rods that are more than `near` apart there are none.
-void find_candidates(const Pair& pair, const Configuration& at, double near,
+void find_candidates(const BodyPair& pair, const Configuration& at, double near,
                      std::vector<Candidate>& found);
 
 /// Whether the pair is made of polytopes and rods, or of polytopes and a mesh, which have
 /// separating axes.
-bool has_axis(const Pair& pair, const Geometry& geometry);
+bool has_axis(const BodyPair& pair, const Geometry& geometry);
 
 /// The signed distance of such a pair [m].
-double axis_distance(const Pair& pair, const Configuration& at);
+double axis_distance(const BodyPair& pair, const Configuration& at);
 
 } // namespace hyoryu

@@ -143,9 +143,9 @@ Touch nearest(const Solid& solid, const Vec3& p)
     return {};
 }
 
-Wall wall_of(const Boundary& boundary, int dimensions)
+ContactWall wall_of(const Boundary& boundary, int dimensions)
 {
-    Wall wall;
+    ContactWall wall;
     wall.motion = boundary.motion;
     if (const auto* plane = std::get_if<Plane>(&boundary.surface)) {
         HalfSpace half;

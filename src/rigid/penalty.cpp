@@ -180,7 +180,7 @@ private:
         for (int m = 0; m < 3; ++m) {
             body.angular_momentum[m] += rotor.turns[m] ? h * push.torque[m] : 0;
         }
-        Pose& pose = memory_.poses[k];
+        SolidPose& pose = memory_.poses[k];
         pose = pose_of(pose.x + h * body.velocity, turned(rotor, pose.q, body.angular_momentum, h));
         refresh(k);
     }
@@ -224,7 +224,7 @@ private:
     double skin_;
     double travelled_ = 0; // since the particles were paired up, at most [m]
     std::vector<Meeting> meetings_;
-    std::map<Pair, Sum> sums_;
+    std::map<BodyPair, Sum> sums_;
     std::vector<Wrench> pushes_; // on each body in this sub-step
     std::vector<Vec3> places_;   // displacement of each boundary
 };

@@ -153,7 +153,7 @@ public:
 
 private:
     bool movable(int k) const { return context_.memory.rotors[k].movable; }
-    const Pose& pose(int k) const { return context_.memory.poses[k]; }
+    const SolidPose& pose(int k) const { return context_.memory.poses[k]; }
     const ParticleCloud& cloud(int k) const { return penalty_.bodies[static_cast<std::size_t>(k)]; }
 
     void keep(Meeting& meeting)
@@ -202,7 +202,7 @@ private:
 
     void pair_up(Meeting& meeting, const auto& wall, const Vec3& back) const
     {
-        const Pose& at = pose(meeting.who.a);
+        const SolidPose& at = pose(meeting.who.a);
         for (const Vec3& own : cloud(meeting.who.a).points) {
             over_near(wall, Vec3(at.x + at.R * own + back), meeting.range + skin_,
                       [&](const Vec3& other) {

@@ -14,7 +14,7 @@ struct ParticlePair {
 
 /// The particle pairs of two bodies, or of a body and a boundary.
 struct Meeting {
-    Pair who;
+    BodyPair who;
     double range = 0; // distance at which their particles touch [m]
     std::vector<ParticlePair> pairs;
 };

@@ -30,7 +30,7 @@ void book_resting(ContactMemory& memory, const Persistent& p, double time, doubl
     memory.resting.push_back({f, contact});
 }
 
-void turn_by(Pose& pose, const Vec3& w)
+void turn_by(SolidPose& pose, const Vec3& w)
 {
     pose = pose_of(pose.x, (rotation_by(w) * pose.q).normalized());
 }

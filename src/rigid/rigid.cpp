@@ -172,7 +172,7 @@ double bounding_radius(const Body& body, int dimensions)
 double overlap(const Rigid& rigid, int a, int b, double time)
 {
     Geometry geometry;
-    std::vector<Pose> poses;
+    std::vector<SolidPose> poses;
     const int dimensions = rigid.settings.dimensions;
     const auto add_body = [&](int k) {
         const Body& body = rigid.bodies[k];
@@ -185,7 +185,7 @@ double overlap(const Rigid& rigid, int a, int b, double time)
     } else {
         geometry.walls.push_back(wall_of(rigid.boundaries[-1 - b], dimensions));
     }
-    const Pair pair{0, b >= 0 ? 1 : -1};
+    const BodyPair pair{0, b >= 0 ? 1 : -1};
     const Configuration at{geometry, poses, time};
     if (has_axis(pair, geometry)) {
         return -axis_distance(pair, at);

@@ -20,7 +20,7 @@ constexpr double standing = 0.995;
 constexpr double no_overlap = -1e-9;
 
 // max n . (x - origin of the body)
-double support(const Placed& body, const Vec3& n)
+double support(const PlacedSolid& body, const Vec3& n)
 {
     const Vec3 local = body.pose.R.transpose() * n;
     if (body.solid.form == Form::rod) {
@@ -56,7 +56,7 @@ struct Meeting {
 
 // All that may face each other, and the largest distance along a normal so far.
 struct Look {
-    const Pair& pair;
+    const BodyPair& pair;
     const PartPair& parts;
     const Configuration& at;
     double tolerance = 0; // [m]
@@ -66,14 +66,14 @@ struct Look {
     FaceAxis best_face;
     int best_meeting = -1; // before the face, if there is one
 
-    const Placed& part(int owner) const { return owner == 0 ? parts.a : parts.b; }
+    const PlacedSolid& part(int owner) const { return owner == 0 ? parts.a : parts.b; }
     bool is_rod(int owner) const { return part(owner).solid.form == Form::rod; }
     Feature feature(FeatureKind kind, int owner) const { return {pair.a, pair.b, kind, owner}; }
 };
 
 void add_faces(Look& look, int owner)
 {
-    const Placed& body = look.part(owner);
+    const PlacedSolid& body = look.part(owner);
     for (int f = 0; f < static_cast<int>(body.solid.faces.size()); ++f) {
         const Vec3 n = (owner == 0 ? -1 : 1) * (body.pose.R * body.solid.faces[f].normal);
         look.faces.push_back({owner, f, distance_along(look.parts, n)});
@@ -136,7 +136,7 @@ void add_meetings_with_polytope(Look& look, int rod)
     }
 }
 
-Look look_at(const Pair& pair, const PartPair& parts, const Configuration& at, double enough)
+Look look_at(const BodyPair& pair, const PartPair& parts, const Configuration& at, double enough)
 {
     Look look{pair, parts, at, rim_tolerance * std::min(parts.a.solid.reach, parts.b.solid.reach)};
     add_faces(look, 0);
@@ -152,7 +152,7 @@ Look look_at(const Pair& pair, const PartPair& parts, const Configuration& at, d
     return look;
 }
 
-Vec3 in_frame(const Pose& pose, const Vec3& p)
+Vec3 in_frame(const SolidPose& pose, const Vec3& p)
 {
     return pose.R.transpose() * (p - pose.x);
 }
@@ -160,7 +160,7 @@ Vec3 in_frame(const Pose& pose, const Vec3& p)
 // Whether a point is over a face, past its rim by the tolerance at most.
 bool is_over(const Look& look, const FaceAxis& axis, const Vec3& point)
 {
-    const Placed& body = look.part(axis.owner);
+    const PlacedSolid& body = look.part(axis.owner);
     const Vec3 p = in_frame(body.pose, point);
     if (body.solid.form == Form::rod) {
         return std::hypot(p.y(), p.z()) <= body.solid.radius + look.tolerance;
@@ -179,7 +179,7 @@ bool is_open(const Look& look, const Meeting& meeting)
     if (whole.form != Form::compound) {
         return true;
     }
-    const Placed& part = look.part(other);
+    const PlacedSolid& part = look.part(other);
     const Vec3 p = in_frame(part.pose, meeting.at.touch.point);
     return meeting.edge != nullptr ? edge_is_open(whole, part.solid, *meeting.edge, p)
                                    : rim_is_open(whole, part.solid, p);
@@ -187,7 +187,7 @@ bool is_open(const Look& look, const Meeting& meeting)
 
 bool is_open(const Look& look, const FaceAxis& axis, const Vec3& point)
 {
-    const Placed& part = look.part(axis.owner);
+    const PlacedSolid& part = look.part(axis.owner);
     const Solid& whole = placed(look.at, axis.owner == 0 ? look.pair.a : look.pair.b).solid;
     return face_is_open(whole, part.solid, axis.face, in_frame(part.pose, point));
 }
@@ -252,7 +252,7 @@ std::vector<Candidate> over_face(const Look& look, const FaceAxis& axis)
             over.push_back(rim);
         }
     }
-    const Placed& under = look.part(axis.owner);
+    const PlacedSolid& under = look.part(axis.owner);
     const double upright = look.part(1 - axis.owner)
                                .pose.R.col(0)
                                .dot(under.pose.R * under.solid.faces[axis.face].normal);
@@ -334,13 +334,14 @@ bool separates(const Look& look, const Meeting& meeting, double near)
 
 } // namespace
 
-double rod_distance(const Pair& pair, const PartPair& parts, const Configuration& at, double enough)
+double rod_distance(const BodyPair& pair, const PartPair& parts, const Configuration& at,
+                    double enough)
 {
     return look_at(pair, parts, at, enough).distance;
 }
 
-void add_rod_contacts(const Pair& pair, const PartPair& parts, const Configuration& at, double near,
-                      std::vector<Candidate>& found)
+void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configuration& at,
+                      double near, std::vector<Candidate>& found)
 {
     Look look = look_at(pair, parts, at, near);
     if (look.distance > near) {

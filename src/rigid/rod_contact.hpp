@@ -9,12 +9,12 @@ namespace hyoryu {
 /// The signed distance of the two [m]: over the faces and the features that can be nearest, the
 /// largest distance of the solids along the normal of one. Returns early with a face that separates
 /// by more than `enough`.
-double rod_distance(const Pair& pair, const PartPair& parts, const Configuration& at,
+double rod_distance(const BodyPair& pair, const PartPair& parts, const Configuration& at,
                     double enough);
 
 /// Appends the features that face each other if the solids are not more than `near` apart: what
 /// lies over a face, and pairs of curves whose normal separates the solids as well as they do.
-void add_rod_contacts(const Pair& pair, const PartPair& parts, const Configuration& at, double near,
-                      std::vector<Candidate>& found);
+void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configuration& at,
+                      double near, std::vector<Candidate>& found);
 
 } // namespace hyoryu

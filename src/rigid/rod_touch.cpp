@@ -63,14 +63,14 @@ Vec3 direction(const Vec3& v)
     return v.squaredNorm() > 0 ? Vec3(v.normalized()) : Vec3(Vec3::UnitZ());
 }
 
-Line side_of(const Placed& rod)
+Line side_of(const PlacedSolid& rod)
 {
     const Vec3 axis = rod.pose.R.col(0);
     const double half = rod.solid.half_length;
     return {rod.pose.x - half * axis, axis, 2 * half, rod.solid.radius};
 }
 
-Rim rim_of(const Placed& rod, int i)
+Rim rim_of(const PlacedSolid& rod, int i)
 {
     const Vec3 axis = rod.pose.R.col(0);
     return {rod.pose.x + (i == 0 ? -1 : 1) * rod.solid.half_length * axis, axis, rod.solid.radius};
@@ -193,7 +193,7 @@ struct RimPoint {
 };
 
 // Of some points of rim j of rod b, the one nearest to rod a.
-RimPoint nearest_sample(const Placed& a, const Placed& b, int j)
+RimPoint nearest_sample(const PlacedSolid& a, const PlacedSolid& b, int j)
 {
     RimPoint best{rim_of(b, j)};
     double smallest = infinity;
@@ -245,7 +245,7 @@ void approach(RimPoint& p, RimPoint& q)
 }
 
 // The normal is square to both tangents, towards b from the edge of a that the rim is.
-RodTouch rim_on_rim(const Placed& a, int i, const Placed& b, int j)
+RodTouch rim_on_rim(const PlacedSolid& a, int i, const PlacedSolid& b, int j)
 {
     RimPoint q = nearest_sample(a, b, j);
     RimPoint p{rim_of(a, i)};
@@ -267,7 +267,7 @@ RodTouch rim_on_rim(const Placed& a, int i, const Placed& b, int j)
     return {{0.5 * (p.at() + q.at()), -n, gap}, on_cap ? infinity : (d - gap * n).norm()};
 }
 
-Touch over_face(const Vec3& point, const Placed& other, int f)
+Touch over_face(const Vec3& point, const PlacedSolid& other, int f)
 {
     const Face& face = other.solid.faces[f];
     const Vec3 n = other.pose.R * face.normal;
@@ -276,7 +276,7 @@ Touch over_face(const Vec3& point, const Placed& other, int f)
 
 // What a rod meets: another solid, or the creases and corners of a mesh.
 struct Partner {
-    Placed solid;
+    PlacedSolid solid;
     const MeshTable* mesh = nullptr;
     Vec3 shift{0, 0, 0}; // of the mesh
 
@@ -303,17 +303,17 @@ Partner partner(const Configuration& at, int index)
     if (index >= 0 || at.geometry.walls[-1 - index].mesh.triangles.empty()) {
         return {placed(at, index)};
     }
-    const Wall& wall = at.geometry.walls[-1 - index];
+    const ContactWall& wall = at.geometry.walls[-1 - index];
     return {placed(at, index), &wall.mesh, displacement(wall.motion, at.time)};
 }
 
-RodTouch corner_touch(const Placed& rod, const Vec3& corner)
+RodTouch corner_touch(const PlacedSolid& rod, const Vec3& corner)
 {
     const Touch local = nearest(rod.solid, rod.pose.R.transpose() * (corner - rod.pose.x));
     return {{corner, -(rod.pose.R * local.normal), local.gap}};
 }
 
-RodTouch touch_on_rod(const Feature& feature, const Placed& rod, const Partner& other)
+RodTouch touch_on_rod(const Feature& feature, const PlacedSolid& rod, const Partner& other)
 {
     switch (feature.kind) {
     case FeatureKind::rim_face: {
@@ -339,7 +339,7 @@ RodTouch touch_on_rod(const Feature& feature, const Placed& rod, const Partner& 
 
 } // namespace
 
-Vec3 low_point(const Placed& rod, int i, const Vec3& n)
+Vec3 low_point(const PlacedSolid& rod, int i, const Vec3& n)
 {
     const Rim rim = rim_of(rod, i);
     const Vec3 down = rim.axis * rim.axis.dot(n) - n;
@@ -351,7 +351,7 @@ Vec3 low_point(const Placed& rod, int i, const Vec3& n)
 RodTouch rod_touch(const Feature& feature, const Configuration& at)
 {
     const bool owner_is_a = feature.owner == 0;
-    const Placed rod = placed(at, owner_is_a ? feature.a : feature.b);
+    const PlacedSolid rod = placed(at, owner_is_a ? feature.a : feature.b);
     RodTouch found = touch_on_rod(feature, rod, partner(at, owner_is_a ? feature.b : feature.a));
     if (!owner_is_a) {
         found.touch.normal = -found.touch.normal;

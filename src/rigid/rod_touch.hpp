@@ -17,6 +17,6 @@ struct RodTouch {
 RodTouch rod_touch(const Feature& feature, const Configuration& at);
 
 /// The point of rim i of a rod nearest to a plane of unit normal n.
-Vec3 low_point(const Placed& rod, int i, const Vec3& n);
+Vec3 low_point(const PlacedSolid& rod, int i, const Vec3& n);
 
 } // namespace hyoryu

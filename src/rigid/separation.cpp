@@ -33,7 +33,7 @@ double support_distance(const Face& face, const Solid& other, const Mat3& R, con
     return lowest + face.normal.dot(x) - face.offset;
 }
 
-Separation best_face(const Placed& a, const Placed& b, const Relative& ab, double enough)
+Separation best_face(const PlacedSolid& a, const PlacedSolid& b, const Relative& ab, double enough)
 {
     Separation best;
     for (std::size_t f = 0; f < a.solid.faces.size(); ++f) {
@@ -74,7 +74,8 @@ bool spans_face(const Solid& a, const Edge& ea, const Vec3& c, const Vec3& d, co
     return adc * bdc < 0 && cba * bdc > 0;
 }
 
-void improve_by_edges(Separation& best, const Placed& a, const Placed& b, const Relative& ab)
+void improve_by_edges(Separation& best, const PlacedSolid& a, const PlacedSolid& b,
+                      const Relative& ab)
 {
     double margin = face_preference + overlap_preference * std::max(0.0, -best.distance);
     for (std::size_t m = 0; m < b.solid.edges.size(); ++m) {
@@ -108,7 +109,7 @@ void improve_by_edges(Separation& best, const Placed& a, const Placed& b, const 
 
 } // namespace
 
-Separation separation(const Placed& a, const Placed& b, double enough)
+Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough)
 {
     const Relative ab{a.pose.R.transpose() * b.pose.R,
                       a.pose.R.transpose() * (b.pose.x - a.pose.x)};

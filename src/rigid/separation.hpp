@@ -20,6 +20,6 @@ struct Separation {
 /// Separating axes of two polytopes: the normals of all faces, and the cross products of those
 /// edges that span a face of the Minkowski difference (Gregorius, GDC 2013). Returns early with the
 /// first face axis that separates by more than `enough`.
-Separation separation(const Placed& a, const Placed& b, double enough);
+Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough);
 
 } // namespace hyoryu

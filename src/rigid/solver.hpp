@@ -26,10 +26,10 @@ struct SolverWork {
     std::vector<int> columns;
     std::vector<Vec3> directions, momenta;
     Colours colours;
-    std::vector<double> changes;    // of each row in a sweep [m/s]
-    std::vector<Vec3> start;        // of the sweep, momentum included
-    std::vector<Vec3> impulses;     // after the last sweep
-    std::vector<int> moved;         // bodies that are not held, sorted
+    std::vector<double> changes;   // of each row in a sweep [m/s]
+    std::vector<Vec3> start;       // of the sweep, momentum included
+    std::vector<Vec3> impulses;    // after the last sweep
+    std::vector<int> moved;        // bodies that are not held, sorted
     std::vector<Twist> velocities; // theirs after the last sweep
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 Vec3 place_on_first(const ContactMemory& memory, const Candidate& c)
 {
-    const Pose& pose = memory.poses[c.feature.a];
+    const SolidPose& pose = memory.poses[c.feature.a];
     return pose.R.transpose() * (c.touch.point - pose.x);
 }
 

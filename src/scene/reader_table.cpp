@@ -95,7 +95,7 @@ std::optional<double> TableReader::to_number(const TomlNode& node, const Paramet
         value = *number;
     } else if (const auto* text = std::get_if<std::string>(&node.value);
                text && !rule.unit.empty()) {
-        Quantity quantity = parse_quantity(*text, rule.unit);
+        ParsedQuantity quantity = parse_quantity(*text, rule.unit);
         if (!quantity.fault.empty() && rule.unit == "kg" && reading_.dimensions == 2) {
             quantity = parse_quantity(*text, "kg/m");
         }

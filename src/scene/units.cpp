@@ -191,7 +191,7 @@ std::optional<Unit> parse_unit(std::string_view text)
     }
 }
 
-Quantity parse_quantity(std::string_view text, std::string_view expected)
+ParsedQuantity parse_quantity(std::string_view text, std::string_view expected)
 {
     std::string_view rest = text;
     skip_blanks(rest);

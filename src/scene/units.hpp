@@ -21,13 +21,13 @@ struct Unit {
 std::optional<Unit> parse_unit(std::string_view text);
 
 /// A number typed as a text with a unit.
-struct Quantity {
+struct ParsedQuantity {
     double value = 0;  // in the expected unit
     std::string fault; // what is wrong; empty if nothing is
     std::string hint;
 };
 
 /// Reads "10 cm" as a value in the unit `expected`, for instance "m".
-Quantity parse_quantity(std::string_view text, std::string_view expected);
+ParsedQuantity parse_quantity(std::string_view text, std::string_view expected);
 
 } // namespace hyoryu

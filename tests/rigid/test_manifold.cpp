@@ -14,7 +14,7 @@ constexpr double side = 0.1; // of both boxes [m]
 // so far down that the nearest edges just meet.
 struct TwoBoxes {
     Geometry geometry;
-    std::vector<Pose> poses{pose_of({0, 0, 0}, Quat::Identity()), Pose{}};
+    std::vector<SolidPose> poses{pose_of({0, 0, 0}, Quat::Identity()), SolidPose{}};
 
     explicit TwoBoxes(double tilt)
     {
