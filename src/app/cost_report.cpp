@@ -4,6 +4,7 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/results.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -22,7 +23,12 @@ constexpr int most_steps = 60; // more would tell no more
 ordered_json read(const std::filesystem::path& file)
 {
     std::ifstream stream(file);
-    return ordered_json::parse(stream);
+    ordered_json value = ordered_json::parse(stream, nullptr, false);
+    if (!value.is_object()) {
+        throw IoError(fmt::format("{} is missing or damaged, so the cost of the run cannot be told",
+                                  file.string()));
+    }
+    return value;
 }
 
 ordered_json value_at(const ordered_json& json, const std::string& pointer)
@@ -51,13 +57,13 @@ int steps_to_time(const Plan& plan, double steps)
                                             : 0;
 }
 
-std::optional<StepCost> time_steps(Simulation&& sim, int steps)
+std::optional<StepCost> time_steps(Simulation& sim, int steps)
 {
     if (steps == 0) {
         return {};
     }
     try {
-        return measure_cost(std::move(sim), steps);
+        return measure_cost(sim, steps);
     } catch (const NumericalError&) {
         return {};
     }
@@ -72,14 +78,14 @@ void write_cost(const std::filesystem::path& folder, double seconds_per_step,
     cost["seconds_per_step"] = {{"predicted", value_at(plan, "/cost/seconds_per_step")},
                                 {"measured", seconds_per_step}};
     cost["steps"] = {{"predicted", value_at(plan, "/time_step/steps")},
-                     {"measured", summary.at("steps")}};
+                     {"measured", value_at(summary, "/steps")}};
     cost["memory_bytes"] = {{"predicted", value_at(plan, "/forecast/memory_bytes")},
-                            {"measured", summary.at("peak_memory_bytes")}};
+                            {"measured", value_at(summary, "/peak_memory_bytes")}};
     cost["effects"] = ordered_json::array();
-    for (const ordered_json& effect : plan.at("on")) {
-        const auto name = effect.at("name").get<std::string>();
+    for (const ordered_json& effect : value_at(plan, "/on")) {
+        const std::string name = effect.value("name", "");
         cost["effects"].push_back({{"name", name},
-                                   {"asked", effect.at("why")},
+                                   {"asked", value_at(effect, "/why")},
                                    {"predicted", value_at(plan, "/cost/effects/" + name)},
                                    {"measured", measured_share(measured, name)}});
     }

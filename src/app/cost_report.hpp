@@ -14,12 +14,12 @@ namespace hyoryu {
 int steps_to_time(const Plan& plan, double steps);
 
 /// Times the steps; none if there are none to time, or if what lies beyond the end of the run goes
-/// wrong. The simulation is used up.
-std::optional<StepCost> time_steps(Simulation&& sim, int steps);
+/// wrong. The simulation is no result any more.
+std::optional<StepCost> time_steps(Simulation& sim, int steps);
 
 /// Adds `cost` to the summary.json in the folder: for each effect that its plan.json names, and for
 /// the run, what the plan foretold and what was measured. `seconds_per_step`: of this process.
-/// Throws IoError.
+/// Throws IoError, also when one of the two is not what a run wrote.
 void write_cost(const std::filesystem::path& folder, double seconds_per_step,
                 const std::optional<StepCost>& measured);
 

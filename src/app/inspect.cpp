@@ -77,7 +77,8 @@ int check_case(const CheckOptions& options)
     const Plan plan = make_plan(scene, filling);
     std::optional<StepCost> timed;
     if (options.time && plan.fluid) {
-        timed = measure_cost(make_simulation(scene, plan, filling), timed_steps);
+        Simulation sim = make_simulation(scene, plan, filling);
+        timed = measure_cost(sim, timed_steps);
     }
     if (options.json) {
         fmt::print("{}", plan_json(scene, plan, timed));

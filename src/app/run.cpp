@@ -205,7 +205,7 @@ void tell_cost(Job& job)
     const auto steps = static_cast<double>(job.sim.clock.step - job.first_step);
     const double seconds = steps > 0 ? job.progress.wall_seconds() / steps : 0;
     const int timed = steps_to_time(job.sim.plan, steps);
-    write_cost(job.folder, seconds, time_steps(std::move(job.sim), timed));
+    write_cost(job.folder, seconds, time_steps(job.sim, timed));
 }
 
 int finish(Job& job)
@@ -250,6 +250,17 @@ int carry_out(Job& job)
     }
 }
 
+// Timed on a simulation of its own, which is gone before that of the run is made.
+std::optional<StepCost> predicted_cost(const Scene& scene, const Plan& plan, const Filling& filling)
+{
+    const int steps = steps_to_time(plan, plan.expected_steps);
+    if (steps == 0) {
+        return {};
+    }
+    Simulation sim = make_simulation(scene, plan, filling);
+    return time_steps(sim, steps);
+}
+
 Job start(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
           const Filling& filling)
 {
@@ -257,10 +268,7 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     check_disk(folder, plan);
     const std::string case_text = to_toml(scene);
     write_text(folder / "case.toml", case_text);
-    const int steps = steps_to_time(plan, plan.expected_steps);
-    const auto timed =
-        steps > 0 ? time_steps(make_simulation(scene, plan, filling), steps) : std::nullopt;
-    write_text(folder / "plan.json", plan_json(scene, plan, timed));
+    write_text(folder / "plan.json", plan_json(scene, plan, predicted_cost(scene, plan, filling)));
     Simulation sim = make_simulation(scene, plan, filling);
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, 0);
     Outputs outputs(folder, sim, filling.domain);

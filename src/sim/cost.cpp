@@ -30,6 +30,12 @@ constexpr std::array slots{
     Slot{{"particle_collision"}, [](FluidEffects& effects) { effects.collision = Off{}; }},
 };
 
+// Does not compile any more when FluidEffects gains a slot, which then belongs above too.
+[[maybe_unused]] void expect_all_slots(const FluidEffects& effects)
+{
+    [[maybe_unused]] const auto& [diffusion, viscosity, shifting, slip, collision] = effects;
+}
+
 struct Variant {
     std::string without; // effect; none in the first
     FluidEffects effects;
@@ -59,7 +65,7 @@ double seconds_of_step(Simulation& sim)
 
 } // namespace
 
-StepCost measure_cost(Simulation&& sim, int steps)
+StepCost measure_cost(Simulation& sim, int steps)
 {
     // Neither the end nor a frame may cut a step short.
     sim.scene.time.end = infinity;

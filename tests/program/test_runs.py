@@ -45,6 +45,14 @@ class Runs(ProgramTest):
         self.assertGreater(cost["seconds_per_step"]["predicted"], 0)
         self.assertGreater(cost["memory_bytes"]["predicted"], 1e6)
 
+    def test_a_damaged_plan_is_told_when_the_cost_would_be(self):
+        self.call("run", self.write(FLOOD), "-o", "out", "--until", "0.01", "--set", "time.end=0.02")
+        (self.dir / "out/plan.json").write_text("{")
+        done = self.call("run", "case.toml", "-o", "out", "--resume", "--set", "time.end=0.02")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("plan.json is missing or damaged", done.stderr)
+        self.assertEqual(json.loads((self.dir / "out/summary.json").read_text())["exit_reason"], "done")
+
     def test_a_short_run_is_not_timed(self):
         self.call("run", self.write(FLOOD), "-o", "out", "--set", "time.end=0.01")
         self.assertNotIn("cost", json.loads((self.dir / "out/plan.json").read_text()))

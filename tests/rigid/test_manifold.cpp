@@ -48,6 +48,7 @@ TEST(Manifold, FacesThatTiltByAlmostNothingKeepAllTheirContacts)
         double lowest = infinity;
         for (const Candidate& c : found) {
             lowest = std::min(lowest, c.touch.gap);
+            // No two points of a face are farther apart than its diagonal.
             EXPECT_LE(c.touch.gap, std::sqrt(2.0) * side * tilt);
         }
         // The normals of the face and of the edges make `tilt`, so their distances differ by its

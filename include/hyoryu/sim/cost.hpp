@@ -9,6 +9,7 @@
 
 namespace hyoryu {
 
+/// The wall time of a step, and the share of it that goes with each effect that can be left out.
 struct StepCost {
     struct Share {
         std::string effect; // as the plan names it
@@ -22,7 +23,8 @@ struct StepCost {
 /// with everything, and one without each effect that the slots of the fluid can do without. What an
 /// effect takes is how much less the fastest step without it needs than the fastest with it; one
 /// state, one after the other, so that a busy machine disturbs all alike. The simulation goes on
-/// from where it stands, beyond its end, and is used up. Throws NumericalError like step().
-StepCost measure_cost(Simulation&& sim, int steps);
+/// from where it stands, beyond its end, and is no result any more. Throws NumericalError like
+/// step().
+StepCost measure_cost(Simulation& sim, int steps);
 
 } // namespace hyoryu
