@@ -43,13 +43,14 @@ class ProgramTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.dir = pathlib.Path(self.folder.name)
+        self.program = HYORYU
 
     def tearDown(self):
         self.folder.cleanup()
 
     def call(self, *arguments, **options):
-        return subprocess.run([HYORYU, *map(str, arguments)], cwd=self.dir, capture_output=True,
-                              text=True, timeout=600, **options)
+        return subprocess.run([self.program, *map(str, arguments)], cwd=self.dir,
+                              capture_output=True, text=True, timeout=600, **options)
 
     def write(self, text, name="case.toml"):
         (self.dir / name).write_text(text)
