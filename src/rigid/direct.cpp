@@ -21,6 +21,12 @@ constexpr double settled_direction = 1e-9;
 constexpr double on_cone = 1e-9;
 // Relative rank tolerance of the redundant, symmetric problem (round-off times condition).
 constexpr double rank_tolerance = 1e-11;
+// Shift of the diagonal that makes the problem regular, as a part of its largest entry; the
+// round-off in how redundant contacts share their load is that of the numbers over this.
+constexpr double shift = 1e-8;
+constexpr int corrections = 6;
+// What the corrections may leave of the right-hand side.
+constexpr double corrected = 1e-13;
 
 int unknowns(const Row& row, int state)
 {
@@ -58,6 +64,11 @@ Vec3 coupling(const Row& i, const Row& j, const Vec3& p, const std::vector<Respo
     return i.D.transpose() * u;
 }
 
+bool share_a_body(const Row& i, const Row& j)
+{
+    return i.a == j.a || i.a == j.b || (i.b >= 0 && (i.b == j.a || i.b == j.b));
+}
+
 void assemble(std::span<Row> rows, const std::vector<Response>& bodies, SolverWork& work)
 {
     int n = 0;
@@ -78,6 +89,9 @@ void assemble(std::span<Row> rows, const std::vector<Response>& bodies, SolverWo
             work.rhs[work.columns[i] + r] = u[r];
         }
         for (std::size_t j = 0; j < rows.size(); ++j) {
+            if (!share_a_body(rows[i], rows[j])) {
+                continue;
+            }
             for (int m = 0; m < unknowns(rows[j], work.states[j]); ++m) {
                 const Vec3 p = direction(rows[j], work.states[j], work.directions[j], m);
                 const Vec3 w = coupling(rows[i], rows[j], p, bodies);
@@ -87,6 +101,36 @@ void assemble(std::span<Row> rows, const std::vector<Response>& bodies, SolverWo
             }
         }
     }
+}
+
+// W x = rhs by a shifted problem: W is singular where contacts share a load in many ways, as the
+// corners of a box do, and corrections lead to the solution of the smallest norm (iterated
+// regularisation, Riley 1955). False if they do not.
+bool solve_shifted(SolverWork& work)
+{
+    const Index n = work.W.rows();
+    const double most = work.W.diagonal().maxCoeff();
+    work.factor.compute(work.W + shift * most * Eigen::MatrixXd::Identity(n, n));
+    work.solution.setZero(n);
+    work.left_over = work.rhs;
+    const double enough = corrected * work.rhs.lpNorm<Eigen::Infinity>();
+    for (int k = 0; k < corrections; ++k) {
+        work.solution += work.factor.solve(work.left_over);
+        work.left_over = work.rhs - work.W * work.solution;
+        if (work.left_over.lpNorm<Eigen::Infinity>() <= enough) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The same to the last bit, or the best there is, for ten times the cost.
+void solve_orthogonally(SolverWork& work)
+{
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    decomposition.setThreshold(rank_tolerance);
+    decomposition.compute(work.W);
+    work.solution = decomposition.solve(work.rhs);
 }
 
 // Impulses of all rows from the solution of the reduced problem, applied to the bodies.
@@ -169,11 +213,8 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     bool changed = true;
     for (int round = 0; round < rounds_of_guesses && changed; ++round) {
         assemble(rows, bodies, work);
-        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-        decomposition.setThreshold(rank_tolerance);
-        if (work.W.size() > 0) {
-            decomposition.compute(work.W);
-            work.solution = decomposition.solve(work.rhs);
+        if (work.W.size() > 0 && !solve_shifted(work)) {
+            solve_orthogonally(work);
         }
         apply(rows, bodies, work);
         changed = false;

@@ -21,7 +21,9 @@ constexpr double sub_steps_of_rest = 2;
 constexpr int most_rounds = 4;
 constexpr Effort impact_effort{.enough = 1e-3, .direct_tries = 0, .sweeps = 40};
 // What is left of the contacts is made good by the next step, which starts from their impulses.
-constexpr Effort contact_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 200};
+constexpr Effort contact_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
+// A pile hands a gap on from body to body; below this none is worth chasing [m].
+constexpr double no_gap = 1e-9;
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
 
@@ -138,8 +140,8 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
         const double h = sub_step_length(context, cluster, rest);
         const double slow =
             std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
-        const SubStep sub{cluster,       context.start + done, h,        slow, most_rounds,
-                          impact_effort, contact_effort,       Arms::now};
+        const SubStep sub{cluster,       context.start + done, h,         slow,  most_rounds,
+                          impact_effort, contact_effort,       Arms::now, no_gap};
         predict_free_motion(context, sub);
         find_all_closing(context, sub);
         solve_impacts(context, sub, sub.time); // what it leaves, the contacts of the motion take up

@@ -10,8 +10,6 @@ namespace hyoryu {
 namespace {
 
 constexpr int most_sweeps = 10;
-// Gaps below this are left alone; they are the noise of positions [m].
-constexpr double no_gap = 1e-12;
 // Overlap that is put right at once; what is deeper was there from the start or was not located,
 // and goes by a share a step so that nothing jumps [m].
 constexpr double at_once = 1e-5;
@@ -35,13 +33,19 @@ void turn_by(SolidPose& pose, const Vec3& w)
     pose = pose_of(pose.x, (rotation_by(w) * pose.q).normalized());
 }
 
+struct Goal {
+    Feature feature;
+    double wanted = 0; // gap [m]
+};
+
 // Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one;
 // returns how far it was off.
-double close_gap(const StepContext& context, const Feature& f, double wanted, double time)
+double close_gap(const StepContext& context, const Goal& goal, double no_gap, double time)
 {
     ContactMemory& memory = context.memory;
+    const Feature& f = goal.feature;
     const Touch touch = touch_of(f, configuration(memory, memory.poses, time));
-    const double off = touch.gap - wanted;
+    const double off = touch.gap - goal.wanted;
     if (std::abs(off) <= no_gap) {
         return 0;
     }
@@ -70,11 +74,6 @@ double close_gap(const StepContext& context, const Feature& f, double wanted, do
 
 // An event leaves a contact nearer to zero than this [m].
 constexpr double overlapping = -1e-10;
-
-struct Goal {
-    Feature feature;
-    double wanted = 0;
-};
 
 double aim(double gap)
 {
@@ -135,10 +134,10 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
     }
     set_responses(context, sub.cluster);
     double off = infinity;
-    for (int sweep = 0; sweep < most_sweeps && off > no_gap; ++sweep) {
+    for (int sweep = 0; sweep < most_sweeps && off > sub.no_gap; ++sweep) {
         off = 0;
         for (const Goal& goal : list) {
-            off = std::max(off, close_gap(context, goal.feature, goal.wanted, time));
+            off = std::max(off, close_gap(context, goal, sub.no_gap, time));
         }
     }
     const Configuration now = configuration(memory, memory.poses, time);

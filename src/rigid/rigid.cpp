@@ -100,9 +100,11 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
     worst = std::max(worst, solve_impacts(context, start, context.start));
     while (done < context.dt && context.memory.solved_contacts < worth_rounds) {
         const double rest = context.dt - done;
-        const double h = sub_step_length(context, cluster, rest);
+        const double h =
+            std::min(sub_step_length(context, cluster, rest), part_on_contacts(context, rest));
         SubStep sub{cluster, context.start + done, h, slow, most_rounds};
         plan_motion(context, sub);
+        end_with_part(context, sub, rest);
         end_with_turn(context, sub);
         end_with_slip(context, sub);
         const double s = first_event(context, sub);

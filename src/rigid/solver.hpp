@@ -4,7 +4,7 @@
 
 #include "colours.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <span>
 
@@ -18,10 +18,11 @@ struct Twist {
 
 /// Scratch of the solvers, kept between calls.
 struct SolverWork {
-    Eigen::LLT<Eigen::MatrixXd> factor;
+    Eigen::PartialPivLU<Eigen::MatrixXd> factor;
     Eigen::MatrixXd W;
     Eigen::VectorXd rhs;
     Eigen::VectorXd solution;
+    Eigen::VectorXd left_over;
     std::vector<int> states;
     std::vector<int> columns;
     std::vector<Vec3> directions, momenta;

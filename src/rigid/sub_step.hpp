@@ -27,11 +27,19 @@ struct SubStep {
     Effort impact_effort{};
     Effort contact_effort{};
     Arms arms = Arms::ahead;
+    double no_gap = 1e-12; // left alone by the projection: the noise of positions [m]
 };
 
 /// Short enough that no body of the cluster turns too far for the scheme, and not longer than
 /// `rest` [s].
 double sub_step_length(const StepContext& context, const Cluster& cluster, double rest);
+
+/// Of the rest of the step the part that a sub-step may take with the contacts as found: all of it,
+/// or up to a third of the step where a body turns on them [s].
+double part_on_contacts(const StepContext& context, double rest);
+
+/// Shortens the planned sub-step to that part if it is only at its end that a body turns.
+void end_with_part(const StepContext& context, SubStep& sub, double rest);
 
 /// First guesses of the impulses of the persistent contacts: the force that the same feature had in
 /// the last sub-step, or else the nearest one of the pair, because two faces in contact may be

@@ -75,5 +75,20 @@ TEST(TimberConvergence, IsSecondOrder)
     }
 }
 
+// A hundredth of what the best of the engines of docs/contact-benchmarks.md leaves at 0.1 ms.
+TEST(TimberConvergence, AtOneMillisecondIsAHundredTimesAsNearAsThePeersAtATenth)
+{
+    for (const auto& [mu, bound] : {std::pair(0.3, 2.7e-8), {0.6, 3.6e-7}}) {
+        double x[2];
+        for (const int k : {0, 1}) {
+            const int steps = k == 0 ? 300 : 300 * 16; // the finer one is 256 times as near
+            Rigid rigid = timber(mu);
+            run(rigid, 0.3 / steps, steps);
+            x[k] = right(rigid.bodies[0]).x();
+        }
+        EXPECT_LT(std::abs(x[0] - x[1]), bound) << "mu " << mu;
+    }
+}
+
 } // namespace
 } // namespace hyoryu
