@@ -171,6 +171,11 @@ double bounding_radius(const Body& body, int dimensions)
     return solid_of(body.shape, dimensions).reach;
 }
 
+double inner_radius(const Body& body, int dimensions)
+{
+    return solid_of(body.shape, dimensions).thickness;
+}
+
 double overlap(const Rigid& rigid, int a, int b, double time)
 {
     Geometry geometry;

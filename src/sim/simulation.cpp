@@ -3,7 +3,7 @@
 
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "hyoryu/scene/shapes.hpp"
-#include "watch.hpp"
+#include "hyoryu/sim/watch.hpp"
 
 #include <cmath>
 
@@ -145,6 +145,9 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
             {begin, static_cast<Index>(sim.body_particles.points.size())});
     }
     sim.loads.bodies.resize(scene.bodies.size());
+    for (const Body& body : sim.rigid.bodies) {
+        sim.thinnest = std::min(sim.thinnest, inner_radius(body, scene.dimensions));
+    }
     if (plan.fluid) {
         sim.fluid = make_fluid(sim, filling);
         if (sim.fluid->moving_walls) {
@@ -224,6 +227,7 @@ void step(Simulation& sim)
     sim.clock.step += 1;
     sim.steps_by_limit[next.limit] += 1;
     close_books(sim, books, dt);
+    sim.timer.begin("watch");
     watch(sim);
     sim.timer.end();
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "watch.hpp"
+#include "hyoryu/sim/watch.hpp"
+
+#include "surroundings.hpp"
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/sim/simulation.hpp"
@@ -18,11 +20,10 @@ namespace {
 constexpr double worst_compression = 1.0;
 // Nothing in the flow can be faster than its sound without the run being lost.
 constexpr double fastest_over_sound = 2;
-
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
+// Gain of energy over that of motion and compression, and over the scale of the scene, from which
+// on a run is lost.
+constexpr double gain_of_motion = 0.5;
+constexpr double gain_of_scale = 0.01;
 
 std::string probable_cause(const Simulation& sim)
 {
@@ -33,7 +34,7 @@ std::string probable_cause(const Simulation& sim)
         return fmt::format("probably `time.cfl` = {} is too large; 0.6 is the default",
                            sim.scene.time.cfl);
     }
-    if (sim.plan.expected_speed > 0.2 * sim.plan.fluid->eos.c0) {
+    if (sim.plan.fluid && sim.plan.expected_speed > 0.2 * sim.plan.fluid->eos.c0) {
         return "probably `fluid.sound_speed` is too low for the speeds of this flow";
     }
     return "probably an overlap at the start, a body thinner than 3 spacings, or fluid squeezed "
@@ -47,7 +48,20 @@ std::string probable_cause(const Simulation& sim)
         {sim.clock.step, sim.clock.time, std::move(who), std::move(field_name), std::move(cause)});
 }
 
-void watch_fluid(Simulation& sim)
+[[noreturn]] void report_particle(const Simulation& sim, std::size_t row)
+{
+    const Particles& particles = sim.fluid->particles;
+    const Vec3& x = particles[field::position][row];
+    report(sim,
+           fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m", particles.id()[row],
+                       x.x(), x.y(), x.z()),
+           fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", particles[field::density][row],
+                       particles[field::velocity][row].norm()),
+           probable_cause(sim) + "; " + surroundings(sim, row));
+}
+
+// The largest compression of the fluid.
+double watch_fluid(const Simulation& sim)
 {
     const Fluid& fluid = *sim.fluid;
     const Rows rows = fluid.particles.fluid();
@@ -56,9 +70,10 @@ void watch_fluid(Simulation& sim)
     const real rho0 = fluid.parameters.eos.rho0;
     const real top = sq(fastest_over_sound * fluid.parameters.eos.c0);
     // Not-a-number fails both comparisons and so counts as bad.
-    const auto error = [&](Index i) {
-        const real e = std::abs(rho[at(i)] / rho0 - 1);
-        const bool good = e <= worst_compression && v[at(i)].squaredNorm() <= top;
+    const auto error = [&](Index row) {
+        const auto i = static_cast<std::size_t>(row);
+        const real e = std::abs(rho[i] / rho0 - 1);
+        const bool good = e <= worst_compression && v[i].squaredNorm() <= top;
         return good ? e : infinity;
     };
     const real worst = largest(rows.begin, rows.end, 0, error);
@@ -67,24 +82,13 @@ void watch_fluid(Simulation& sim)
         while (error(bad) != infinity) {
             ++bad;
         }
-        const Vec3& x = fluid.particles[field::position][at(bad)];
-        report(
-            sim,
-            fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m",
-                        fluid.particles.id()[at(bad)], x.x(), x.y(), x.z()),
-            fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", rho[at(bad)], v[at(bad)].norm()),
-            probable_cause(sim));
+        report_particle(sim, static_cast<std::size_t>(bad));
     }
-    sim.ledger.worst_density_error = std::max(sim.ledger.worst_density_error, worst);
+    return worst;
 }
 
-} // namespace
-
-void watch(Simulation& sim)
+void watch_bodies(const Simulation& sim)
 {
-    if (sim.fluid) {
-        watch_fluid(sim);
-    }
     for (const Body& body : sim.rigid.bodies) {
         const bool finite = body.position.allFinite() && body.velocity.allFinite() &&
                             body.angular_momentum.allFinite() &&
@@ -93,6 +97,54 @@ void watch(Simulation& sim)
             report(sim, fmt::format("body \"{}\"", body.name), "pose or velocity is not finite",
                    "probably its mass or a load on it is extreme; compare it with its neighbours");
         }
+    }
+    if (sim.rigid.counters.worst_penetration > sim.thinnest) {
+        const Overlap deepest = deepest_overlap(sim);
+        report(sim, deepest.pair, fmt::format("they overlap by {:.4g} m", deepest.depth),
+               sim.clock.step <= 1 ? "they overlap at the start"
+                                   : "probably a moving wall leaves them no room, or a fixed "
+                                     "`time.step` is too long");
+    }
+}
+
+bool driven(const Simulation& sim)
+{
+    const RigidSettings& contact = sim.rigid.settings;
+    return std::ranges::any_of(sim.scene.walls,
+                               [](const Wall& wall) { return moves(wall.motion); }) ||
+           (sim.fluid && !sim.fluid->parameters.drive.isZero(0)) || sim.rigid.penalty ||
+           contact.law != ImpactLaw::coupled;
+}
+
+double energy(const Totals& t)
+{
+    return t.fluid_kinetic + t.fluid_potential + t.fluid_internal + t.body_kinetic +
+           t.body_potential;
+}
+
+} // namespace
+
+void watch(Simulation& sim)
+{
+    if (sim.fluid) {
+        sim.ledger.worst_density_error = std::max(sim.ledger.worst_density_error, watch_fluid(sim));
+    }
+    watch_bodies(sim);
+}
+
+void watch_energy(const Simulation& sim, const Totals& now)
+{
+    if (driven(sim)) {
+        return;
+    }
+    const double lost = sim.fluid ? sim.fluid->lost.energy : 0;
+    const double gain = energy(now) + lost - energy(sim.ledger.start);
+    const double motion = now.fluid_kinetic + now.fluid_internal + now.body_kinetic;
+    if (gain > gain_of_motion * motion && gain > gain_of_scale * energy_scale(sim)) {
+        report(sim, "the whole scene",
+               fmt::format("energy has grown by {:.4g} J, that of its motion is {:.4g} J", gain,
+                           motion),
+               probable_cause(sim));
     }
 }
 

@@ -86,6 +86,10 @@ void load_memory(Rigid& rigid, std::span<const double> numbers);
 /// Largest distance of a point of the body from its centre of mass [m].
 double bounding_radius(const Body& body, int dimensions);
 
+/// Distance from the inside of a convex body, or of a part of one, to its nearest face: half of what
+/// it is thick [m].
+double inner_radius(const Body& body, int dimensions);
+
 /// Depth by which two bodies, or a body and a boundary, overlap at `time` [m]; negative or zero if
 /// they do not. `b` as in Contact.
 double overlap(const Rigid& rigid, int a, int b, double time);

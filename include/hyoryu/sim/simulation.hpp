@@ -35,7 +35,8 @@ struct Simulation {
     std::vector<Contact> contacts; // of the last step
     StageTimer timer;
     std::map<std::string, long long, std::less<>> steps_by_limit;
-    double pair_visits = 0; // list entries gone over so far
+    double pair_visits = 0;     // list entries gone over so far
+    double thinnest = infinity; // least inner radius of the bodies [m]
 };
 
 /// The scene at time 0. The particles of `filling` go into the store.

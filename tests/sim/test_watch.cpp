@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Runs that go wrong: what is noticed, and how it is told.
+#include "runs.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/sim/watch.hpp"
+
+namespace hyoryu {
+namespace {
+
+const std::string tank = R"(
+title = "tank"
+dimensions = 2
+[time]
+end = 1.0
+[particles]
+spacing = 0.05
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 0.5]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 1.0]
+open = ["+z"]
+[[body]]
+name = "float"
+shape = "box"
+size = [0.2, 0.0, 0.2]
+density = 500.0
+position = [0.5, 0.0, 0.5]
+)";
+
+const std::string crates = R"(
+title = "crates"
+[time]
+end = 1.0
+step = 1e-3
+[particles]
+spacing = 0.05
+[[wall]]
+name = "floor"
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 1.0]
+[[body]]
+name = "left"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 500.0
+position = [0.0, 0.0, 0.1]
+[[body]]
+name = "right"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 500.0
+position = [0.3, 0.0, 0.1]
+)";
+
+// What the error says, or nothing if there is none.
+std::string said(const auto& action)
+{
+    try {
+        action();
+    } catch (const NumericalError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+void expect_words(const std::string& text, std::initializer_list<const char*> words)
+{
+    for (const char* word : words) {
+        EXPECT_NE(text.find(word), std::string::npos) << word << " is not in: " << text;
+    }
+}
+
+TEST(Watch, NamesTheParticleAndWhatLiesAroundIt)
+{
+    Simulation sim = make(tank);
+    advance(sim, 1);
+    Particles& particles = sim.fluid->particles;
+    const auto x = particles[field::position];
+    std::size_t corner = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(particles.fluid().size()); ++k) {
+        corner = x[k].x() + x[k].z() < x[corner].x() + x[corner].z() ? k : corner;
+    }
+    particles[field::velocity][corner] = {1e6, 0, 0};
+    const std::string text = said([&] { watch(sim); });
+    expect_words(text, {"fluid particle", "speed 1e+06", "of the fluid", "of wall \"basin\"",
+                        "the nearest at", "step 1"});
+    EXPECT_EQ(text.find("of body"), std::string::npos) << text;
+}
+
+TEST(Watch, ANumberThatIsNoneIsFoundWhereverItIs)
+{
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    Simulation sim = make(tank);
+    advance(sim, 1);
+    sim.fluid->particles[field::density][7] = none;
+    expect_words(said([&] { watch(sim); }), {"fluid particle", "density nan"});
+    sim = make(tank);
+    sim.rigid.bodies[0].angular_momentum.x() = none;
+    expect_words(said([&] { watch(sim); }), {"body \"float\"", "not finite"});
+}
+
+TEST(Watch, SolidsThatRunIntoEachOtherAreNamed)
+{
+    Simulation sim = make(crates);
+    advance(sim, 3);
+    sim.rigid.bodies[1].position.x() = 0.05; // 0.15 m into the other, whose inner radius is 0.1 m
+    expect_words(said([&] { step(sim); }),
+                 {"body \"right\" and body \"left\"", "overlap by 0.1", "room"});
+}
+
+TEST(Watch, EnergyFromNowhereIsTold)
+{
+    Simulation sim = make(tank);
+    advance(sim, 20);
+    EXPECT_EQ(said([&] { watch_energy(sim, totals(sim)); }), "");
+    Totals more = totals(sim);
+    // The water could fall by 1.2 m with margins: 250 kg/m g 1.2 m, of which a hundredth is 29 J/m.
+    more.fluid_kinetic += 100;
+    expect_words(said([&] { watch_energy(sim, more); }), {"whole scene", "energy has grown by"});
+    sim.fluid->parameters.drive = {1, 0, 0};
+    EXPECT_EQ(said([&] { watch_energy(sim, more); }), "") << "something drives it";
+}
+
+TEST(Watch, AtRestNeitherNoiseNorRoundOffIsTrouble)
+{
+    Simulation sim = make(crates);
+    for (int k = 0; k < 200; ++k) {
+        step_on(sim);
+        watch_energy(sim, totals(sim));
+    }
+    EXPECT_EQ(sim.clock.step, 200);
+}
+
+} // namespace
+} // namespace hyoryu
