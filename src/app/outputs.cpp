@@ -5,7 +5,6 @@
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/frames.hpp"
 #include "hyoryu/sim/gauges.hpp"
-#include "hyoryu/sim/watch.hpp"
 #include "tables.hpp"
 
 #include <algorithm>
@@ -172,7 +171,6 @@ void Outputs::write_bodies(const Simulation& sim)
 void Outputs::write_energy(const Simulation& sim)
 {
     const Totals t = totals(sim);
-    watch_energy(sim, t);
     std::vector<std::string> row =
         cells({sim.clock.time, t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic,
                t.body_potential, sim.ledger.contact_loss});

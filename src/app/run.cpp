@@ -15,6 +15,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
+#include "hyoryu/sim/watch.hpp"
 
 #include <fmt/format.h>
 
@@ -145,6 +146,9 @@ bool step_or_recover(Job& job)
 {
     try {
         step(job.sim);
+        if (frame_due(job.sim.clock, job.sim.scene)) { // about to be kept as a good state
+            watch_energy(job.sim, totals(job.sim));
+        }
         return true;
     } catch (const NumericalError& error) {
         if (!job.sim.scene.time.recover || job.sim.clock.share <= least_share) {

@@ -96,6 +96,9 @@ class Runs(ProgramTest):
         times = [float(line.split(",")[0]) for line in (self.dir / "out" / "energy.csv").read_text().splitlines()[2:]]
         self.assertTrue(all(a < b for a, b in zip(times, times[1:])), "no row of what was taken back is left")
         self.assertEqual(times[-1], 0.5)
+        energies = [sum(map(float, line.split(",")[1:6]))
+                    for line in (self.dir / "out" / "energy.csv").read_text().splitlines()[2:]]
+        self.assertTrue(all(e < 1.01 * energies[0] for e in energies), "nothing that it gained is kept")
 
     def test_the_resolved_case_gives_the_same_bits(self):
         self.run_flood("out")
