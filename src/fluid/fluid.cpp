@@ -3,6 +3,8 @@
 
 #include "sweeps.hpp"
 
+#include "hyoryu/core/error.hpp"
+
 #include <cmath>
 
 namespace hyoryu {
@@ -12,7 +14,7 @@ FluidTerms terms_of(const Fluid& fluid, real dt)
     const FluidParameters& f = fluid.parameters;
     FluidTerms terms{
         {f.eos, f.gravity}, {f.spacing, dt > 0 ? f.mass / (2 * dt) : 0}, fluid.effects, {}};
-    if (const auto* collision = std::get_if<ParticleCollision>(&fluid.effects.collision)) {
+    if (const auto* collision = held<ParticleCollision>(fluid.effects.collision)) {
         terms.collision = collision->term(f.spacing, f.mass, dt);
     }
     return terms;
@@ -20,7 +22,7 @@ FluidTerms terms_of(const Fluid& fluid, real dt)
 
 bool sticks_to_solids(const Fluid& fluid)
 {
-    return std::holds_alternative<NoSlip>(fluid.effects.slip);
+    return held<NoSlip>(fluid.effects.slip) != nullptr;
 }
 
 real stand_in_mass(const Fluid& fluid, std::int32_t owner)
@@ -28,8 +30,29 @@ real stand_in_mass(const Fluid& fluid, std::int32_t owner)
     return owner >= 0 ? fluid.body_particle_mass[at(owner)] : fluid.parameters.mass;
 }
 
+namespace {
+
+// An effect that a scene asks for is never left out in silence.
+void expect_built(const FluidEffects& effects)
+{
+    const auto look = []<class Effect>(const Effect&) {
+        if constexpr (!is_built<Effect>) {
+            throw CaseError(std::string(Effect::name) + " is not part of this build",
+                            "configure it without HYORYU_WITHOUT");
+        }
+    };
+    std::visit(look, effects.diffusion);
+    std::visit(look, effects.viscosity);
+    std::visit(look, effects.shifting);
+    std::visit(look, effects.slip);
+    std::visit(look, effects.collision);
+}
+
+} // namespace
+
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count)
 {
+    expect_built(fluid.effects);
     if (fluid.parameters.precision == Precision::double_precision) {
         fluid.pair_data.emplace<PairData<double>>();
     }
@@ -46,10 +69,10 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
     if (sticks_to_solids(fluid) && wall_count + body_count > 0) {
         fluid.particles.add(Union<NoSlip::Writes, Fields<Depth>>{});
     }
-    if (std::holds_alternative<EddyViscosity>(fluid.effects.viscosity)) {
+    if (held<EddyViscosity>(fluid.effects.viscosity) != nullptr) {
         fluid.particles.add(Union<StrainRate::Writes, Fields<TurbulentViscosity>>{});
     }
-    if (std::holds_alternative<RenormalisedDiffusion>(fluid.effects.diffusion)) {
+    if (held<RenormalisedDiffusion>(fluid.effects.diffusion) != nullptr) {
         fluid.particles.add(DensityGradient::Writes{});
     }
     if (fluid.parameters.formulation == FormulationKind::mps) {
@@ -128,14 +151,14 @@ void update_forces(Fluid& fluid, real dt)
     run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_loads; });
     run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
     run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
-    if (!std::holds_alternative<Off>(fluid.effects.collision)) {
+    if (held<ParticleCollision>(fluid.effects.collision) != nullptr) {
         run(fluid, n.fluid_fluid, n.fluid, terms,
             [](const auto& loops) { return loops.collision; });
     }
     if (mps) {
         add_corrected_pressure(fluid.parameters, particles);
     }
-    if (std::holds_alternative<RenormalisedDiffusion>(fluid.effects.diffusion)) {
+    if (held<RenormalisedDiffusion>(fluid.effects.diffusion) != nullptr) {
         add_renormalised_diffusion(fluid);
     }
 }
@@ -191,13 +214,13 @@ real top_acceleration(const Fluid& fluid)
 real effective_viscosity(const Fluid& fluid)
 {
     const real unit = laminar_kappa(1, fluid.parameters.dimensions);
-    if (const auto* viscosity = std::get_if<Viscosity>(&fluid.effects.viscosity)) {
+    if (const auto* viscosity = held<Viscosity>(fluid.effects.viscosity)) {
         return viscosity->kappa / unit;
     }
-    if (const auto* morris = std::get_if<MorrisViscosity>(&fluid.effects.viscosity)) {
+    if (const auto* morris = held<MorrisViscosity>(fluid.effects.viscosity)) {
         return morris->mu / fluid.parameters.eos.rho0;
     }
-    const auto* eddies = std::get_if<EddyViscosity>(&fluid.effects.viscosity);
+    const auto* eddies = held<EddyViscosity>(fluid.effects.viscosity);
     if (eddies == nullptr) {
         return 0;
     }
@@ -210,7 +233,7 @@ real effective_viscosity(const Fluid& fluid)
 
 void shift(Fluid& fluid, real dt)
 {
-    const auto* shifting = std::get_if<Shifting>(&fluid.effects.shifting);
+    const auto* shifting = held<Shifting>(fluid.effects.shifting);
     if (shifting == nullptr) {
         return;
     }

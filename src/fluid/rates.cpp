@@ -108,7 +108,7 @@ void update_rates(Fluid& fluid)
     if (sticks) {
         mirror_velocities(fluid);
     }
-    if (const auto* eddies = std::get_if<EddyViscosity>(&fluid.effects.viscosity)) {
+    if (const auto* eddies = held<EddyViscosity>(fluid.effects.viscosity)) {
         update_turbulence(fluid, *eddies, sticks);
     }
     run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_rates; });

@@ -54,6 +54,12 @@ else()
   set(HYORYU_FLAGS_32 -march=x86-64-v3)
   set(HYORYU_FLAGS_64 -march=x86-64-v4)
 endif()
+list(LENGTH HYORYU_WITHOUT HYORYU_WITHOUT_COUNT)
+list(TRANSFORM HYORYU_WITHOUT REPLACE "(.+)" "\"\\1\"" OUTPUT_VARIABLE HYORYU_WITHOUT_NAMES)
+list(JOIN HYORYU_WITHOUT_NAMES ", " HYORYU_WITHOUT_NAMES)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/built_effects.hpp.in
+  ${PROJECT_BINARY_DIR}/include/hyoryu/fluid/built_effects.hpp)
+
 list(JOIN HYORYU_SETS ", " HYORYU_REGISTER_SIZES)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/compiled_sets.hpp.in
   ${PROJECT_BINARY_DIR}/include/hyoryu/core/compiled_sets.hpp)

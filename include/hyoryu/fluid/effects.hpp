@@ -3,6 +3,7 @@
 // file with its term and one line here.
 #pragma once
 
+#include "hyoryu/fluid/built_effects.hpp"
 #include "hyoryu/fluid/collision.hpp"
 #include "hyoryu/fluid/continuity.hpp"
 #include "hyoryu/fluid/density_diffusion.hpp"
@@ -26,5 +27,16 @@ struct FluidEffects {
     std::variant<Off, NoSlip> slip;                                         // viscosity at solids
     std::variant<Off, ParticleCollision> collision; // with the pressure force
 };
+
+/// The effect if the slot holds it and it is part of this build; null otherwise.
+template <class Effect, class... Effects>
+constexpr const Effect* held(const std::variant<Effects...>& slot)
+{
+    if constexpr (is_built<Effect>) {
+        return std::get_if<Effect>(&slot);
+    } else {
+        return nullptr;
+    }
+}
 
 } // namespace hyoryu

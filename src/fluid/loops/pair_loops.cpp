@@ -13,9 +13,11 @@ constexpr int bytes = HYORYU_REGISTER_BYTES;
 template <class... Effects>
 void with(const std::variant<Effects...>& slot, const auto& f)
 {
-    const auto try_one = [&](const auto* effect) {
-        if (effect != nullptr) {
-            f(*effect);
+    const auto try_one = [&]<class Effect>(const Effect* effect) {
+        if constexpr (is_built<Effect>) {
+            if (effect != nullptr) {
+                f(*effect);
+            }
         }
     };
     (try_one(std::get_if<Effects>(&slot)), ...);
@@ -73,21 +75,27 @@ struct Loops {
 
     static void collision(const View& view, Index block, Row* local, const FluidTerms& terms)
     {
-        sweep_block<bytes>(view, block, local, terms.collision);
+        if constexpr (is_built<ParticleCollision>) {
+            sweep_block<bytes>(view, block, local, terms.collision);
+        }
     }
     static void gradient(const View& view, Index block, Row* local, const FluidTerms&)
     {
-        sweep_block<bytes>(view, block, local, DensityGradient{});
+        if constexpr (is_built<RenormalisedDiffusion>) {
+            sweep_block<bytes>(view, block, local, DensityGradient{});
+        }
     }
     static void diffusion(const View& view, Index block, Row* local, const FluidTerms& terms)
     {
-        if (const auto* d = std::get_if<RenormalisedDiffusion>(&terms.effects.diffusion)) {
+        if (const auto* d = held<RenormalisedDiffusion>(terms.effects.diffusion)) {
             sweep_block<bytes>(view, block, local, *d);
         }
     }
     static void mirror(const View& view, Index block, Row* local, const FluidTerms&)
     {
-        sweep_block<bytes>(view, block, local, NoSlip{});
+        if constexpr (is_built<NoSlip>) {
+            sweep_block<bytes>(view, block, local, NoSlip{});
+        }
     }
     static void friction(const View& view, Index block, Row* local, const FluidTerms& terms)
     {
@@ -99,7 +107,9 @@ struct Loops {
     }
     static void strain(const View& view, Index block, Row* local, const FluidTerms&)
     {
-        sweep_block<bytes>(view, block, local, StrainRate{});
+        if constexpr (is_built<EddyViscosity>) {
+            sweep_block<bytes>(view, block, local, StrainRate{});
+        }
     }
 
     // Where solids feel the opposite of what the fluid does, one loop serves both.
