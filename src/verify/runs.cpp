@@ -109,10 +109,15 @@ void append_run(Section& section, const Constants& constants, Tier tier,
     const std::string name = section.text("name", "run");
     const std::vector<std::string> set = section.texts("set");
     const Tier own_tier = read_tier(section, tier);
+    const std::string stops = section.text("stops");
     const std::vector<Axis> axes = read_grid(section);
     section.finish();
     for (const Parameters& parameters : combinations(axes)) {
-        BenchmarkRun run{.name = name, .set = common, .tier = own_tier, .parameters = parameters};
+        BenchmarkRun run{.name = name,
+                         .set = common,
+                         .tier = own_tier,
+                         .parameters = parameters,
+                         .stops = stops};
         try {
             const Scope scope = with_parameters(constants, parameters);
             run.name = expand(name, parameters, scope);

@@ -145,6 +145,35 @@ CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scop
     return result;
 }
 
+namespace {
+
+// What is said of a check of a run that stopped.
+CheckResult unmade(const Check& check, const BenchmarkRun& run, const std::string& error)
+{
+    CheckResult result{.check = check.name,
+                       .comparison = check.comparison,
+                       .expected = none,
+                       .got = none,
+                       .allowed = none,
+                       .note = "the run stopped: " + error,
+                       .because = check.because};
+    if (!run.stops.empty()) {
+        result.verdict = Verdict::xfail;
+        result.note += "; " + run.stops;
+    }
+    return result;
+}
+
+// A run that is known to stop and does not: the mark is stale.
+CheckResult stale_mark(const BenchmarkRun& run)
+{
+    return {.check = "the run stops",
+            .verdict = Verdict::xpass,
+            .note = "comes to its end now, take away its stops: " + run.stops};
+}
+
+} // namespace
+
 RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
                     const std::filesystem::path& results, const std::string& error)
 {
@@ -161,14 +190,11 @@ RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
         if (error.empty()) {
             result.checks.push_back(judge(check, run, scope, files));
         } else {
-            result.checks.push_back({.check = check.name,
-                                     .comparison = check.comparison,
-                                     .expected = none,
-                                     .got = none,
-                                     .allowed = none,
-                                     .note = "the run stopped: " + error,
-                                     .because = check.because});
+            result.checks.push_back(unmade(check, run, error));
         }
+    }
+    if (error.empty() && !run.stops.empty()) {
+        result.checks.push_back(stale_mark(run));
     }
     return result;
 }

@@ -111,6 +111,21 @@ TEST_F(Verdicts, AStoppedRunFailsAllItsChecksEvenKnownFailures)
     EXPECT_EQ(tally({{benchmark, {judge_run(benchmark, run, folder, "blew up")}}}).fail, 1);
 }
 
+TEST_F(Verdicts, ARunThatIsKnownToStopMustStop)
+{
+    Benchmark benchmark;
+    benchmark.folder = folder;
+    benchmark.checks = {check("10", "1")};
+    BenchmarkRun weak = run;
+    weak.stops = "a known weakness";
+    const RunResult stopped = judge_run(benchmark, weak, folder / "nowhere", "blew up");
+    EXPECT_EQ(stopped.checks[0].verdict, Verdict::xfail);
+    EXPECT_EQ(stopped.checks[0].note, "the run stopped: blew up; a known weakness");
+    const Tally healed = tally({{benchmark, {judge_run(benchmark, weak, folder, "")}}});
+    EXPECT_EQ(healed.pass, 1);
+    EXPECT_EQ(healed.xpass, 1) << "the mark is stale";
+}
+
 TEST_F(Verdicts, AReportCountsThemAndNamesTheCost)
 {
     Benchmark benchmark;
