@@ -122,7 +122,7 @@ TEST(Watch, EnergyFromNowhereIsTold)
     advance(sim, 20);
     EXPECT_EQ(said([&] { watch_energy(sim, totals(sim)); }), "");
     Totals more = totals(sim);
-    // The water could fall by 1.2 m with margins: 250 kg/m g 1.2 m, of which a hundredth is 29 J/m.
+    // 500 kg/m could fall by 1.2 m, margins included: a hundredth of that is 59 J/m.
     more.fluid_kinetic += 100;
     expect_words(said([&] { watch_energy(sim, more); }), {"whole scene", "energy has grown by"});
     sim.fluid->parameters.drive = {1, 0, 0};
