@@ -146,7 +146,8 @@ bool step_or_recover(Job& job)
 {
     try {
         step(job.sim);
-        if (frame_due(job.sim.clock, job.sim.scene)) { // about to be kept as a good state
+        // About to be told, or kept as a good state.
+        if (history_due(job.sim.clock, job.sim.scene) || frame_due(job.sim.clock, job.sim.scene)) {
             watch_energy(job.sim, totals(job.sim));
         }
         return true;

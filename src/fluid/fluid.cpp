@@ -64,7 +64,8 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
         },
         fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting);
     if (wall_count + body_count > 0) {
-        fluid.particles.add(WallExtrapolation::Writes{});
+        fluid.particles.add(
+            Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
     }
     if (sticks_to_solids(fluid) && wall_count + body_count > 0) {
         fluid.particles.add(Union<NoSlip::Writes, Fields<Depth>>{});
@@ -80,6 +81,26 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
     }
 }
 
+namespace {
+
+// Leaves to the gap what solids would stretch of the fluid in dt, see fluid/parting.
+void part_from_solids(Fluid& fluid, real dt)
+{
+    Particles& particles = fluid.particles;
+    const auto rho = particles[field::density];
+    const auto rate = particles[field::solid_rate];
+    const auto gap = particles[field::gap];
+    const real rho0 = fluid.parameters.eos.rho0;
+    const Rows rows = particles.fluid();
+    parallel_for(rows.begin, rows.end, [&](Index i) {
+        const real kept = to_gap(gap[at(i)], dt * rate[at(i)], rho0 - rho[at(i)]);
+        gap[at(i)] += kept;
+        rho[at(i)] += kept;
+    });
+}
+
+} // namespace
+
 void drift(Fluid& fluid, real dt)
 {
     Particles& particles = fluid.particles;
@@ -92,6 +113,9 @@ void drift(Fluid& fluid, real dt)
         rho[at(i)] += dt * rate[at(i)];
         x[at(i)] += dt * v[at(i)];
     });
+    if (particles.has(field::gap)) {
+        part_from_solids(fluid, dt);
+    }
 }
 
 void update_pressure(Fluid& fluid)
@@ -131,6 +155,32 @@ void update_pressure(Fluid& fluid)
     load_solids(fluid, Fields<Volume, Pressure>{});
 }
 
+namespace {
+
+// Forces between fluid and solids, and of solids in thin films. Fluid that has parted from them
+// shows them no pressure.
+void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
+{
+    const Particles& particles = fluid.particles;
+    const FluidNeighbours& n = fluid.neighbours;
+    const auto p = particles[field::pressure];
+    const auto gap = particles[field::gap];
+    std::visit(
+        [&](auto& data) {
+            data.records.lend(n.fluid, field::pressure,
+                              [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
+        },
+        fluid.pair_data);
+    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_forces; });
+    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_loads; });
+    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_loads; });
+    load(fluid, n.fluid, Fields<Pressure>{});
+    run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
+    run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
+}
+
+} // namespace
+
 void update_forces(Fluid& fluid, real dt)
 {
     Particles& particles = fluid.particles;
@@ -146,11 +196,9 @@ void update_forces(Fluid& fluid, real dt)
         clear(particles, particles.fluid(), Fields<DiffusionRate>{});
     }
     run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_forces; });
-    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_forces; });
-    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_loads; });
-    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_loads; });
-    run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
-    run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
+    if (particles.solid().size() > 0) {
+        add_solid_forces(fluid, terms);
+    }
     if (held<ParticleCollision>(fluid.effects.collision) != nullptr) {
         run(fluid, n.fluid_fluid, n.fluid, terms,
             [](const auto& loops) { return loops.collision; });

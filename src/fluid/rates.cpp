@@ -90,6 +90,37 @@ void add_friction(Fluid& fluid)
     run(fluid, n.body_fluid, n.body, terms, friction);
 }
 
+// The part of the density rate that solids make, and the end of gaps where there is no room for
+// one.
+void update_solid_rates(Fluid& fluid)
+{
+    Particles& particles = fluid.particles;
+    const FluidNeighbours& n = fluid.neighbours;
+    const FluidParameters& f = fluid.parameters;
+    const Rows rows = particles.fluid();
+    clear(particles, rows, SolidContinuity::Writes{});
+    run(fluid, n.fluid_solid, n.fluid, terms_of(fluid, 0),
+        [](const auto& loops) { return loops.solid_rates; });
+    const real touching = with_formulation(fluid, [&](auto, const auto& kernel) {
+        return sum_beside_plane(kernel, f.spacing, f.dimensions);
+    });
+    const auto rho = particles[field::density];
+    const auto rate = particles[field::solid_rate];
+    const auto sum = particles[field::shepard_sum];
+    const auto gap = particles[field::gap];
+    parallel_for(rows.begin, rows.end, [&](Index i) {
+        rate[at(i)] *= rho[at(i)];
+        gap[at(i)] = std::min(gap[at(i)], f.mass * positive(touching - sum[at(i)]));
+    });
+}
+
+// rate += a part of it.
+void add(const Particles& particles, Rows rows, auto part, std::span<real> rate)
+{
+    const auto values = particles[part];
+    parallel_for(rows.begin, rows.end, [&](Index i) { rate[at(i)] += values[at(i)]; });
+}
+
 } // namespace
 
 void update_rates(Fluid& fluid)
@@ -112,20 +143,19 @@ void update_rates(Fluid& fluid)
         update_turbulence(fluid, *eddies, sticks);
     }
     run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_rates; });
-    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_rates; });
     if (sticks) {
         add_friction(fluid);
     }
-
     const auto rho = particles[field::density];
     const auto rate = particles[field::density_rate];
-    if (!particles.has(field::diffusion_rate)) {
-        parallel_for(rows.begin, rows.end, [&](Index i) { rate[at(i)] *= rho[at(i)]; });
-        return;
+    parallel_for(rows.begin, rows.end, [&](Index i) { rate[at(i)] *= rho[at(i)]; });
+    if (particles.has(field::solid_rate)) {
+        update_solid_rates(fluid);
+        add(particles, rows, field::solid_rate, rate);
     }
-    const auto diffusion = particles[field::diffusion_rate];
-    parallel_for(rows.begin, rows.end,
-                 [&](Index i) { rate[at(i)] = rho[at(i)] * rate[at(i)] + diffusion[at(i)]; });
+    if (particles.has(field::diffusion_rate)) {
+        add(particles, rows, field::diffusion_rate, rate);
+    }
 }
 
 } // namespace hyoryu

@@ -22,7 +22,7 @@ constexpr double worst_compression = 1.0;
 constexpr double fastest_over_sound = 2;
 // Gain of energy over that of motion and compression, and over the scale of the scene, from which
 // on a run is lost.
-constexpr double gain_of_motion = 0.5;
+constexpr double gain_of_motion = 0.2;
 constexpr double gain_of_scale = 0.01;
 
 std::string probable_cause(const Simulation& sim)

@@ -67,6 +67,9 @@ inline Fluid make_mixture(const Choice& choice)
             ++row;
         }
     }
+    for (Index k = 0; k < fluid.particles.fluid().end; k += 3) {
+        fluid.particles[field::gap][at(k)] = 100; // parted from what solids it may be near
+    }
     const Rows walls = fluid.particles.wall();
     std::fill_n(fluid.particles.owner().begin() + walls.begin, walls.size(), -1);
     std::copy(owners.begin(), owners.end(),

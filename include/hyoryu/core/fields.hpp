@@ -44,6 +44,10 @@ struct Volume          { using type = real; static constexpr FieldInfo info{"Vol
 struct DensityRate     { using type = real; static constexpr FieldInfo info{"DensityRate", "kg/m3/s"}; };
 /// Part of the density rate that the density-diffusion effect adds.
 struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"DiffusionRate", "kg/m3/s"}; };
+/// Part of the density rate that solids make.
+struct SolidRate       { using type = real; static constexpr FieldInfo info{"SolidRate", "kg/m3/s"}; };
+/// Density that fluid without pressure has kept in parting from solids.
+struct Gap             { using type = real; static constexpr FieldInfo info{"Gap", "kg/m3"}; };
 /// Sum of pair forces that depend on positions and densities; N/m in two dimensions.
 struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N"}; };
 /// Sum of pair forces that depend on velocities.
@@ -61,7 +65,8 @@ struct ShiftGradient   { using type = Vec3; static constexpr FieldInfo info{"Shi
 struct Strain          { using type = Vec3; static constexpr FieldInfo info{"Strain", "1/s"}; };
 struct MixedStrain     { using type = Vec3; static constexpr FieldInfo info{"MixedStrain", "1/s"}; };
 struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"TurbulentViscosity", "m2/s"}; };
-/// Kernel sums by which a solid particle takes over the state of the fluid before it.
+/// Kernel sums over particles of the other kind, fluid or solid; by them a solid particle takes over
+/// the state of the fluid before it.
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
 struct PressureSum     { using type = real; static constexpr FieldInfo info{"PressureSum", "Pa/m3"}; };
 struct VelocitySum     { using type = Vec3; static constexpr FieldInfo info{"VelocitySum", "1/m2/s"}; };
@@ -78,6 +83,8 @@ inline constexpr Pressure        pressure{};
 inline constexpr Volume          volume{};
 inline constexpr DensityRate     density_rate{};
 inline constexpr DiffusionRate   diffusion_rate{};
+inline constexpr SolidRate       solid_rate{};
+inline constexpr Gap             gap{};
 inline constexpr Force           force{};
 inline constexpr ViscousForce    viscous_force{};
 inline constexpr PressureGradient pressure_gradient{};

@@ -16,9 +16,9 @@ namespace hyoryu {
 
 /// Every field that a column can be made of. A new field is one line here and one in fields.hpp.
 using AllFields = Fields<Position, Velocity, Density, Pressure, Volume, DensityRate, DiffusionRate,
-                         Force, ViscousForce, ShepardSum, PressureSum, PressureGradient,
-                         CrowdingGradient, Moments, MixedMoments, ShiftGradient, VelocitySum,
-                         OffsetSum, Depth, Strain, MixedStrain, TurbulentViscosity>;
+                         SolidRate, Gap, Force, ViscousForce, ShepardSum, PressureSum,
+                         PressureGradient, CrowdingGradient, Moments, MixedMoments, ShiftGradient,
+                         VelocitySum, OffsetSum, Depth, Strain, MixedStrain, TurbulentViscosity>;
 
 /// Consecutive rows [begin, end).
 struct Rows {

@@ -49,23 +49,29 @@ public:
         });
     }
 
-    /// Copies a column to the place that records have for another field, on loan until that is
-    /// loaded again: a record holds no more than most loops read.
-    template <Field From, Field To>
-    void lend(const Particles& particles, const Tiles& tiles, From from, To)
+    /// Puts value_of(row) to the place that records have for a field, on loan until that is loaded
+    /// again: a record holds no more than most loops read.
+    template <Field To>
+    void lend(const Tiles& tiles, To, const auto& value_of)
     {
-        static_assert(width<From> == width<To>);
         constexpr int to = offset<To, List>;
-        const auto column = particles[from];
         parallel_blocks(0, tiles.count(), [&](Index k) {
             const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
             Real* const value = &at(tiles.first_slot + k).value[to];
-            if constexpr (width<From> == 3) {
-                put(value, column[row]);
+            if constexpr (width<To> == 3) {
+                put(value, value_of(row));
             } else {
-                *value = static_cast<Real>(column[row]);
+                *value = static_cast<Real>(value_of(row));
             }
         });
+    }
+    /// The same with the values of another column.
+    template <Field From, Field To>
+    void lend(const Particles& particles, const Tiles& tiles, From from, To to)
+    {
+        static_assert(width<From> == width<To>);
+        const auto column = particles[from];
+        lend(tiles, to, [&](std::size_t row) { return column[row]; });
     }
 
     const Row* data() const { return rows_.data(); }

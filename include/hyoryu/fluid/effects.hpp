@@ -8,6 +8,7 @@
 #include "hyoryu/fluid/continuity.hpp"
 #include "hyoryu/fluid/density_diffusion.hpp"
 #include "hyoryu/fluid/no_slip.hpp"
+#include "hyoryu/fluid/parting.hpp"
 #include "hyoryu/fluid/pressure.hpp"
 #include "hyoryu/fluid/shifting.hpp"
 #include "hyoryu/fluid/turbulence.hpp"

@@ -78,7 +78,7 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
 // The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves
 // the pressure loop and the velocity loop (Zhang, Rezavand & Hu 2020, without the dual time step).
 
-/// rho += dt R, x += dt v of the fluid.
+/// rho += dt R, x += dt v of the fluid; what solids would stretch goes to its gap (fluid/parting).
 void drift(Fluid& fluid, real dt);
 
 /// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and
@@ -97,7 +97,8 @@ void update_forces(Fluid& fluid, real dt);
 /// v += dt (F + F_visc)/m + dt (g + drive) of the fluid.
 void kick(Fluid& fluid, real dt);
 
-/// R = rho sum V (v_i - v_j).r F + D and the viscous force, from the new velocities.
+/// R = rho sum V (v_i - v_j).r F + D and the viscous force, from the new velocities; gaps end where
+/// solids are too near to leave room for them.
 void update_rates(Fluid& fluid);
 
 /// Moves the fluid particles by the shifting of a step, if that effect is on.

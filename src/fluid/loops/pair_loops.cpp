@@ -64,7 +64,7 @@ struct Loops {
     }
     static void solid_rates(const View& view, Index block, Row* local, const FluidTerms&)
     {
-        sweep_block<bytes>(view, block, local, Continuity{});
+        sweep_block<bytes>(view, block, local, SolidContinuity{});
     }
 
     static void shifting(const View& view, Index block, Row* local, const FluidTerms& terms)
