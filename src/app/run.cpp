@@ -128,6 +128,7 @@ void recover(Job& job, const NumericalError& error)
     Simulation sim = make_simulation(scene, job.sim.plan, fill(scene));
     restore(sim, job.last_good);
     sim.clock.share = 0.5 * job.sim.clock.share;
+    job.sim.timer.end(); // of the stage that went wrong
     sim.timer = job.sim.timer;
     sim.steps_by_limit = job.sim.steps_by_limit;
     sim.pair_visits = job.sim.pair_visits;

@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/core/timer.hpp"
 
+#include <algorithm>
+
 namespace hyoryu {
 
 void StageTimer::begin(std::string_view name)
 {
     const auto now = Clock::now();
-    if (running_ != nullptr) {
-        running_->seconds += std::chrono::duration<double>(now - since_).count();
-        running_->calls += 1;
+    if (running_) {
+        stages_[*running_].seconds += std::chrono::duration<double>(now - since_).count();
+        stages_[*running_].calls += 1;
     }
     since_ = now;
-    running_ = nullptr;
+    running_.reset();
     if (name.empty()) {
         return;
     }
-    for (Stage& stage : stages_) {
-        if (stage.name == name) {
-            running_ = &stage;
-            return;
-        }
+    const auto found = std::ranges::find(stages_, name, &Stage::name);
+    running_ = static_cast<std::size_t>(found - stages_.begin());
+    if (found == stages_.end()) {
+        stages_.push_back({std::string(name)});
     }
-    stages_.push_back({std::string(name)});
-    running_ = &stages_.back();
 }
 
 } // namespace hyoryu

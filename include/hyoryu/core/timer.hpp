@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +27,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     std::vector<Stage> stages_;
-    Stage* running_ = nullptr;
+    std::optional<std::size_t> running_; // no pointer: a copy goes on with stages of its own
     Clock::time_point since_;
 };
 
