@@ -167,7 +167,7 @@ int number_from(const char* variable, int otherwise)
 TEST(RandomScenes, StaySound)
 {
     const int first = number_from("HYORYU_SEED", 1);
-    const int count = number_from("HYORYU_SCENES", 12);
+    const int count = number_from("HYORYU_SCENES", 50);
     for (int seed = first; seed < first + count; ++seed) {
         SCOPED_TRACE(fmt::format("HYORYU_SEED={} HYORYU_SCENES=1", seed));
         const std::string text = scene_of(static_cast<std::uint64_t>(seed));
