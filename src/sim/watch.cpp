@@ -21,7 +21,8 @@ constexpr double worst_compression = 1.0;
 // Nothing in the flow can be faster than its sound without the run being lost.
 constexpr double fastest_over_sound = 2;
 // Gain of energy over that of motion and compression, and over the scale of the scene, from which
-// on a run is lost.
+// on a run is lost. The hard cases gain 6 % at most at twice the step; what blows up passes a fifth
+// within a few steps, and may have fallen below it again at the next frame.
 constexpr double gain_of_motion = 0.2;
 constexpr double gain_of_scale = 0.01;
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Fluid that parts from solids: what of a change of density goes to the gap.
-#include "hyoryu/core/mps_kernel.hpp"
 #include "hyoryu/fluid/parting.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace hyoryu {
 namespace {

@@ -15,8 +15,9 @@
 
 namespace hyoryu {
 
-/// What the solids about a fluid particle make of its continuity, R_s = sum_s V_s (v_i - v_s).r F,
-/// times rho_i a rate of density, and sum_s W, the rate of change of which it is.
+/// What the solids about a fluid particle make of its continuity, R_s = sum_s V_s (v_i - v_s).r F
+/// [1/s], times rho_i a rate of density: the pair of `Continuity` in a sum of its own. And
+/// sum_s W [1/m^d], by which is known how near they are. Ours; no published source.
 struct SolidContinuity {
     static constexpr std::string_view name = "solid_continuity";
     using Reads = Fields<Velocity, Volume>;
