@@ -38,8 +38,13 @@ void parallel_for(Index begin, Index end, const F& f, Index worth = worth_sharin
     }
 }
 
-/// Calls f(k) for k in [begin, end), each a block of much and uneven work: blocks are dealt out in
-/// turn. Fewer blocks than `worth` stay on the calling thread.
+/// Runs of blocks that a thread is dealt in one loop, about.
+inline constexpr Index runs_of_a_thread = 32;
+
+/// Calls f(k) for k in [begin, end), each a block of much and uneven work: runs of blocks are dealt
+/// out in turn. Blocks that follow each other look at the same neighbours, which dealt out one by
+/// one would go from the cache of one thread to that of another. Fewer blocks than `worth` stay on
+/// the calling thread.
 template <class F>
 void parallel_blocks(Index begin, Index end, const F& f, Index worth = worth_sharing_blocks)
 {
@@ -49,7 +54,8 @@ void parallel_blocks(Index begin, Index end, const F& f, Index worth = worth_sha
         }
         return;
     }
-#pragma omp parallel for schedule(dynamic, 1)
+    const Index run = std::max<Index>((end - begin) / (runs_of_a_thread * thread_count()), 1);
+#pragma omp parallel for schedule(dynamic, run)
     for (Index k = begin; k < end; ++k) {
         f(k);
     }
