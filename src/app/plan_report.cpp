@@ -214,13 +214,16 @@ std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<
     }
     if (!plan.fields.empty()) {
         text += "  fields\n";
-        std::size_t bytes = 0;
+        std::size_t of_all = 0;
+        std::size_t of_fluid = 0;
         for (const auto& field : plan.fields) {
-            text += fmt::format("    {:<22} {:<8} {:>3} B\n", field.name, field.unit,
-                                field.bytes_per_particle);
-            bytes += field.bytes_per_particle;
+            text += fmt::format("    {:<22} {:<8} {:>3} B{}\n", field.name, field.unit,
+                                field.bytes_per_particle,
+                                field.of_fluid_alone ? "  of fluid alone" : "");
+            (field.of_fluid_alone ? of_fluid : of_all) += field.bytes_per_particle;
         }
-        text += fmt::format("    {:<22} {:<8} {:>3} B a particle\n", "together", "", bytes);
+        text += fmt::format("    {:<22} {:<8} {:>3} B a particle of fluid, {} B one of a solid\n",
+                            "together", "", of_all + of_fluid, of_all);
     }
     return text + material_lines(scene, plan) + gauge_lines(scene, plan) + size_lines(scene, plan) +
            time_lines(scene, plan, timed);
@@ -243,12 +246,11 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
     json["off"] = effects(plan.off);
     json["fields"] = ordered_json::array();
     for (const auto& field : plan.fields) {
-        json["fields"].push_back(
-            {{"name", field.name},
-             {"unit", field.unit},
-             {"bytes_per_particle", field.bytes_per_particle},
-             {"bytes",
-              field.bytes_per_particle * static_cast<std::size_t>(plan.counts.particles())}});
+        json["fields"].push_back({{"name", field.name},
+                                  {"unit", field.unit},
+                                  {"bytes_per_particle", field.bytes_per_particle},
+                                  {"of_fluid_alone", field.of_fluid_alone},
+                                  {"bytes", field.bytes()}});
     }
     json["pair_kinds"] = ordered_json::array();
     for (const auto& kind : plan.pair_kinds) {

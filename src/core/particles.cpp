@@ -52,7 +52,8 @@ std::vector<ColumnInfo> Particles::active_columns() const
     std::vector<ColumnInfo> columns;
     for_each(AllFields{}, [&](auto field) {
         if (has(field)) {
-            columns.push_back({field.info, sizeof(typename decltype(field)::type)});
+            columns.push_back({field.info, sizeof(typename decltype(field)::type),
+                               of_fluid_alone<decltype(field)>});
         }
     });
     return columns;

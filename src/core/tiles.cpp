@@ -78,6 +78,14 @@ constexpr std::array<std::uint8_t, 64> hilbert_order()
 }
 constexpr std::array<std::uint8_t, 64> place_along_curve = hilbert_order();
 
+// So many values, and no more room than that: growing by itself a vector takes twice what it had.
+template <class T>
+void make_room(std::vector<T>& values, std::size_t count)
+{
+    values.reserve(count);
+    values.resize(count);
+}
+
 // Stable sort by digits of 11 bits. Every chunk of rows counts its digits and later moves its rows
 // to places known beforehand, so that chunks go in parallel and their number alone, not that of the
 // threads, lays out the work.
@@ -86,8 +94,8 @@ public:
     RadixSort(SortSpace& space, Index count) : space_(space), count_(count)
     {
         chunks_ = std::clamp<Index>(count / 8192, 1, 64);
-        space_.key_swap.resize(space_.key.size());
-        space_.row_swap.resize(space_.row.size());
+        make_room(space_.key_swap, space_.key.size());
+        make_room(space_.row_swap, space_.row.size());
         space_.histogram.resize(at(chunks_ * digits));
     }
     void sort()
@@ -294,8 +302,8 @@ Index sort_rows(const TileLattice& lattice, std::span<const Vec3> x, Rows rows, 
                 const Vec3& high, SortSpace& space)
 {
     const Index n = rows.size();
-    space.key.resize(at(n));
-    space.row.resize(at(n));
+    make_room(space.key, at(n));
+    make_room(space.row, at(n));
     if (n == 0) {
         return 0;
     }

@@ -281,8 +281,10 @@ void list_fields(Plan& plan)
     probe.effects = plan.effects;
     allocate(probe, 0, std::min<Index>(plan.counts.wall, 1), std::min<Index>(plan.counts.body, 1));
     for (const ColumnInfo& column : probe.particles.active_columns()) {
-        plan.fields.push_back({std::string(column.field.name), std::string(column.field.unit),
-                               column.bytes_per_particle});
+        plan.fields.push_back(
+            {std::string(column.field.name), std::string(column.field.unit),
+             column.bytes_per_particle, column.of_fluid_alone,
+             column.of_fluid_alone ? plan.counts.fluid : plan.counts.particles()});
     }
 }
 
@@ -290,7 +292,7 @@ void estimate_cost(const Scene& scene, Plan& plan)
 {
     double columns = 0;
     for (const auto& field : plan.fields) {
-        columns += static_cast<double>(field.bytes_per_particle);
+        columns += static_cast<double>(field.bytes());
     }
     const auto n = static_cast<double>(plan.counts.particles());
     plan.memory = process_memory;
@@ -298,7 +300,7 @@ void estimate_cost(const Scene& scene, Plan& plan)
         // Columns, ids and owners, pair records, positions at the last build, cells, lists of the
         // fluid rows; the lists of solid rows are short.
         constexpr double records = 64 + 24 + 16 + 12;
-        plan.memory += n * (columns + records) +
+        plan.memory += columns + n * records +
                        static_cast<double>(plan.counts.fluid) * list_bytes(*plan.fluid);
     }
     plan.frames = std::floor(scene.time.end / scene.output.every) + 1;

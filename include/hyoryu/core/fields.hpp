@@ -115,6 +115,14 @@ inline constexpr bool contains = false;
 template <class F, class... G>
 inline constexpr bool contains<F, Fields<G...>> = (std::is_same_v<F, G> || ...);
 
+/// Fields that fluid particles alone have: solids move by their bodies, and their density follows
+/// from the pressure of the fluid.
+using FluidFields =
+    Fields<DensityRate, DiffusionRate, SolidRate, Gap, PressureGradient, CrowdingGradient, Moments,
+           MixedMoments, ShiftGradient, Strain, MixedStrain>;
+template <Field F>
+inline constexpr bool of_fluid_alone = contains<F, FluidFields>;
+
 namespace detail {
 template <class... Lists>
 struct UnionOf;

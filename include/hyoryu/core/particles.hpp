@@ -37,6 +37,7 @@ inline constexpr std::int32_t no_owner = std::numeric_limits<std::int32_t>::min(
 struct ColumnInfo {
     FieldInfo field;
     std::size_t bytes_per_particle = 0;
+    bool of_fluid_alone = false; // solid particles have none
 };
 
 namespace detail {
@@ -109,7 +110,8 @@ public:
         return active_[detail::index_in<F, AllFields>];
     }
 
-    /// The column of a field. The field must be active.
+    /// The column of a field, by row; a field of the fluid alone ends with the rows of the fluid.
+    /// The field must be active.
     template <Field F>
     std::span<typename F::type> operator[](F)
     {
@@ -167,10 +169,11 @@ private:
     {
         active_[detail::index_in<F, AllFields>] = true;
         auto& column = std::get<detail::index_in<F, AllFields>>(columns_);
+        const auto rows = static_cast<std::size_t>(of_fluid_alone<F> ? fluid_.end : size());
         if constexpr (width<F> == 3) {
-            column.assign(static_cast<std::size_t>(size()), Vec3::Zero());
+            column.assign(rows, Vec3::Zero());
         } else {
-            column.assign(static_cast<std::size_t>(size()), 0);
+            column.assign(rows, 0);
         }
     }
 

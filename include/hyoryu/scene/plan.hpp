@@ -23,6 +23,9 @@ struct Plan {
         std::string name;
         std::string unit;
         std::size_t bytes_per_particle = 0;
+        bool of_fluid_alone = false; // solid particles have none
+        Index rows = 0;              // particles that have it
+        std::size_t bytes() const { return bytes_per_particle * static_cast<std::size_t>(rows); }
     };
     struct PairKind {
         std::string name; // "fluid<-fluid": who gathers from whom
