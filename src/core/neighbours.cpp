@@ -174,14 +174,14 @@ private:
         }
     }
 
-    // Room for so many chunks and the bounds of eight more.
+    // Room for so many chunks and what the loops see behind them.
     void reserve(std::size_t chunks)
     {
-        if (chunks + chunk_slots > shop_.low[0].size()) {
+        if (chunks + spare_chunks > shop_.low[0].size()) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                shop_.low[axis].resize(2 * (chunks + chunk_slots));
-                shop_.high[axis].resize(2 * (chunks + chunk_slots));
-                shop_.points[axis].resize(2 * chunk_slots * (chunks + chunk_slots));
+                shop_.low[axis].resize(2 * (chunks + spare_chunks));
+                shop_.high[axis].resize(2 * (chunks + spare_chunks));
+                shop_.points[axis].resize(2 * chunk_slots * (chunks + spare_chunks));
             }
         }
     }
@@ -192,10 +192,11 @@ private:
         const std::size_t chunks = shop_.chunks.size();
         reserve(chunks);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            std::fill_n(&shop_.low[axis][chunks], chunk_slots, far);
+            std::fill_n(&shop_.low[axis][chunks], spare_chunks, far);
+            std::fill_n(&shop_.points[axis][chunk_slots * chunks], chunk_slots, far);
         }
-        const std::size_t room = chunk_slots * (chunks + 1) + at(lanes_);
-        shop_.near.resize(std::max(shop_.near.size(), chunks + chunk_slots));
+        const std::size_t room = chunk_slots * (chunks + 2) + at(lanes_);
+        shop_.near.resize(std::max(shop_.near.size(), chunks + spare_chunks));
         shop_.packs.resize(std::max(shop_.packs.size(), at(last - first)));
         const auto data = [](const std::array<std::vector<float>, 3>& columns) {
             return FloatColumns{columns[0].data(), columns[1].data(), columns[2].data()};
@@ -309,6 +310,19 @@ void PageStore::append(const ListBlock& block, std::vector<ListBlock>& blocks)
     blocks.push_back(block);
 }
 
+void PageStore::trim()
+{
+    std::size_t kept = std::min(current_ + 1, pages_.size());
+    std::size_t spare = page_size;
+    for (std::size_t k = 0; k < kept; ++k) {
+        spare += pages_[k].size / 8;
+    }
+    for (; kept < pages_.size() && pages_[kept].size <= spare; ++kept) {
+        spare -= pages_[kept].size;
+    }
+    pages_.resize(kept);
+}
+
 std::size_t PageStore::bytes() const
 {
     std::size_t total = 0;
@@ -330,6 +344,7 @@ void PairList::build(const Tiles& destination, std::span<const Tiles* const> sou
         TileLister(destination, sources, settings, choice, shops_[at(worker())], *store_, blocks_)
             .list(tile);
     });
+    store_->trim();
     std::sort(blocks_.begin(), blocks_.end(),
               [](const ListBlock& a, const ListBlock& b) { return a.first < b.first; });
 }

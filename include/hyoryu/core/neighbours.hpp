@@ -45,6 +45,9 @@ public:
     std::byte* take(std::size_t bytes);
     /// Adds a block whose lists are in the store. Any thread may ask; the order is any.
     void append(const ListBlock& block, std::vector<ListBlock>& blocks);
+    /// Gives back the pages that nothing was put into, but for an eighth of the filled ones and one
+    /// more: room for lists that grow, not for the longest that ever were.
+    void trim();
     std::size_t bytes() const;
 
 private:
@@ -64,7 +67,8 @@ private:
 struct ListShop {
     std::vector<SourceChunk> chunks;
     std::array<std::vector<float>, 3> points, low, high; // x, y, z
-    std::vector<std::uint16_t> near, entries, packs;
+    std::vector<std::int32_t> near;
+    std::vector<std::uint16_t> entries, packs;
 
     std::size_t bytes() const;
 };

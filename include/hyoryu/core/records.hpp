@@ -9,10 +9,18 @@
 
 namespace hyoryu {
 
+namespace detail {
+// So that no record crosses a line of the cache that need not.
+constexpr std::size_t row_alignment(std::size_t bytes)
+{
+    return bytes % 64 == 0 ? 64 : bytes % 32 == 0 ? 32 : 16;
+}
+} // namespace detail
+
 /// The fields of List of one point, whole registers of 16 bytes; 32 bytes for eight floats. The
 /// position comes first, relative to the centre of the point's tile.
 template <class List, class Real>
-struct alignas(16) RecordRow {
+struct alignas(detail::row_alignment((List::scalars * sizeof(Real) + 15) / 16 * 16)) RecordRow {
     static_assert(offset<Position, List> == 0, "a pair needs positions, and they come first");
     /// Numbers in 16 bytes, and how often those are needed.
     static constexpr int quad = 16 / static_cast<int>(sizeof(Real));
@@ -55,7 +63,7 @@ public:
     void lend(const Tiles& tiles, To, const auto& value_of)
     {
         constexpr int to = offset<To, List>;
-        parallel_blocks(0, tiles.count(), [&](Index k) {
+        parallel_for(0, tiles.count(), [&](Index k) {
             const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
             Real* const value = &at(tiles.first_slot + k).value[to];
             if constexpr (width<To> == 3) {

@@ -8,10 +8,11 @@
 // bit for bit before summation.
 #pragma once
 
+#include "hyoryu/core/gather.hpp"
 #include "hyoryu/core/kernel.hpp"
 #include "hyoryu/core/neighbours.hpp"
-#include "hyoryu/core/records.hpp"
 
+#include <algorithm>
 #include <concepts>
 #include <cstring>
 #include <string_view>
@@ -61,40 +62,14 @@ struct SweepView {
 
 namespace detail {
 
-/// The fields of List from the numbers get(0), get(1), ...
-template <class List, class N>
-Record<List, N> assemble(const auto& get)
-{
-    Record<List, N> record;
-    for_each(List{}, [&](auto field) {
-        constexpr int at = offset<decltype(field), List>;
-        if constexpr (width<decltype(field)> == 3) {
-            record[field] = {get(at), get(at + 1), get(at + 2)};
-        } else {
-            record[field] = get(at);
-        }
-    });
-    return record;
-}
-
-/// Sixteen bytes of numbers, the part of a register within which shuffles are cheap.
-template <class Real>
-using Quad = typename Pack<Real, 16>::Register;
-
-template <int bytes, class Real>
-Quad<Real> load_quad(const Real* from)
-{
-    Quad<Real> quad;
-    std::memcpy(&quad, from, sizeof quad);
-    return quad;
-}
-
 /// The points that a block looks at, copied side by side, relative to the centre of its tile, and
 /// behind them the point of the padding: far from everything and otherwise zero.
 template <int bytes, class List, class Real>
 void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>* local)
 {
     using Row = RecordRow<List, Real>;
+    constexpr int width = std::min<int>(bytes, sizeof(Row)); // copied at once [bytes]
+    constexpr int lanes = Pack<Real, width>::lanes;
     const real edge[3] = {view.edge.x(), view.edge.y(), view.edge.z()};
     for (std::int32_t c = 0; c < block.chunks; ++c) {
         const SourceChunk chunk = block.chunk[c];
@@ -104,94 +79,16 @@ void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>
         }
         const Real* from = view.records[chunk.slot].value;
         Real* to = local[c * chunk_slots].value;
-        for (int k = 0; k < chunk_slots * Row::quads; ++k) {
-            const Quad<Real> moved = load_quad<bytes>(from + k * Row::quad) +
-                                     load_quad<bytes>(step.value + k % Row::quads * Row::quad);
-            std::memcpy(to + k * Row::quad, &moved, sizeof moved);
+        for (int k = 0; k < chunk_slots * Row::size; k += lanes) {
+            const auto moved =
+                load_register<width>(from + k) + load_register<width>(step.value + k % Row::size);
+            std::memcpy(to + k, &moved, sizeof moved);
         }
     }
     constexpr real far_in_edges = 1e6; // its square is finite, and it is beyond every support
     Row& nothing = local[block.chunks * chunk_slots];
     nothing = Row{};
     nothing.value[0] = static_cast<Real>(far_in_edges * edge[0]);
-}
-
-/// get(0), get(1), ..., sixteen bytes each, one behind the other in one register.
-template <class Real, int bytes, int first = 0>
-typename Pack<Real, bytes>::Register join(const auto& get)
-{
-    if constexpr (bytes == 16) {
-        return get(first);
-    } else {
-        const auto low = join<Real, bytes / 2, first>(get);
-        const auto high = join<Real, bytes / 2, first + bytes / 32>(get);
-        return [&]<int... lane>(std::integer_sequence<int, lane...>)
-        {
-            return __builtin_shufflevector(low, high, lane...);
-        }
-        (std::make_integer_sequence<int, Pack<Real, bytes>::lanes>{});
-    }
-}
-
-/// Of every 16 bytes of a, followed by those of b, the numbers of the given places.
-template <int... pick, class Register>
-Register shuffle(const Register& a, const Register& b)
-{
-    constexpr int quad = sizeof...(pick);
-    constexpr int lanes = sizeof(Register) / sizeof(a[0]);
-    constexpr int picks[] = {pick...};
-    constexpr auto source = [](int lane) {
-        const int p = picks[lane % quad];
-        return lane / quad * quad + (p < quad ? p : p - quad + lanes);
-    };
-    return [&]<int... lane>(std::integer_sequence<int, lane...>)
-    {
-        return __builtin_shufflevector(a, b, source(lane)...);
-    }
-    (std::make_integer_sequence<int, lanes>{});
-}
-
-/// The numbers of one quad of as many rows as a pack has lanes: from rows to lanes, by loads of
-/// quads and shuffles within them; a gather instruction would cost several times as much.
-template <int bytes, class Real>
-void transpose(const auto& quad_of_row, Pack<Real, bytes>* out)
-{
-    const auto rows = [&]<int k>(std::integral_constant<int, k>) {
-        constexpr int step = 16 / sizeof(Real);
-        return join<Real, bytes>([&](int part) { return quad_of_row(k + step * part); });
-    };
-    const auto a = rows(std::integral_constant<int, 0>{});
-    const auto b = rows(std::integral_constant<int, 1>{});
-    if constexpr (sizeof(Real) == 8) {
-        out[0] = shuffle<0, 2>(a, b);
-        out[1] = shuffle<1, 3>(a, b);
-    } else {
-        const auto c = rows(std::integral_constant<int, 2>{});
-        const auto d = rows(std::integral_constant<int, 3>{});
-        const auto ab_low = shuffle<0, 4, 1, 5>(a, b);
-        const auto ab_high = shuffle<2, 6, 3, 7>(a, b);
-        const auto cd_low = shuffle<0, 4, 1, 5>(c, d);
-        const auto cd_high = shuffle<2, 6, 3, 7>(c, d);
-        out[0] = shuffle<0, 1, 4, 5>(ab_low, cd_low);
-        out[1] = shuffle<2, 3, 6, 7>(ab_low, cd_low);
-        out[2] = shuffle<0, 1, 4, 5>(ab_high, cd_high);
-        out[3] = shuffle<2, 3, 6, 7>(ab_high, cd_high);
-    }
-}
-
-/// One row in each lane.
-template <int bytes, class List, class Real>
-Record<List, Pack<Real, bytes>> gather(const RecordRow<List, Real>* local,
-                                       const std::uint16_t* entry)
-{
-    using Row = RecordRow<List, Real>;
-    Pack<Real, bytes> flat[Row::size];
-    for (int q = 0; q < Row::quads; ++q) {
-        transpose<bytes>(
-            [&](int lane) { return load_quad<bytes>(&local[entry[lane]].value[q * Row::quad]); },
-            flat + q * Row::quad);
-    }
-    return assemble<List, Pack<Real, bytes>>([&](int k) { return flat[k]; });
 }
 
 /// Adds the lanes of every field of `sum` to the row of the columns.

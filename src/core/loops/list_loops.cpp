@@ -2,6 +2,7 @@
 // Compiled once for each instruction set.
 #include "../list_loops.hpp"
 
+#include <algorithm>
 #include <cstring>
 #ifdef __AVX__
 #include <immintrin.h>
@@ -13,10 +14,76 @@ namespace {
 
 constexpr int bytes = HYORYU_REGISTER_BYTES;
 
-// Eight points or boxes at a time, whatever the registers: a chunk.
-using Floats = float __attribute__((vector_size(32)));
-using Integers = std::int32_t __attribute__((vector_size(32)));
-using Words = std::uint16_t __attribute__((vector_size(16)));
+// Points or boxes at a time: a chunk, or two where registers hold them.
+constexpr int width = bytes == 64 ? 16 : chunk_slots;
+using Floats = float __attribute__((vector_size(4 * width)));
+using Integers = std::int32_t __attribute__((vector_size(4 * width)));
+using EightFloats = float __attribute__((vector_size(32)));
+using EightWords = std::uint16_t __attribute__((vector_size(16)));
+
+template <class Register>
+Register load(const auto* from)
+{
+    Register lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+
+#ifdef __AVX512VL__
+static_assert(width == 16);
+
+// The eight points of each of two chunks.
+Floats load_chunks(const float* column, const std::int32_t* chunk)
+{
+    const auto a = load<EightFloats>(column + chunk_slots * chunk[0]);
+    const auto b = load<EightFloats>(column + chunk_slots * chunk[1]);
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+
+// Lanes that are at most the limit. A mask by itself, where GCC 12 would make a register of it
+// first; as it would make two instructions of a maximum.
+auto within(const Floats& squared, float limit)
+{
+    return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(squared), _mm512_set1_ps(limit), _CMP_LE_OQ);
+}
+Floats larger(const Floats& a, const Floats& b)
+{
+    return reinterpret_cast<Floats>(
+        _mm512_max_ps(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
+}
+
+// Appends the numbers of the lanes that are hit: so many as there are lanes are written, the end
+// moves on by the hits.
+template <class T>
+T* append(__mmask16 hit, __m512i numbers, T* out)
+{
+    const __m512i hits = _mm512_maskz_compress_epi32(hit, numbers);
+    if constexpr (sizeof(T) == 4) {
+        _mm512_storeu_si512(out, hits);
+    } else {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm512_cvtepi32_epi16(hits));
+    }
+    return out + __builtin_popcount(hit);
+}
+
+std::int32_t* append_chunks(__mmask16 hit, std::int32_t first, std::int32_t* out)
+{
+    const Integers lane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return append(hit, reinterpret_cast<__m512i>(lane + first), out);
+}
+std::uint16_t* append_points(__mmask16 hit, const std::int32_t* chunk, std::uint16_t* out)
+{
+    const Integers lane{0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+    const __m512i of_lane = _mm512_mask_set1_epi32(_mm512_set1_epi32(chunk[0]), 0xff00, chunk[1]);
+    return append(
+        hit, reinterpret_cast<__m512i>(reinterpret_cast<Integers>(of_lane) * chunk_slots + lane),
+        out);
+}
+#else
+Floats load_chunks(const float* column, const std::int32_t* chunk)
+{
+    return load<Floats>(column + chunk_slots * *chunk);
+}
 
 // For each pattern of hits: their places, and how many.
 struct Patterns {
@@ -39,16 +106,10 @@ constexpr Patterns make_patterns()
 }
 constexpr Patterns patterns = make_patterns();
 
-Floats load(const float* from)
+// One bit a lane that is at most the limit.
+std::size_t within(const Floats& squared, float limit)
 {
-    Floats lanes;
-    std::memcpy(&lanes, from, sizeof lanes);
-    return lanes;
-}
-
-// One bit a lane that is true.
-std::size_t bits_of(const Integers& hit)
-{
+    const Integers hit = squared <= limit;
 #ifdef __AVX__
     return static_cast<std::size_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(hit)));
 #else
@@ -58,54 +119,68 @@ std::size_t bits_of(const Integers& hit)
     return static_cast<std::size_t>(bits[0] | bits[1]);
 #endif
 }
-
-// Appends first + k for the lanes k that are true: eight places are written, the end moves on by
-// the hits.
-std::uint16_t* append(const Integers& hit, std::uint16_t first, std::uint16_t* out)
+Floats larger(const Floats& a, const Floats& b)
 {
-    const std::size_t pattern = bits_of(hit);
-    Words places;
-    std::memcpy(&places, patterns.place[pattern], sizeof places);
-    places += first;
-    std::memcpy(out, &places, sizeof places);
-    return out + patterns.count[pattern];
+    return a > b ? a : b;
 }
 
-Floats positive_part(const Floats& x)
+// Appends first + k for the lanes k that are hit: eight places are written, the end moves on by the
+// hits.
+template <class T>
+T* append(std::size_t hit, std::int32_t first, T* out)
 {
-    return x > 0 ? x : Floats{};
+    using Places = T __attribute__((vector_size(chunk_slots * sizeof(T))));
+    const auto lanes = load<EightWords>(patterns.place[hit]);
+    const Places places = __builtin_convertvector(lanes, Places) + static_cast<T>(first);
+    std::memcpy(out, &places, sizeof places);
+    return out + patterns.count[hit];
+}
+
+std::int32_t* append_chunks(std::size_t hit, std::int32_t first, std::int32_t* out)
+{
+    return append(hit, first, out);
+}
+std::uint16_t* append_points(std::size_t hit, const std::int32_t* chunk, std::uint16_t* out)
+{
+    return append(hit, chunk_slots * *chunk, out);
+}
+#endif
+
+// The numbers of the chunks within the radius of a point, and behind them that of one that is far.
+std::int32_t* find_chunks(const Candidates& all, const float* at, float limit, std::int32_t* out)
+{
+    for (std::int32_t chunk = 0; chunk < all.chunks; chunk += width) {
+        Floats squared{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Floats below = load<Floats>((&all.low[0])[axis] + chunk) - at[axis];
+            const Floats above = at[axis] - load<Floats>((&all.high[0])[axis] + chunk);
+            const Floats gap = larger(larger(below, above), Floats{});
+            squared += gap * gap;
+        }
+        out = append_chunks(within(squared, limit), chunk, out);
+    }
+    *out = all.chunks;
+    return out;
 }
 
 int filter(const Candidates& all, const std::array<float, 3>& point, float radius, int lanes,
-           std::uint16_t* near, std::uint16_t* entry)
+           std::int32_t* near, std::uint16_t* entry)
 {
     const float limit = radius * radius;
     const float* const at = &point[0];
-    std::uint16_t* end = near;
-    for (std::int32_t chunk = 0; chunk < all.chunks; chunk += chunk_slots) {
-        Floats squared{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Floats gap = positive_part(load((&all.low[0])[axis] + chunk) - at[axis]) +
-                               positive_part(at[axis] - load((&all.high[0])[axis] + chunk));
-            squared += gap * gap;
-        }
-        end = append(squared <= limit, static_cast<std::uint16_t>(chunk), end);
-    }
+    const std::int32_t* const end = find_chunks(all, at, limit, near);
     std::uint16_t* out = entry;
-    for (; near != end; ++near) {
-        const auto first = static_cast<std::uint16_t>(*near * chunk_slots);
+    for (; near < end; near += width / chunk_slots) {
         Floats squared{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Floats way = load((&all.points[0])[axis] + first) - at[axis];
+            const Floats way = load_chunks((&all.points[0])[axis], near) - at[axis];
             squared += way * way;
         }
-        out = append(squared <= limit, first, out);
+        out = append_points(within(squared, limit), near, out);
     }
-    const auto nothing = static_cast<std::uint16_t>(all.chunks * chunk_slots);
-    while ((out - entry) % lanes != 0) {
-        *out++ = nothing;
-    }
-    return static_cast<int>(out - entry);
+    std::fill_n(out, lanes, static_cast<std::uint16_t>(all.chunks * chunk_slots));
+    const auto hits = static_cast<int>(out - entry);
+    return (hits + lanes - 1) / lanes * lanes;
 }
 
 } // namespace
