@@ -8,13 +8,11 @@ namespace hyoryu {
 namespace {
 
 // Rows [0, order.size()) of `column` become the named ones; what stood behind `fluid_end` follows.
-// `room` keeps its memory from one column and one time to the next.
 template <class T>
 void permute(std::vector<T>& column, std::span<const std::int32_t> order, Index fluid_end,
-             std::vector<std::byte>& room)
+             std::span<std::byte> room)
 {
     const auto rows = static_cast<Index>(order.size());
-    room.resize(std::max(room.size(), order.size() * sizeof(T)));
     std::byte* const sorted = room.data();
     parallel_for(0, rows, [&](Index k) {
         const auto at = static_cast<std::size_t>(k);
@@ -30,17 +28,22 @@ void permute(std::vector<T>& column, std::span<const std::int32_t> order, Index 
 
 } // namespace
 
-void Particles::permute_fluid(std::span<const std::int32_t> order)
+void Particles::permute_fluid(std::span<const std::int32_t> order, std::span<std::byte> room)
 {
+    std::vector<std::byte> own;
+    if (room.size() < order.size() * sizeof(Vec3)) {
+        own.resize(order.size() * sizeof(Vec3));
+        room = own;
+    }
     const Index kept = static_cast<Index>(order.size());
     for_each(AllFields{}, [&](auto field) {
         if (has(field)) {
             permute(std::get<detail::index_in<decltype(field), AllFields>>(columns_), order,
-                    fluid_.end, room_);
+                    fluid_.end, room);
         }
     });
-    permute(id_, order, fluid_.end, room_);
-    permute(owner_, order, fluid_.end, room_);
+    permute(id_, order, fluid_.end, room);
+    permute(owner_, order, fluid_.end, room);
     const Index gone = fluid_.end - kept;
     fluid_.end = kept;
     wall_ = {wall_.begin - gone, wall_.end - gone};
@@ -64,7 +67,7 @@ std::size_t Particles::bytes() const
     const auto held = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
     const std::size_t fields = std::apply(
         [&](const auto&... column) { return (std::size_t(0) + ... + held(column)); }, columns_);
-    return fields + held(id_) + held(owner_) + held(room_);
+    return fields + held(id_) + held(owner_);
 }
 
 } // namespace hyoryu

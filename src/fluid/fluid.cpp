@@ -138,16 +138,15 @@ void update_pressure(Fluid& fluid)
     load_solids(fluid, Stored{});
     for_wet_solids(fluid, [&](std::size_t i) {
         particles[field::shepard_sum][i] = 0;
-        particles[field::pressure_sum][i] = 0;
+        p[i] = 0;
     });
     const FluidTerms terms = terms_of(fluid, 0);
     run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.extrapolation; });
     run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.extrapolation; });
     const auto shepard = particles[field::shepard_sum];
-    const auto weighted = particles[field::pressure_sum];
     const auto owner = particles.owner();
     for_wet_solids(fluid, [&](std::size_t i) {
-        const real p_w = shepard[i] > 0 ? positive(weighted[i] / shepard[i]) : 0;
+        const real p_w = shepard[i] > 0 ? positive(p[i] / shepard[i]) : 0;
         p[i] = p_w;
         rho[i] = f.eos.density(p_w);
         V[i] = stand_in_mass(fluid, owner[i]) / rho[i];

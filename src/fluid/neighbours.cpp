@@ -95,7 +95,10 @@ void sort_fluid(Fluid& fluid)
                                  fluid.domain_min, fluid.domain_max, space);
     const std::span<const std::int32_t> order = space.row;
     count_lost(fluid, order.subspan(at(kept)));
-    particles.permute_fluid(order.first(at(kept)));
+    // The records are written anew before anyone reads them again.
+    std::visit(
+        [&](auto& data) { particles.permute_fluid(order.first(at(kept)), data.records.room()); },
+        fluid.pair_data);
     std::iota(space.row.begin(), space.row.begin() + kept, 0);
     make_tiles(fluid.neighbours.fluid, lattice, particles[field::position], space, kept);
 }
@@ -192,7 +195,7 @@ void dry(Fluid& fluid)
     if (rows.size() == 0) {
         return;
     }
-    clear(particles, rows, Fields<Pressure, Force, ShepardSum, PressureSum>{});
+    clear(particles, rows, Fields<Pressure, Force, ShepardSum>{});
     const auto rho = particles[field::density];
     const auto V = particles[field::volume];
     const auto owner = particles.owner();

@@ -108,7 +108,7 @@ TEST(Terms, WallTakesTheHydrostaticPressureOfItsDepth)
     Record<WallExtrapolation::Writes, real> sum;
     wall(below, particle(0, 0, 1, 0), particle(0, 0, 1, 500), sum);
     EXPECT_DOUBLE_EQ(sum[field::shepard_sum], 3);
-    EXPECT_NEAR(sum[field::pressure_sum] / sum[field::shepard_sum], 500 + 1000 * 9.81 * 0.2, 1e-6);
+    EXPECT_NEAR(sum[field::pressure] / sum[field::shepard_sum], 500 + 1000 * 9.81 * 0.2, 1e-6);
 }
 
 // A lattice of fluid in uniform shear over a wall: the velocity shown in the wall is the line.

@@ -68,7 +68,6 @@ struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"
 /// Kernel sums over particles of the other kind, fluid or solid; by them a solid particle takes over
 /// the state of the fluid before it.
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
-struct PressureSum     { using type = real; static constexpr FieldInfo info{"PressureSum", "Pa/m3"}; };
 struct VelocitySum     { using type = Vec3; static constexpr FieldInfo info{"VelocitySum", "1/m2/s"}; };
 struct OffsetSum       { using type = Vec3; static constexpr FieldInfo info{"OffsetSum", "1/m2"}; };
 /// Of a solid particle behind the surface of its solid.
@@ -93,7 +92,6 @@ inline constexpr Moments         moments{};
 inline constexpr MixedMoments    mixed_moments{};
 inline constexpr ShiftGradient   shift_gradient{};
 inline constexpr ShepardSum      shepard_sum{};
-inline constexpr PressureSum     pressure_sum{};
 inline constexpr VelocitySum     velocity_sum{};
 inline constexpr OffsetSum       offset_sum{};
 inline constexpr Depth           depth{};

@@ -16,7 +16,7 @@ namespace hyoryu {
 
 /// Every field that a column can be made of. A new field is one line here and one in fields.hpp.
 using AllFields = Fields<Position, Velocity, Density, Pressure, Volume, DensityRate, DiffusionRate,
-                         SolidRate, Gap, Force, ViscousForce, ShepardSum, PressureSum,
+                         SolidRate, Gap, Force, ViscousForce, ShepardSum,
                          PressureGradient, CrowdingGradient, Moments, MixedMoments, ShiftGradient,
                          VelocitySum, OffsetSum, Depth, Strain, MixedStrain, TurbulentViscosity>;
 
@@ -146,11 +146,12 @@ public:
     std::span<const std::int32_t> owner() const { return owner_; }
 
     /// Reorders the fluid rows: row k becomes what row `order[k]` was. Rows that `order` leaves out
-    /// are gone, and everything behind moves up.
-    void permute_fluid(std::span<const std::int32_t> order);
+    /// are gone, and everything behind moves up. `room` is memory that nobody needs meanwhile, 24 B a
+    /// row; where it is too small, memory is taken.
+    void permute_fluid(std::span<const std::int32_t> order, std::span<std::byte> room = {});
 
     std::vector<ColumnInfo> active_columns() const;
-    /// Bytes held, columns and room for permutations.
+    /// Bytes held.
     std::size_t bytes() const;
 
     /// Calls `f(tag, span)` for each active column.
@@ -182,7 +183,6 @@ private:
     detail::ColumnsOf<AllFields>::type columns_;
     std::vector<std::int64_t> id_;
     std::vector<std::int32_t> owner_;
-    std::vector<std::byte> room_; // for permutations
 };
 
 } // namespace hyoryu

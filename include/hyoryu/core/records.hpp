@@ -83,6 +83,8 @@ public:
     }
 
     const Row* data() const { return rows_.data(); }
+    /// Their memory, for who needs some between two uses of the records.
+    std::span<std::byte> room() { return std::as_writable_bytes(std::span(rows_)); }
     /// Bytes held.
     std::size_t bytes() const { return rows_.capacity() * sizeof(Row); }
 

@@ -6,6 +6,13 @@
 
 namespace hyoryu {
 
+/// V_j (v_i - v_j) . r F(r), what neighbour j does to the density of i [1/s].
+template <class N>
+N continuity_of_pair(const Pair<N>& ij, const auto& i, const auto& j)
+{
+    return j[field::volume] * dot(i[field::velocity] - j[field::velocity], ij.r) * ij.f;
+}
+
 /// sum_j V_j (v_i - v_j) . r F(r); times rho_i it is d(rho_i)/dt. Source: Monaghan (2005), eq. 2.18
 /// in the volume form of Colagrossi & Landrini (2003).
 struct Continuity {
@@ -16,8 +23,7 @@ struct Continuity {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        sum[field::density_rate] +=
-            j[field::volume] * dot(i[field::velocity] - j[field::velocity], ij.r) * ij.f;
+        sum[field::density_rate] += continuity_of_pair(ij, i, j);
     }
 };
 

@@ -9,7 +9,7 @@
 // the gap before it compresses.
 #pragma once
 
-#include "hyoryu/core/sweep.hpp"
+#include "hyoryu/fluid/continuity.hpp"
 
 #include <algorithm>
 
@@ -26,8 +26,7 @@ struct SolidContinuity {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        sum[field::solid_rate] +=
-            j[field::volume] * dot(i[field::velocity] - j[field::velocity], ij.r) * ij.f;
+        sum[field::solid_rate] += continuity_of_pair(ij, i, j);
         sum[field::shepard_sum] += ij.w;
     }
 };

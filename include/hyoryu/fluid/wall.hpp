@@ -13,7 +13,7 @@ namespace hyoryu {
 struct WallExtrapolation {
     static constexpr std::string_view name = "wall_extrapolation";
     using Reads = Fields<Pressure>;
-    using Writes = Fields<ShepardSum, PressureSum>;
+    using Writes = Fields<ShepardSum, Pressure>; // the sum, until it is divided
     EquationOfState eos;
     Vec3 gravity{0, 0, -9.81}; // [m/s2]
 
@@ -22,7 +22,7 @@ struct WallExtrapolation {
     {
         const N rho = eos.density(j[field::pressure]);
         sum[field::shepard_sum] += ij.w;
-        sum[field::pressure_sum] += (j[field::pressure] + rho * dot(gravity, ij.r)) * ij.w;
+        sum[field::pressure] += (j[field::pressure] + rho * dot(gravity, ij.r)) * ij.w;
     }
 };
 
