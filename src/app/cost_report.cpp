@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "cost_report.hpp"
 
+#include "stop_request.hpp"
+
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/case_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 
 namespace hyoryu {
@@ -37,6 +41,15 @@ ordered_json value_at(const ordered_json& json, const std::string& pointer)
     return json.contains(place) ? json.at(place) : ordered_json();
 }
 
+double bytes_in(const std::filesystem::path& folder)
+{
+    double total = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        total += entry.is_regular_file() ? static_cast<double>(entry.file_size()) : 0;
+    }
+    return total;
+}
+
 ordered_json measured_share(const std::optional<StepCost>& measured, const std::string& effect)
 {
     if (measured) {
@@ -48,7 +61,47 @@ ordered_json measured_share(const std::optional<StepCost>& measured, const std::
     return {};
 }
 
+// Runs the case at so many times its spacing; nothing if that takes more than so many seconds.
+std::optional<Development> develop(const CaseSource& source, const Plan& plan, double coarsening,
+                                   int first, double seconds_of_step, double most_seconds)
+{
+    std::vector<std::string> overrides = source.overrides;
+    overrides.push_back(fmt::format("particles.spacing={}", coarsening * plan.fluid->spacing));
+    const Scene scene = read_case(source.file, overrides);
+    const Filling filling = fill(scene);
+    const Plan coarse = make_plan(scene, filling);
+    const double of_particles =
+        static_cast<double>(coarse.counts.fluid) / static_cast<double>(plan.counts.fluid);
+    if (coarse.expected_steps * seconds_of_step * of_particles > most_seconds) {
+        return {};
+    }
+    Simulation sim = make_simulation(scene, coarse, filling);
+    using Wall = std::chrono::steady_clock;
+    const auto end = Wall::now() + std::chrono::duration<double>(3 * most_seconds);
+    std::optional<Development> found =
+        measure_development(sim, first, [&] { return Wall::now() < end && !stop_requested(); });
+    if (found) {
+        found->coarsening = coarsening;
+    }
+    return found;
+}
+
 } // namespace
+
+void foretell_development(const CaseSource& source, const Plan& plan, int first,
+                          double most_seconds, StepCost& cost)
+{
+    for (const double coarsening : {2.0, 3.0, 4.0}) {
+        try {
+            cost.development = develop(source, plan, coarsening, first, cost.seconds, most_seconds);
+        } catch (const CaseError&) {
+            return; // what the case asks for cannot be had with so few particles
+        }
+        if (cost.development) {
+            return;
+        }
+    }
+}
 
 int steps_to_time(const Plan& plan, double steps)
 {
@@ -81,6 +134,10 @@ void write_cost(const std::filesystem::path& folder, double seconds_per_step,
                      {"measured", value_at(summary, "/steps")}};
     cost["memory_bytes"] = {{"predicted", value_at(plan, "/forecast/memory_bytes")},
                             {"measured", value_at(summary, "/peak_memory_bytes")}};
+    cost["disk_bytes"] = {{"predicted", value_at(plan, "/forecast/disk_bytes")},
+                          {"measured", bytes_in(folder)}};
+    cost["wall_seconds"] = {{"predicted", value_at(plan, "/forecast/wall_seconds")},
+                            {"measured", value_at(summary, "/wall_seconds")}};
     cost["effects"] = ordered_json::array();
     for (const ordered_json& effect : value_at(plan, "/on")) {
         const std::string name = effect.value("name", "");

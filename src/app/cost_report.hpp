@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace hyoryu {
 
@@ -16,6 +18,19 @@ int steps_to_time(const Plan& plan, double steps);
 /// Times the steps; none if there are none to time, or if what lies beyond the end of the run goes
 /// wrong. The simulation is no result any more.
 std::optional<StepCost> time_steps(Simulation& sim, int steps);
+
+/// Where a case is read from.
+struct CaseSource {
+    const std::filesystem::path& file;
+    const std::vector<std::string>& overrides;
+};
+
+/// Adds to the cost of the first steps, so many, how the flow develops from them: runs the same
+/// case with the least of 2, 3 and 4 times its spacing that is foretold to take at most so many
+/// seconds. Nothing where all would take longer, in the end take three times as long, go wrong, or
+/// where the case cannot be at such a spacing.
+void foretell_development(const CaseSource& source, const Plan& plan, int first,
+                          double most_seconds, StepCost& cost);
 
 /// Adds `cost` to the summary.json in the folder: for each effect that its plan.json names, and for
 /// the run, what the plan foretold and what was measured. `seconds_per_step`: of this process.

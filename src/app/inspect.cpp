@@ -2,6 +2,7 @@
 // Commands that compute nothing: check, describe, info, render, version.
 #include "build_info.hpp"
 #include "commands.hpp"
+#include "cost_report.hpp"
 #include "options.hpp"
 #include "plan_report.hpp"
 
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace hyoryu {
@@ -26,6 +28,10 @@ using nlohmann::json;
 
 // Of `check --time`.
 constexpr int timed_steps = 60;
+
+// What the look at the flow as it develops may take, of the run, and in any case.
+constexpr double part_for_development = 0.1;
+constexpr double seconds_for_development = 2;
 
 json read_json(const fs::path& file)
 {
@@ -79,6 +85,10 @@ int check_case(const CheckOptions& options)
     if (options.time && plan.fluid) {
         Simulation sim = make_simulation(scene, plan, filling);
         timed = measure_cost(sim, timed_steps);
+        foretell_development({options.case_file, options.overrides}, plan, timed_steps,
+                             std::max(seconds_for_development,
+                                      part_for_development * timed->seconds * plan.expected_steps),
+                             *timed);
     }
     if (options.json) {
         fmt::print("{}", plan_json(scene, plan, timed));

@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/scene/disk.hpp"
+
+#include <cmath>
 
 namespace hyoryu {
 
@@ -23,18 +26,34 @@ double gauge_seconds(const Plan& plan)
     return plan.gauge_rows * plan.gauge_looks / gauge_rate;
 }
 
+double expected_steps(const Plan& plan, const std::optional<StepCost>& timed)
+{
+    return timed && timed->development ? std::ceil(plan.expected_steps * timed->development->steps)
+                                       : plan.expected_steps;
+}
+
 double forecast(const Plan& plan, const std::optional<StepCost>& timed)
 {
     const double step =
-        timed ? timed->seconds
+        timed ? seconds_of_run(*timed)
               : static_cast<double>(plan.counts.fluid) / (measured_rate * thread_count());
-    return plan.expected_steps * step + gauge_seconds(plan);
+    return expected_steps(plan, timed) * step + gauge_seconds(plan);
 }
 
 nlohmann::ordered_json cost_json(const StepCost& cost)
 {
     using nlohmann::ordered_json;
-    ordered_json json{{"seconds_per_step", cost.seconds}, {"effects", ordered_json::object()}};
+    ordered_json json{{"seconds_per_step", seconds_of_run(cost)},
+                      {"seconds_per_first_step", cost.seconds},
+                      {"development", nullptr},
+                      {"effects", ordered_json::object()}};
+    if (cost.development) {
+        const Development& d = *cost.development;
+        json["development"] = {{"coarsening", d.coarsening},
+                               {"steps", d.steps},
+                               {"step", d.step},
+                               {"seconds", d.seconds}};
+    }
     for (const StepCost::Share& share : cost.effects) {
         json["effects"][share.effect] = share.share;
     }
@@ -111,16 +130,16 @@ nlohmann::ordered_json material_json(const Scene& scene, const Plan& plan)
     return json;
 }
 
-std::string size_lines(const Scene& scene, const Plan& plan)
+std::string size_lines(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
 {
     const auto& n = plan.counts;
     std::string text = fmt::format("  size\n    particles              {} fluid, {} wall, {} "
                                    "body\n    bodies, walls          {}, {}\n",
                                    n.fluid, n.wall, n.body, n.bodies, n.walls);
     text += fmt::format("    memory                 about {}\n", readable_bytes(plan.memory));
-    text +=
-        fmt::format("    disk                   about {} in {:.0f} frames, before compression\n",
-                    readable_bytes(plan.frames * plan.frame_bytes), plan.frames);
+    text += fmt::format("    disk                   about {}, with {:.0f} frames\n",
+                        readable_bytes(disk_bytes(scene, plan, expected_steps(plan, timed))),
+                        plan.frames);
     if (plan.fluid) {
         text += fmt::format("    pair arithmetic        {} precision, {} instructions\n",
                             name(scene.precision), name(widest_instruction_set()));
@@ -144,6 +163,13 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
         thread_count(), timed->seconds);
     for (const StepCost::Share& share : timed->effects) {
         text += fmt::format("      {:<20} {:.0f} % of a step\n", share.effect, 100 * share.share);
+    }
+    if (timed->development) {
+        const Development& d = *timed->development;
+        text +=
+            fmt::format("      {:<20} steps {:.2f} times as long as the first, and {:.2f} times as "
+                        "many\n      {:<20} (the same at {} times the spacing, {:.1f} s)\n",
+                        "as the flow develops", d.step, d.steps, "", d.coarsening, d.seconds);
     }
     return text;
 }
@@ -171,8 +197,8 @@ std::string time_lines(const Scene& scene, const Plan& plan, const std::optional
         fmt::format("    first step             {:.3e} s, {}\n", plan.first_step,
                     scene.time.step ? "fixed by `time.step`"
                                     : fmt::format("limited by: {}", shortest(plan.limits).name));
-    text += fmt::format("    steps                  about {:.0f} to {} s\n", plan.expected_steps,
-                        scene.time.end);
+    text += fmt::format("    steps                  about {:.0f} to {} s\n",
+                        expected_steps(plan, timed), scene.time.end);
     if (plan.fluid) {
         text += run_time_lines(plan, timed);
     }
@@ -225,8 +251,8 @@ std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<
         text += fmt::format("    {:<22} {:<8} {:>3} B a particle of fluid, {} B one of a solid\n",
                             "together", "", of_all + of_fluid, of_all);
     }
-    return text + material_lines(scene, plan) + gauge_lines(scene, plan) + size_lines(scene, plan) +
-           time_lines(scene, plan, timed);
+    return text + material_lines(scene, plan) + gauge_lines(scene, plan) +
+           size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
 }
 
 std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
@@ -277,7 +303,7 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
     json["time_step"] = {
         {"first", plan.first_step},
         {"limited_by", scene.time.step ? "fixed" : std::string(shortest(plan.limits).name)},
-        {"steps", plan.expected_steps}};
+        {"steps", expected_steps(plan, timed)}};
     json["time_step"]["limits"] = ordered_json::array();
     for (const TimeLimit& limit : plan.limits) {
         json["time_step"]["limits"].push_back(
@@ -292,6 +318,7 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
     }
     json["forecast"] = {{"memory_bytes", plan.memory},
                         {"frames", plan.frames},
+                        {"disk_bytes", disk_bytes(scene, plan, expected_steps(plan, timed))},
                         {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
                         {"wall_seconds", forecast(plan, timed)}};
     if (timed) {

@@ -13,6 +13,7 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/disk.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/watch.hpp"
@@ -36,15 +37,14 @@ fs::path results_folder(const RunOptions& options)
                                   : options.folder;
 }
 
-// Half of what the frames need uncompressed must be free: they compress to about that.
-void check_disk(const fs::path& folder, const Plan& plan)
+void check_disk(const fs::path& folder, const Scene& scene, const Plan& plan)
 {
-    const double needed = 0.5 * plan.frames * plan.frame_bytes;
+    const double needed = disk_bytes(scene, plan, plan.expected_steps);
     std::error_code error;
     const auto space = fs::space(folder, error);
     if (!error && needed > static_cast<double>(space.available)) {
         throw IoError(fmt::format(
-            "the frames need about {}, but only {} are free at {}", readable_bytes(needed),
+            "the results need about {}, but only {} are free at {}", readable_bytes(needed),
             readable_bytes(static_cast<double>(space.available)), folder.string()));
     }
 }
@@ -256,25 +256,36 @@ int carry_out(Job& job)
     }
 }
 
-// Timed on a simulation of its own, which is gone before that of the run is made.
-std::optional<StepCost> predicted_cost(const Scene& scene, const Plan& plan, const Filling& filling)
+// Timed on simulations of their own, which are gone before that of the run is made.
+std::optional<StepCost> predicted_cost(const RunOptions& options, const Scene& scene,
+                                       const Plan& plan, const Filling& filling)
 {
+    constexpr double part_for_development = 0.02;
+    constexpr double seconds_for_development = 0.1;
     const int steps = steps_to_time(plan, plan.expected_steps);
     if (steps == 0) {
         return {};
     }
     Simulation sim = make_simulation(scene, plan, filling);
-    return time_steps(sim, steps);
+    std::optional<StepCost> cost = time_steps(sim, steps);
+    if (cost) {
+        foretell_development({options.case_file, options.overrides}, plan, steps,
+                             std::max(seconds_for_development,
+                                      part_for_development * cost->seconds * plan.expected_steps),
+                             *cost);
+    }
+    return cost;
 }
 
 Job start(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
           const Filling& filling)
 {
     FolderLock lock = prepare_results(folder, options.force ? Existing::replace : Existing::refuse);
-    check_disk(folder, plan);
+    check_disk(folder, scene, plan);
     const std::string case_text = to_toml(scene);
     write_text(folder / "case.toml", case_text);
-    write_text(folder / "plan.json", plan_json(scene, plan, predicted_cost(scene, plan, filling)));
+    write_text(folder / "plan.json",
+               plan_json(scene, plan, predicted_cost(options, scene, plan, filling)));
     Simulation sim = make_simulation(scene, plan, filling);
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, 0);
     Outputs outputs(folder, sim, filling.domain);

@@ -134,6 +134,9 @@ std::string forecast_table(const RunResults& run)
     add("a step", "wall time", cost.at("seconds_per_step"), 1e3, " ms");
     add("steps", "", cost.at("steps"), 1, "");
     add("memory", "at most", cost.at("memory_bytes"), 1e-6, " MB");
+    if (cost.contains("disk_bytes")) {
+        add("disk", "all results", cost.at("disk_bytes"), 1e-6, " MB");
+    }
     for (const ordered_json& effect : cost.at("effects")) {
         add(effect.at("name").get<std::string>(), effect.at("asked").get<std::string>(), effect,
             100, " %");

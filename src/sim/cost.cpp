@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/cost.hpp"
 
+#include "hyoryu/core/error.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -56,14 +58,39 @@ std::vector<Variant> variants(const Simulation& sim)
     return all;
 }
 
+// Of the stages so far [s].
+struct Spent {
+    double bodies = 0;
+    double all_else = 0;
+};
+Spent spent(const Simulation& sim)
+{
+    Spent total;
+    for (const StageTimer::Stage& stage : sim.timer.stages()) {
+        (stage.name == "bodies" ? total.bodies : total.all_else) += stage.seconds;
+    }
+    return total;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 double seconds_of_step(Simulation& sim)
 {
     const auto start = std::chrono::steady_clock::now();
     step(sim);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_since(start);
 }
 
 } // namespace
+
+double seconds_of_run(const StepCost& cost)
+{
+    const double grows = cost.development ? cost.development->step : 1;
+    return grows * (cost.seconds - cost.bodies) + cost.bodies;
+}
 
 StepCost measure_cost(Simulation& sim, int steps)
 {
@@ -75,6 +102,7 @@ StepCost measure_cost(Simulation& sim, int steps)
     const int rounds = std::max(least_rounds, steps / static_cast<int>(all.size()));
     step(sim); // what is in no cache yet comes into it
     StepCost cost;
+    const double before = spent(sim).bodies;
     for (int round = 0; round < rounds; ++round) {
         for (Variant& variant : all) {
             sim.fluid->effects = variant.effects;
@@ -83,12 +111,45 @@ StepCost measure_cost(Simulation& sim, int steps)
             cost.seconds += variant.without.empty() ? seconds / rounds : 0;
         }
     }
+    cost.bodies = (spent(sim).bodies - before) / (rounds * static_cast<double>(all.size()));
     for (const Variant& variant : all) {
         if (!variant.without.empty()) {
             cost.effects.push_back({variant.without, 1 - variant.least / all.front().least});
         }
     }
     return cost;
+}
+
+std::optional<Development> measure_development(Simulation& sim, int first,
+                                               const std::function<bool()>& goes_on)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const double expected = sim.plan.expected_steps;
+    sim.scene.output.every = infinity; // no frame cuts a step short
+    sim.clock.frame = 1;
+    double early = 0;
+    try {
+        step(sim);
+        const double before = spent(sim).all_else;
+        while (!finished(sim.clock, sim.scene)) {
+            if (!goes_on()) {
+                return {};
+            }
+            step(sim);
+            if (sim.clock.step == first + 1) {
+                early = (spent(sim).all_else - before) / first;
+            }
+        }
+        const auto steps = static_cast<double>(sim.clock.step);
+        if (!(early > 0)) {
+            return {};
+        }
+        return Development{.steps = steps / expected,
+                           .step = (spent(sim).all_else - before) / (steps - 1) / early,
+                           .seconds = seconds_since(start)};
+    } catch (const NumericalError&) {
+        return {};
+    }
 }
 
 } // namespace hyoryu

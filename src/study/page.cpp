@@ -51,9 +51,9 @@ std::string read_bytes(const std::filesystem::path& file)
 std::string how_measured(const StudyResult& result, const StudyInfo& info)
 {
     return fmt::format(
-        "Case {}. Errors are relative. Cost: {}, the same on every machine; wall time: median of "
-        "{} "
-        "repeat(s) within the steps, rounds of all runs in turn, {} thread(s), {} run(s) side by "
+        "Case {}. Errors are relative. Cost: {}, the same on every machine of one instruction set; "
+        "wall time: median of {} repeat(s) within the steps, rounds of all runs in turn, {} "
+        "thread(s), {} run(s) side by "
         "side. Hyoryu {} ({}), {}.",
         result.study.case_file.filename() == "case.toml"
             ? result.study.case_file.parent_path().filename().string()

@@ -44,6 +44,13 @@ class Runs(ProgramTest):
         self.assertEqual(cost["steps"], {"predicted": 1250, "measured": 1250})
         self.assertGreater(cost["seconds_per_step"]["predicted"], 0)
         self.assertGreater(cost["memory_bytes"]["predicted"], 1e6)
+        # All but contacts and the small texts is known beforehand, to the promised quarter.
+        disk = cost["disk_bytes"]
+        self.assertAlmostEqual(disk["predicted"] / disk["measured"], 1, delta=0.25)
+        development = plan["cost"]["development"]
+        self.assertIn(development["coarsening"], (2, 3, 4))
+        self.assertAlmostEqual(plan["forecast"]["wall_seconds"],
+                               plan["time_step"]["steps"] * plan["cost"]["seconds_per_step"], delta=1e-6)
 
     def test_a_damaged_plan_is_told_when_the_cost_would_be(self):
         self.call("run", self.write(FLOOD), "-o", "out", "--until", "0.01", "--set", "time.end=0.02")

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace hyoryu {
 namespace {
 
@@ -68,6 +70,41 @@ TEST(Cost, IsMeasuredAtTheEndOfARunToo)
     for (const StepCost::Share& share : cost.effects) {
         EXPECT_LT(share.share, 1) << share.effect;
     }
+}
+
+// Water at rest does not develop: as many steps as planned, as long as the first. The factor is
+// wide for a machine with other work; what a column that collapses adds is told by the shipped
+// cases.
+TEST(Cost, OfWaterAtRestDoesNotChange)
+{
+    Simulation sim = make(tank, {"time.end=0.2"});
+    const auto found = measure_development(sim, 50, [] { return true; });
+    ASSERT_TRUE(found.has_value());
+    EXPECT_TRUE(finished(sim.clock, sim.scene));
+    EXPECT_NEAR(found->steps * sim.plan.expected_steps, static_cast<double>(sim.clock.step), 1e-6);
+    EXPECT_NEAR(found->steps, 1, 0.02);
+    EXPECT_GT(found->step, 0.2);
+    EXPECT_LT(found->step, 5);
+}
+
+TEST(Cost, OfTheRunCountsBodiesApart)
+{
+    StepCost cost{.seconds = 5, .bodies = 2};
+    EXPECT_EQ(seconds_of_run(cost), 5);
+    cost.development = Development{.step = 3};
+    EXPECT_EQ(seconds_of_run(cost), 3 * 3 + 2);
+}
+
+TEST(Cost, DevelopmentIsLeftWhereItTakesTooLongOrGoesWrong)
+{
+    Simulation sim = make(tank);
+    EXPECT_FALSE(measure_development(sim, 5, [n = 0]() mutable { return ++n < 3; }).has_value());
+    EXPECT_EQ(sim.clock.step, 3);
+    Simulation wrong = make(tank);
+    wrong.fluid->particles[field::velocity][0].x() = std::numeric_limits<real>::quiet_NaN();
+    EXPECT_FALSE(measure_development(wrong, 5, [] { return true; }).has_value());
+    Simulation short_run = make(tank);
+    EXPECT_FALSE(measure_development(short_run, 1'000'000, [] { return true; }).has_value());
 }
 
 } // namespace

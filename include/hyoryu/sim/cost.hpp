@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: MIT
-// What a step costs on this machine, and what of it each effect takes.
+// What a step costs on this machine, what of it each effect takes, and how that changes as the flow
+// develops.
 #pragma once
 
 #include "hyoryu/sim/simulation.hpp"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hyoryu {
+
+/// How the cost of a run differs from that of its first steps, as the same scene tells with fewer
+/// particles: what a step costs beside its fluid at rest is a matter of the flow, not of its
+/// resolution, as long as steps move particles by the same share of a spacing.
+struct Development {
+    double coarsening = 1; // its spacing over that of the case
+    double steps = 1;      // its steps over those that its plan expects
+    double step = 1;       // a step without bodies, on average, over one of the first
+    double seconds = 0;    // that it took
+};
 
 /// The wall time of a step, and the share of it that goes with each effect that can be left out.
 struct StepCost {
@@ -16,8 +29,14 @@ struct StepCost {
         double share = 0;   // of a step [1]; noise may take it a little below zero
     };
     double seconds = 0; // of a step with everything on, on average [s]
+    double bodies = 0;  // of them, for the motion of bodies and their contacts [s]
     std::vector<Share> effects;
+    std::optional<Development> development;
 };
+
+/// The wall time of a step on average over the run [s]: that of the timed ones, if nothing is known
+/// of how the flow develops.
+double seconds_of_run(const StepCost& cost);
 
 /// Times about so many steps of a simulation with fluid, in rounds, two at least: in each one step
 /// with everything, and one without each effect that the slots of the fluid can do without. What an
@@ -26,5 +45,11 @@ struct StepCost {
 /// from where it stands, beyond its end, and is no result any more. Throws NumericalError like
 /// step().
 StepCost measure_cost(Simulation& sim, int steps);
+
+/// Runs a simulation with fluid to its end and compares all its steps with the first ones, so many.
+/// None where it goes wrong, or where `goes_on`, asked before each step, says no first.
+/// `coarsening` is left to the caller.
+std::optional<Development> measure_development(Simulation& sim, int first,
+                                               const std::function<bool()>& goes_on);
 
 } // namespace hyoryu

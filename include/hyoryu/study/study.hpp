@@ -53,8 +53,9 @@ struct Study {
     Mode mode = Mode::one_at_a_time;
     std::vector<std::string> set; // overrides of the case in all runs
     int repeats = 1;              // of each run, for wall times
-    /// Expression of the columns of the summary: what a run costs, the same on every machine;
-    /// empty: pair interactions, or steps where there are none.
+    /// Expression of the columns of the summary: what a run costs, the same on every machine
+    /// of one instruction set, to whose registers lists are filled up; empty: pair interactions, or
+    /// steps where there are none.
     std::string cost;
     Constants constants;
     std::map<std::string, std::string> columns;
