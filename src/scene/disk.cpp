@@ -72,7 +72,7 @@ double disk_bytes(const Scene& scene, const Plan& plan, double steps)
 {
     const int d = scene.dimensions;
     const Plan::Counts& n = plan.counts;
-    double frame = cloud_bytes(n.fluid, d) + cloud_bytes(n.body, d);
+    double frame = cloud_bytes(n.fluid, d) + cloud_bytes(n.drawn, d);
     if (n.bodies > 0) {
         frame += header + surface_of_body * static_cast<double>(n.bodies);
     }

@@ -331,13 +331,14 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     plan.counts = {static_cast<Index>(filling.fluid.size()),
                    static_cast<Index>(filling.wall.size()), 0,
                    static_cast<Index>(scene.bodies.size()), static_cast<Index>(scene.walls.size())};
+    for (const Aggregate& body : filling.bodies) {
+        plan.counts.drawn += static_cast<Index>(body.points.size());
+    }
     plan.rigid = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                              [](const BodySettings& b) { return !b.fixed; });
     plan.contact = plan.rigid && (scene.bodies.size() > 1 || !scene.walls.empty());
     if (scene.fluid) {
-        for (const Aggregate& body : filling.bodies) {
-            plan.counts.body += static_cast<Index>(body.points.size());
-        }
+        plan.counts.body = plan.counts.drawn;
         plan.expected_speed = expected_speed(scene, filling);
         plan.fluid = fluid_parameters(scene, plan.expected_speed);
         plan.effects = fluid_effects(scene, *plan.fluid);

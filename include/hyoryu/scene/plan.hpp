@@ -39,6 +39,7 @@ struct Plan {
     struct Counts {
         Index fluid = 0, wall = 0, body = 0; // particles
         Index bodies = 0, walls = 0;
+        Index drawn = 0; // points of bodies in frames, also where no fluid is
         Index particles() const { return fluid + wall + body; }
     };
 
