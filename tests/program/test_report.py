@@ -95,7 +95,8 @@ material = "pine"
         stages = {row[0] for row in self.rows(root, "Cost by stage")}
         self.assertTrue(set(summary["stages"]) <= stages)
         asked = {row[0]: row for row in self.rows(root, "Asked, foretold, measured")[1:]}
-        self.assertEqual(list(asked)[3:], [e["name"] for e in plan["on"]])
+        self.assertEqual(list(asked)[:4], ["a step", "steps", "memory", "disk"])
+        self.assertEqual(list(asked)[4:], [e["name"] for e in plan["on"]])
         self.assertEqual(int(asked["steps"][3]), summary["steps"])
         self.assertEqual(asked["gravity"][2:], ["", ""]) # not timed apart
 

@@ -120,7 +120,7 @@ void transpose_quad(const auto& row, Pack<Real, bytes>* out)
     }
 }
 
-/// The same of two quads at once, for registers of 64 bytes: half the loads, and a third of the
+/// The same of two quads at once, for registers of 64 bytes: half the loads, and a fifth of the
 /// shuffles fewer. The rows stand in the lanes in an order of their own, the same for both quads,
 /// which a sum over the lanes does not mind.
 template <class Real>

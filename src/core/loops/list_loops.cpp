@@ -126,23 +126,19 @@ Floats larger(const Floats& a, const Floats& b)
 
 // Appends first + k for the lanes k that are hit: eight places are written, the end moves on by the
 // hits.
-template <class T>
-T* append(std::size_t hit, std::int32_t first, T* out)
+std::int32_t* append_chunks(std::size_t hit, std::int32_t first, std::int32_t* out)
 {
-    using Places = T __attribute__((vector_size(chunk_slots * sizeof(T))));
     const auto lanes = load<EightWords>(patterns.place[hit]);
-    const Places places = __builtin_convertvector(lanes, Places) + static_cast<T>(first);
+    const Integers places = __builtin_convertvector(lanes, Integers) + first;
     std::memcpy(out, &places, sizeof places);
     return out + patterns.count[hit];
 }
-
-std::int32_t* append_chunks(std::size_t hit, std::int32_t first, std::int32_t* out)
-{
-    return append(hit, first, out);
-}
 std::uint16_t* append_points(std::size_t hit, const std::int32_t* chunk, std::uint16_t* out)
 {
-    return append(hit, chunk_slots * *chunk, out);
+    const EightWords places =
+        load<EightWords>(patterns.place[hit]) + static_cast<std::uint16_t>(chunk_slots * *chunk);
+    std::memcpy(out, &places, sizeof places);
+    return out + patterns.count[hit];
 }
 #endif
 
