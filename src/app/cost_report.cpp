@@ -20,7 +20,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double part_of_run = 0.005;
+constexpr double part_of_run = 0.01;
+constexpr double part_that_is_early = 0.05;
 constexpr int least_steps = 5; // two rounds and the step before them cost no less
 constexpr int most_steps = 60; // more would tell no more
 
@@ -76,6 +77,8 @@ std::optional<Development> develop(const CaseSource& source, const Plan& plan, d
         return {};
     }
     Simulation sim = make_simulation(scene, coarse, filling);
+    // Small scenes have steps of a few microseconds, of which it takes more to tell.
+    first = std::max(first, static_cast<int>(part_that_is_early * coarse.expected_steps));
     using Wall = std::chrono::steady_clock;
     const auto end = Wall::now() + std::chrono::duration<double>(3 * most_seconds);
     std::optional<Development> found =

@@ -11,7 +11,7 @@
 
 namespace hyoryu {
 
-/// Steps to time at the start and at the end of a run of so many: about 1 % of it together, and
+/// Steps to time at the start and at the end of a run of so many: about 2 % of it together, and
 /// none of runs too short for that, or without fluid.
 int steps_to_time(const Plan& plan, double steps);
 
@@ -25,10 +25,11 @@ struct CaseSource {
     const std::vector<std::string>& overrides;
 };
 
-/// Adds to the cost of the first steps, so many, how the flow develops from them: runs the same
-/// case with the least of 2, 3 and 4 times its spacing that is foretold to take at most so many
-/// seconds. Nothing where all would take longer, in the end take three times as long, go wrong, or
-/// where the case cannot be at such a spacing.
+/// Adds to the cost of the first steps, so many, how the flow develops from them, or from a
+/// twentieth of the run where that is more: runs the same case with the least of 2, 3 and 4 times
+/// its spacing that is foretold to take at most so many seconds. Nothing where all would take
+/// longer, in the end take three times as long, go wrong, or where the case cannot be at such a
+/// spacing.
 void foretell_development(const CaseSource& source, const Plan& plan, int first,
                           double most_seconds, StepCost& cost);
 

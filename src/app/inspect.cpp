@@ -29,9 +29,10 @@ using nlohmann::json;
 // Of `check --time`.
 constexpr int timed_steps = 60;
 
-// What the look at the flow as it develops may take, of the run, and in any case.
+// What the look at the flow as it develops may take, of the run, and within what [s].
 constexpr double part_for_development = 0.1;
-constexpr double seconds_for_development = 2;
+constexpr double least_for_development = 2;
+constexpr double most_for_development = 60;
 
 json read_json(const fs::path& file)
 {
@@ -86,8 +87,8 @@ int check_case(const CheckOptions& options)
         Simulation sim = make_simulation(scene, plan, filling);
         timed = measure_cost(sim, timed_steps);
         foretell_development({options.case_file, options.overrides}, plan, timed_steps,
-                             std::max(seconds_for_development,
-                                      part_for_development * timed->seconds * plan.expected_steps),
+                             std::clamp(part_for_development * timed->seconds * plan.expected_steps,
+                                        least_for_development, most_for_development),
                              *timed);
     }
     if (options.json) {

@@ -261,7 +261,8 @@ std::optional<StepCost> predicted_cost(const RunOptions& options, const Scene& s
                                        const Plan& plan, const Filling& filling)
 {
     constexpr double part_for_development = 0.02;
-    constexpr double seconds_for_development = 0.1;
+    constexpr double least_for_development = 0.1; // [s]
+    constexpr double most_for_development = 20;
     const int steps = steps_to_time(plan, plan.expected_steps);
     if (steps == 0) {
         return {};
@@ -269,10 +270,12 @@ std::optional<StepCost> predicted_cost(const RunOptions& options, const Scene& s
     Simulation sim = make_simulation(scene, plan, filling);
     std::optional<StepCost> cost = time_steps(sim, steps);
     if (cost) {
-        foretell_development({options.case_file, options.overrides}, plan, steps,
-                             std::max(seconds_for_development,
-                                      part_for_development * cost->seconds * plan.expected_steps),
-                             *cost);
+        const double end = std::min(options.until.value_or(infinity), scene.time.end);
+        const double run = cost->seconds * plan.expected_steps * end / scene.time.end;
+        foretell_development(
+            {options.case_file, options.overrides}, plan, steps,
+            std::clamp(part_for_development * run, least_for_development, most_for_development),
+            *cost);
     }
     return cost;
 }

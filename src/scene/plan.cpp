@@ -23,7 +23,7 @@ constexpr double bodies_only_step = 1e-3; // [s]
 // Sound speed over the largest expected speed: Mach 0.1 keeps density within 1 %.
 constexpr double sound_over_speed = 10;
 // The program with its libraries and the buffers of its files, as a run of one box holds it [B].
-constexpr double process_memory = 52e6;
+constexpr double process_memory = 44e6;
 // Skin of the neighbour lists in spacings that flows come to, for the estimate of memory.
 constexpr double usual_skin = 0.2;
 
@@ -300,7 +300,9 @@ void estimate_cost(const Scene& scene, Plan& plan)
         // Columns, ids and owners, pair records, positions at the last build, cells, lists of the
         // fluid rows; the lists of solid rows are short.
         constexpr double records = 64 + 24 + 16 + 12;
-        plan.memory += columns + n * records +
+        // Last good state, image of a checkpoint, two frames on their way to the disk.
+        constexpr double kept = 2 * 150 + 2 * 62;
+        plan.memory += columns + n * records + kept * static_cast<double>(plan.counts.fluid) +
                        static_cast<double>(plan.counts.fluid) * list_bytes(*plan.fluid);
     }
     plan.frames = std::floor(scene.time.end / scene.output.every) + 1;
