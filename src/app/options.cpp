@@ -112,7 +112,7 @@ void add_bench(CLI::App& app, BenchOptions& options)
     auto* bench = app.add_subcommand(
         "bench", "measure the limits of this machine and how near the solver comes to them");
     auto* quick = bench->add_flag("--quick", options.quick, "small scenes: that it works");
-    bench->add_flag("--full", options.full, "up to 4 million fluid particles (minutes)")
+    bench->add_flag("--full", options.full, "up to 10 million fluid particles (ten minutes, 9 GB)")
         ->excludes(quick);
     bench
         ->add_option("--sizes", options.sizes,
