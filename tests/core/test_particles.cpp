@@ -41,6 +41,24 @@ TEST(Particles, SortingAndDroppingMovesAllColumnsAlike)
     }
 }
 
+TEST(Particles, SolidsHaveNoRoomForWhatIsOfFluidAlone)
+{
+    Particles particles;
+    particles.allocate(Fields<Density, DensityRate>{}, 3, 2, 1);
+    ASSERT_EQ(particles[field::density].size(), 6u);
+    ASSERT_EQ(particles[field::density_rate].size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k) {
+        particles[field::density_rate][k] = static_cast<real>(k);
+    }
+    const std::int32_t order[] = {2, 0}; // row 1 leaves
+    std::vector<std::byte> room(2 * sizeof(Vec3));
+    particles.permute_fluid(order, room);
+    ASSERT_EQ(particles[field::density_rate].size(), 2u);
+    EXPECT_EQ(particles[field::density_rate][0], 2);
+    EXPECT_EQ(particles[field::density_rate][1], 0);
+    EXPECT_EQ(particles[field::density].size(), 5u);
+}
+
 TEST(Fields, UnionKeepsOrderAndHasNoTwins)
 {
     using U = Union<Fields<Position, Density>, Fields<Density, Velocity>, Fields<>>;

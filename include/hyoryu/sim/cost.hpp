@@ -13,8 +13,8 @@
 namespace hyoryu {
 
 /// How the cost of a run differs from that of its first steps, as the same scene tells with fewer
-/// particles: what a step costs beside its fluid at rest is a matter of the flow, not of its
-/// resolution, as long as steps move particles by the same share of a spacing.
+/// particles. How often lists are made and who meets whom follow the flow: at any resolution a step
+/// moves particles by the same share of a spacing.
 struct Development {
     double coarsening = 1; // its spacing over that of the case
     double steps = 1;      // its steps over those that its plan expects
