@@ -35,7 +35,8 @@ void turn_by(SolidPose& pose, const Vec3& w)
 
 struct Goal {
     Feature feature;
-    double wanted = 0; // gap [m]
+    double wanted = 0;         // gap [m]
+    bool may_be_wider = false; // then only what is narrower is put right
 };
 
 // Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one;
@@ -46,7 +47,7 @@ double close_gap(const StepContext& context, const Goal& goal, double no_gap, do
     const Feature& f = goal.feature;
     const Touch touch = touch_of(f, configuration(memory, memory.poses, time));
     const double off = touch.gap - goal.wanted;
-    if (std::abs(off) <= no_gap) {
+    if (std::abs(off) <= no_gap || (goal.may_be_wider && off > 0)) {
         return 0;
     }
     const Vec3& n = touch.normal;
@@ -80,8 +81,9 @@ double aim(double gap)
     return gap < -at_once ? (1 - share_of_deep) * gap : 0.0;
 }
 
-// Pressed contacts close in both senses; all others only open.
-std::vector<Goal> goals(const StepContext& context, double time)
+// Pressed contacts close in both senses, all others only open. In a jam all only open: so many
+// pressed contacts want more than their bodies are free to do, and what is open closes by itself.
+std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
     const Configuration now = configuration(memory, memory.poses, time);
@@ -89,7 +91,7 @@ std::vector<Goal> goals(const StepContext& context, double time)
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
         if (p.impulse.dot(p.touches.push.normal) > 0 && std::abs(touch.gap) < at_once) {
-            list.push_back({p.candidate.feature, 0});
+            list.push_back({p.candidate.feature, 0, sub.arms == Arms::now});
         }
     }
     std::vector<Feature>& pressed = memory.pressed;
@@ -101,7 +103,7 @@ std::vector<Goal> goals(const StepContext& context, double time)
     for (const Candidate& c : memory.candidates) {
         if (!c.beyond && c.touch.gap < overlapping &&
             !std::binary_search(pressed.begin(), pressed.end(), c.feature)) {
-            list.push_back({c.feature, aim(c.touch.gap)});
+            list.push_back({c.feature, aim(c.touch.gap), true});
         }
     }
     return list;
@@ -128,7 +130,7 @@ void move_to(const StepContext& context, const SubStep& sub, double s)
 void project_gaps(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
-    const std::vector<Goal> list = goals(context, time);
+    const std::vector<Goal> list = goals(context, sub, time);
     if (list.empty()) {
         return;
     }

@@ -91,8 +91,9 @@ TEST(Piles, BoxRestsOnABoxObstacle)
     expect_still(rigid, 1e-3, 500, 1e-9);
 }
 
-// Boxes of 10 cm in columns, a little turned and shifted, falling into a basin.
-Rigid heap(int side, int layers)
+// Boxes of 10 cm in columns, a little turned and shifted, falling into a basin; each layer is moved
+// by `lock` to one side and the next to the other [m].
+Rigid heap(int side, int layers, double lock = 0)
 {
     Rigid rigid = scene(0.3, 0.5);
     const double half = 0.07 * side;
@@ -103,7 +104,9 @@ Rigid heap(int side, int layers)
     for (int k = 0; k < side * side * layers; ++k) {
         const Vec3 place(0.14 * (k % side + 0.5) - half, 0.14 * (k / side % side + 0.5) - half,
                          0.08 + 0.16 * (k / (side * side)));
-        Body body = box(Vec3::Constant(0.1), 500, place + 0.01 * Vec3(number(k), number(k + 7), 0));
+        const Vec3 aside = (k / (side * side) % 2 == 0 ? lock : -lock) * Vec3(1, 1, 0);
+        Body body =
+            box(Vec3::Constant(0.1), 500, place + aside + 0.01 * Vec3(number(k), number(k + 7), 0));
         body.orientation =
             turn_about(Vec3(number(k + 1), number(k + 2), 1).normalized(), 10 * number(k));
         rigid.bodies.push_back(body);
@@ -128,6 +131,19 @@ TEST(Piles, HeapSettlesWithoutGainOfEnergyAndStaysInItsBasin)
     EXPECT_LE(motion, 1e-3 * start); // what is left is rattle
     // v dt of the fastest fall, 2.5 m/s, twice over: a jam does not locate its impacts
     EXPECT_LE(rigid.counters.worst_penetration, 5e-3);
+}
+
+// More contacts are pressed than the boxes have freedoms: all cannot have a gap of zero.
+TEST(Piles, LockedHeapRestsWithoutOverlap)
+{
+    Rigid rigid = heap(3, 6, 0.025);
+    run(rigid, 1e-3, 800);
+    rigid.counters.worst_penetration = 0;
+    run(rigid, 1e-3, 50);
+    EXPECT_GT(rigid.counters.capped_steps, 500); // a jam
+    // What the projection leaves alone and what the speeds that are left of the contacts, 1e-6 m/s,
+    // make of it in a step: 1e-9 m each; doubled.
+    EXPECT_LE(rigid.counters.worst_penetration, 4e-9);
 }
 
 TEST(Piles, HeapGoesOnWithTheSameBitsAfterARestart)
