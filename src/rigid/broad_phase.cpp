@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "broad_phase.hpp"
 
+#include "box_tree.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,18 +18,10 @@ namespace {
 constexpr int widenings = 3;
 // Added to every box so that contacts at rest stay paired [m].
 constexpr double skin = 1e-4;
+// Bodies that share a list of found pairs, whatever the number of threads.
+constexpr int bodies_per_block = 64;
 
-struct Box {
-    Vec3 low{0, 0, 0}, high{0, 0, 0};
-
-    bool meets(const Box& other) const
-    {
-        return (low.array() <= other.high.array()).all() &&
-               (other.low.array() <= high.array()).all();
-    }
-};
-
-Box box_of(const Solid& solid, const SolidPose& pose, double margin)
+AlignedBox box_of(const Solid& solid, const SolidPose& pose, double margin)
 {
     const Vec3 centre = pose.x + pose.R * solid.box_centre;
     const Vec3 half =
@@ -45,32 +41,41 @@ double travel(const StepContext& context, int k)
     return context.dt * (speed + spin * context.memory.geometry.solids[k].reach);
 }
 
+// The pairs of a body with those of higher number whose boxes meet its own.
+void add_pairs_of(const ContactMemory& memory, int a, const std::vector<AlignedBox>& boxes,
+                  const BoxTree& tree, std::vector<int>& near, std::vector<BodyPair>& pairs)
+{
+    find_near(tree, boxes[a], near);
+    for (const int b : near) {
+        if (b > a && boxes[a].meets(boxes[b]) &&
+            (memory.rotors[a].movable || memory.rotors[b].movable)) {
+            pairs.push_back({a, b});
+        }
+    }
+}
+
 std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<double>& margins)
 {
     const ContactMemory& memory = context.memory;
     const int n = static_cast<int>(margins.size());
-    std::vector<Box> boxes;
+    std::vector<AlignedBox> boxes;
     for (int k = 0; k < n; ++k) {
         boxes.push_back(box_of(memory.geometry.solids[k], memory.poses[k], margins[k]));
     }
-    std::vector<int> order(margins.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
-        return std::pair(boxes[a].low.x(), a) < std::pair(boxes[b].low.x(), b);
+    const BoxTree tree = tree_over(boxes);
+    std::vector<std::vector<BodyPair>> of_block((margins.size() + bodies_per_block - 1) /
+                                                bodies_per_block);
+    parallel_blocks(0, static_cast<Index>(of_block.size()), [&](Index block) {
+        std::vector<int> near;
+        const int first = static_cast<int>(block) * bodies_per_block;
+        for (int a = first; a < std::min(n, first + bodies_per_block); ++a) {
+            add_pairs_of(memory, a, boxes, tree, near, of_block[static_cast<std::size_t>(block)]);
+        }
     });
     std::vector<BodyPair> pairs;
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const int a = order[k];
-        for (std::size_t m = k + 1;
-             m < order.size() && boxes[order[m]].low.x() <= boxes[a].high.x(); ++m) {
-            const int b = order[m];
-            if (boxes[a].meets(boxes[b]) &&
-                (memory.rotors[a].movable || memory.rotors[b].movable)) {
-                pairs.push_back({std::min(a, b), std::max(a, b)});
-            }
-        }
+    for (const std::vector<BodyPair>& some : of_block) {
+        pairs.insert(pairs.end(), some.begin(), some.end());
     }
-    std::sort(pairs.begin(), pairs.end());
     return pairs;
 }
 
@@ -91,7 +96,7 @@ bool may_touch(const StepContext& context, int body, const ContactWall& wall, do
         return false;
     }
     if (!wall.mesh.triangles.empty()) {
-        const Box box = box_of(solid, pose, room);
+        const AlignedBox box = box_of(solid, pose, room);
         return any_near(wall.mesh.tree, {box.low - shift, box.high - shift});
     }
     const SolidPose there = pose_of(wall.pose.x + shift, wall.pose.q);
