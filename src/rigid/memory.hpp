@@ -74,6 +74,7 @@ struct ContactMemory {
     std::vector<Remembered> recent, fresh;
     std::vector<char> taken; // of `known`
     std::vector<Resting> resting;
+    std::vector<std::size_t> order; // of `resting`, by feature
     std::vector<Feature> pressed;
     std::vector<Row> rows, group;
     bool jammed = false;             // a cluster of this step went on without location

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -44,12 +45,17 @@ void count_event(const StepContext& context)
 // Adds up what each persistent contact did in all sub-steps, by the normal of the first.
 void log_resting(const StepContext& context)
 {
-    std::vector<Resting>& resting = context.memory.resting;
-    std::stable_sort(resting.begin(), resting.end(),
-                     [](const Resting& a, const Resting& b) { return a.feature < b.feature; });
-    for (std::size_t k = 0; k < resting.size(); ++k) {
-        const Contact& contact = resting[k].contact;
-        if (k == 0 || resting[k].feature != resting[k - 1].feature) {
+    const std::vector<Resting>& resting = context.memory.resting;
+    std::vector<std::size_t>& order = context.memory.order;
+    order.resize(resting.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::ranges::sort(order, [&](std::size_t k, std::size_t m) {
+        const auto by_feature = resting[k].feature <=> resting[m].feature;
+        return by_feature != 0 ? by_feature < 0 : k < m;
+    });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const Contact& contact = resting[order[k]].contact;
+        if (k == 0 || resting[order[k]].feature != resting[order[k - 1]].feature) {
             context.log.push_back(contact);
             continue;
         }
@@ -59,7 +65,7 @@ void log_resting(const StepContext& context)
         sum.tangential_impulse += impulse - impulse.dot(sum.normal) * sum.normal;
         sum.energy_lost += contact.energy_lost;
     }
-    resting.clear();
+    context.memory.resting.clear();
 }
 
 // Hands the cluster's results over: resting contacts to the log, forces to the next step.
