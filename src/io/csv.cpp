@@ -11,6 +11,7 @@
 #include <fstream>
 #include <span>
 #include <sstream>
+#include <utility>
 
 namespace hyoryu {
 
@@ -84,7 +85,7 @@ std::string file_text(const std::filesystem::path& file)
     if (!stream) {
         throw_system_error("read", file);
     }
-    return text.str();
+    return std::move(text).str();
 }
 
 std::vector<std::string_view> whole_lines(std::string_view text)

@@ -15,6 +15,25 @@ namespace hyoryu {
 
 /// The cells of one line, without the quotes.
 std::vector<std::string> csv_cells(std::string_view line);
+/// Calls f(k, cell) for the cells of one line, without the quotes.
+void for_each_csv_cell(std::string_view line, auto&& f)
+{
+    if (line.find('"') != std::string_view::npos) {
+        const std::vector<std::string> cells = csv_cells(line);
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            f(k, std::string_view(cells[k]));
+        }
+        return;
+    }
+    for (std::size_t k = 0;; ++k) {
+        const std::size_t end = line.find(',');
+        f(k, line.substr(0, end));
+        if (end == std::string_view::npos) {
+            return;
+        }
+        line.remove_prefix(end + 1);
+    }
+}
 /// Cells joined to a line with its end; the cells are quoted already where they must be.
 std::string csv_line(std::span<const std::string> cells);
 /// The number a whole cell holds; "nan" and "inf" are numbers.

@@ -26,9 +26,14 @@ std::filesystem::path history_file(const std::filesystem::path& folder, const Ta
 
 bool is_kept(std::string_view line, std::size_t cells, double keep_until)
 {
-    const std::vector<std::string> row = csv_cells(line);
-    const std::optional<double> first = csv_number(row.front());
-    return row.size() == cells && first && *first <= keep_until;
+    std::size_t count = 0;
+    bool early = false;
+    for_each_csv_cell(line, [&](std::size_t k, std::string_view cell_text) {
+        const std::optional<double> time = k == 0 ? csv_number(cell_text) : std::nullopt;
+        early = early || (time && *time <= keep_until);
+        ++count;
+    });
+    return early && count == cells;
 }
 
 /// The header and the rows of the file that stay.

@@ -91,33 +91,54 @@ void put_frames(hid_t file, const fs::path& folder)
 struct HistoryColumn {
     std::string name;
     std::string unit;
+    bool of_texts = false;
     std::vector<double> numbers;
     std::vector<std::string> texts;
 };
 
-std::vector<HistoryColumn> history_columns(const std::string& text)
+std::vector<HistoryColumn> empty_columns(std::string_view units_line, std::string_view names_line)
+{
+    const std::vector<std::string> units = csv_cells(units_line.substr(2));
+    std::vector<HistoryColumn> columns;
+    for (std::string& name : csv_cells(names_line)) {
+        columns.push_back({std::move(name), units.at(std::min(columns.size(), units.size() - 1))});
+    }
+    return columns;
+}
+
+/// A table of contacts may have millions of rows: only columns that hold no numbers keep texts, and
+/// those are read a second time.
+std::vector<HistoryColumn> history_columns(std::string_view text)
 {
     const std::vector<std::string_view> lines = whole_lines(text);
     if (lines.size() < 2 || !lines[0].starts_with("# ")) {
         return {};
     }
-    const std::vector<std::string> units = csv_cells(lines[0].substr(2));
-    std::vector<HistoryColumn> columns;
-    for (const std::string& name : csv_cells(lines[1])) {
-        columns.push_back({name, units.at(std::min(columns.size(), units.size() - 1)), {}, {}});
-    }
-    for (const std::string_view line : std::span(lines).subspan(2)) {
-        const std::vector<std::string> cells = csv_cells(line);
-        for (std::size_t k = 0; k < std::min(cells.size(), columns.size()); ++k) {
-            columns[k].texts.push_back(cells[k]);
+    std::vector<HistoryColumn> columns = empty_columns(lines[0], lines[1]);
+    const auto for_each_cell = [&](const auto& visit) {
+        for (const std::string_view line : std::span(lines).subspan(2)) {
+            for_each_csv_cell(line, [&](std::size_t k, std::string_view cell_text) {
+                if (k < columns.size()) {
+                    visit(columns[k], cell_text);
+                }
+            });
         }
-    }
-    for (HistoryColumn& column : columns) {
-        for (const std::string& cell_text : column.texts) {
-            if (const auto number = csv_number(cell_text)) {
-                column.numbers.push_back(*number);
+    };
+    for_each_cell([](HistoryColumn& column, std::string_view cell_text) {
+        const auto number = column.of_texts ? std::nullopt : csv_number(cell_text);
+        if (number) {
+            column.numbers.push_back(*number);
+        } else {
+            column.of_texts = true;
+            column.numbers = {};
+        }
+    });
+    if (std::ranges::any_of(columns, &HistoryColumn::of_texts)) {
+        for_each_cell([](HistoryColumn& column, std::string_view cell_text) {
+            if (column.of_texts) {
+                column.texts.emplace_back(cell_text);
             }
-        }
+        });
     }
     return columns;
 }
@@ -147,15 +168,15 @@ void put_texts(hid_t parent, const std::string& name, const std::vector<std::str
     hdf5::check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, joined.data()), action);
 }
 
-void put_history(hid_t parent, const std::string& name, const std::string& text)
+void put_history(hid_t parent, const std::string& name, std::string_view text)
 {
     const hdf5::Handle group = hdf5::create_group(parent, name);
     for (const HistoryColumn& column : history_columns(text)) {
-        if (column.numbers.size() == column.texts.size()) {
+        if (column.of_texts) {
+            put_texts(group, column.name, column.texts);
+        } else {
             const auto view = view_of(std::span<const double>(column.numbers), 1);
             put_array(group, column.name, packed(view), column.unit);
-        } else {
-            put_texts(group, column.name, column.texts);
         }
     }
 }

@@ -37,7 +37,8 @@ TEST_F(Master, LeadsToEverything)
     writer.finish();
     {
         History history(folder, {"bodies", {{"time", "s"}, {"body", ""}, {"x", "m"}}});
-        history.append(std::array{cell(0.0), cell("timber"), cell(1.5)});
+        history.append(std::array{cell(0.0), cell("7"), cell(1.5)}); // a name, though a number
+        history.append(std::array{cell(0.0), cell("timber"), cell(2.5)});
         history.append(std::array{cell(0.25), cell("big, old"), cell(-1.0 / 3.0)});
     }
     write_text(folder / "plan.json", "{\"on\": []}");
@@ -48,9 +49,9 @@ assert f['case'][()].decode().startswith('dimensions'), f['case'][()]
 assert f['plan'][()].decode() == '{"on": []}'
 assert list(f['times'][:]) == [0, 0.1, 0.2] and list(f['indices'][:]) == [0, 1, 2]
 bodies = f['histories/bodies']
-assert list(bodies['time'][:]) == [0, 0.25] and bodies['time'].attrs['unit'] == 's'
-assert list(bodies['x'][:]) == [1.5, -1/3]
-assert list(bodies['body'][:]) == [b'timber', b'big, old'], bodies['body'][:]
+assert list(bodies['time'][:]) == [0, 0, 0.25] and bodies['time'].attrs['unit'] == 's'
+assert list(bodies['x'][:]) == [1.5, 2.5, -1/3]
+assert list(bodies['body'][:]) == [b'7', b'timber', b'big, old'], bodies['body'][:]
 fluid = f['frames/000002/fluid']
 assert fluid['Points'].shape == (70000, 3) and fluid['Points'][5, 0] == 7
 assert fluid['PointData/Velocity'].attrs['unit'] == 'm/s'
