@@ -23,42 +23,6 @@ void put(Numbers& out, const Vec3& v)
     out.insert(out.end(), v.begin(), v.end());
 }
 
-// Reads numbers in the order in which they were put.
-class Reader {
-public:
-    Reader(const Snapshot& snapshot, const std::string& name) : name_(name)
-    {
-        const auto found = snapshot.arrays.find(name);
-        const auto* numbers =
-            found == snapshot.arrays.end() ? nullptr : std::get_if<Numbers>(&found->second.values);
-        if (numbers == nullptr) {
-            throw IoError(
-                fmt::format("the checkpoint has no `{}`: it belongs to another case", name));
-        }
-        numbers_ = numbers;
-    }
-    double number()
-    {
-        if (next_ >= numbers_->size()) {
-            throw IoError(fmt::format(
-                "`{}` of the checkpoint is too short: it belongs to another case", name_));
-        }
-        return (*numbers_)[next_++];
-    }
-    Vec3 vector()
-    {
-        const double x = number();
-        const double y = number();
-        return {x, y, number()};
-    }
-    const Numbers& all() const { return *numbers_; }
-
-private:
-    std::string name_;
-    const Numbers* numbers_ = nullptr;
-    std::size_t next_ = 0;
-};
-
 void add(Snapshot& snapshot, const std::string& name, Numbers numbers)
 {
     snapshot.arrays[name] = {name, "", 1, std::move(numbers)};
@@ -82,6 +46,35 @@ const std::vector<T>& values(const Snapshot& snapshot, const std::string& name)
     }
     return *stored;
 }
+
+// Reads numbers in the order in which they were put.
+class Reader {
+public:
+    Reader(const Snapshot& snapshot, const std::string& name)
+        : name_(name), numbers_(values<double>(snapshot, name))
+    {
+    }
+    double number()
+    {
+        if (next_ >= numbers_.size()) {
+            throw IoError(fmt::format(
+                "`{}` of the checkpoint is too short: it belongs to another case", name_));
+        }
+        return numbers_[next_++];
+    }
+    Vec3 vector()
+    {
+        const double x = number();
+        const double y = number();
+        return {x, y, number()};
+    }
+    const Numbers& all() const { return numbers_; }
+
+private:
+    std::string name_;
+    const Numbers& numbers_;
+    std::size_t next_ = 0;
+};
 
 Numbers flat(std::span<const Vec3> column)
 {
