@@ -22,11 +22,11 @@ struct Candidates {
 inline constexpr std::size_t spare_chunks = 16;
 
 struct ListLoops {
-    /// Writes the numbers of the candidates within the radius of a point to `entry`, filled up to
-    /// packs of `lanes` with the number behind the last; returns how many. `near` has room for all
-    /// chunks and `spare_chunks` more, `entry` for all candidates, a pack and two chunks more.
-    int (*filter)(const Candidates& all, const std::array<float, 3>& point, float radius, int lanes,
-                  std::int32_t* near, std::uint16_t* entry);
+    /// Writes the numbers of the candidates within the radius of a point to `number`, ascending;
+    /// returns how many. `near` has room for all chunks and `spare_chunks` more, `number` for all
+    /// candidates and two chunks more.
+    std::size_t (*filter)(const Candidates& all, const std::array<float, 3>& point, float radius,
+                          std::int32_t* near, std::uint16_t* number);
 };
 
 /// The loops as compiled for one instruction set.

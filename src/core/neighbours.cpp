@@ -3,6 +3,7 @@
 
 #include "hyoryu/core/parallel.hpp"
 #include "list_loops.hpp"
+#include "list_steps.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -23,8 +24,8 @@ const ListLoops* loops_of(InstructionSet set)
         set, []<int bytes>(RegisterSizes<bytes>) { return list_loops<bytes>(); }, CompiledSets{});
 }
 
-// Chunks whose slots 16 bits can number, with room for the number of nothing.
-constexpr std::size_t most_chunks_of_a_block = 65536 / chunk_slots - 1;
+// Chunks whose slots 16 bits can number.
+constexpr std::size_t most_chunks_of_a_block = 65536 / chunk_slots;
 // Rounding of single precision, as a share of an edge of a tile: what positions and squared
 // distances lose.
 constexpr float rounding = 2e-6F;
@@ -136,6 +137,7 @@ private:
                 }
             }
         }
+        add_nothing();
     }
 
     void collect_tile(const Tiles& source, Index tile, const std::array<int, 3>& way,
@@ -154,13 +156,12 @@ private:
                 continue;
             }
             const Index count = std::min<Index>(chunk_slots, end - slot);
-            const std::size_t place = shop_.chunks.size();
-            reserve(place + 1);
+            if (shop_.chunks.size() % nothing_period == nothing_period - 1) {
+                add_nothing();
+            }
+            const std::size_t place = add_box(box);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                shop_.low[axis][place] = box.low[axis];
-                shop_.high[axis][place] = box.high[axis];
                 float* const point = &shop_.points[axis][chunk_slots * place];
-                std::fill_n(point, chunk_slots, far);
                 for (Index k = 0; k < count; ++k) {
                     point[k] = (*columns[axis])[at(slot + k)] + step[axis];
                 }
@@ -171,6 +172,24 @@ private:
                   static_cast<std::int8_t>(way[2])},
                  static_cast<std::uint8_t>(count)});
         }
+    }
+
+    // The bounds of one more chunk, none of whose points is anywhere yet; returns its place.
+    std::size_t add_box(const ChunkBox& box)
+    {
+        const std::size_t place = shop_.chunks.size();
+        reserve(place + 1);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            shop_.low[axis][place] = box.low[axis];
+            shop_.high[axis][place] = box.high[axis];
+            std::fill_n(&shop_.points[axis][chunk_slots * place], chunk_slots, far);
+        }
+        return place;
+    }
+    void add_nothing()
+    {
+        add_box({{far, far, far}, {far, far, far}});
+        shop_.chunks.push_back({0, {0, 0, 0}, 0});
     }
 
     // Room for so many chunks and what the loops see behind them.
@@ -189,54 +208,52 @@ private:
     std::size_t filter(Index first, Index last)
     {
         const std::size_t chunks = shop_.chunks.size();
-        reserve(chunks);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            std::fill_n(&shop_.low[axis][chunks], spare_chunks, far);
-            std::fill_n(&shop_.points[axis][chunk_slots * chunks], chunk_slots, far);
+        for (std::vector<float>& low : shop_.low) {
+            std::fill_n(&low[chunks], spare_chunks, far);
         }
-        const std::size_t room = chunk_slots * (chunks + 2) + at(lanes_);
+        const std::size_t room = chunk_slots * chunks + at(lanes_) + steps_together;
         shop_.near.resize(std::max(shop_.near.size(), chunks + spare_chunks));
-        shop_.packs.resize(std::max(shop_.packs.size(), at(last - first)));
+        shop_.numbers.resize(std::max(shop_.numbers.size(), chunk_slots * (chunks + 2)));
+        shop_.lists.resize(std::max(shop_.lists.size(), at(last - first)));
         const auto data = [](const std::array<std::vector<float>, 3>& columns) {
             return FloatColumns{columns[0].data(), columns[1].data(), columns[2].data()};
         };
         const Candidates all{data(shop_.points), data(shop_.low), data(shop_.high),
-                             static_cast<std::int32_t>(chunks)};
+                             static_cast<std::int32_t>(chunks - 1)};
         std::size_t count = 0;
         for (Index k = first; k < last; ++k) {
             if (count + room > shop_.entries.size()) {
                 shop_.entries.resize(2 * (count + room));
             }
-            std::size_t made = 0;
-            if (wanted(k)) {
-                std::uint16_t* const entry = &shop_.entries[count];
-                made = at(loops_.filter(
-                    all, {destination_.x[at(k)], destination_.y[at(k)], destination_.z[at(k)]},
-                    radius_, lanes_, shop_.near.data(), entry));
-                made = choice_.owner.empty() ? made : without_kin(k, entry, made);
-            }
-            shop_.packs[at(k - first)] = static_cast<std::uint16_t>(made / at(lanes_));
+            const std::size_t near = wanted(k) ? find_near(k, all) : 0;
+            const std::size_t made =
+                write_steps(shop_.numbers.data(), near, chunks, lanes_, &shop_.entries[count]);
+            shop_.lists[at(k - first)] = {shop_.numbers[0],
+                                          static_cast<std::uint16_t>(made / at(lanes_))};
             count += made;
         }
         return count;
     }
 
-    // Takes the points of the own owner out of a list; returns its new length.
-    std::size_t without_kin(Index k, std::uint16_t* entry, std::size_t count)
+    // Finds the numbers of the candidates that are near a point and not of its own owner; returns
+    // how many.
+    std::size_t find_near(Index k, const Candidates& all)
     {
-        const auto nothing = static_cast<std::uint16_t>(chunk_slots * shop_.chunks.size());
-        std::uint16_t* end = std::remove_if(entry, entry + count, [&](std::uint16_t number) {
-            return number == nothing || kin(k, number);
-        });
-        while ((end - entry) % lanes_ != 0) {
-            *end++ = nothing;
+        std::uint16_t* const number = shop_.numbers.data();
+        const std::size_t count = loops_.filter(
+            all, {destination_.x[at(k)], destination_.y[at(k)], destination_.z[at(k)]}, radius_,
+            shop_.near.data(), number);
+        if (choice_.owner.empty()) {
+            return count;
         }
-        return static_cast<std::size_t>(end - entry);
+        const std::uint16_t* const end = std::remove_if(
+            number, number + count, [&](std::uint16_t other) { return kin(k, other); });
+        return static_cast<std::size_t>(end - number);
     }
 
-    bool kin(Index k, std::uint16_t entry) const
+    bool kin(Index k, std::uint16_t number) const
     {
-        const Index slot = shop_.chunks[entry / chunk_slots].slot + entry % chunk_slots;
+        const Index slot = shop_.chunks[number / chunk_slots].slot + number % chunk_slots;
         for (const Tiles* source : sources_) {
             if (slot >= source->first_slot && slot < source->first_slot + source->count()) {
                 const std::int32_t row = source->row[at(slot - source->first_slot)];
@@ -262,7 +279,7 @@ private:
         block.chunks = static_cast<std::int32_t>(shop_.chunks.size());
         block.chunk = stored(shop_.chunks, shop_.chunks.size());
         block.entry = stored(shop_.entries, entries);
-        block.packs = stored(shop_.packs, at(last - first));
+        block.list = stored(shop_.lists, at(last - first));
         store_.append(block, out_);
     }
 
@@ -327,7 +344,7 @@ Index PairList::entries() const
     Index total = 0;
     for (const ListBlock& block : blocks_) {
         for (std::int32_t k = 0; k < block.last - block.first; ++k) {
-            total += lanes_ * block.packs[k];
+            total += lanes_ * block.list[k].packs;
         }
     }
     return total;
@@ -338,7 +355,7 @@ std::size_t ListShop::bytes() const
     const auto held = [](const auto&... column) {
         return (0 + ... + (column.capacity() * sizeof(column[0])));
     };
-    std::size_t bytes = held(chunks, near, entries, packs);
+    std::size_t bytes = held(chunks, near, numbers, entries, lists);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         bytes += held(points[axis], low[axis], high[axis]);
     }

@@ -154,7 +154,7 @@ void make_room(Fluid& fluid)
             data.local.resize(
                 std::max(data.local.size(), static_cast<std::size_t>(thread_count())));
             for (auto& room : data.local) {
-                room.resize(std::max(room.size(), at(chunk_slots * chunks + 1)));
+                room.resize(std::max(room.size(), at(chunk_slots * chunks)));
             }
         },
         fluid.pair_data);

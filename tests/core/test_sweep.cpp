@@ -78,7 +78,7 @@ struct Cloud {
         std::vector<std::vector<RecordRow<In, Real>>> local(
             static_cast<std::size_t>(thread_count()));
         for (auto& room : local) {
-            room.resize(static_cast<std::size_t>(chunk_slots * pairs.most_chunks() + 1));
+            room.resize(static_cast<std::size_t>(chunk_slots * pairs.most_chunks()));
         }
         const SweepView<In, Real> view{
             pairs.blocks().data(), records.data(), particles.pointers(), tiles.row.data(), 0,
@@ -157,6 +157,23 @@ TYPED_TEST(Sweep, FindsEveryPairThatBruteForceFinds)
             }
             EXPECT_NEAR(cloud.particles[field::shepard_sum][i], w, 10 * loss<TypeParam> * w);
         }
+    }
+}
+
+// Points of a tile that are near few of the many that it looks at: lists go over what is nothing.
+TYPED_TEST(Sweep, CountsNothingAsNothing)
+{
+    const auto points = random_points(4000, 0.5);
+    Cloud<TypeParam> cloud(points, 0.05, 3);
+    ASSERT_GT(cloud.pairs.most_chunks(), 128);
+    cloud.sweep(Count{});
+    for (std::size_t i = 0; i < points.size(); i += 7) {
+        real w = 0;
+        for (const Vec3& p : points) {
+            const Vec3 r = points[i] - p;
+            w += cloud.kernel(Vec<real>{r.x(), r.y(), r.z()}).w;
+        }
+        EXPECT_NEAR(cloud.particles[field::shepard_sum][i], w, 10 * loss<TypeParam> * w);
     }
 }
 

@@ -141,16 +141,22 @@ void transpose_two_quads(const auto& row, Pack<Real, 64>* out)
     }
 }
 
-/// One of the rows in each lane, the same row in the same lane for every field.
+/// One of the rows in each lane, the same row in the same lane for every field: `at`, moved on by
+/// one step after the other. The steps are added up one by one, by units that are idle while those
+/// of packs are busy.
 template <int bytes, class List, class Real>
-Record<List, Pack<Real, bytes>> gather(const RecordRow<List, Real>* local,
-                                       const std::uint16_t* entry)
+Record<List, Pack<Real, bytes>> gather(const RecordRow<List, Real>*& at, const std::uint8_t* step)
 {
     using Row = RecordRow<List, Real>;
     constexpr int at_once = bytes == 64 && Row::quads % 2 == 0 ? 2 : 1;
+    const Row* rows[Pack<Real, bytes>::lanes];
+    for (const Row*& row : rows) {
+        at += *step++;
+        row = at;
+    }
     Pack<Real, bytes> flat[Row::size];
     for (int q = 0; q < Row::quads; q += at_once) {
-        const auto row = [&](int lane) { return &local[entry[lane]].value[q * Row::quad]; };
+        const auto row = [&](int lane) { return &rows[lane]->value[q * Row::quad]; };
         if constexpr (at_once == 2) {
             transpose_two_quads<Real>(row, flat + q * Row::quad);
         } else {

@@ -23,18 +23,25 @@ struct ListChoice {
 struct SourceChunk {
     std::int32_t slot;               // the first
     std::array<std::int8_t, 3> step; // in edges of a tile
-    std::uint8_t count;              // slots that belong to it
+    std::uint8_t count;              // slots that belong to it; none: the chunk is nothing
 };
 
-/// The lists of some slots of one tile. Entries number the slots of the chunks, eight a chunk, so
-/// that 16 bits do; every list is filled up to whole packs with the number behind the last one.
+/// Where the numbers of a list begin, and how long it is.
+struct ListHead {
+    std::uint16_t start;
+    std::uint16_t packs;
+};
+
+/// The lists of some slots of one tile. The slots of the chunks are numbered, eight a chunk, and an
+/// entry is the step to its number from that of the entry before it, or from the start of its list.
+/// Every list is filled up to whole packs with the first slot of a chunk that is nothing.
 struct ListBlock {
     std::int32_t first = 0; // destination slots [first, last)
     std::int32_t last = 0;
     std::int32_t chunks = 0;
     const SourceChunk* chunk = nullptr;
-    const std::uint16_t* entry = nullptr; // list after list
-    const std::uint16_t* packs = nullptr; // of each list
+    const std::uint8_t* entry = nullptr; // list after list
+    const ListHead* list = nullptr;
 };
 
 /// Memory in pages that is given back all at once; pages stay for the next time.
@@ -68,7 +75,9 @@ struct ListShop {
     std::vector<SourceChunk> chunks;
     std::array<std::vector<float>, 3> points, low, high; // x, y, z
     std::vector<std::int32_t> near;
-    std::vector<std::uint16_t> entries, packs;
+    std::vector<std::uint16_t> numbers; // of one list
+    std::vector<std::uint8_t> entries;
+    std::vector<ListHead> lists;
 
     std::size_t bytes() const;
 };
@@ -96,11 +105,11 @@ public:
     int lanes() const { return lanes_; }
     /// Largest number of chunks that a block looks at.
     std::int32_t most_chunks() const;
-    /// Entries including padding, and bytes held, room for making them included.
+    /// Entries including those that are nothing, and bytes held, room for making them included.
     Index entries() const;
     std::size_t bytes() const;
 
-    /// Calls f(i, j) for the slots of every pair, padding left out.
+    /// Calls f(i, j) for the slots of every pair; what is nothing is left out.
     void for_each_pair(auto&& f) const
     {
         for (const ListBlock& block : blocks_) {
@@ -111,13 +120,15 @@ public:
 private:
     void for_each_pair_of(const ListBlock& block, const auto& f) const
     {
-        const std::uint16_t* entry = block.entry;
+        const std::uint8_t* entry = block.entry;
         for (std::int32_t i = block.first; i < block.last; ++i) {
-            const int count = lanes_ * block.packs[i - block.first];
-            for (int k = 0; k < count; ++k, ++entry) {
-                const int chunk = *entry / chunk_slots;
-                if (chunk < block.chunks) {
-                    f(Index(i), Index(block.chunk[chunk].slot + *entry % chunk_slots));
+            const ListHead list = block.list[i - block.first];
+            int number = list.start;
+            for (int k = 0; k < lanes_ * list.packs; ++k) {
+                number += *entry++;
+                const SourceChunk& chunk = block.chunk[number / chunk_slots];
+                if (number % chunk_slots < chunk.count) {
+                    f(Index(i), Index(chunk.slot + number % chunk_slots));
                 }
             }
         }

@@ -62,8 +62,8 @@ struct SweepView {
 
 namespace detail {
 
-/// The points that a block looks at, copied side by side, relative to the centre of its tile, and
-/// behind them the point of the padding: far from everything and otherwise zero.
+/// The points that a block looks at, copied side by side, relative to the centre of its tile. What
+/// is nothing is far from everything and otherwise zero.
 template <int bytes, class List, class Real>
 void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>* local)
 {
@@ -71,8 +71,15 @@ void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>
     constexpr int width = std::min<int>(bytes, sizeof(Row)); // copied at once [bytes]
     constexpr int lanes = Pack<Real, width>::lanes;
     const real edge[3] = {view.edge.x(), view.edge.y(), view.edge.z()};
+    constexpr real far_in_edges = 1e6; // its square is finite, and it is beyond every support
+    Row nothing;
+    nothing.value[0] = static_cast<Real>(far_in_edges * edge[0]);
     for (std::int32_t c = 0; c < block.chunks; ++c) {
         const SourceChunk chunk = block.chunk[c];
+        if (chunk.count == 0) {
+            local[c * chunk_slots] = nothing;
+            continue;
+        }
         Row step;
         for (int axis = 0; axis < 3; ++axis) {
             step.value[axis] = static_cast<Real>(static_cast<real>(chunk.step[axis]) * edge[axis]);
@@ -85,10 +92,6 @@ void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>
             std::memcpy(to + k, &moved, sizeof moved);
         }
     }
-    constexpr real far_in_edges = 1e6; // its square is finite, and it is beyond every support
-    Row& nothing = local[block.chunks * chunk_slots];
-    nothing = Row{};
-    nothing.value[0] = static_cast<Real>(far_in_edges * edge[0]);
 }
 
 /// Adds the lanes of every field of `sum` to the row of the columns.
@@ -111,7 +114,7 @@ void accumulate(const ColumnPointers& columns, Index row, const auto& sum)
 
 /// columns[Writes]_i += sum over the neighbours j of point i of all terms, for every point of one
 /// block. Outputs add up over the pair kinds of a stage; `clear` them first. `local` has room for
-/// all chunks of the block and one row more.
+/// all chunks of the block.
 // Flat: a record of packs that is handed over through memory costs more than the pair. Kernel and
 // terms are copies: what only this function sees need not be read again after every store.
 template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms>
@@ -124,18 +127,20 @@ template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms
         const ListBlock block = view.blocks[block_index];
         const PairKernel kernel = view.kernel;
         detail::copy_chunks<bytes>(block, view, local);
-        const std::uint16_t* entry = block.entry;
+        const std::uint8_t* entry = block.entry;
         for (std::int32_t slot = block.first; slot < block.last; ++slot) {
-            const std::uint16_t* const end = entry + N::lanes * block.packs[slot - block.first];
+            const ListHead list = block.list[slot - block.first];
+            const std::uint8_t* const end = entry + N::lanes * list.packs;
             if (entry == end) {
                 continue;
             }
+            const RecordRow<List, Real>* at = local + list.start;
             const Real* const own = view.records[slot].value;
             const auto i =
                 detail::assemble<List, N>([&](int k) { return N(static_cast<double>(own[k])); });
             Record<Out, N> sum;
             for (; entry != end; entry += N::lanes) {
-                const auto j = detail::gather<bytes>(local, entry);
+                const auto j = detail::gather<bytes>(at, entry);
                 const Pair<N> ij = kernel(i[field::position] - j[field::position]);
                 (terms(ij, i, j, sum), ...);
             }

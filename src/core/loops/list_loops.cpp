@@ -2,7 +2,6 @@
 // Compiled once for each instruction set.
 #include "../list_loops.hpp"
 
-#include <algorithm>
 #include <cstring>
 #ifdef __AVX__
 #include <immintrin.h>
@@ -159,13 +158,13 @@ std::int32_t* find_chunks(const Candidates& all, const float* at, float limit, s
     return out;
 }
 
-int filter(const Candidates& all, const std::array<float, 3>& point, float radius, int lanes,
-           std::int32_t* near, std::uint16_t* entry)
+std::size_t filter(const Candidates& all, const std::array<float, 3>& point, float radius,
+                   std::int32_t* near, std::uint16_t* number)
 {
     const float limit = radius * radius;
     const float* const at = &point[0];
     const std::int32_t* const end = find_chunks(all, at, limit, near);
-    std::uint16_t* out = entry;
+    std::uint16_t* out = number;
     for (; near < end; near += width / chunk_slots) {
         Floats squared{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -174,9 +173,7 @@ int filter(const Candidates& all, const std::array<float, 3>& point, float radiu
         }
         out = append_points(within(squared, limit), near, out);
     }
-    std::fill_n(out, lanes, static_cast<std::uint16_t>(all.chunks * chunk_slots));
-    const auto hits = static_cast<int>(out - entry);
-    return (hits + lanes - 1) / lanes * lanes;
+    return static_cast<std::size_t>(out - number);
 }
 
 } // namespace
