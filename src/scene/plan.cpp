@@ -323,7 +323,9 @@ double list_bytes(const FluidParameters& fluid)
     const double radius = 2 * fluid.h / fluid.spacing + usual_skin;
     const double near = fluid.dimensions == 2 ? std::numbers::pi * sq(radius)
                                               : 4.0 / 3.0 * std::numbers::pi * radius * sq(radius);
-    return sizeof(std::uint16_t) * (near + 4);
+    // A byte each, and as much as ten more for what is nothing and the heads of lists.
+    constexpr double others = 10;
+    return near + others;
 }
 
 Plan make_plan(const Scene& scene, const Filling& filling)

@@ -84,8 +84,8 @@ struct Plan {
 /// other or a wall, a fixed time step beyond the stability limit, a fluid without particles.
 Plan make_plan(const Scene& scene, const Filling& filling);
 
-/// Bytes of neighbour lists a particle of full support: the lattice points within the list radius
-/// (support and skin), and padding.
+/// Bytes of neighbour lists a particle of full support: one for each of the lattice points within
+/// the list radius (support and skin), and some for what is nothing and for where lists begin.
 double list_bytes(const FluidParameters& fluid);
 
 } // namespace hyoryu
