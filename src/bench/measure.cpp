@@ -13,8 +13,8 @@ namespace hyoryu::bench {
 
 namespace {
 
-// With the walls about it and what a scene takes while it is made; 900 were measured.
-constexpr double bytes_of_a_fluid_particle = 1200;
+// With the walls about it and what a scene takes while it is made; 580 were measured.
+constexpr double bytes_of_a_fluid_particle = 900;
 
 std::vector<LoopRates> measure_cubes(const Setting& setting)
 {
