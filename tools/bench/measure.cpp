@@ -20,6 +20,8 @@ constexpr long long most_samples = 25000;
 constexpr int fewest_rounds = 3;
 constexpr int most_rounds = 20;
 constexpr double enough_time = 1; // [s]
+// After so much of it no further round is begun: large heaps take minutes.
+constexpr double patience = 300; // [s]
 
 struct Variant {
     const Engine* engine;
@@ -135,7 +137,9 @@ void time_all(const Scene& scene, const Plan& plan, std::vector<Variant>& varian
 {
     const double from = cpu_time();
     const auto go_on = [&](int rounds) {
-        return rounds < fewest_rounds || (rounds < most_rounds && cpu_time() - from < enough_time);
+        const double spent = cpu_time() - from;
+        const double limit = rounds < fewest_rounds ? patience : enough_time;
+        return rounds == 0 || (rounds < most_rounds && spent < limit);
     };
     for (int rounds = 0; go_on(rounds); ++rounds) {
         for (Variant& variant : variants) {
