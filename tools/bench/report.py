@@ -22,15 +22,14 @@ which builds `tools/bench/`, runs it and rewrites this file. `scripts/bench --ag
 our cost with that of an earlier `contact.json`. Without the engines it gives our rows alone; they
 come with the Debian packages `libbullet-dev`, `libode-dev` and `libmujoco-dev`.
 
-Measured on two cores of an AVX2 EPYC with Debian 12, {compiler}, {build} build, one thread;
-{versions}.
+Measured on {machine}, {compiler}, {build} build, one thread; {versions}.
 
 ## What is fair here, and what is not
 
 - Cost is CPU time of one thread inside the engine's step, without reading states. All engines run
-  one after the other in each of at least three rounds of one program, and of each fortieth of a run
-  the least time over the rounds counts, so that a machine busy with something else cannot make one
-  engine look slow.
+  one after the other in each of at least three rounds of one program (fewer where a round of a large
+  heap takes minutes), and of each fortieth of a run, in a heap of each step, the least time over the
+  rounds counts, so that a machine busy with something else cannot make one engine look slow.
 - The same shapes, masses, poses, velocities, gravity, restitution and friction for all; no damping,
   no sleeping. The errors are read from a run of their own and stand against exact answers (closed
   forms, or an event-driven solver good to 1e-8 m), never against Hyoryu.
@@ -51,6 +50,16 @@ Measured on two cores of an AVX2 EPYC with Debian 12, {compiler}, {build} build,
   them.
 
 """
+
+
+def machine_here():
+    """The processor and its widest registers, as Linux tells them."""
+    text = pathlib.Path("/proc/cpuinfo").read_text()
+    known = dict(line.split(":", 1) for line in text.split("\n\n")[0].splitlines() if ":" in line)
+    known = {key.strip(): value.strip() for key, value in known.items()}
+    flags = known.get("flags", "").split()
+    registers = "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "narrower than AVX2"
+    return f"{known.get('model name', 'an unknown processor')} ({registers})"
 
 
 def by_engine(scene, dt=None):
@@ -170,7 +179,8 @@ def heap_table(document):
 
 def markdown(document):
     versions = ", ".join(f"{name} {number}" for name, number in document["versions"].items())
-    text = PREAMBLE.format(extent="--full " if document["extent"] == "full" else "",
+    text = PREAMBLE.format(machine=machine_here(),
+                           extent="--full " if document["extent"] == "full" else "",
                            compiler=document["compiler"].replace("GNU", "GCC"),
                            build=document["build_type"], versions=versions)
     lines = ["## Settings\n", "| engine | settings |", "|---|---|"]
