@@ -105,6 +105,7 @@ double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort
         return std::span(rows).subspan(begin, ends[island] - begin);
     };
     const auto solve_one = [&](std::size_t island) {
+        memory.solvers[island].updates = 0;
         memory.left[island] =
             solve(rows_of(island), memory.responses, memory.solvers[island], effort);
     };
@@ -125,6 +126,9 @@ double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort
     const Index worth =
         rows.size() < worth_sharing_contacts ? std::numeric_limits<Index>::max() : 2;
     parallel_blocks(0, static_cast<Index>(ends.size()), solve_small, worth);
+    for (std::size_t island = 0; island < ends.size(); ++island) {
+        memory.updates += memory.solvers[island].updates;
+    }
     return ends.empty() ? 0 : *std::max_element(memory.left.begin(), memory.left.end());
 }
 

@@ -28,6 +28,14 @@ constexpr int corrections = 6;
 // What the corrections may leave of the right-hand side.
 constexpr double corrected = 1e-13;
 
+// A factorisation takes as long as so many updates of rows as the cube of its unknowns over this.
+constexpr double factored_in_an_update = 250;
+
+double cubed(double x)
+{
+    return x * x * x;
+}
+
 int unknowns(const Row& row, int state)
 {
     return state == sticks ? row.cone.size : state;
@@ -213,6 +221,7 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     bool changed = true;
     for (int round = 0; round < rounds_of_guesses && changed; ++round) {
         assemble(rows, bodies, work);
+        work.updates += cubed(static_cast<double>(work.W.rows())) / factored_in_an_update;
         if (work.W.size() > 0 && !solve_shifted(work)) {
             solve_orthogonally(work);
         }

@@ -140,7 +140,7 @@ double solve_impacts(const StepContext& context, const SubStep& sub, double time
         for (const Row& row : memory.rows) {
             counters.tangential_impacts += row.tangential ? 1 : 0;
         }
-        const bool enough = count >= sub.most_rounds || memory.solved_contacts > worth_rounds;
+        const bool enough = count >= sub.most_rounds || !is_worth_locating(memory);
         round.least = enough ? infinity : std::max(round.least, rattle * fastest(memory.rows));
     }
     counters.impacts += static_cast<long long>(context.log.size() - first);

@@ -104,7 +104,7 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
     double& worst = context.rigid.counters.worst_residual;
     const SubStep start{cluster, context.start, 0, slow, most_rounds};
     worst = std::max(worst, solve_impacts(context, start, context.start));
-    while (done < context.dt && context.memory.solved_contacts < worth_rounds) {
+    while (done < context.dt && is_worth_locating(context.memory)) {
         const double rest = context.dt - done;
         const double h =
             std::min(sub_step_length(context, cluster, rest), part_on_contacts(context, rest));
@@ -135,6 +135,7 @@ void advance(const StepContext& context, const Cluster& cluster)
 {
     context.memory.known = context.memory.forces;
     context.memory.solved_contacts = 0;
+    context.memory.updates = 0;
     const bool jam = cluster.pairs.size() > pairs_of_a_jam;
     const double done = jam ? 0 : locate_impacts(context, cluster);
     if (done < context.dt) {

@@ -16,8 +16,6 @@ constexpr double no_slip = 1e-4;
 constexpr double short_of = 1e-6;
 constexpr double more = 30;
 constexpr int most_tries = 8;
-// In piles other errors are larger, and some contact stops in every step.
-constexpr std::size_t most_contacts = 16;
 // A rest of sliding of this part of the sub-step is left to the next one.
 constexpr double settled = 1e-4;
 // Round-off of a slip that has stopped, as a part of what it was.
@@ -55,7 +53,7 @@ bool stops(const std::vector<Persistent>& contacts)
 void end_with_slip(const StepContext& context, SubStep& sub)
 {
     std::vector<Persistent>& contacts = context.memory.persistent;
-    if (contacts.size() > most_contacts || !stops(contacts)) {
+    if (contacts.size() > contacts_of_a_pile || !stops(contacts)) {
         return;
     }
     const double whole = sub.h;

@@ -12,6 +12,9 @@ namespace {
 constexpr std::size_t few_contacts = 24;
 constexpr int few_sweeps = 60;
 constexpr int sweeps_at_once = 20;
+// Updates of rows worth doing between two direct solutions; but so many sweeps in any case.
+constexpr std::size_t updates_in_turn = 2000;
+constexpr std::size_t fewest_sweeps = 60;
 // Contacts above which a dense direct solution costs more than the iteration.
 constexpr std::size_t dense_contacts = 60;
 
@@ -94,7 +97,9 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
     }
     const int tries = rows.size() <= dense_contacts ? effort.direct_tries : 0;
-    return solve_in_turns(rows, bodies, work, {tries, effort.sweeps, enough});
+    const std::size_t sweeps = std::max(fewest_sweeps, updates_in_turn / rows.size());
+    return solve_in_turns(rows, bodies, work,
+                          {tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough});
 }
 
 } // namespace hyoryu

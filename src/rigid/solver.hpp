@@ -32,6 +32,7 @@ struct SolverWork {
     std::vector<Vec3> impulses;    // after the last sweep
     std::vector<int> moved;        // bodies that are not held, sorted
     std::vector<Twist> velocities; // theirs after the last sweep
+    double updates = 0; // of rows, since this was set to zero: what solves cost, on any machine
 };
 
 /// What a solve may cost and what it may leave.

@@ -10,6 +10,17 @@ namespace hyoryu {
 /// they are closed early and the rest of the step goes without location: it bounds what a step may
 /// cost, above what single bodies, stacks and chains of balls need.
 inline constexpr std::size_t worth_rounds = 300;
+/// The same for the updates of rows by all solves of a cluster: what does not settle is not worth
+/// the solution to round-off that location needs.
+inline constexpr double worth_updates = 5000;
+inline bool is_worth_locating(const ContactMemory& memory)
+{
+    return memory.solved_contacts < worth_rounds && memory.updates < worth_updates;
+}
+
+/// Clusters of more contacts are piles, in which other errors are larger than those of a contact
+/// that stops sliding within a sub-step or of a body that turns on it.
+inline constexpr std::size_t contacts_of_a_pile = 8;
 
 /// Where smooth contacts take their arms and normals: at the middle and the end of the planned
 /// motion, in two passes, which is of second order; or as they are at the start, which is of first

@@ -117,6 +117,7 @@ double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, So
     double theta = 1;
     double change = infinity;
     for (int sweep = 1; sweep <= sweeps.most && change > sweeps.settled; ++sweep) {
+        work.updates += static_cast<double>(rows.size());
         for_each_row(work.colours,
                      [&](std::size_t k) { work.changes[k] = change_of(rows[k], bodies); });
         const double last = std::exchange(change, *std::ranges::max_element(work.changes));

@@ -49,11 +49,15 @@ double part_on_contacts(const StepContext& context, double rest)
                memory.responses[k].omega.norm() * memory.geometry.solids[k].reach >
                    settings.resting_speed;
     };
-    const bool any = std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
-        return !c.beyond && c.touch.gap <= settings.contact_tolerance &&
-               (turns(c.feature.a) || turns(c.feature.b));
-    });
-    if (!any) {
+    std::size_t touching = 0;
+    bool any = false;
+    for (const Candidate& c : memory.candidates) {
+        if (!c.beyond && c.touch.gap <= settings.contact_tolerance) {
+            ++touching;
+            any = any || turns(c.feature.a) || turns(c.feature.b);
+        }
+    }
+    if (!any || touching > contacts_of_a_pile) {
         return rest;
     }
     const double parts = std::ceil(parts_of_step * rest / context.dt - part_tolerance);

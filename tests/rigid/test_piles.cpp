@@ -137,7 +137,7 @@ TEST(Piles, HeapSettlesWithoutGainOfEnergyAndStaysInItsBasin)
 TEST(Piles, LockedHeapRestsWithoutOverlap)
 {
     Rigid rigid = heap(3, 6, 0.025);
-    run(rigid, 1e-3, 800);
+    run(rigid, 1e-3, 1200);
     rigid.counters.worst_penetration = 0;
     run(rigid, 1e-3, 50);
     EXPECT_GT(rigid.counters.capped_steps, 500); // a jam
