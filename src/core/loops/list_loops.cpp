@@ -2,8 +2,9 @@
 // Compiled once for each instruction set.
 #include "../list_loops.hpp"
 
+#include <bit>
 #include <cstring>
-#ifdef __AVX__
+#ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
@@ -105,23 +106,49 @@ constexpr Patterns make_patterns()
 }
 constexpr Patterns patterns = make_patterns();
 
-// One bit a lane that is at most the limit.
+// One bit a lane that is at most the limit; and the larger of two, lane by lane.
+#if defined __AVX__
 std::size_t within(const Floats& squared, float limit)
 {
     const Integers hit = squared <= limit;
-#ifdef __AVX__
     return static_cast<std::size_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(hit)));
-#else
-    Integers bits = hit & Integers{1, 2, 4, 8, 16, 32, 64, 128};
-    bits |= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 4, 5, 6, 7);
-    bits |= __builtin_shufflevector(bits, bits, 2, 3, 2, 3, 2, 3, 2, 3);
-    return static_cast<std::size_t>(bits[0] | bits[1]);
-#endif
 }
 Floats larger(const Floats& a, const Floats& b)
 {
     return a > b ? a : b;
 }
+#elif defined __SSE2__
+// By halves: what GCC 12 makes of comparisons wider than a register goes lane by lane.
+struct Halves {
+    __m128 low, high;
+};
+std::size_t within(const Floats& squared, float limit)
+{
+    const auto halves = std::bit_cast<Halves>(squared);
+    const auto hits = [&](const __m128& half) {
+        return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(half, _mm_set1_ps(limit))));
+    };
+    return hits(halves.low) | hits(halves.high) << 4;
+}
+Floats larger(const Floats& a, const Floats& b)
+{
+    const auto x = std::bit_cast<Halves>(a);
+    const auto y = std::bit_cast<Halves>(b);
+    return std::bit_cast<Floats>(Halves{_mm_max_ps(x.low, y.low), _mm_max_ps(x.high, y.high)});
+}
+#else
+std::size_t within(const Floats& squared, float limit)
+{
+    Integers bits = (squared <= limit) & Integers{1, 2, 4, 8, 16, 32, 64, 128};
+    bits |= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 4, 5, 6, 7);
+    bits |= __builtin_shufflevector(bits, bits, 2, 3, 2, 3, 2, 3, 2, 3);
+    return static_cast<std::size_t>(bits[0] | bits[1]);
+}
+Floats larger(const Floats& a, const Floats& b)
+{
+    return a > b ? a : b;
+}
+#endif
 
 // Appends first + k for the lanes k that are hit: eight places are written, the end moves on by the
 // hits.
