@@ -79,5 +79,23 @@ TEST(Direct, AMassRatioBeyondTheShiftIsSolvedAsWell)
     EXPECT_NEAR(rows[1].p[0] / ratio, 1, 1e-6);
 }
 
+TEST(Work, IsCountedInUpdatesOfRows)
+{
+    std::vector<Response> bodies{cube(1, 0), cube(1, 0)};
+    for (Response& body : bodies) {
+        body.v = {0, 0, -1};
+    }
+    const std::vector<Vec3> centres{{0, 0, 0.5}, {0, 0, 1.5}};
+    std::vector<Row> rows{contact(0, -1, {0, 0, 0}, centres, bodies),
+                          contact(1, 0, {0, 0, 1}, centres, bodies)};
+    SolverWork work;
+    accelerated_sweeps(rows, bodies, work, {3, 0}); // halve the error, and so go on
+    EXPECT_EQ(work.updates, 3 * 2);
+    guess_states(rows, work);
+    EXPECT_TRUE(solve_directly(rows, bodies, work));
+    EXPECT_GT(work.updates, 6); // by less than an update for two unknowns
+    EXPECT_LT(work.updates, 7);
+}
+
 } // namespace
 } // namespace hyoryu
