@@ -91,7 +91,7 @@ std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double t
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
         if (p.impulse.dot(p.touches.push.normal) > 0 && std::abs(touch.gap) < at_once) {
-            list.push_back({p.candidate.feature, 0, sub.arms == Arms::now});
+            list.push_back({.feature = p.candidate.feature, .may_be_wider = sub.arms == Arms::now});
         }
     }
     std::vector<Feature>& pressed = memory.pressed;
@@ -103,7 +103,8 @@ std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double t
     for (const Candidate& c : memory.candidates) {
         if (!c.beyond && c.touch.gap < overlapping &&
             !std::binary_search(pressed.begin(), pressed.end(), c.feature)) {
-            list.push_back({c.feature, aim(c.touch.gap), true});
+            list.push_back(
+                {.feature = c.feature, .wanted = aim(c.touch.gap), .may_be_wider = true});
         }
     }
     return list;

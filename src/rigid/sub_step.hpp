@@ -13,6 +13,7 @@ inline constexpr std::size_t worth_rounds = 300;
 /// The same for the updates of rows by all solves of a cluster: what does not settle is not worth
 /// the solution to round-off that location needs.
 inline constexpr double worth_updates = 5000;
+/// Whether the cluster in hand is below both.
 inline bool is_worth_locating(const ContactMemory& memory)
 {
     return memory.solved_contacts < worth_rounds && memory.updates < worth_updates;
