@@ -128,6 +128,7 @@ double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort
     parallel_blocks(0, static_cast<Index>(ends.size()), solve_small, worth);
     for (std::size_t island = 0; island < ends.size(); ++island) {
         memory.updates += memory.solvers[island].updates;
+        memory.given_up = memory.given_up || memory.solvers[island].given_up;
     }
     return ends.empty() ? 0 : *std::max_element(memory.left.begin(), memory.left.end());
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The direct solution of a contact problem with an active set: contacts stick, slide or are open.
+// The direct solution of a contact problem: Newton's method on the condition that every impulse is
+// the projection of p - r (u - u*) onto the friction cone (Alart and Curnier 1991), r an effective
+// mass. It comes down to an active set, contacts that stick, slide or are open, in which the
+// direction of sliding is an unknown, too.
 #include "solver.hpp"
 
 #include <Eigen/QR>
@@ -15,9 +18,9 @@ enum State { open = 0, slides = 1, sticks = 2 };
 
 // Changes of the active set after which the iteration takes over.
 constexpr int rounds_of_guesses = 4;
-// A sliding direction has settled when it turns by less [rad].
-constexpr double settled_direction = 1e-9;
-// An impulse this part below the cone lies on it.
+// A direction of sliding that turns by less has settled, since what is left is the square [rad].
+constexpr double settled_direction = 3e-8;
+// What is this part below the cone lies on it.
 constexpr double on_cone = 1e-9;
 // Relative rank tolerance of the redundant, symmetric problem (round-off times condition).
 constexpr double rank_tolerance = 1e-11;
@@ -38,38 +41,50 @@ double cubed(double x)
 
 int unknowns(const Row& row, int state)
 {
-    return state == sticks ? row.cone.size : state;
+    return state == sticks ? row.cone.size : state == slides ? row.cone.size == 3 ? 2 : 1 : 0;
 }
 
-// Column m of the impulses a contact may have in its state, in its axes.
+// Across the direction of sliding, in the tangent plane.
+Vec3 across(const Vec3& d)
+{
+    return {0, -d[2], d[1]};
+}
+
+// Unknown m of the impulse of a contact in its state, in its axes.
 Vec3 direction(const Row& row, int state, const Vec3& d, int m)
 {
-    return state == sticks ? Vec3(Vec3::Unit(m)) : Vec3(Vec3(1, 0, 0) - row.cone.mu * d);
+    if (state == sticks) {
+        return Vec3::Unit(m);
+    }
+    return m == 0 ? Vec3(Vec3(1, 0, 0) - row.cone.mu * d) : across(d);
 }
 
-// The change of velocity at row i for the impulse p of row j.
-Vec3 coupling(const Row& i, const Row& j, const Vec3& p, const std::vector<Response>& bodies)
+// The component of the velocity that equation m of a contact asks for.
+Vec3 asked(int state, const Vec3& d, int m)
 {
-    Vec3 u = Vec3::Zero();
-    const Vec3 P = j.B * p;
-    const auto add = [&](int body, const Vec3& seen, const Vec3& arm, double sign) {
-        const Response& r = bodies[body];
-        u += sign *
-             (r.inverse_mass.cwiseProduct(P) + (r.inverse_inertia * arm.cross(P)).cross(seen));
-    };
-    if (i.a == j.a) {
-        add(i.a, i.seen_a, j.arm_a, 1);
-    }
-    if (i.a == j.b) {
-        add(i.a, i.seen_a, j.arm_b, -1);
-    }
-    if (i.b >= 0 && i.b == j.a) {
-        add(i.b, i.seen_b, j.arm_a, -1);
-    }
-    if (i.b >= 0 && i.b == j.b) {
-        add(i.b, i.seen_b, j.arm_b, 1);
-    }
-    return i.D.transpose() * u;
+    return state == slides && m == 1 ? across(d) : Vec3(Vec3::Unit(m));
+}
+
+double tangential_mass(const Row& row)
+{
+    return 1 / row.cone.K(1, 1);
+}
+
+// The point of which friction is the projection onto the disc of radius mu p_n, turned round: the
+// direction in which the contact slides, if it does [N s].
+Vec3 sliding_point(const Row& row, const Vec3& u)
+{
+    const double r = tangential_mass(row);
+    return {0, r * u[1] - row.p[1], row.cone.size == 3 ? r * u[2] - row.p[2] : 0};
+}
+
+// How much of the direction across holds like that of a contact that sticks [1]; the rest yields
+// with the mass r: w u + (1 - w) q / r = 0 for the impulse q across.
+double part_held(const Row& row, const Vec3& u)
+{
+    const double cap = row.cone.mu * std::max(row.p[0], 0.0);
+    const double most = std::max(cap, sliding_point(row, u).norm());
+    return most > 0 ? cap / most : 1;
 }
 
 bool share_a_body(const Row& i, const Row& j)
@@ -77,36 +92,82 @@ bool share_a_body(const Row& i, const Row& j)
     return i.a == j.a || i.a == j.b || (i.b >= 0 && (i.b == j.a || i.b == j.b));
 }
 
-void assemble(std::span<Row> rows, const std::vector<Response>& bodies, SolverWork& work)
+Vec6 joined(const Vec3& linear, const Vec3& angular)
 {
-    int n = 0;
+    Vec6 both;
+    both << linear, angular;
+    return both;
+}
+
+// The velocities of a body that a unit of the impulse P on the arm leads to.
+Vec6 answer(const Response& body, const Vec3& arm, const Vec3& P)
+{
+    return joined(body.inverse_mass.cwiseProduct(P), body.inverse_inertia * arm.cross(P));
+}
+
+// Numbers the unknowns, and lays out what each does to its bodies and sees of them.
+void lay_out(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work)
+{
+    work.columns.clear();
+    work.unknowns.clear();
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        work.columns[k] = n;
-        n += unknowns(rows[k], work.states[k]);
+        const Row& row = rows[k];
+        const int state = work.states[k];
+        const Vec3& d = work.directions[k];
+        work.columns.push_back(static_cast<int>(work.unknowns.size()));
+        for (int m = 0; m < unknowns(row, state); ++m) {
+            const Vec3 P = row.B * direction(row, state, d, m);
+            const Vec3 n = row.D * asked(state, d, m);
+            Unknown unknown{answer(bodies[row.a], row.arm_a, P), Vec6::Zero(),
+                            joined(n, row.seen_a.cross(n)), Vec6::Zero()};
+            if (row.b >= 0) {
+                unknown.answer_b = -answer(bodies[row.b], row.arm_b, P);
+                unknown.sight_b = -joined(n, row.seen_b.cross(n));
+            }
+            work.unknowns.push_back(unknown);
+        }
     }
+    work.columns.push_back(static_cast<int>(work.unknowns.size()));
+}
+
+// The block of row i by row j.
+void couple(const Row& i, const Row& j, SolverWork& work, std::size_t at_i, std::size_t at_j)
+{
+    for (int m = work.columns[at_j]; m < work.columns[at_j + 1]; ++m) {
+        const Unknown& by = work.unknowns[m];
+        for (int r = work.columns[at_i]; r < work.columns[at_i + 1]; ++r) {
+            const Unknown& at = work.unknowns[r];
+            double w = 0;
+            w += i.a == j.a ? at.sight_a.dot(by.answer_a) : 0;
+            w += i.a == j.b ? at.sight_a.dot(by.answer_b) : 0;
+            w += i.b >= 0 && i.b == j.a ? at.sight_b.dot(by.answer_a) : 0;
+            w += i.b >= 0 && i.b == j.b ? at.sight_b.dot(by.answer_b) : 0;
+            work.W(r, m) = w;
+        }
+    }
+}
+
+void assemble(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work)
+{
+    lay_out(rows, bodies, work);
+    const auto n = static_cast<Index>(work.unknowns.size());
     work.W.setZero(n, n);
     work.rhs.setZero(n);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const int mi = unknowns(rows[i], work.states[i]);
-        if (mi == 0) {
-            continue;
-        }
-        Vec3 u = -work.momenta[i]; // velocity without any impulse
-        u[0] += rows[i].target;
-        for (int r = 0; r < mi; ++r) {
-            work.rhs[work.columns[i] + r] = u[r];
-        }
         for (std::size_t j = 0; j < rows.size(); ++j) {
-            if (!share_a_body(rows[i], rows[j])) {
-                continue;
+            if (share_a_body(rows[i], rows[j])) {
+                couple(rows[i], rows[j], work, i, j);
             }
-            for (int m = 0; m < unknowns(rows[j], work.states[j]); ++m) {
-                const Vec3 p = direction(rows[j], work.states[j], work.directions[j], m);
-                const Vec3 w = coupling(rows[i], rows[j], p, bodies);
-                for (int r = 0; r < mi; ++r) {
-                    work.W(work.columns[i] + r, work.columns[j] + m) = w[r];
-                }
-            }
+        }
+        const Vec3 change = Vec3(rows[i].target, 0, 0) - work.momenta[i];
+        const int first = work.columns[i];
+        for (int r = first; r < work.columns[i + 1]; ++r) {
+            work.rhs[r] = change.dot(asked(work.states[i], work.directions[i], r - first));
+        }
+        if (work.states[i] == slides && work.columns[i + 1] == first + 2) {
+            work.W.row(first + 1) *= work.held[i];
+            work.rhs[first + 1] *= work.held[i];
+            work.W(first + 1, first + 1) += (1 - work.held[i]) / tangential_mass(rows[i]);
         }
     }
 }
@@ -154,33 +215,41 @@ void apply(std::span<Row> rows, std::vector<Response>& bodies, const SolverWork&
     }
 }
 
-// The state a contact should have had, from its impulse and velocity.
-int better_state(const Row& row, const Vec3& u, int state, Vec3& d)
+// The state of a contact whose impulse and velocity these are; of one that slides, the direction.
+int state_of(const Row& row, const Vec3& u, double p_n, Vec3& d)
 {
-    if (state == open) {
-        return u[0] < row.target - solved_speed ? sticks : open;
-    }
-    if (row.p[0] < 0) {
+    if (p_n <= 0) {
         return open;
     }
-    Vec3 t = row.p;
-    t[0] = 0;
-    if (state == sticks) {
-        if (row.cone.size == 1 || t.norm() <= row.cone.mu * row.p[0]) {
-            return sticks;
-        }
-        d = -t.normalized();
-        return slides;
-    }
-    Vec3 slip(0, u[1], row.cone.size == 3 ? u[2] : 0);
-    if (slip.dot(d) < -solved_speed) {
+    const Vec3 y = sliding_point(row, u);
+    if (row.cone.size == 1 || y.norm() <= (1 - on_cone) * row.cone.mu * p_n) {
         return sticks;
     }
-    if (slip.norm() > solved_speed && (slip.normalized() - d).norm() > settled_direction) {
-        d = slip.normalized();
-        return slides + 2; // slides, in a new direction
-    }
+    d = y.normalized();
     return slides;
+}
+
+// Takes over the states that the solution shows; false if they are those that it was made with.
+bool improve_states(std::span<const Row> rows, const std::vector<Response>& bodies,
+                    SolverWork& work)
+{
+    bool changed = false;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Row& row = rows[k];
+        const Vec3 u = velocity(row, bodies);
+        const Vec3 last = work.directions[k];
+        const int now = work.states[k];
+        // What is shut has the normal velocity that it is asked for, up to round-off.
+        const double approach = row.target - u[0];
+        const double p_n = now != open               ? row.p[0]
+                           : approach > solved_speed ? approach / row.cone.K(0, 0)
+                                                     : 0;
+        work.states[k] = state_of(row, u, p_n, work.directions[k]);
+        work.held[k] = part_held(row, u);
+        changed = changed || work.states[k] != now ||
+                  (now == slides && (work.directions[k] - last).norm() > settled_direction);
+    }
+    return changed;
 }
 
 } // namespace
@@ -190,27 +259,24 @@ bool cold(std::span<const Row> rows)
     return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.p.isZero(0); });
 }
 
-void guess_states(std::span<const Row> rows, SolverWork& work)
+void guess_states(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work)
 {
     const bool unknown = cold(rows);
     work.states.clear();
+    work.held.clear();
     work.directions.assign(rows.size(), Vec3::Zero());
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        const Vec3& p = rows[k].p;
-        const Vec3 t(0, p[1], p[2]);
-        const bool inside =
-            rows[k].cone.size == 1 || t.norm() < (1 - on_cone) * rows[k].cone.mu * p[0];
-        work.states.push_back(unknown || (inside && p[0] > 0) ? sticks : p[0] > 0 ? slides : open);
-        if (work.states.back() == slides) {
-            work.directions[k] = -t.normalized();
-        }
+        const Row& row = rows[k];
+        const Vec3 u = velocity(row, bodies);
+        const double p_n = row.p[0] + (row.target - u[0]) / row.cone.K(0, 0);
+        work.states.push_back(unknown ? static_cast<int>(sticks)
+                                      : state_of(row, u, p_n, work.directions[k]));
+        work.held.push_back(part_held(row, u));
     }
 }
 
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
-    const std::size_t n = rows.size();
-    work.columns.assign(n, 0);
     work.momenta.clear();
     for (Row& row : rows) {
         push(row, -row.p, bodies);
@@ -225,15 +291,11 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
         if (work.W.size() > 0 && !solve_shifted(work)) {
             solve_orthogonally(work);
         }
-        apply(rows, bodies, work);
-        changed = false;
-        for (std::size_t k = 0; k < n; ++k) {
-            const int now = work.states[k];
-            const int next =
-                better_state(rows[k], velocity(rows[k], bodies), now, work.directions[k]);
-            changed = changed || next != now;
-            work.states[k] = next > sticks ? static_cast<int>(slides) : next;
+        if (!work.solution.allFinite()) {
+            return false; // the impulses of the round before stay
         }
+        apply(rows, bodies, work);
+        changed = improve_states(rows, bodies, work);
     }
     return !changed;
 }

@@ -80,6 +80,7 @@ struct ContactMemory {
     bool jammed = false;             // a cluster of this step went on without location
     std::size_t solved_contacts = 0; // by the impacts of the cluster in this step, round by round
     double updates = 0;              // of rows, by all solves of the cluster in this step
+    bool given_up = false;           // a solve of the cluster in this step
     std::vector<int> entries;        // in the log, of each candidate; -1 if none
     std::vector<int> parents, island_of_root, island_of_row;
     std::vector<SolverWork> solvers; // of each island

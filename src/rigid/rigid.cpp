@@ -18,6 +18,8 @@ namespace {
 constexpr int most_rounds = 50;
 // A cluster of more pairs than this is a jam from the start.
 constexpr std::size_t pairs_of_a_jam = 10;
+// A pile at rest or sliding knows its forces to a thousandth from step to step.
+constexpr Effort located_effort{.unrest = 1e-2};
 
 void fly(const StepContext& context, const Cluster& cluster)
 {
@@ -108,11 +110,14 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
         const double rest = context.dt - done;
         const double h =
             std::min(sub_step_length(context, cluster, rest), part_on_contacts(context, rest));
-        SubStep sub{cluster, context.start + done, h, slow, most_rounds};
+        SubStep sub{cluster, context.start + done, h, slow, most_rounds, {}, located_effort};
         plan_motion(context, sub);
         end_with_part(context, sub, rest);
         end_with_turn(context, sub);
         end_with_slip(context, sub);
+        if (context.memory.given_up) {
+            break;
+        }
         const double s = first_event(context, sub);
         const double now = sub.time + s;
         move_to(context, sub, s);
@@ -136,6 +141,7 @@ void advance(const StepContext& context, const Cluster& cluster)
     context.memory.known = context.memory.forces;
     context.memory.solved_contacts = 0;
     context.memory.updates = 0;
+    context.memory.given_up = false;
     const bool jam = cluster.pairs.size() > pairs_of_a_jam;
     const double done = jam ? 0 : locate_impacts(context, cluster);
     if (done < context.dt) {

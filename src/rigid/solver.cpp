@@ -49,7 +49,7 @@ double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     for (const Row& row : rows) {
         work.start.push_back(row.p);
     }
-    guess_states(rows, work);
+    guess_states(rows, bodies, work);
     solve_directly(rows, bodies, work);
     const double left_directly = residual(rows, bodies);
     if (left_directly <= left) {
@@ -80,6 +80,7 @@ double solve_in_turns(std::span<Row> rows, std::vector<Response>& bodies, Solver
 double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
              const Effort& effort)
 {
+    work.given_up = false;
     if (rows.size() == 1) {
         gauss_seidel(rows, bodies, {1, 0});
         return 0;
@@ -91,7 +92,13 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
             return change;
         }
     }
-    const double part = effort.enough * change_asked(rows);
+    const double asked = change_asked(rows);
+    work.given_up = rows.size() > contacts_of_a_pile && effort.unrest < infinity && !cold(rows) &&
+                    residual(rows, bodies) > effort.unrest * asked;
+    if (work.given_up) {
+        return 0;
+    }
+    const double part = effort.enough * asked;
     const double enough = alone ? solved_speed : std::max(part, solved_speed);
     if (cold(rows)) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});

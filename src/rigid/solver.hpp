@@ -16,6 +16,14 @@ struct Twist {
     Vec3 omega{0, 0, 0}; // [rad/s]
 };
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// An unknown impulse of the direct solution: the velocities (v, omega) that a unit of it gives to
+/// the two bodies of its contact, and what its equation sees of theirs.
+struct Unknown {
+    Vec6 answer_a, answer_b, sight_a, sight_b;
+};
+
 /// Scratch of the solvers, kept between calls.
 struct SolverWork {
     Eigen::PartialPivLU<Eigen::MatrixXd> factor;
@@ -24,16 +32,24 @@ struct SolverWork {
     Eigen::VectorXd solution;
     Eigen::VectorXd left_over;
     std::vector<int> states;
-    std::vector<int> columns;
+    std::vector<int> columns; // where the unknowns of each row begin, and the end
+    std::vector<Unknown> unknowns;
     std::vector<Vec3> directions, momenta;
+    std::vector<double> held; // of what moves across each direction of sliding [1]
     Colours colours;
     std::vector<double> changes;   // of each row in a sweep [m/s]
     std::vector<Vec3> start;       // of the sweep, momentum included
     std::vector<Vec3> impulses;    // after the last sweep
     std::vector<int> moved;        // bodies that are not held, sorted
     std::vector<Twist> velocities; // theirs after the last sweep
-    double updates = 0; // of rows, since this was set to zero: what solves cost, on any machine
+    double updates = 0;    // of rows, since this was set to zero: what solves cost, on any machine
+    bool given_up = false; // the last solve
 };
+
+/// Islands of more contacts are piles. Of those that rattle nine in ten do not settle in a direct
+/// solution, and other errors are larger than that of a contact that stops sliding within a
+/// sub-step or of a body that turns on it.
+inline constexpr std::size_t contacts_of_a_pile = 8;
 
 /// What a solve may cost and what it may leave.
 struct Effort {
@@ -41,15 +57,18 @@ struct Effort {
     double enough = 1e-6;
     int direct_tries = 2; // direct solutions of a small island, each before sweeps
     int sweeps = 300;     // in each turn
+    /// A pile whose known impulses leave more than this part of that change is given up before it
+    /// is solved: it rattles, and a solution this good takes long and is of no use to it [1].
+    double unrest = infinity;
 };
 
 /// Solves normal velocity >= target, impulse >= 0, Coulomb friction for all rows together, from the
 /// impulses the rows hold (already applied to the bodies). Returns the largest speed by which a
-/// contact still wants to change [m/s]. A row that met a Painleve configuration has `tangential`
-/// set.
+/// contact still wants to change [m/s], zero if it gave up. A row that met a Painleve configuration
+/// has `tangential` set.
 ///
 /// One body and few contacts: Gauss-Seidel with exact local solutions. Otherwise the active-set
-/// direct solution (all stick at first, then with sliding and open contacts set aside), which is
+/// direct solution (Newton's method, to the square of what it was off in each round), which is
 /// blind to mass ratios, in turns with accelerated Gauss-Seidel sweeps. Islands too large for that:
 /// the sweeps alone.
 double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
@@ -64,8 +83,8 @@ struct Sweeps {
 double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sweeps& sweeps);
 /// Whether no impulse is known yet.
 bool cold(std::span<const Row> rows);
-/// The states that the impulses of the rows show; all stick if there are none yet.
-void guess_states(std::span<const Row> rows, SolverWork& work);
+/// The states that impulses and velocities show; all stick if there are no impulses yet.
+void guess_states(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
 /// From the states in `work`; false if they did not settle.
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
 /// Sweeps with Nesterov's momentum and its restart (O'Donoghue and Candes 2015), which settle high

@@ -19,10 +19,6 @@ inline bool is_worth_locating(const ContactMemory& memory)
     return memory.solved_contacts < worth_rounds && memory.updates < worth_updates;
 }
 
-/// Clusters of more contacts are piles, in which other errors are larger than those of a contact
-/// that stops sliding within a sub-step or of a body that turns on it.
-inline constexpr std::size_t contacts_of_a_pile = 8;
-
 /// Where smooth contacts take their arms and normals: at the middle and the end of the planned
 /// motion, in two passes, which is of second order; or as they are at the start, which is of first
 /// order but keeps the contact problem symmetric, so that no solution of it, however rough, gains
