@@ -62,9 +62,8 @@ double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 // Direct solutions and sweeps take turns: the sweeps find which contacts stick, slide and open,
 // which the direct solution takes up (Silcowitz, Niebe and Erleben 2010).
 double solve_in_turns(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
-                      const Turns& turns)
+                      const Turns& turns, double left)
 {
-    double left = residual(rows, bodies);
     for (int k = 0; k <= turns.direct_tries && left > turns.enough; ++k) {
         left = k < turns.direct_tries ? try_directly(rows, bodies, work, left) : left;
         if (left > turns.enough) {
@@ -73,6 +72,21 @@ double solve_in_turns(std::span<Row> rows, std::vector<Response>& bodies, Solver
         }
     }
     return left;
+}
+
+// Takes away known impulses that leave more to do than none at all, as those of a blow that was
+// taken up in the last moment of a step. Returns what is left.
+double drop_bad_guess(std::span<Row> rows, std::vector<Response>& bodies, double asked)
+{
+    const double left = residual(rows, bodies);
+    if (cold(rows) || left <= asked) {
+        return left;
+    }
+    for (Row& row : rows) {
+        push(row, -row.p, bodies);
+        row.p.setZero();
+    }
+    return residual(rows, bodies);
 }
 
 } // namespace
@@ -93,20 +107,21 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         }
     }
     const double asked = change_asked(rows);
-    work.given_up = rows.size() > contacts_of_a_pile && effort.unrest < infinity && !cold(rows) &&
-                    residual(rows, bodies) > effort.unrest * asked;
+    double left = drop_bad_guess(rows, bodies, asked);
+    const bool unknown = cold(rows);
+    work.given_up = !unknown && rows.size() > contacts_of_a_pile && left > effort.unrest * asked;
     if (work.given_up) {
         return 0;
     }
-    const double part = effort.enough * asked;
-    const double enough = alone ? solved_speed : std::max(part, solved_speed);
-    if (cold(rows)) {
+    const double enough = alone ? solved_speed : std::max(effort.enough * asked, solved_speed);
+    if (unknown) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
+        left = residual(rows, bodies);
     }
     const int tries = rows.size() <= dense_contacts ? effort.direct_tries : 0;
     const std::size_t sweeps = std::max(fewest_sweeps, updates_in_turn / rows.size());
-    return solve_in_turns(rows, bodies, work,
-                          {tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough});
+    const Turns turns{tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
+    return solve_in_turns(rows, bodies, work, turns, left);
 }
 
 } // namespace hyoryu

@@ -164,6 +164,21 @@ TEST(Solve, GivesUpOnAPileWhoseKnownImpulsesAreOff)
     }
 }
 
+TEST(Solve, DropsKnownImpulsesThatAreWorseThanNone)
+{
+    const Effort rough{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
+    Pile cold;
+    Pile misled;
+    misled.push_all(1e4); // the impulses of a blow
+    SolverWork work;
+    const double left = solve(cold.rows, cold.bodies, work, rough);
+    EXPECT_NEAR(solve(misled.rows, misled.bodies, work, rough), left, 1e-12);
+    for (std::size_t k = 0; k < cold.bodies.size(); ++k) {
+        // round-off of the 100 m/s that the impulses led to
+        EXPECT_LT((misled.bodies[k].v - cold.bodies[k].v).norm(), 1e-12);
+    }
+}
+
 TEST(Work, IsCountedInUpdatesOfRows)
 {
     std::vector<Response> bodies{cube(1, 0), cube(1, 0)};
