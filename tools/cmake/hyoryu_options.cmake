@@ -34,6 +34,10 @@ if(HYORYU_SANITIZE)
     -fsanitize=${HYORYU_SANITIZE} -fno-omit-frame-pointer -Wno-error)
   target_link_options(hyoryu_options INTERFACE -fsanitize=${HYORYU_SANITIZE})
 endif()
+if(HYORYU_FUZZER) # what it counts, in all we compile; what drives it, in its targets alone
+  target_compile_options(hyoryu_options INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(hyoryu_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
 # The instruction sets of the hot loops, by the bytes of a register: those of this machine, or, where
