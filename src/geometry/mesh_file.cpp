@@ -58,7 +58,8 @@ bool finite_corner(std::istringstream& line)
 }
 
 /// The corner, texture and normal numbers of one face exist ("3", "3/1", "3/1/2", "3//2"; negative
-/// ones count back). VTK follows them wherever they lead.
+/// ones count back). VTK follows them wherever they lead, and looks for a number behind a slash in
+/// the next word, too.
 bool face_fits(std::istringstream& line, const std::array<long long, 3>& counts)
 {
     for (std::string word; line >> word;) {
@@ -73,7 +74,7 @@ bool face_fits(std::istringstream& line, const std::array<long long, 3>& counts)
                 (fault != std::errc{} || number == 0 || std::abs(number) > counts[kind])) {
                 return false;
             }
-            if (stop != end && *stop != '/') {
+            if (stop != end && (*stop != '/' || stop + 1 == end)) {
                 return false;
             }
             at = stop == end ? end : stop + 1;

@@ -57,23 +57,13 @@ void read_point_gauge(TableReader& table, Gauge& gauge)
     }
 }
 
-Vec3 read_normal(TableReader& table)
-{
-    const Vec3 normal = table.planar("normal");
-    if (table.has("normal") && !(normal.norm() > 0)) {
-        table.error("normal", "has no direction");
-        return Vec3::UnitX();
-    }
-    return normal.normalized();
-}
-
 void read_face(TableReader& table, Gauge& gauge)
 {
     gauge.area = table.find_number("area").value_or(0);
     if (table.has("area") || table.has("normal")) {
         table.require("area");
         table.require("normal");
-        gauge.normal = read_normal(table);
+        gauge.normal = table.find_direction("normal").value_or(gauge.normal);
     }
 }
 
@@ -109,7 +99,7 @@ Gauge read_gauge(TableReader& table, const Scene& scene, std::size_t number)
     if (type == "pressure") {
         read_face(table, gauge);
     } else if (type == "flux") {
-        gauge.normal = read_normal(table);
+        gauge.normal = table.find_direction("normal").value_or(gauge.normal);
     }
     read_filter(table, gauge);
     if (!scene.fluid && !type.empty() && type != "force") {

@@ -22,15 +22,7 @@ PlaneWall read_plane(TableReader& table)
 {
     PlaneWall plane;
     plane.point = table.planar("point");
-    const auto normal = table.find_planar("normal");
-    const double norm = normal ? normal->norm() : 1;
-    if (!(norm > 0) || !std::isfinite(norm)) {
-        table.error("normal", "has no direction");
-    } else if (normal) {
-        // A normal that this program wrote is a unit up to rounding and is taken bit by bit.
-        constexpr double rounding = 1e-14;
-        plane.normal = std::abs(sq(norm) - 1) < rounding ? *normal : Vec3(normal->normalized());
-    }
+    plane.normal = table.find_direction("normal").value_or(plane.normal);
     return plane;
 }
 

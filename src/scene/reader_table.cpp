@@ -324,4 +324,20 @@ std::optional<Vec3> TableReader::find_planar(std::string_view key)
     return value;
 }
 
+std::optional<Vec3> TableReader::find_direction(std::string_view key)
+{
+    const auto direction = find_planar(key);
+    if (!direction) {
+        return std::nullopt;
+    }
+    const double norm = direction->norm();
+    if (!(norm > 0) || !std::isfinite(norm)) {
+        error(key, "has no direction");
+        return std::nullopt;
+    }
+    // One that this program wrote is a unit up to rounding and is taken bit by bit.
+    constexpr double rounding = 1e-14;
+    return std::abs(sq(norm) - 1) < rounding ? *direction : Vec3(direction->normalized());
+}
+
 } // namespace hyoryu

@@ -67,6 +67,8 @@ public:
     /// A vector in space: its y is zero in two dimensions.
     std::optional<Vec3> find_planar(std::string_view key);
     Vec3 planar(std::string_view key) { return find_planar(key).value_or(Vec3(0, 0, 0)); }
+    /// The unit vector along it; a mistake if it has no direction.
+    std::optional<Vec3> find_direction(std::string_view key);
 
     TableReader table(std::string_view key);
     std::vector<TableReader> tables(std::string_view key);

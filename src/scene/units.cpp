@@ -145,7 +145,7 @@ int take_power(std::string_view& text)
     }
     text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
     constexpr int highest = 9;
-    return std::abs(power) <= highest ? power : 0;
+    return -highest <= power && power <= highest ? power : 0;
 }
 
 std::string units_that_fit(std::string_view expected)

@@ -20,6 +20,7 @@
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkTriangleFilter.h>
+#include <vtksys/SystemTools.hxx>
 #endif
 
 #include <string>
@@ -89,6 +90,17 @@ void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
     }
 }
 
+/// VTK tells text from binary by its own rule. What it takes for binary against ours has its number
+/// of triangles in the midst of the text, and VTK asks for memory for as many.
+void check_text(const std::filesystem::path& file)
+{
+    using vtksys::SystemTools;
+    if (SystemTools::DetectFileType(file.c_str()) != SystemTools::FileTypeText) {
+        refuse(file, "is a text with so many letters beyond ASCII near its start that it would be "
+                     "read as binary; give it a plain name behind `solid`");
+    }
+}
+
 /// The faces of a file as the reader finds them.
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read_surface(const std::filesystem::path& file)
@@ -142,6 +154,9 @@ void turn_if_inside_out(Mesh& mesh)
 Mesh read_mesh(const std::filesystem::path& file, double scale)
 {
     const MeshKind kind = mesh_kind(file);
+    if (kind == MeshKind::stl_text) {
+        check_text(file);
+    }
     const auto surface =
         kind == MeshKind::obj ? read_surface<vtkOBJReader>(file) : read_surface<vtkSTLReader>(file);
     Mesh mesh = to_mesh(*cleaned(*surface), scale);

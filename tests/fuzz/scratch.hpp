@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A folder of its own for targets that read files.
+// A folder of its own for targets that read files: in memory where there is such a place, because
+// what writes a checkpoint waits for the disk.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ namespace hyoryu::testing {
 class Scratch {
 public:
     Scratch()
-        : folder_(std::filesystem::temp_directory_path() /
+        : folder_((std::filesystem::exists("/dev/shm") ? std::filesystem::path("/dev/shm")
+                                                       : std::filesystem::temp_directory_path()) /
                   ("hyoryu-fuzz-" + std::to_string(::getpid())))
     {
         std::filesystem::create_directories(folder_);

@@ -182,12 +182,25 @@ TEST_F(MeshFile, OfGarbageIsRefusedInSilence)
     EXPECT_NE(refusal(write("c.obj", "v 1 2\nf 1 2 3\nf 9 9 9\n")), "");
     EXPECT_NE(refusal(write("d.obj", std::string(1000, '\0'))), "");
     EXPECT_NE(refusal(write("e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n")), "");
+    EXPECT_NE(refusal(write("i.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2/ 3\n")), "");
     EXPECT_NE(refusal(write("f.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "");
     EXPECT_NE(refusal(write("h.obj", "v 0 0 1e999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).find("line 1"),
               std::string::npos);
     EXPECT_NE(refusal(write("g.stl", "solid binary" + binary_stl(4, outward).substr(12) + "x")),
               "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(MeshFile, OfTextThatVtkTakesForBinaryIsRefused)
+{
+    std::string name; // more of it than the twentieth part of 256 bytes that VTK lets pass
+    for (int k = 0; k < 5; ++k) {
+        name += "\u6f02";
+    }
+    const std::string text = text_stl(outward);
+    EXPECT_NE(refusal(write("a.stl", "solid " + name + text.substr(5))).find("plain name"),
+              std::string::npos);
+    EXPECT_EQ(refusal(write("b.stl", "solid \u6f02" + text.substr(5))), "");
 }
 
 TEST_F(MeshFile, BinaryWithATextualHeaderIsRead)

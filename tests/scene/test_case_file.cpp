@@ -137,6 +137,27 @@ position = [9, 0, 1]
     EXPECT_EQ(to_toml(parse_case(written, "case.toml")), written);
 }
 
+TEST(CaseFile, NormalsOfGaugesSurviveWriting)
+{
+    const std::string text = R"(
+dimensions = 2
+[time]
+end = 1
+[particles]
+spacing = 0.1
+[[fluid.block]]
+shape = "box"
+min = [0, 0, 0]
+max = [1, 0, 1]
+[[gauge]]
+type = "flux"
+at = [1, 0, 0]
+normal = [1, 0, 0.5]
+)"; // its unit vector, made a unit vector once more, differs in the last bit
+    const std::string written = to_toml(parse_case(text, "case.toml"));
+    EXPECT_EQ(to_toml(parse_case(written, "case.toml")), written);
+}
+
 TEST(CaseFile, WrittenCaseReadsBackBitByBit)
 {
     const Scene scene = parse_case(full_case, "case.toml");

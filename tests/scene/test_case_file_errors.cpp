@@ -167,6 +167,8 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "is missing", ""},
         {"[[gauge]]\ntype = \"flux\"\nat = [1, 2, 3]\nnormal = [0, 0, 0]\n", 4, 10, 9,
          "gauge[0].normal", "has no direction", ""},
+        {"[[gauge]]\ntype = \"flux\"\nat = [1, 2, 3]\nnormal = [0, 0, 1e200]\n", 4, 10, 13,
+         "gauge[0].normal", "has no direction", ""},
         {"[[gauge]]\ntype = \"front\"\nfilter = \"mean\"\n", 1, 1, 9, "gauge[0].window",
          "is missing", ""},
         {"[[gauge]]\ntype = \"front\"\nwindow = 1\n", 3, 1, 6, "gauge[0].window", "no meaning", ""},

@@ -41,8 +41,8 @@ TEST(Units, NonsenseIsRefused)
         EXPECT_NE(parse_quantity(text, "m").fault.find("expected a number"), std::string::npos)
             << text;
     }
-    for (const char* text :
-         {"1 xx", "1 m//s", "1 m^", "1 m^99", "1 m^0", "1 m(", "1 /s/", "1 5", "1 m..s"}) {
+    for (const char* text : {"1 xx", "1 m//s", "1 m^", "1 m^99", "1 m^-2147483648", "1 m^0", "1 m(",
+                             "1 /s/", "1 5", "1 m..s"}) {
         EXPECT_NE(parse_quantity(text, "m").fault.find("unknown unit"), std::string::npos) << text;
     }
     EXPECT_NE(parse_quantity("12 ", "m").fault.find("no unit"), std::string::npos);

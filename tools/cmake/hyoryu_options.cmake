@@ -13,6 +13,8 @@ target_compile_options(hyoryu_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Wpedantic $<$<BOOL:${HYORYU_STRICT}>:-Werror>
   # Members left out of a designated initialiser take their defaults; that is the point of them.
   -Wno-missing-field-initializers
+  # In C++ GCC leaves these out of -Wconversion, as Eigen counts with signs and the standard library without.
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
   # GCC 12 takes the vectorised tail of Eigen's three-vectors for reads and writes past their end.
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>
   # Its own AVX-512 intrinsics begin from registers left undefined on purpose, and it warns of them.
@@ -29,10 +31,16 @@ if(HYORYU_NATIVE)
   target_compile_options(hyoryu_options INTERFACE -march=native)
 endif()
 if(HYORYU_SANITIZE)
-  # The code that sanitizers add leads GCC to warn of what it put there itself.
+  # The code that sanitizers add leads GCC to warn of what it put there itself. Two kinds of undefined
+  # behaviour are left out that the address sanitizer sees, too: they cost a third of the build.
   target_compile_options(hyoryu_options INTERFACE
-    -fsanitize=${HYORYU_SANITIZE} -fno-omit-frame-pointer -Wno-error)
+    -fsanitize=${HYORYU_SANITIZE} -fno-sanitize=null,object-size -fno-sanitize-recover=all
+    -fno-omit-frame-pointer -Wno-error)
   target_link_options(hyoryu_options INTERFACE -fsanitize=${HYORYU_SANITIZE})
+endif()
+if(HYORYU_FUZZER) # what it counts, in all we compile; what drives it, in its targets alone
+  target_compile_options(hyoryu_options INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(hyoryu_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
