@@ -15,6 +15,8 @@ constexpr int sweeps_at_once = 20;
 // Updates of rows worth doing between two direct solutions; but so many sweeps in any case.
 constexpr std::size_t updates_in_turn = 2000;
 constexpr std::size_t fewest_sweeps = 60;
+// After so many turns all known impulses are dropped, as a pile of bodies drops them one by one.
+constexpr int turns_of_dropping = 3;
 // Contacts above which a dense direct solution costs more than the iteration.
 constexpr std::size_t dense_contacts = 60;
 
@@ -74,19 +76,33 @@ double solve_in_turns(std::span<Row> rows, std::vector<Response>& bodies, Solver
     return left;
 }
 
-// Takes away known impulses that leave more to do than none at all, as those of a blow that was
-// taken up in the last moment of a step. Returns what is left.
-double drop_bad_guess(std::span<Row> rows, std::vector<Response>& bodies, double asked)
+// What a known impulse adds to the function that the solution without friction is the least of,
+// p.(u_free + u)/2 - p_n u*, and which is zero without impulses [J].
+double share_of_guess(const Row& row, const std::vector<Response>& bodies)
 {
-    const double left = residual(rows, bodies);
-    if (cold(rows) || left <= asked) {
-        return left;
+    return row.p.dot(0.5 * (row.before + velocity(row, bodies)) - Vec3(row.target, 0, 0));
+}
+
+// Where the known impulses are worse than none, takes those away that make them so, and those that
+// do then, and so on: a blow that was taken up in the last moment of a step looks like a huge force
+// in the next.
+void drop_bad_guess(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
+{
+    double sum = 1;
+    for (int turn = 0; sum > 0; ++turn) {
+        sum = 0;
+        work.changes.clear();
+        for (const Row& row : rows) {
+            work.changes.push_back(share_of_guess(row, bodies));
+            sum += work.changes.back();
+        }
+        for (std::size_t k = 0; k < rows.size() && sum > 0; ++k) {
+            if (work.changes[k] > 0 || turn == turns_of_dropping) {
+                push(rows[k], -rows[k].p, bodies);
+                rows[k].p.setZero();
+            }
+        }
     }
-    for (Row& row : rows) {
-        push(row, -row.p, bodies);
-        row.p.setZero();
-    }
-    return residual(rows, bodies);
 }
 
 } // namespace
@@ -107,17 +123,17 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         }
     }
     const double asked = change_asked(rows);
-    double left = drop_bad_guess(rows, bodies, asked);
-    const bool unknown = cold(rows);
-    work.given_up = !unknown && rows.size() > contacts_of_a_pile && left > effort.unrest * asked;
+    double left = residual(rows, bodies);
+    work.given_up = rows.size() > contacts_of_a_pile && !cold(rows) && left > effort.unrest * asked;
     if (work.given_up) {
         return 0;
     }
+    drop_bad_guess(rows, bodies, work);
     const double enough = alone ? solved_speed : std::max(effort.enough * asked, solved_speed);
-    if (unknown) {
+    if (cold(rows)) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
-        left = residual(rows, bodies);
     }
+    left = residual(rows, bodies);
     const int tries = rows.size() <= dense_contacts ? effort.direct_tries : 0;
     const std::size_t sweeps = std::max(fewest_sweeps, updates_in_turn / rows.size());
     const Turns turns{tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
