@@ -24,7 +24,7 @@ struct SolidPose {
 SolidPose pose_of(const Vec3& x, const Quat& q);
 
 /// A half-space of a boundary at time 0; it holds points within [lower, upper] only, and only while
-/// they are less than `slack` reaches of their body behind it or it cuts them off from the centre.
+/// they are less than `slack` reaches of their body behind it.
 struct HalfSpace {
     int side = 0;
     Vec3 normal{0, 0, 1};

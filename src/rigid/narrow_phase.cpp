@@ -23,26 +23,14 @@ bool past(const HalfSpace& plane, const ContactWall& wall, const Vec3& point, do
     return ((p - plane.lower).array() < 0).any() || ((p - plane.upper).array() > 0).any();
 }
 
-// Whether the side goes between the centre of a body and a point of it. A convex body that has its
-// centre in front is then in the side, however deep, and not over its edge.
-bool cuts_off(const HalfSpace& plane, const ContactWall& wall, const Vec3& centre,
-              const Touch& touch, double time)
-{
-    const double ahead = touch.gap + touch.normal.dot(centre - touch.point);
-    const double part = ahead / (ahead - touch.gap);
-    return ahead > 0 && !past(plane, wall, centre + part * (touch.point - centre), time);
-}
-
 void add_to_plane(const Feature& feature, const HalfSpace& plane, const Configuration& at,
                   std::vector<Candidate>& found)
 {
     const Touch touch = touch_of(feature, at);
-    const ContactWall& wall = at.geometry.walls[-1 - feature.b];
-    if (past(plane, wall, touch.point, at.time)) {
+    if (past(plane, at.geometry.walls[-1 - feature.b], touch.point, at.time)) {
         return;
     }
-    const bool beyond = touch.gap < -plane.slack * at.geometry.solids[feature.a].reach &&
-                        !cuts_off(plane, wall, at.poses[feature.a].x, touch, at.time);
+    const bool beyond = touch.gap < -plane.slack * at.geometry.solids[feature.a].reach;
     found.push_back({feature, touch, beyond});
 }
 

@@ -20,8 +20,6 @@ namespace {
 constexpr double worst_compression = 1.0;
 // Nothing in the flow can be faster than its sound without the run being lost.
 constexpr double fastest_over_sound = 2;
-// Overlap over the inner radius of the thinnest body: contact that is sound leaves a hundredth.
-constexpr double worst_overlap = 0.5;
 // Gain of energy over that of motion and compression, and over the scale of the scene, from which
 // on a run is lost. The hard cases gain 6 % at most at twice the step; what blows up passes a fifth
 // within a few steps, and may have fallen below it again at the next frame.
@@ -101,7 +99,7 @@ void watch_bodies(const Simulation& sim)
                    "probably its mass or a load on it is extreme; compare it with its neighbours");
         }
     }
-    if (sim.rigid.counters.worst_penetration > worst_overlap * sim.thinnest) {
+    if (sim.rigid.counters.worst_penetration > sim.thinnest) {
         const Overlap deepest = deepest_overlap(sim);
         report(sim, deepest.pair, fmt::format("they overlap by {:.4g} m", deepest.depth),
                sim.clock.step <= 1 ? "they overlap at the start"

@@ -205,13 +205,6 @@ class Runs(ProgramTest):
         summary = json.loads((self.dir / "out" / "summary.json").read_text())
         self.assertEqual(summary["exit_reason"], "numerical error")
 
-    def test_a_body_without_room_is_named_and_the_last_good_state_kept(self):
-        case = CASES / "hard_crushed_box" / "case.toml"
-        done = self.call("run", case, "-o", "out", "--set", "time.end=1.2", "--threads", "1")
-        self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertRegex(done.stderr, r't = 1\.\d+.*body "box" and wall "(ram|basin)".*overlap.*leaves them no room')
-        self.assertTrue((self.dir / "out" / "checkpoint.h5").exists())
-
     def test_render_makes_pictures(self):
         self.run_flood("out")
         done = self.call("render", "out", "--times", "0,0.5", "--width", "320", "--height", "240")

@@ -165,22 +165,5 @@ TEST(Basin, FlushCornerKeepsTheBoxFromTurning)
     EXPECT_LE(angular_velocity(rigid.bodies[0]).norm(), 1e-9);
 }
 
-TEST(Basin, ABodyInItsSideIsNotTakenForOneOutside)
-{
-    Rigid rigid = scene(0.4, 0.3);
-    Basin basin{{-1, -1, 0}, {1, 1, 1}};
-    basin.open[5] = true;
-    rigid.boundaries.push_back({"tank", basin});
-    rigid.bodies.push_back(box(Vec3::Constant(0.2), 500, {0.98, 0, 0.5}));
-    Body& body = rigid.bodies[0];
-    EXPECT_NEAR(overlap(rigid, 0, -1, 0), 0.08, 1e-12); // the centre is in front
-    body.position.x() = 1.08;
-    EXPECT_LE(overlap(rigid, 0, -1, 0), 0); // the centre is behind, 0.02 m are left to pass
-    // A long box lies over the rim: its end is lower than the rim, its middle above.
-    body = box({1, 0.2, 0.1}, 500, {0.98, 0, 1.1});
-    body.orientation = Quat(Eigen::AngleAxisd(0.6, Vec3::UnitY()));
-    EXPECT_LE(overlap(rigid, 0, -1, 0), 0);
-}
-
 } // namespace
 } // namespace hyoryu

@@ -111,9 +111,9 @@ TEST(Watch, SolidsThatRunIntoEachOtherAreNamed)
 {
     Simulation sim = make(crates);
     advance(sim, 3);
-    sim.rigid.bodies[1].position.x() = 0.12; // 0.08 m into the other, whose inner radius is 0.1 m
+    sim.rigid.bodies[1].position.x() = 0.05; // 0.15 m into the other, whose inner radius is 0.1 m
     expect_words(said([&] { step(sim); }),
-                 {"body \"right\" and body \"left\"", "overlap by 0.0", "room"});
+                 {"body \"right\" and body \"left\"", "overlap by 0.1", "room"});
 }
 
 TEST(Watch, EnergyFromNowhereIsTold)

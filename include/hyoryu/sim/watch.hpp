@@ -11,7 +11,7 @@ struct Simulation;
 /// Keeps the largest compression of the fluid in the ledger and throws NumericalError that names
 /// the particle or body, what lies around it and the probable cause when the state is not finite, a
 /// density or speed is beyond what a weakly compressible flow can have, or solids overlap by more
-/// than half of the inner radius of the thinnest body.
+/// than the inner radius of the thinnest body.
 void watch(Simulation& sim);
 
 /// Throws NumericalError when a run that nothing drives (no moving wall, no acceleration, impulses
