@@ -41,7 +41,10 @@ double cubed(double x)
 
 int unknowns(const Row& row, int state)
 {
-    return state == sticks ? row.cone.size : state == slides ? row.cone.size == 3 ? 2 : 1 : 0;
+    if (state == slides) {
+        return row.cone.size == 3 ? 2 : 1; // in space its direction is one, too
+    }
+    return state == sticks ? row.cone.size : 0;
 }
 
 // Across the direction of sliding, in the tangent plane.

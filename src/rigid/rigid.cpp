@@ -18,7 +18,7 @@ namespace {
 constexpr int most_rounds = 50;
 // A cluster of more pairs than this is a jam from the start.
 constexpr std::size_t pairs_of_a_jam = 10;
-// A pile at rest or sliding knows its forces to a thousandth from step to step.
+// A pile at rest or sliding knows its forces to a thousandth from step to step, a tenth of this.
 constexpr Effort located_effort{.unrest = 1e-2};
 
 void fly(const StepContext& context, const Cluster& cluster)

@@ -64,8 +64,9 @@ double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 // Direct solutions and sweeps take turns: the sweeps find which contacts stick, slide and open,
 // which the direct solution takes up (Silcowitz, Niebe and Erleben 2010).
 double solve_in_turns(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
-                      const Turns& turns, double left)
+                      const Turns& turns)
 {
+    double left = residual(rows, bodies);
     for (int k = 0; k <= turns.direct_tries && left > turns.enough; ++k) {
         left = k < turns.direct_tries ? try_directly(rows, bodies, work, left) : left;
         if (left > turns.enough) {
@@ -91,18 +92,25 @@ void drop_bad_guess(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     double sum = 1;
     for (int turn = 0; sum > 0; ++turn) {
         sum = 0;
-        work.changes.clear();
+        work.shares.clear();
         for (const Row& row : rows) {
-            work.changes.push_back(share_of_guess(row, bodies));
-            sum += work.changes.back();
+            work.shares.push_back(share_of_guess(row, bodies));
+            sum += work.shares.back();
         }
         for (std::size_t k = 0; k < rows.size() && sum > 0; ++k) {
-            if (work.changes[k] > 0 || turn == turns_of_dropping) {
+            if (work.shares[k] > 0 || turn == turns_of_dropping) {
                 push(rows[k], -rows[k].p, bodies);
                 rows[k].p.setZero();
             }
         }
     }
+}
+
+Turns turns_for(std::span<const Row> rows, const Effort& effort, double enough)
+{
+    const int tries = rows.size() <= dense_contacts ? effort.direct_tries : 0;
+    const std::size_t sweeps = std::max(fewest_sweeps, updates_in_turn / rows.size());
+    return {tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
 }
 
 } // namespace
@@ -123,8 +131,8 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         }
     }
     const double asked = change_asked(rows);
-    double left = residual(rows, bodies);
-    work.given_up = rows.size() > contacts_of_a_pile && !cold(rows) && left > effort.unrest * asked;
+    work.given_up = rows.size() > contacts_of_a_pile && !cold(rows) &&
+                    residual(rows, bodies) > effort.unrest * asked;
     if (work.given_up) {
         return 0;
     }
@@ -133,11 +141,7 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
     if (cold(rows)) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
     }
-    left = residual(rows, bodies);
-    const int tries = rows.size() <= dense_contacts ? effort.direct_tries : 0;
-    const std::size_t sweeps = std::max(fewest_sweeps, updates_in_turn / rows.size());
-    const Turns turns{tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
-    return solve_in_turns(rows, bodies, work, turns, left);
+    return solve_in_turns(rows, bodies, work, turns_for(rows, effort, enough));
 }
 
 } // namespace hyoryu

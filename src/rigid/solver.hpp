@@ -37,7 +37,8 @@ struct SolverWork {
     std::vector<Vec3> directions, momenta;
     std::vector<double> held; // of what moves across each direction of sliding [1]
     Colours colours;
-    std::vector<double> changes;   // of each row in a sweep [m/s], or by its guess [J]
+    std::vector<double> shares;    // of the known impulse of each row in the energy [J]
+    std::vector<double> changes;   // of each row in a sweep [m/s]
     std::vector<Vec3> start;       // of the sweep, momentum included
     std::vector<Vec3> impulses;    // after the last sweep
     std::vector<int> moved;        // bodies that are not held, sorted
