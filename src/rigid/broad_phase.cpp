@@ -16,17 +16,22 @@ namespace {
 // Passes of widening the boxes by the speeds of their clusters; clusters that still grow afterwards
 // are met in the next step.
 constexpr int widenings = 3;
-// Added to every box so that contacts at rest stay paired [m].
+// Added to every box so that contacts at rest stay paired [units].
 constexpr double skin = 1e-4;
 // Bodies that share a list of found pairs, whatever the number of threads.
 constexpr int bodies_per_block = 64;
+
+double skin_of(const ContactMemory& memory)
+{
+    return skin * memory.geometry.unit;
+}
 
 AlignedBox box_of(const Solid& solid, const SolidPose& pose, double margin)
 {
     const Vec3 centre = pose.x + pose.R * solid.box_centre;
     const Vec3 half =
         solid.form == Form::ball ? solid.box_half : Vec3(pose.R.cwiseAbs() * solid.box_half);
-    const Vec3 reach = half + Vec3::Constant(margin + skin);
+    const Vec3 reach = half + Vec3::Constant(margin);
     return {centre - reach, centre + reach};
 }
 
@@ -60,7 +65,8 @@ std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<d
     const int n = static_cast<int>(margins.size());
     std::vector<AlignedBox> boxes;
     for (int k = 0; k < n; ++k) {
-        boxes.push_back(box_of(memory.geometry.solids[k], memory.poses[k], margins[k]));
+        boxes.push_back(
+            box_of(memory.geometry.solids[k], memory.poses[k], margins[k] + skin_of(memory)));
     }
     const BoxTree tree = tree_over(boxes);
     std::vector<std::vector<BodyPair>> of_block((margins.size() + bodies_per_block - 1) /
@@ -83,8 +89,9 @@ bool may_touch(const StepContext& context, int body, const ContactWall& wall, do
 {
     const Solid& solid = context.memory.geometry.solids[body];
     const SolidPose& pose = context.memory.poses[body];
+    const double thick = skin_of(context.memory);
     const double room =
-        margin + skin +
+        margin + thick +
         context.dt * speed_bound(wall.motion, context.start, context.start + context.dt);
     const Vec3 shift = displacement(wall.motion, context.start);
     for (const HalfSpace& plane : wall.half_spaces) {
@@ -96,11 +103,11 @@ bool may_touch(const StepContext& context, int body, const ContactWall& wall, do
         return false;
     }
     if (!wall.mesh.triangles.empty()) {
-        const AlignedBox box = box_of(solid, pose, room);
+        const AlignedBox box = box_of(solid, pose, room + thick);
         return any_near(wall.mesh.tree, {box.low - shift, box.high - shift});
     }
     const SolidPose there = pose_of(wall.pose.x + shift, wall.pose.q);
-    return box_of(solid, pose, room).meets(box_of(wall.solid, there, 0));
+    return box_of(solid, pose, room + thick).meets(box_of(wall.solid, there, thick));
 }
 
 std::vector<BodyPair> wall_pairs(const StepContext& context, const std::vector<double>& margins)

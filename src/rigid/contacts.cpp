@@ -5,6 +5,7 @@
 #include "hyoryu/core/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -85,7 +86,7 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
     memory.candidates.clear();
     const Configuration now = configuration(memory, memory.poses, time);
     for (const BodyPair& pair : cluster.pairs) {
-        find_candidates(pair, now, clearly_apart, memory.candidates);
+        find_candidates(pair, now, clearly_apart(memory.geometry), memory.candidates);
     }
     double& worst = context.rigid.counters.worst_penetration;
     for (const Candidate& candidate : memory.candidates) {
@@ -106,6 +107,7 @@ double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort
     };
     const auto solve_one = [&](std::size_t island) {
         memory.solvers[island].updates = 0;
+        memory.solvers[island].unit = std::sqrt(memory.geometry.unit);
         memory.left[island] =
             solve(rows_of(island), memory.responses, memory.solvers[island], effort);
     };

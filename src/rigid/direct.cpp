@@ -236,6 +236,7 @@ int state_of(const Row& row, const Vec3& u, double p_n, Vec3& d)
 bool improve_states(std::span<const Row> rows, const std::vector<Response>& bodies,
                     SolverWork& work)
 {
+    const double solved = solved_speed * work.unit;
     bool changed = false;
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const Row& row = rows[k];
@@ -244,9 +245,9 @@ bool improve_states(std::span<const Row> rows, const std::vector<Response>& bodi
         const int now = work.states[k];
         // What is shut has the normal velocity that it is asked for, up to round-off.
         const double approach = row.target - u[0];
-        const double p_n = now != open               ? row.p[0]
-                           : approach > solved_speed ? approach / row.cone.K(0, 0)
-                                                     : 0;
+        const double p_n = now != open         ? row.p[0]
+                           : approach > solved ? approach / row.cone.K(0, 0)
+                                               : 0;
         work.states[k] = state_of(row, u, p_n, work.directions[k]);
         work.held[k] = part_held(row, u);
         changed = changed || work.states[k] != now ||

@@ -9,12 +9,12 @@ namespace hyoryu {
 
 namespace {
 
-// A gap is an event when it is below this at the end of the sub-step [m].
+// A gap is an event when it is below this at the end of the sub-step [units].
 constexpr double closed = -1e-10;
 // Two polytopes in contact may describe one contact by other features a moment later; only a gap
-// deeper than that play of the description is a new contact [m].
+// deeper than that play of the description is a new contact [units].
 constexpr double closed_in_contact = -1e-6;
-constexpr double located = 1e-11; // gap at the time found [m]
+constexpr double located = 1e-11; // gap at the time found [units]
 constexpr int root_steps = 60;
 // Halvings of the time at which a contact that has just bounced off is found open.
 constexpr int halvings = 40;
@@ -24,7 +24,8 @@ constexpr int most_looks = 1024;
 
 class EventSearch {
 public:
-    EventSearch(const StepContext& context, const SubStep& sub) : memory_(context.memory), sub_(sub)
+    EventSearch(const StepContext& context, const SubStep& sub)
+        : memory_(context.memory), sub_(sub), unit_(context.rigid.settings.unit)
     {
     }
 
@@ -108,12 +109,12 @@ private:
     bool closes(const BodyPair& pair, double s)
     {
         if (!has_axis(pair, memory_.geometry) || !holds(pair)) {
-            return clearance(pair, s) < closed;
+            return clearance(pair, s) < closed * unit_;
         }
         clearance(pair, s);
         return std::ranges::any_of(memory_.looked_at, [&](const Candidate& c) {
-            return c.touch.gap < closed && !held(c.feature) &&
-                   (c.touch.gap < closed_in_contact || approach_speed(c, s) > sub_.slow);
+            return c.touch.gap < closed * unit_ && !held(c.feature) &&
+                   (c.touch.gap < closed_in_contact * unit_ || approach_speed(c, s) > sub_.slow);
         });
     }
 
@@ -125,7 +126,7 @@ private:
             return axis_distance(pair, at);
         }
         memory_.looked_at.clear();
-        find_candidates(pair, at, clearly_apart, memory_.looked_at);
+        find_candidates(pair, at, clearly_apart(memory_.geometry), memory_.looked_at);
         double smallest = infinity;
         for (const Candidate& c : memory_.looked_at) {
             if (c.touch.gap < smallest && !held(c.feature)) {
@@ -146,16 +147,17 @@ private:
     // between.
     double closing_time(const BodyPair& pair, double low, double high)
     {
+        const double zero = located * unit_;
         double f_high = clearance_at(pair, high);
         double f_low = clearance_at(pair, low);
-        for (int k = 1; f_low <= located && k <= halvings; ++k) {
+        for (int k = 1; f_low <= zero && k <= halvings; ++k) {
             const double s = low + (high - low) * std::ldexp(1.0, -k);
             f_low = clearance_at(pair, s);
-            if (f_low > located) {
+            if (f_low > zero) {
                 low = s;
             }
         }
-        if (f_low <= located) {
+        if (f_low <= zero) {
             return high; // closed all the time: left to the projection
         }
         int side = 0;
@@ -165,7 +167,7 @@ private:
             double s = bisect ? 0.5 * (low + high) : low + (high - low) * f_low / (f_low - f_high);
             s = std::clamp(s, low, high);
             const double f = clearance_at(pair, s);
-            if (std::abs(f) < located) {
+            if (std::abs(f) < zero) {
                 return s;
             }
             if (f > 0) {
@@ -227,6 +229,7 @@ private:
 
     ContactMemory& memory_;
     const SubStep& sub_;
+    double unit_; // of tolerances [m]
 };
 
 } // namespace

@@ -94,6 +94,7 @@ struct Candidate {
 struct Geometry {
     std::vector<Solid> solids;
     std::vector<ContactWall> walls;
+    double unit = 1; // of tolerances, as of RigidSettings [m]
 };
 
 /// A geometry with the poses at one time.

@@ -22,7 +22,7 @@ constexpr int most_rounds = 4;
 constexpr Effort impact_effort{.enough = 1e-3, .direct_tries = 0, .sweeps = 40};
 // What is left of the contacts is made good by the next step, which starts from their impulses.
 constexpr Effort contact_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
-// A pile hands a gap on from body to body; below this none is worth chasing [m].
+// A pile hands a gap on from body to body; below this none is worth chasing [units].
 constexpr double no_gap = 1e-9;
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
@@ -55,20 +55,21 @@ void find_closing(const StepContext& context, const BodyPair& pair, const SubSte
     const ContactMemory& memory = context.memory;
     const Configuration now = configuration(memory, memory.poses, sub.time);
     const Configuration later = configuration(memory, memory.end, sub.time + sub.h);
-    const double near = clearly_apart + travel(memory, pair.a, sub) + travel(memory, pair.b, sub);
+    const double apart = clearly_apart(memory.geometry);
+    const double near = apart + travel(memory, pair.a, sub) + travel(memory, pair.b, sub);
     const std::size_t first = found.size();
     find_candidates(pair, now, near, found);
     const double tolerance = context.rigid.settings.contact_tolerance;
     const auto far = [&](Candidate& c) {
         c.closing = !c.beyond && c.touch.gap > tolerance && c.touch.gap <= near &&
-                    (c.touch.gap <= clearly_apart || touch_of(c.feature, later).gap < 0);
+                    (c.touch.gap <= apart || touch_of(c.feature, later).gap < 0);
         return c.touch.gap > tolerance && !c.closing;
     };
     found.erase(
         std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), far),
         found.end());
     const bool open = std::all_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
-                                  [](const Candidate& c) { return c.touch.gap > clearly_apart; });
+                                  [&](const Candidate& c) { return c.touch.gap > apart; });
     if (open && has_axis(pair, memory.geometry) && axis_distance(pair, later) > 0) {
         found.resize(first); // they pass each other
     }

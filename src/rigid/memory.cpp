@@ -31,7 +31,7 @@ void prepare(Rigid& rigid)
     const int dimensions = rigid.settings.dimensions;
     if (memory.rotors.size() != n || memory.geometry.walls.size() != rigid.boundaries.size()) {
         memory.rotors.clear();
-        memory.geometry = {};
+        memory.geometry = {.unit = rigid.settings.unit};
         for (const Body& body : rigid.bodies) {
             memory.rotors.push_back(rotor_of(body, dimensions));
             memory.geometry.solids.push_back(solid_of(body.shape, dimensions));

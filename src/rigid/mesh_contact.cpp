@@ -11,7 +11,7 @@ namespace hyoryu {
 
 namespace {
 
-// Features of polytopes farther apart than this are no contact [m].
+// Features of polytopes farther apart than this are no contact [units].
 constexpr double near_enough = 1e-5;
 // A corner this part of the reach of its body past the rim of a triangle is still over it.
 constexpr double rim_tolerance = 1e-6;
@@ -43,17 +43,17 @@ public:
     PartSearch(const BodyPair& pair, const Configuration& at, const PartAt& part,
                std::vector<Candidate>& found)
         : pair_(pair), at_(at), mesh_(at.geometry.walls[number(-1 - pair.b)].mesh), part_(part),
-          found_(found), first_(found.size())
+          found_(found), first_(found.size()), near_(near_enough * at.geometry.unit)
     {
     }
 
     void over(const FlatTriangle& triangle)
     {
-        const TriangleAxis axis = triangle_axis(part_, mesh_, triangle, near_enough);
-        if (axis.distance > near_enough) {
+        const TriangleAxis axis = triangle_axis(part_, mesh_, triangle, near_);
+        if (axis.distance > near_) {
             return;
         }
-        deepest_ = std::min(axis.distance, 0.0) - near_enough;
+        deepest_ = std::min(axis.distance, 0.0) - near_;
         lowest_ = infinity;
         corners_over(triangle);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -62,7 +62,7 @@ public:
                 edges_across(triangle.crease[k]);
             }
         }
-        if (axis.distance < -near_enough && lowest_ >= 0) {
+        if (axis.distance < -near_ && lowest_ >= 0) {
             add_axis(axis, triangle);
         }
     }
@@ -71,7 +71,7 @@ private:
     void add(const Feature& feature)
     {
         const Touch touch = touch_of(feature, at_);
-        if (touch.gap > near_enough || touch.gap < deepest_) {
+        if (touch.gap > near_ || touch.gap < deepest_) {
             return;
         }
         lowest_ = std::min(lowest_, touch.gap);
@@ -175,6 +175,7 @@ private:
     const PartAt& part_;
     std::vector<Candidate>& found_;
     std::size_t first_;
+    double near_; // [m]
     double deepest_ = 0;
     double lowest_ = infinity;
 };
@@ -195,7 +196,7 @@ void find_mesh_candidates(const BodyPair& pair, const Configuration& at,
         const PartAt part =
             part_at(solid, own, at.poses[number(pair.a)], displacement(wall.motion, at.time));
         PartSearch search(pair, at, part, found);
-        find_near(wall.mesh.tree, part.box.grown(near_enough), near);
+        find_near(wall.mesh.tree, part.box.grown(near_enough * at.geometry.unit), near);
         for (const int t : near) {
             search.over(wall.mesh.triangles[number(t)]);
         }

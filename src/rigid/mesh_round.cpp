@@ -10,7 +10,7 @@ namespace hyoryu {
 
 namespace {
 
-// An overlap deeper than this was not located, and a body nearer than this may touch [m].
+// An overlap deeper than this was not located, and a body nearer than this may touch [units].
 constexpr double deep = 1e-5;
 // Rounding of a foot on the border of a triangle, as a part of the size of the body.
 constexpr double rim_tolerance = 1e-6;
@@ -54,7 +54,7 @@ public:
     void search()
     {
         std::vector<int> near;
-        find_near(mesh_.tree, box_of(solid_, pose_).grown(deep), near);
+        find_near(mesh_.tree, box_of(solid_, pose_).grown(deep * at_.geometry.unit), near);
         for (const int t : near) {
             const FlatTriangle& triangle = mesh_.triangles[number(t)];
             const Patch& patch = mesh_.patches[number(triangle.patch)];
@@ -146,7 +146,7 @@ private:
         const Touch touch = touch_of(f, at_);
         const double rim = rim_tolerance * solid_.reach;
         const Vec3 point = touch.point - displacement(wall_.motion, at_.time);
-        if (past_sides(triangle, point) <= (touch.gap < -deep ? -rim : rim) &&
+        if (past_sides(triangle, point) <= (touch.gap < -deep * at_.geometry.unit ? -rim : rim) &&
             touch.gap > -solid_.thickness) {
             add(f);
         }

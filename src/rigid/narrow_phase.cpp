@@ -142,7 +142,7 @@ void between_parts(const BodyPair& pair, const Configuration& at, double near,
             add_rod_contacts(pair, parts, at, near, found);
             return;
         }
-        const Separation axis = separation(parts.a, parts.b, near);
+        const Separation axis = separation(parts.a, parts.b, near, at.geometry.unit);
         if (axis.distance > near) {
             return;
         }
@@ -206,10 +206,11 @@ double axis_distance(const BodyPair& pair, const Configuration& at)
         return apart;
     }
     double smallest = infinity;
-    for_each_part_pair(pair, at, clearly_apart, [&](const PartPair& parts) {
+    const double near = clearly_apart(at.geometry);
+    for_each_part_pair(pair, at, near, [&](const PartPair& parts) {
         const double distance = has_rod(parts)
-                                    ? rod_distance(pair, parts, at, clearly_apart)
-                                    : separation(parts.a, parts.b, clearly_apart).distance;
+                                    ? rod_distance(pair, parts, at, near)
+                                    : separation(parts.a, parts.b, near, at.geometry.unit).distance;
         smallest = std::min(smallest, distance);
     });
     return smallest;

@@ -16,7 +16,10 @@ struct BodyPair {
 
 /// A pair of polytopes or rods farther apart than this has no contact that a located impact needs
 /// [m].
-inline constexpr double clearly_apart = 1e-5;
+inline double clearly_apart(const Geometry& geometry)
+{
+    return 1e-5 * geometry.unit;
+}
 
 /// Appends the features of the pair that face each other, in a fixed order. Of polytopes and
 /// rods that are more than `near` apart there are none.

@@ -55,7 +55,7 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
-    constexpr double located = 1e-10; // [m], deeper than an event leaves a contact
+    const double located = 1e-10 * settings.unit; // deeper than an event leaves a contact [m]
     memory.persistent.clear();
     memory.held.clear();
     std::size_t first = 0;
@@ -155,7 +155,7 @@ void build_rows(const StepContext& context, const SubStep& sub, double ahead)
             // A gap that the projection closes is no freedom: v = gap / h of its noise would
             // rattle.
             const double gap = p.candidate.touch.gap;
-            row.target = gap > clearly_apart ? -gap / sub.h : 0;
+            row.target = gap > clearly_apart(memory.geometry) ? -gap / sub.h : 0;
             memory.rows.push_back(row);
         }
     }

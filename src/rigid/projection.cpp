@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_sweeps = 10;
 // Overlap that is put right at once; what is deeper was there from the start or was not located,
-// and goes by a share a step so that nothing jumps [m].
+// and goes by a share a step so that nothing jumps [units].
 constexpr double at_once = 1e-5;
 constexpr double share_of_deep = 0.2;
 
@@ -73,12 +73,12 @@ double close_gap(const StepContext& context, const Goal& goal, double no_gap, do
     return std::abs(off);
 }
 
-// An event leaves a contact nearer to zero than this [m].
+// An event leaves a contact nearer to zero than this [units].
 constexpr double overlapping = -1e-10;
 
-double aim(double gap)
+double aim(double gap, double unit)
 {
-    return gap < -at_once ? (1 - share_of_deep) * gap : 0.0;
+    return gap < -at_once * unit ? (1 - share_of_deep) * gap : 0.0;
 }
 
 // Pressed contacts close in both senses, all others only open. In a jam all only open: so many
@@ -87,10 +87,11 @@ std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double t
 {
     ContactMemory& memory = context.memory;
     const Configuration now = configuration(memory, memory.poses, time);
+    const double unit = context.rigid.settings.unit;
     std::vector<Goal> list;
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
-        if (p.impulse.dot(p.touches.push.normal) > 0 && std::abs(touch.gap) < at_once) {
+        if (p.impulse.dot(p.touches.push.normal) > 0 && std::abs(touch.gap) < at_once * unit) {
             list.push_back({.feature = p.candidate.feature, .may_be_wider = sub.arms == Arms::now});
         }
     }
@@ -101,10 +102,10 @@ std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double t
     }
     std::sort(pressed.begin(), pressed.end());
     for (const Candidate& c : memory.candidates) {
-        if (!c.beyond && c.touch.gap < overlapping &&
+        if (!c.beyond && c.touch.gap < overlapping * unit &&
             !std::binary_search(pressed.begin(), pressed.end(), c.feature)) {
             list.push_back(
-                {.feature = c.feature, .wanted = aim(c.touch.gap), .may_be_wider = true});
+                {.feature = c.feature, .wanted = aim(c.touch.gap, unit), .may_be_wider = true});
         }
     }
     return list;
@@ -136,11 +137,12 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
         return;
     }
     set_responses(context, sub.cluster);
+    const double no_gap = sub.no_gap * context.rigid.settings.unit;
     double off = infinity;
-    for (int sweep = 0; sweep < most_sweeps && off > sub.no_gap; ++sweep) {
+    for (int sweep = 0; sweep < most_sweeps && off > no_gap; ++sweep) {
         off = 0;
         for (const Goal& goal : list) {
-            off = std::max(off, close_gap(context, goal, sub.no_gap, time));
+            off = std::max(off, close_gap(context, goal, no_gap, time));
         }
     }
     const Configuration now = configuration(memory, memory.poses, time);

@@ -191,7 +191,7 @@ double inner_radius(const Body& body, int dimensions)
 
 double overlap(const Rigid& rigid, int a, int b, double time)
 {
-    Geometry geometry;
+    Geometry geometry{.unit = rigid.settings.unit};
     std::vector<SolidPose> poses;
     const int dimensions = rigid.settings.dimensions;
     const auto add_body = [&](int k) {
@@ -211,7 +211,7 @@ double overlap(const Rigid& rigid, int a, int b, double time)
         return -axis_distance(pair, at);
     }
     std::vector<Candidate> found;
-    find_candidates(pair, at, clearly_apart, found);
+    find_candidates(pair, at, clearly_apart(geometry), found);
     double deepest = -infinity;
     for (const Candidate& candidate : found) {
         deepest = std::max(deepest, candidate.beyond ? -infinity : -candidate.touch.gap);

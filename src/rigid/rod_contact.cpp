@@ -16,7 +16,7 @@ constexpr double rim_tolerance = 1e-6;
 // A rod stands on a face rather than lies if its axis is nearer to the normal than acos of this.
 constexpr double standing = 0.995;
 // A gap below this and twice the overlap of the solids belongs to features that do not face each
-// other [m].
+// other [units].
 constexpr double no_overlap = -1e-9;
 
 // max n . (x - origin of the body)
@@ -294,9 +294,9 @@ Candidate nearest_feature(const Look& look)
 class Collection {
 public:
     Collection(const Look& look, double near, std::vector<Candidate>& found)
-        : deepest_(2 * std::min(look.distance, 0.0) + no_overlap), highest_(look.distance + near),
-          tolerance_(2 * look.tolerance), first_(static_cast<std::ptrdiff_t>(found.size())),
-          found_(found)
+        : deepest_(2 * std::min(look.distance, 0.0) + no_overlap * look.at.geometry.unit),
+          highest_(look.distance + near), tolerance_(2 * look.tolerance),
+          first_(static_cast<std::ptrdiff_t>(found.size())), found_(found)
     {
     }
 

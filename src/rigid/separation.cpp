@@ -8,7 +8,7 @@ namespace hyoryu {
 namespace {
 
 // A face axis is kept unless another axis is better by more than this: near parallel features
-// describe one contact, and the face gives it more points [m].
+// describe one contact, and the face gives it more points [units].
 constexpr double face_preference = 1e-7;
 // Sine of the angle below which two edges are parallel and their cross product is noise.
 constexpr double parallel_edges = 1e-4;
@@ -33,7 +33,8 @@ double support_distance(const Face& face, const Solid& other, const Mat3& R, con
     return lowest + face.normal.dot(x) - face.offset;
 }
 
-Separation best_face(const PlacedSolid& a, const PlacedSolid& b, const Relative& ab, double enough)
+Separation best_face(const PlacedSolid& a, const PlacedSolid& b, const Relative& ab, double enough,
+                     double unit)
 {
     Separation best;
     for (std::size_t f = 0; f < a.solid.faces.size(); ++f) {
@@ -47,7 +48,7 @@ Separation best_face(const PlacedSolid& a, const PlacedSolid& b, const Relative&
     }
     const Mat3 R = ab.R.transpose();
     const Vec3 x = -(R * ab.x);
-    double margin = face_preference;
+    double margin = face_preference * unit;
     for (std::size_t f = 0; f < b.solid.faces.size(); ++f) {
         const double d = support_distance(b.solid.faces[f], a.solid, R, x);
         if (d > best.distance + margin) {
@@ -75,9 +76,9 @@ bool spans_face(const Solid& a, const Edge& ea, const Vec3& c, const Vec3& d, co
 }
 
 void improve_by_edges(Separation& best, const PlacedSolid& a, const PlacedSolid& b,
-                      const Relative& ab)
+                      const Relative& ab, double unit)
 {
-    double margin = face_preference + overlap_preference * std::max(0.0, -best.distance);
+    double margin = face_preference * unit + overlap_preference * std::max(0.0, -best.distance);
     for (std::size_t m = 0; m < b.solid.edges.size(); ++m) {
         const Edge& eb = b.solid.edges[m];
         const Vec3 c = -(ab.R * b.solid.faces[eb.left].normal);
@@ -109,13 +110,13 @@ void improve_by_edges(Separation& best, const PlacedSolid& a, const PlacedSolid&
 
 } // namespace
 
-Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough)
+Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough, double unit)
 {
     const Relative ab{a.pose.R.transpose() * b.pose.R,
                       a.pose.R.transpose() * (b.pose.x - a.pose.x)};
-    Separation best = best_face(a, b, ab, enough);
+    Separation best = best_face(a, b, ab, enough, unit);
     if (best.distance <= enough) {
-        improve_by_edges(best, a, b, ab);
+        improve_by_edges(best, a, b, ab, unit);
     }
     return best;
 }

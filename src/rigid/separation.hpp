@@ -19,7 +19,8 @@ struct Separation {
 
 /// Separating axes of two polytopes: the normals of all faces, and the cross products of those
 /// edges that span a face of the Minkowski difference (Gregorius, GDC 2013). Returns early with the
-/// first face axis that separates by more than `enough`.
-Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough);
+/// first face axis that separates by more than `enough`. Which axis is as good as another goes by
+/// `unit`, as of RigidSettings.
+Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough, double unit);
 
 } // namespace hyoryu

@@ -4,12 +4,13 @@
 #include "sub_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hyoryu {
 
 namespace {
 
-// Sliding slower than this has no direction that is worth following [m/s].
+// Sliding slower than this has no direction that is worth following [m/s, with a unit of 1 m].
 constexpr double no_slip = 1e-4;
 // The sub-step ends this part before the slip does, so that the direction of sliding holds in it;
 // more if that turns out to be too near.
@@ -21,29 +22,29 @@ constexpr double settled = 1e-4;
 // Round-off of a slip that has stopped, as a part of what it was.
 constexpr double stopped = 1e-9;
 
-bool slides(const Persistent& p)
+bool slides(const Persistent& p, double slow)
 {
-    return p.slip_before.norm() > no_slip && p.impulse.squaredNorm() > 0;
+    return p.slip_before.norm() > slow && p.impulse.squaredNorm() > 0;
 }
 
 // The time at which the first contact stops sliding, if its speed goes on as it does in `h`.
-double extrapolated(const std::vector<Persistent>& contacts, double h)
+double extrapolated(const std::vector<Persistent>& contacts, double slow, double h)
 {
     double first = infinity;
     for (const Persistent& p : contacts) {
         const double before = p.slip_before.squaredNorm();
         const double lost = before - p.slip_before.dot(p.slip_after);
-        if (slides(p) && lost > 0) {
+        if (slides(p, slow) && lost > 0) {
             first = std::min(first, h * before / lost);
         }
     }
     return first;
 }
 
-bool stops(const std::vector<Persistent>& contacts)
+bool stops(const std::vector<Persistent>& contacts, double slow)
 {
-    return std::any_of(contacts.begin(), contacts.end(), [](const Persistent& p) {
-        return slides(p) &&
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Persistent& p) {
+        return slides(p, slow) &&
                p.slip_before.dot(p.slip_after) <= stopped * p.slip_before.squaredNorm();
     });
 }
@@ -53,7 +54,8 @@ bool stops(const std::vector<Persistent>& contacts)
 void end_with_slip(const StepContext& context, SubStep& sub)
 {
     std::vector<Persistent>& contacts = context.memory.persistent;
-    if (contacts.size() > contacts_of_a_pile || !stops(contacts)) {
+    const double slow = no_slip * std::sqrt(context.rigid.settings.unit);
+    if (contacts.size() > contacts_of_a_pile || !stops(contacts, slow)) {
         return;
     }
     const double whole = sub.h;
@@ -63,7 +65,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
     for (int k = 0; k < most_tries; ++k) {
         sub.h = known ? (1 - margin) * end : end;
         plan_again(context, sub);
-        if (stops(contacts)) {
+        if (stops(contacts, slow)) {
             end = known ? end : 0.5 * end;
             margin *= known ? more : 1;
             continue;
@@ -71,7 +73,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
         if (known && margin > short_of) {
             return; // it stops a little later
         }
-        end = std::min(extrapolated(contacts, sub.h), whole);
+        end = std::min(extrapolated(contacts, slow, sub.h), whole);
         known = true;
         if (end - sub.h <= settled * whole) {
             return;

@@ -123,10 +123,11 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         gauss_seidel(rows, bodies, {1, 0});
         return 0;
     }
+    const double solved = solved_speed * work.unit;
     const bool alone = rows.size() <= few_contacts && one_body(rows, bodies);
     if (alone) {
-        const double change = gauss_seidel(rows, bodies, {few_sweeps, settled_speed});
-        if (change <= solved_speed) {
+        const double change = gauss_seidel(rows, bodies, {few_sweeps, settled_speed * work.unit});
+        if (change <= solved) {
             return change;
         }
     }
@@ -137,7 +138,7 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         return 0;
     }
     drop_bad_guess(rows, bodies, work);
-    const double enough = alone ? solved_speed : std::max(effort.enough * asked, solved_speed);
+    const double enough = alone ? solved : std::max(effort.enough * asked, solved);
     if (cold(rows)) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
     }

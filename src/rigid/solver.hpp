@@ -43,6 +43,7 @@ struct SolverWork {
     std::vector<Vec3> impulses;    // after the last sweep
     std::vector<int> moved;        // bodies that are not held, sorted
     std::vector<Twist> velocities; // theirs after the last sweep
+    double unit = 1;               // of the speeds that pass for solved [m/s]
     double updates = 0;    // of rows, since this was set to zero: what solves cost, on any machine
     bool given_up = false; // the last solve
 };
@@ -94,10 +95,10 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                           const Sweeps& sweeps);
 
-/// The speed by which a solved problem may still want to change [m/s]: g h of a step of a
+/// The speed by which a solved problem may still want to change [units]: g h of a step of a
 /// microsecond is a million times more.
 inline constexpr double solved_speed = 1e-11;
-/// The speed at which sweeps stop, the round-off of metres per second: errors of many impacts add
+/// The speed at which sweeps stop, the round-off of one unit: errors of many impacts add
 /// up.
 inline constexpr double settled_speed = 1e-13;
 

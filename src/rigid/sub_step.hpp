@@ -35,7 +35,7 @@ struct SubStep {
     Effort impact_effort{};
     Effort contact_effort{};
     Arms arms = Arms::ahead;
-    double no_gap = 1e-12; // left alone by the projection: the noise of positions [m]
+    double no_gap = 1e-12; // left alone by the projection: the noise of positions [units]
 };
 
 /// Short enough that no body of the cluster turns too far for the scheme, and not longer than

@@ -233,6 +233,28 @@ Penalty make_penalty(const Scene& scene)
     return penalty;
 }
 
+// Metres serve wherever they can: the round-off of positions, which grows with the distance from
+// the origin, has to stay below what the unit takes for nothing, and that well below the bodies.
+double unit_of_tolerances(const Rigid& rigid)
+{
+    constexpr double step = 1000;            // from unit to unit: mm, m, km
+    const double half_way = std::sqrt(step); // 3 cm and 30 m, by ratio
+    double smallest = infinity, farthest = 0;
+    for (const Body& body : rigid.bodies) {
+        const double reach = bounding_radius(body, rigid.settings.dimensions);
+        smallest = std::min(smallest, reach);
+        farthest = std::max(farthest, body.position.norm() + reach);
+    }
+    double unit = 1;
+    while (smallest < infinity && smallest > half_way * unit) {
+        unit *= step;
+    }
+    while (farthest > 0 && farthest < unit / half_way) {
+        unit /= step;
+    }
+    return unit;
+}
+
 } // namespace
 
 ContactShape contact_shape(const BodySettings& body, int dimensions)
@@ -269,6 +291,10 @@ Rigid make_rigid(const Scene& scene)
     for (const Wall& wall : scene.walls) {
         rigid.boundaries.push_back(make_boundary(wall, scene.dimensions, materials));
     }
+    const double unit = unit_of_tolerances(rigid);
+    rigid.settings.unit = unit;
+    rigid.settings.contact_tolerance *= unit;
+    rigid.settings.resting_speed *= std::sqrt(unit);
     rigid.laws.otherwise = {scene.contact.restitution, scene.contact.friction};
     for (const MaterialPair& pair : scene.contact.pairs) {
         rigid.laws.pairs.push_back(

@@ -28,11 +28,14 @@ struct TwoBoxes {
     }
 
     Configuration at() const { return {geometry, poses}; }
-    Separation distance() const { return separation(placed(at(), 0), placed(at(), 1), infinity); }
+    Separation distance() const
+    {
+        return separation(placed(at(), 0), placed(at(), 1), infinity, 1);
+    }
     std::vector<Candidate> contacts() const
     {
         std::vector<Candidate> found;
-        find_candidates({0, 1}, at(), clearly_apart, found);
+        find_candidates({0, 1}, at(), clearly_apart(geometry), found);
         return found;
     }
 };

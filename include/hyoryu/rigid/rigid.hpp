@@ -37,6 +37,10 @@ struct RigidSettings {
     Vec3 gravity{0, 0, -9.81};       // [m/s2]
     double contact_tolerance = 1e-7; // gap below which a point is in contact [m]
     double resting_speed = 1e-3;     // approach speed below which restitution is zero [m/s]
+    // The lengths that the method takes for nothing (a gap of 1e-10) are told in this unit, and its
+    // speeds in the root of it, as gravity has it (Froude): metres suit centimetres to tens of
+    // metres [m].
+    double unit = 1;
     ImpactLaw law = ImpactLaw::coupled;
 };
 
@@ -86,8 +90,8 @@ void load_memory(Rigid& rigid, std::span<const double> numbers);
 /// Largest distance of a point of the body from its centre of mass [m].
 double bounding_radius(const Body& body, int dimensions);
 
-/// Distance from the inside of a convex body, or of a part of one, to its nearest face: half of what
-/// it is thick [m].
+/// Distance from the inside of a convex body, or of a part of one, to its nearest face: half of
+/// what it is thick [m].
 double inner_radius(const Body& body, int dimensions);
 
 /// Depth by which two bodies, or a body and a boundary, overlap at `time` [m]; negative or zero if
