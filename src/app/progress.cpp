@@ -92,6 +92,15 @@ void Progress::line(const std::string& text)
     log_.flush();
 }
 
+void Progress::abandon(const std::string& error)
+{
+    if (verbosity_ == Verbosity::normal && terminal_) {
+        tell("\r\x1b[K");
+    }
+    log_ << error << '\n';
+    log_.flush();
+}
+
 void Progress::end(const Simulation& sim)
 {
     if (verbosity_ == Verbosity::normal) {

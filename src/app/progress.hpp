@@ -21,6 +21,8 @@ public:
     void update(const Simulation& sim);
     /// A line for the terminal and the log.
     void line(const std::string& text);
+    /// Takes the bar away and writes to the log alone: the terminal hears of an error at the end.
+    void abandon(const std::string& error);
     /// Ends the bar.
     void end(const Simulation& sim);
     double wall_seconds() const;

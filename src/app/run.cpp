@@ -247,7 +247,7 @@ int carry_out(Job& job)
         return finish(job);
     } catch (const NumericalError& error) {
         // The state of the last frame was good; a run can go on from it with other settings.
-        job.progress.line(fmt::format("error: the numbers went wrong: {}", error.what()));
+        job.progress.abandon(fmt::format("error: the numbers went wrong: {}", error.what()));
         if (job.good_step > job.saved_step) {
             write_checkpoint(job, job.last_good);
         }

@@ -80,6 +80,17 @@ bool tired(const ContactMemory& memory, int a, int b)
     return memory.events[a] > event_limit || (b >= 0 && memory.events[b] > event_limit);
 }
 
+void hold_pressed(const ContactMemory& memory, Candidate& contact)
+{
+    if (!contact.beyond) {
+        return;
+    }
+    const auto last =
+        std::ranges::lower_bound(memory.known, contact.feature, {}, &Remembered::feature);
+    contact.beyond = last == memory.known.end() || last->feature != contact.feature ||
+                     last->force.dot(contact.touch.normal) <= 0;
+}
+
 void find_contacts(const StepContext& context, const Cluster& cluster, double time)
 {
     ContactMemory& memory = context.memory;
@@ -89,10 +100,9 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
         find_candidates(pair, now, clearly_apart(memory.geometry), memory.candidates);
     }
     double& worst = context.rigid.counters.worst_penetration;
-    for (const Candidate& candidate : memory.candidates) {
-        if (!candidate.beyond) {
-            worst = std::max(worst, -candidate.touch.gap);
-        }
+    for (Candidate& candidate : memory.candidates) {
+        hold_pressed(memory, candidate);
+        worst = std::max(worst, candidate.beyond ? 0 : -candidate.touch.gap);
     }
 }
 

@@ -105,6 +105,7 @@ void book(const std::vector<Row>& rows, const StepContext& context, double time)
                             c.feature.b,           c.touch.point, c.touch.normal};
             contact.approach_speed = std::max(0.0, -row.before[0]);
             contact.effective_mass = 1 / row.cone.K(0, 0);
+            contact.depth = std::max(0.0, -c.touch.gap);
             index = static_cast<int>(context.log.size());
             context.log.push_back(contact);
         }

@@ -61,6 +61,7 @@ void find_closing(const StepContext& context, const BodyPair& pair, const SubSte
     find_candidates(pair, now, near, found);
     const double tolerance = context.rigid.settings.contact_tolerance;
     const auto far = [&](Candidate& c) {
+        hold_pressed(memory, c);
         c.closing = !c.beyond && c.touch.gap > tolerance && c.touch.gap <= near &&
                     (c.touch.gap <= apart || touch_of(c.feature, later).gap < 0);
         return c.touch.gap > tolerance && !c.closing;

@@ -25,6 +25,7 @@ void book_resting(ContactMemory& memory, const Persistent& p, double time, doubl
     contact.normal_impulse = impulse.dot(touch.normal);
     contact.tangential_impulse = impulse - contact.normal_impulse * touch.normal;
     contact.energy_lost = part * p.dissipated;
+    contact.depth = std::max(0.0, -p.candidate.touch.gap);
     memory.resting.push_back({f, contact});
 }
 

@@ -66,6 +66,7 @@ void log_resting(const StepContext& context)
         sum.normal_impulse += impulse.dot(sum.normal);
         sum.tangential_impulse += impulse - impulse.dot(sum.normal) * sum.normal;
         sum.energy_lost += contact.energy_lost;
+        sum.depth = std::max(sum.depth, contact.depth);
     }
     context.memory.resting.clear();
 }

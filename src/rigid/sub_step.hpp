@@ -60,6 +60,9 @@ void remember(ContactMemory& memory, double h);
 inline constexpr int event_limit = 50;
 bool tired(const ContactMemory& memory, int a, int b);
 
+/// What pressed in the last sub-step is not let go for having been pushed deep into a thin side.
+void hold_pressed(const ContactMemory& memory, Candidate& contact);
+
 /// Finds all possible contacts of the cluster at the current poses.
 void find_contacts(const StepContext& context, const Cluster& cluster, double time);
 

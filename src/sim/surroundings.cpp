@@ -25,14 +25,14 @@ std::string owner_name(const Simulation& sim, std::int32_t owner)
                        sim.scene.walls[static_cast<std::size_t>(-1 - owner)].name);
 }
 
+} // namespace
+
 std::string solid_name(const Simulation& sim, int b)
 {
     return b >= 0 ? fmt::format("body \"{}\"", sim.rigid.bodies[static_cast<std::size_t>(b)].name)
                   : fmt::format("wall \"{}\"",
                                 sim.rigid.boundaries[static_cast<std::size_t>(-1 - b)].name);
 }
-
-} // namespace
 
 std::string surroundings(const Simulation& sim, std::size_t row)
 {

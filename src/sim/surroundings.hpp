@@ -13,6 +13,9 @@ struct Simulation;
 /// Names what lies within two spacings of a particle and how near the nearest is.
 std::string surroundings(const Simulation& sim, std::size_t row);
 
+/// body "name" or wall "name", of `b` as in Contact.
+std::string solid_name(const Simulation& sim, int b);
+
 /// The two solids that overlap most, and by how much [m].
 struct Overlap {
     std::string pair;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/watch.hpp"
 
+#include "room.hpp"
 #include "surroundings.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -98,6 +99,12 @@ void watch_bodies(const Simulation& sim)
             report(sim, fmt::format("body \"{}\"", body.name), "pose or velocity is not finite",
                    "probably its mass or a load on it is extreme; compare it with its neighbours");
         }
+    }
+    if (const auto body = crushed(sim)) {
+        report(sim, fmt::format("body \"{}\"", body->name),
+               fmt::format("wall \"{}\" presses it against {}, overlaps are {:.4g} m deep",
+                           body->from, body->against, body->depth),
+               "over-constrained: the moving wall leaves no room for it");
     }
     if (sim.rigid.counters.worst_penetration > sim.thinnest) {
         const Overlap deepest = deepest_overlap(sim);

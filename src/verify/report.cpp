@@ -14,17 +14,23 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// What has no number is left blank.
+std::string number_text(double number, int digits)
+{
+    return std::isnan(number) ? "" : fmt::format("{:.{}g}", number, digits);
+}
+
 std::string expected_text(const CheckResult& check)
 {
     const char* sign = check.comparison == Comparison::at_most    ? "<= "
                        : check.comparison == Comparison::at_least ? ">= "
                                                                   : "";
-    return fmt::format("{}{:.8g}", sign, check.expected);
+    return std::isnan(check.expected) ? "" : sign + number_text(check.expected, 8);
 }
 
 std::string tolerance_text(const CheckResult& check)
 {
-    return check.comparison == Comparison::equal ? fmt::format("{:.2g}", check.allowed) : "bound";
+    return check.comparison == Comparison::equal ? number_text(check.allowed, 2) : "bound";
 }
 
 std::string cost_text(const RunCost& cost)
@@ -95,9 +101,9 @@ std::string in_cell(const std::string& text)
 std::string markdown_row(const RunResult& run, const CheckResult& check, bool first)
 {
     const std::string note = check.note.empty() ? check.because : check.note;
-    return fmt::format("| {} | {} | {} | {:.8g} | {} | {} | {} | {} |\n",
+    return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n",
                        in_cell(first ? run.run.name : ""), in_cell(check.check),
-                       expected_text(check), check.got, tolerance_text(check),
+                       expected_text(check), number_text(check.got, 8), tolerance_text(check),
                        to_string(check.verdict), in_cell(note), first ? cost_text(run.cost) : "");
 }
 
@@ -191,9 +197,9 @@ std::string terminal_rows(const TableWidths& widths, const std::string& benchmar
     std::string text;
     bool first = true;
     for (const CheckResult& check : run.checks) {
-        text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>15}  {:>15.8g}  {:>9}  {:<8}  {}\n",
-                            benchmark, widths.benchmark, run.run.name, widths.run, check.check,
-                            widths.check, expected_text(check), check.got, tolerance_text(check),
+        text += fmt::format("{:<{}}  {:<{}}  {:<{}}  {:>15}  {:>15}  {:>9}  {:<8}  {}\n", benchmark,
+                            widths.benchmark, run.run.name, widths.run, check.check, widths.check,
+                            expected_text(check), number_text(check.got, 8), tolerance_text(check),
                             to_string(check.verdict), first ? cost_text(run.cost) : "");
         if (!check.note.empty()) {
             text += fmt::format("    {}\n", check.note);

@@ -147,29 +147,29 @@ CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scop
 
 namespace {
 
-// What is said of a check of a run that stopped.
-CheckResult unmade(const Check& check, const BenchmarkRun& run, const std::string& error)
+// What is said of a check of a run that did not end as it should.
+CheckResult unmade(const Check& check, const std::string& error)
 {
-    CheckResult result{.check = check.name,
-                       .comparison = check.comparison,
+    return {.check = check.name,
+            .comparison = check.comparison,
+            .expected = none,
+            .got = none,
+            .allowed = none,
+            .note = error.empty() ? "the run did not stop" : "the run stopped: " + error,
+            .because = check.because};
+}
+
+// Whether a run that is to stop did, and said why.
+CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
+{
+    CheckResult result{.check = "stops and says why",
                        .expected = none,
                        .got = none,
                        .allowed = none,
-                       .note = "the run stopped: " + error,
-                       .because = check.because};
-    if (!run.stops.empty()) {
-        result.verdict = Verdict::xfail;
-        result.note += "; " + run.stops;
-    }
+                       .note = error.empty() ? "it came to its end" : error,
+                       .because = fmt::format("\"{}\"", run.stops)};
+    result.verdict = verdict_of(error.find(run.stops) != std::string::npos, false);
     return result;
-}
-
-// A run that is known to stop and does not: the mark is stale.
-CheckResult stale_mark(const BenchmarkRun& run)
-{
-    return {.check = "the run stops",
-            .verdict = Verdict::xpass,
-            .note = "comes to its end now, take away its stops: " + run.stops};
 }
 
 } // namespace
@@ -180,21 +180,23 @@ RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
     RunResult result{.run = run, .cost = {}, .error = error, .checks = {}};
     const Scope scope = scope_of(benchmark, run);
     RunFiles files(results, benchmark.folder);
-    if (error.empty()) {
+    if (!run.stops.empty()) {
+        result.checks.push_back(stop_as_asked(run, error));
+    }
+    const bool good =
+        run.stops.empty() ? error.empty() : result.checks.front().verdict == Verdict::pass;
+    if (good) {
         result.cost = read_cost(files);
     }
     for (const Check& check : benchmark.checks) {
         if (!matches(check.runs, run.name)) {
             continue;
         }
-        if (error.empty()) {
+        if (good) {
             result.checks.push_back(judge(check, run, scope, files));
         } else {
-            result.checks.push_back(unmade(check, run, error));
+            result.checks.push_back(unmade(check, error));
         }
-    }
-    if (error.empty() && !run.stops.empty()) {
-        result.checks.push_back(stale_mark(run));
     }
     return result;
 }

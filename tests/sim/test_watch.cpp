@@ -116,6 +116,69 @@ TEST(Watch, SolidsThatRunIntoEachOtherAreNamed)
                  {"body \"right\" and body \"left\"", "overlap by 0.1", "room"});
 }
 
+// A wall closes on two crates in a row that stand against the side of a basin, and goes on.
+const std::string press = R"(
+dimensions = 2
+[time]
+end = 1.0
+step = 1e-3
+[particles]
+spacing = 0.02
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 1.0]
+open = ["+z"]
+[[wall]]
+name = "ram"
+shape = "box"
+min = [0.2, 0.0, 0.0]
+max = [0.4, 0.0, 0.5]
+[wall.motion]
+velocity = [0.5, 0.0, 0.0]
+[[body]]
+name = "near"
+shape = "box"
+size = [0.2, 1.0, 0.2]
+density = 500.0
+position = [0.6, 0.0, 0.1]
+[[body]]
+name = "far"
+shape = "box"
+size = [0.2, 1.0, 0.2]
+density = 500.0
+position = [0.8, 0.0, 0.1]
+[contact]
+friction = 0.3
+restitution = 0.2
+)";
+
+// Room is gone at 0.4 s; half a spacing of overlap, in one contact of three, takes 0.06 s at most.
+TEST(Watch, WhatAMovingWallCrushesIsNamedWithWhatStandsInTheWay)
+{
+    Simulation sim = make(press);
+    const std::string text = said([&] { advance(sim, 1000); });
+    expect_words(text, {"body \"near\"", "wall \"ram\" presses it against wall \"basin\"",
+                        "over-constrained"});
+    EXPECT_GT(sim.clock.time, 0.4);
+    EXPECT_LE(sim.clock.time, 0.461);
+    for (const Body& body : sim.rigid.bodies) {
+        EXPECT_LE(body.position.x(), 0.9 + 0.5 * 0.0205) << "held by the side of the basin";
+    }
+}
+
+// Slower, so that there is room to the end.
+TEST(Watch, WhatAMovingWallPressesIsLeftAloneWhileThereIsRoom)
+{
+    std::string text = press;
+    const std::string motion = "velocity = [0.5, 0.0, 0.0]";
+    text.replace(text.find(motion), motion.size(), "velocity = [0.1995, 0.0, 0.0]");
+    Simulation sim = make(text);
+    EXPECT_EQ(said([&] { advance(sim, 1000); }), "");
+    EXPECT_LE(sim.rigid.counters.worst_penetration, 1e-3);
+}
+
 TEST(Watch, EnergyFromNowhereIsTold)
 {
     Simulation sim = make(tank);

@@ -111,19 +111,19 @@ TEST_F(Verdicts, AStoppedRunFailsAllItsChecksEvenKnownFailures)
     EXPECT_EQ(tally({{benchmark, {judge_run(benchmark, run, folder, "blew up")}}}).fail, 1);
 }
 
-TEST_F(Verdicts, ARunThatIsKnownToStopMustStop)
+TEST_F(Verdicts, ARunThatIsToStopMustStopAndSayWhy)
 {
     Benchmark benchmark;
     benchmark.folder = folder;
     benchmark.checks = {check("10", "1")};
-    BenchmarkRun weak = run;
-    weak.stops = "a known weakness";
-    const RunResult stopped = judge_run(benchmark, weak, folder / "nowhere", "blew up");
-    EXPECT_EQ(stopped.checks[0].verdict, Verdict::xfail);
-    EXPECT_EQ(stopped.checks[0].note, "the run stopped: blew up; a known weakness");
-    const Tally healed = tally({{benchmark, {judge_run(benchmark, weak, folder, "")}}});
-    EXPECT_EQ(healed.pass, 1);
-    EXPECT_EQ(healed.xpass, 1) << "the mark is stale";
+    BenchmarkRun crushed = run;
+    crushed.stops = "no room";
+    const auto verdicts = [&](const std::string& error) {
+        return tally({{benchmark, {judge_run(benchmark, crushed, folder, error)}}});
+    };
+    EXPECT_EQ(verdicts("it leaves no room").pass, 2) << "the stop, and the check of what it wrote";
+    EXPECT_EQ(verdicts("").fail, 2) << "it came to its end";
+    EXPECT_EQ(verdicts("blew up").fail, 2) << "it stopped for something else";
 }
 
 TEST_F(Verdicts, AReportCountsThemAndNamesTheCost)

@@ -29,6 +29,7 @@ struct Contact {
     // [J]; >= 0 but for the law "paper", which can gain. Exact in sum: the impacts of one moment
     // lose together what the kinetic energy, seen from the walls, lost.
     double energy_lost = 0;
+    double depth = 0; // by which the two overlap there, of a resting contact the largest [m], >= 0
 };
 
 /// Choices of the solver, with the defaults of the method.

@@ -33,7 +33,7 @@ struct BenchmarkRun {
     std::vector<std::string> set; // overrides of the case, as `hyoryu run --set` takes them
     Tier tier = Tier::quick;
     std::vector<std::pair<std::string, RunParameter>> parameters; // in the order of the file
-    std::string stops; // why it is known to stop with an error; empty: it must come to its end
+    std::string stops; // words of the error that it must stop with; empty: it must come to its end
 };
 
 /// Values over time, or of the particles of a frame: an expression of the columns of some rows of a

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "room.hpp"
+
+#include "surroundings.hpp"
+
+#include "hyoryu/sim/simulation.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+// Contacts whose normals are nearer than acos of this to the push hand it on.
+constexpr double straight_on = 0.5;
+
+// The contacts of the last step that press, by body.
+using Pressing = std::vector<std::vector<Contact>>;
+
+// Each seen from the body: the normal points towards it, the other one is b.
+Pressing pressing_by_body(const Simulation& sim)
+{
+    Pressing all(sim.rigid.bodies.size());
+    for (Contact c : sim.contacts) {
+        if (c.normal_impulse > 0) {
+            all[static_cast<std::size_t>(c.a)].push_back(c);
+            if (c.b >= 0) {
+                std::swap(c.a, c.b);
+                c.normal = -c.normal;
+                all[static_cast<std::size_t>(c.a)].push_back(c);
+            }
+        }
+    }
+    return all;
+}
+
+// The bodies that a push goes through, one after another, until it meets what does not give way.
+class PushedColumn {
+public:
+    PushedColumn(const Simulation& sim, const Pressing& pressing, const Contact& push)
+        : sim_(sim), pressing_(pressing), push_(push), speed_(speed_of(push.b)),
+          seen_(sim.rigid.bodies.size())
+    {
+    }
+
+    // The deepest contact between the push and what stands at the end of a column, which is named.
+    struct End {
+        int against = 0;
+        double depth = 0; // [m]
+    };
+    End deepest()
+    {
+        if (speed_ > 0) {
+            follow(push_.a, push_.depth);
+        }
+        return deepest_;
+    }
+
+private:
+    // Along the push; of a body none, as it gives way [m/s].
+    double speed_of(int b) const
+    {
+        return b < 0 ? push_.normal.dot(
+                           velocity(sim_.scene.walls[static_cast<std::size_t>(-1 - b)].motion,
+                                    sim_.clock.time))
+                     : 0;
+    }
+
+    bool stands(int b) const
+    {
+        if (b < 0) {
+            return speed_of(b) < speed_;
+        }
+        const auto& locks = sim_.rigid.bodies[static_cast<std::size_t>(b)].locks;
+        return locks[0] && locks[1] && locks[2];
+    }
+
+    void follow(int body, double depth)
+    {
+        seen_[static_cast<std::size_t>(body)] = true;
+        for (const Contact& c : pressing_[static_cast<std::size_t>(body)]) {
+            const double so_far = std::max(depth, c.depth);
+            if (c.normal.dot(push_.normal) > -straight_on) {
+                continue;
+            }
+            if (stands(c.b)) {
+                deepest_ = so_far > deepest_.depth ? End{c.b, so_far} : deepest_;
+            } else if (c.b >= 0 && !seen_[static_cast<std::size_t>(c.b)]) {
+                follow(c.b, so_far);
+            }
+        }
+    }
+
+    const Simulation& sim_;
+    const Pressing& pressing_;
+    const Contact& push_;
+    double speed_;           // of what pushes, along the push [m/s]
+    std::vector<bool> seen_; // by body
+    End deepest_;
+};
+
+} // namespace
+
+std::optional<Crushed> crushed(const Simulation& sim)
+{
+    const double deep = std::min(0.5 * sim.scene.spacing, 0.25 * sim.thinnest);
+    const auto& walls = sim.scene.walls;
+    if (std::ranges::none_of(walls, [](const Wall& wall) { return moves(wall.motion); }) ||
+        std::ranges::none_of(sim.contacts, [&](const Contact& c) { return c.depth > deep; })) {
+        return std::nullopt;
+    }
+    const Pressing pressing = pressing_by_body(sim);
+    for (const Contact& c : sim.contacts) {
+        if (c.b >= 0 || c.normal_impulse <= 0 ||
+            !moves(walls[static_cast<std::size_t>(-1 - c.b)].motion)) {
+            continue;
+        }
+        const auto [against, depth] = PushedColumn(sim, pressing, c).deepest();
+        if (depth > deep) {
+            return Crushed{sim.rigid.bodies[static_cast<std::size_t>(c.a)].name,
+                           walls[static_cast<std::size_t>(-1 - c.b)].name, solid_name(sim, against),
+                           depth};
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace hyoryu
