@@ -158,8 +158,8 @@ double thinnest(const Shape& shape, int dimensions)
     return (box.max - box.min).minCoeff();
 }
 
-// Metacentric height of an upright floating box: B^2/(12 d) - (H - d)/2, B the smaller horizontal
-// edge.
+// Metacentric height of an upright box that floats in the fluid of the scene: B^2/(12 d) - (H -
+// d)/2, B the smaller horizontal edge.
 void warn_if_it_tips(const Scene& scene, std::size_t b, Plan& plan)
 {
     const BodySettings& body = scene.bodies[b];
@@ -218,6 +218,10 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
         if (b > 0 && body.place.line == scene.bodies[b - 1].place.line) {
             continue;
         }
+        warn_about_staircase(scene, b, plan);
+        if (!scene.fluid) {
+            continue;
+        }
         const double across = thinnest(body.shape, scene.dimensions);
         if (across < 3 * scene.spacing * (1 - 1e-9)) {
             warn(scene, body.place, body_key(b),
@@ -227,7 +231,6 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
                  "use a smaller `particles.spacing`", plan);
         }
         warn_if_it_tips(scene, b, plan);
-        warn_about_staircase(scene, b, plan);
     }
 }
 
