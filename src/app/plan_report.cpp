@@ -143,7 +143,7 @@ std::string size_lines(const Scene& scene, const Plan& plan, const std::optional
                                    n.fluid, n.wall, n.body, n.bodies, n.walls);
     text += fmt::format("    memory                 about {}\n", readable_bytes(plan.memory));
     text += fmt::format("    disk                   about {}, with {:.0f} frames\n",
-                        readable_bytes(disk_bytes(scene, plan, expected_steps(plan, timed))),
+                        readable_bytes(disk_bytes(scene, plan, {.steps = expected_steps(plan, timed)})),
                         plan.frames);
     if (plan.fluid) {
         text += fmt::format("    pair arithmetic        {} precision, {} instructions\n",
@@ -328,7 +328,7 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
     }
     json["forecast"] = {{"memory_bytes", plan.memory},
                         {"frames", plan.frames},
-                        {"disk_bytes", disk_bytes(scene, plan, expected_steps(plan, timed))},
+                        {"disk_bytes", disk_bytes(scene, plan, {.steps = expected_steps(plan, timed)})},
                         {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
                         {"wall_seconds", forecast(plan, timed)}};
     if (timed) {

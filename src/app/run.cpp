@@ -39,7 +39,7 @@ fs::path results_folder(const RunOptions& options)
 
 void check_disk(const fs::path& folder, const Scene& scene, const Plan& plan)
 {
-    const double needed = disk_bytes(scene, plan, plan.expected_steps);
+    const double needed = disk_bytes(scene, plan, {.steps = plan.expected_steps});
     std::error_code error;
     const auto space = fs::space(folder, error);
     if (!error && needed > static_cast<double>(space.available)) {
