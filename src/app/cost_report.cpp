@@ -125,14 +125,15 @@ std::optional<StepCost> time_steps(Simulation& sim, int steps)
     }
 }
 
-void write_cost(const std::filesystem::path& folder, double seconds_per_step,
+void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
                 const std::optional<StepCost>& measured)
 {
     const ordered_json plan = read(folder / "plan.json");
     ordered_json summary = read(folder / "summary.json");
+    summary["peak_memory_bytes"] = spent.memory; // with what results.h5 took, which came later
     ordered_json& cost = summary["cost"];
     cost["seconds_per_step"] = {{"predicted", value_at(plan, "/cost/seconds_per_step")},
-                                {"measured", seconds_per_step}};
+                                {"measured", spent.seconds_per_step}};
     cost["steps"] = {{"predicted", value_at(plan, "/time_step/steps")},
                      {"measured", value_at(summary, "/steps")}};
     cost["memory_bytes"] = {{"predicted", value_at(plan, "/forecast/memory_bytes")},

@@ -33,10 +33,16 @@ struct CaseSource {
 void foretell_development(const CaseSource& source, const Plan& plan, int first,
                           double most_seconds, StepCost& cost);
 
+/// What this process has spent.
+struct SpentCost {
+    double seconds_per_step = 0; // of wall time, all included [s]
+    double memory = 0;           // largest resident memory, results.h5 included [B]
+};
+
 /// Adds `cost` to the summary.json in the folder: for each effect that its plan.json names, and for
-/// the run, what the plan foretold and what was measured. `seconds_per_step`: of this process.
-/// Throws IoError, also when one of the two is not what a run wrote.
-void write_cost(const std::filesystem::path& folder, double seconds_per_step,
+/// the run, what the plan foretold and what was measured. Throws IoError, also when one of the two
+/// is not what a run wrote.
+void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
                 const std::optional<StepCost>& measured);
 
 } // namespace hyoryu

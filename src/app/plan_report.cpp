@@ -17,8 +17,8 @@ namespace {
 // dam break with all default effects. A forecast from it is an order of magnitude, not a promise.
 constexpr double measured_rate = 0.55e6;
 
-// A box that falls into a heap and rests there, measured with one thread over whole runs of 1,000 and
-// 1,960 boxes. At rest it takes half of that, in flight a tenth.
+// A box that falls into a heap and rests there, measured with one thread over whole runs of 1,000
+// and 1,960 boxes. At rest it takes half of that, in flight a tenth.
 constexpr double body_seconds = 35e-6;
 
 // Particles that a gauge looks at in a second; measured on the same machine with one thread. Gauges
@@ -142,9 +142,10 @@ std::string size_lines(const Scene& scene, const Plan& plan, const std::optional
                                    "body\n    bodies, walls          {}, {}\n",
                                    n.fluid, n.wall, n.body, n.bodies, n.walls);
     text += fmt::format("    memory                 about {}\n", readable_bytes(plan.memory));
-    text += fmt::format("    disk                   about {}, with {:.0f} frames\n",
-                        readable_bytes(disk_bytes(scene, plan, {.steps = expected_steps(plan, timed)})),
-                        plan.frames);
+    text +=
+        fmt::format("    disk                   about {}, with {:.0f} frames\n",
+                    readable_bytes(disk_bytes(scene, plan, {.steps = expected_steps(plan, timed)})),
+                    plan.frames);
     if (plan.fluid) {
         text += fmt::format("    pair arithmetic        {} precision, {} instructions\n",
                             name(scene.precision), name(widest_instruction_set()));
@@ -326,11 +327,12 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
         json["precision"] = name(scene.precision);
         json["instruction_set"] = name(widest_instruction_set());
     }
-    json["forecast"] = {{"memory_bytes", plan.memory},
-                        {"frames", plan.frames},
-                        {"disk_bytes", disk_bytes(scene, plan, {.steps = expected_steps(plan, timed)})},
-                        {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
-                        {"wall_seconds", forecast(plan, timed)}};
+    json["forecast"] = {
+        {"memory_bytes", plan.memory},
+        {"frames", plan.frames},
+        {"disk_bytes", disk_bytes(scene, plan, {.steps = expected_steps(plan, timed)})},
+        {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
+        {"wall_seconds", forecast(plan, timed)}};
     if (timed) {
         json["cost"] = cost_json(*timed);
     }

@@ -215,13 +215,4 @@ double history_bytes(const std::vector<HistorySize>& tables)
     return total;
 }
 
-double largest_history(const Scene& scene, const Plan& plan, const Course& course)
-{
-    double most = 0;
-    for (const HistorySize& table : histories(scene, plan, course)) {
-        most = std::max(most, table.rows * table.row_text);
-    }
-    return most;
-}
-
 } // namespace hyoryu

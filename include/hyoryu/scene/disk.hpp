@@ -20,7 +20,4 @@ struct Course {
 /// they hit is for the course to say. Measured on 70 shipped cases; see the constants.
 double disk_bytes(const Scene& scene, const Plan& plan, const Course& course);
 
-/// Bytes of the largest of the histories as text, contacts among them [B].
-double largest_history(const Scene& scene, const Plan& plan, const Course& course);
-
 } // namespace hyoryu
