@@ -22,8 +22,9 @@ using nlohmann::ordered_json;
 
 constexpr double part_of_run = 0.01;
 constexpr double part_that_is_early = 0.05;
-constexpr int least_steps = 5; // two rounds and the step before them cost no less
-constexpr int most_steps = 60; // more would tell no more
+constexpr int least_steps = 5;       // two rounds and the step before them cost no less
+constexpr int most_steps = 60;       // more would tell no more
+constexpr double shortest_run = 100; // steps, of which the least to time are a twentieth
 
 ordered_json read(const std::filesystem::path& file)
 {
@@ -108,9 +109,8 @@ void foretell_development(const CaseSource& source, const Plan& plan, int first,
 
 int steps_to_time(const Plan& plan, double steps)
 {
-    const double few = part_of_run * steps;
-    return plan.fluid && few >= least_steps ? static_cast<int>(std::min<double>(few, most_steps))
-                                            : 0;
+    const auto few = static_cast<int>(std::min<double>(part_of_run * steps, most_steps));
+    return plan.fluid && steps >= shortest_run ? std::max(few, least_steps) : 0;
 }
 
 std::optional<StepCost> time_steps(Simulation& sim, int steps)
