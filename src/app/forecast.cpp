@@ -30,6 +30,9 @@ constexpr double body_seconds = 35e-6;
 // run side by side, but a single one does not.
 constexpr double gauge_rate = 0.15e9;
 
+// A look at a run that nobody notices [s]; most small scenes of bodies come to their end in it.
+constexpr double shortest_look = 0.1;
+
 // The text of one row of a history, and a frame beside its way to the disk, as the writer's thread
 // counts its own time in runs of small scenes [s].
 constexpr double row_text = 5e-6;
@@ -65,16 +68,18 @@ double output_of_step(const Scene& scene, const Plan& plan, const StepCost& cost
 
 double limit_of(const TimingBudget& budget, double run)
 {
-    constexpr double eighth = 1.0 / 8;
-    return std::clamp(budget.part * run, std::min(budget.least, 1.2 * eighth * run), budget.most);
+    // Half of the particles along each edge are an eighth of the work in two dimensions, and some
+    // more: small loops are less efficient.
+    constexpr double share_of_coarsest = 0.15;
+    const double least = std::min(budget.least, share_of_coarsest * run);
+    return std::clamp(budget.part * run, std::max(shortest_look, least), budget.most);
 }
 
 std::optional<StepCost> time_bodies(const Scene& scene, const Plan& plan, const Filling& filling,
                                     const TimingBudget& budget)
 {
-    constexpr double at_least = 0.1; // [s], within which most small scenes come to their end
     Simulation sim = make_simulation(scene, plan, filling);
-    const double limit = std::max(at_least, limit_of(budget, wall_forecast(plan, {})));
+    const double limit = limit_of(budget, wall_forecast(plan, {}));
     const double row = measure_row(sim);
     const SteadyClock::time_point start = SteadyClock::now();
     std::optional<StepCost> cost =

@@ -14,7 +14,7 @@ namespace hyoryu {
 struct TimingBudget {
     int steps = 0;       // of a run with fluid, at its start
     double part = 0;     // of the run, for the look at how it develops [1]
-    double least = 0;    // and at least so long, but no more than an eighth of the run [s]
+    double least = 0;    // and at least so long, but of short runs no more than 15 % or 0.1 s [s]
     double most = 0;     // and at most [s]
     double part_run = 1; // of the case that is run [1]
     double file = 1e-3;  // to write a small file [s]

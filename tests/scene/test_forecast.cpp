@@ -91,7 +91,7 @@ TEST(Forecast, GivesNumbersThatNeverChangeNoRoom)
 {
     const Planned rests = planned(fall, {"gravity=[0,0,0]", "wall=[]"});
     const Planned falls = planned(fall, {"wall=[]"});
-    const Planned flies = planned(fall, {"wall=[]", "body.0.velocity=[1,1,0]"});
+    const Planned flies = planned(fall, {"wall=[]", "body[0].velocity=[1,1,0]"});
     constexpr double row = 18.5; // a number of full length in the place of a zero [B]
     const double rows = 1001;
     // Along z: place, velocity and momentum; both energies' part, and the impulse of gravity.
@@ -104,7 +104,7 @@ TEST(Forecast, OfStillWallsIsSmall)
 {
     const Planned p = planned(tank);
     ASSERT_GT(p.plan.counts.wall, 10000);
-    const Planned moved = planned(tank, {"wall.0.motion.velocity=[0.1,0,0]"});
+    const Planned moved = planned(tank, {"wall[0].motion.velocity=[0.1,0,0]"});
     ASSERT_EQ(moved.plan.counts.wall, p.plan.counts.wall);
     const auto walls = static_cast<double>(p.plan.counts.wall);
     const double of_frame = (disk(moved) - disk(p)) / p.plan.frames;
@@ -117,8 +117,8 @@ TEST(Forecast, OfFramesFollowsTheFluidThatIsLeft)
     const Planned p = planned(tank);
     const double all = disk(p);
     const double half = disk(p, {.fluid = 0.5, .fluid_end = 0.5});
-    EXPECT_LT(half, 0.65 * all);
-    EXPECT_GT(half, 0.45 * all);
+    EXPECT_LT(half, 0.75 * all) << "frames and the last checkpoint halve, walls and texts do not";
+    EXPECT_GT(half, 0.5 * all);
 }
 
 TEST(Forecast, OfMemoryIsThatOfTheProgramAndWhatItHolds)

@@ -155,7 +155,7 @@ TEST(Cost, OfBodiesIsNotToldByNoStep)
 TEST(Cost, OfBodiesIsNotToldByStepsThatGrow)
 {
     Simulation sim =
-        make(bounce, {"body.0.copies.count=[5,8,1]", "body.0.copies.pitch=[0.3,0.3,0]"});
+        make(bounce, {"body[0].copies.count=[5,8,1]", "body[0].copies.pitch=[0.3,0.3,0]"});
     EXPECT_FALSE(measure_bodies(sim, [&] { return sim.clock.step < 300; }).has_value());
 }
 
@@ -168,7 +168,7 @@ TEST(Cost, DevelopmentTellsWhatFluidIsLeft)
     EXPECT_NEAR(all->fluid, 1, 1e-9);
     EXPECT_EQ(all->fluid_end, 1);
     Simulation falls =
-        make(tank, {"time.end=0.25", "wall.0.min=[0.0,0.0,-9.0]", "wall.0.max=[0.2,0.0,-8.0]",
+        make(tank, {"time.end=0.25", "wall[0].min=[0.0,0.0,-9.0]", "wall[0].max=[0.2,0.0,-8.0]",
                     "domain.min=[-0.1,0.0,0.0]", "domain.max=[0.3,0.0,0.4]"});
     const auto some = measure_development(falls, 5, [] { return true; });
     ASSERT_TRUE(some.has_value());
