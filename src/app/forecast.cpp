@@ -36,7 +36,7 @@ constexpr double shortest_look = 0.1;
 // The text of one row of a history, and a frame beside its way to the disk, as the writer's thread
 // counts its own time in runs of small scenes [s].
 constexpr double row_text = 5e-6;
-constexpr double frame_work = 1.3e-3;
+constexpr double frame_work = 1e-3;
 
 // Files that every run writes beside its frames: checkpoints, histories, walls, structures.
 constexpr double files_of_a_run = 10;
@@ -61,9 +61,12 @@ double output_of_step(const Scene& scene, const Plan& plan, const StepCost& cost
     const double every = scene.output.history_every;
     const double rows = every > 0 ? std::min(steps, scene.time.end / every) : steps;
     const double texts = row_text * (1 + static_cast<double>(plan.counts.bodies));
-    const double writer = frame_files(scene, plan) * (file + frame_work);
+    const double work = frame_files(scene, plan) * frame_work;
+    const double writer = frame_files(scene, plan) * file + work;
     const double waits = std::max(0.0, writer - steps * seconds_of_run(cost));
-    return (rows * (cost.row + texts) + waits + files_of_a_run * file) / steps;
+    // The solver's threads hold all cores: what the writer works is taken from them.
+    const double taken = plan.fluid ? work / thread_count() : 0;
+    return (rows * (cost.row + texts) + waits + taken + files_of_a_run * file) / steps;
 }
 
 double limit_of(const TimingBudget& budget, double run)
