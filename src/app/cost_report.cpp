@@ -22,9 +22,10 @@ using nlohmann::ordered_json;
 
 constexpr double part_of_run = 0.01;
 constexpr double part_that_is_early = 0.05;
-constexpr int least_steps = 5;       // two rounds and the step before them cost no less
-constexpr int most_steps = 60;       // more would tell no more
-constexpr double shortest_run = 100; // steps, of which the least to time are a twentieth
+constexpr double part_of_short_run = 0.05;
+constexpr double least_steps = 15; // some with new lists among them
+constexpr double most_steps = 60;  // more would tell no more
+constexpr double shortest_run = 100;
 
 ordered_json read(const std::filesystem::path& file)
 {
@@ -109,8 +110,9 @@ void foretell_development(const CaseSource& source, const Plan& plan, int first,
 
 int steps_to_time(const Plan& plan, double steps)
 {
-    const auto few = static_cast<int>(std::min<double>(part_of_run * steps, most_steps));
-    return plan.fluid && steps >= shortest_run ? std::max(few, least_steps) : 0;
+    const double least = std::min(part_of_short_run * steps, least_steps);
+    const double few = std::clamp(part_of_run * steps, least, most_steps);
+    return plan.fluid && steps >= shortest_run ? static_cast<int>(few) : 0;
 }
 
 std::optional<StepCost> time_steps(Simulation& sim, int steps)

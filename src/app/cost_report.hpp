@@ -11,8 +11,8 @@
 
 namespace hyoryu {
 
-/// Steps to time at the start and at the end of a run of so many: about 2 % of it together, five at
-/// least, and none of runs of less than a hundred, or without fluid.
+/// Steps to time at the start and at the end of a run of so many: about 2 % of it together, of
+/// short ones a tenth, and none of runs of less than a hundred, or without fluid.
 int steps_to_time(const Plan& plan, double steps);
 
 /// Times the steps; none if there are none to time, or if what lies beyond the end of the run goes
