@@ -99,8 +99,8 @@ TEST(Forecast, GivesNumbersThatNeverChangeNoRoom)
     EXPECT_NEAR(disk(flies) - disk(falls), rows * row * 6, 0.15 * rows * row * 6);
 }
 
-// 14,872 particles of the walls of this tank are written once and lie on a lattice.
-TEST(Forecast, OfStillWallsIsSmall)
+// Walls that move are written with every frame.
+TEST(Forecast, OfMovingWallsIsThatOfTheirLattice)
 {
     const Planned p = planned(tank);
     ASSERT_GT(p.plan.counts.wall, 10000);
@@ -110,6 +110,16 @@ TEST(Forecast, OfStillWallsIsSmall)
     const double of_frame = (disk(moved) - disk(p)) / p.plan.frames;
     EXPECT_GT(of_frame, 5 * walls);
     EXPECT_LT(of_frame, 25 * walls) << "of 62 bytes before compression";
+}
+
+TEST(Forecast, OfMoreStillWallsIsNextToNothing)
+{
+    const Planned low = planned(tank);
+    const Planned high = planned(tank, {"wall[0].max=[0.6,0.6,2.4]"});
+    const auto more = static_cast<double>(high.plan.counts.wall - low.plan.counts.wall);
+    ASSERT_GT(more, 10000);
+    EXPECT_LT((disk(high) - disk(low)) / more, 6) << "of 62 bytes before compression";
+    EXPECT_GT(disk(high), disk(low));
 }
 
 TEST(Forecast, OfFramesFollowsTheFluidThatIsLeft)
