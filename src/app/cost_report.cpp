@@ -22,8 +22,10 @@ using nlohmann::ordered_json;
 
 constexpr double part_of_run = 0.01;
 constexpr double part_that_is_early = 0.05;
-constexpr int least_steps = 5; // two rounds and the step before them cost no less
-constexpr int most_steps = 60; // more would tell no more
+constexpr double part_of_short_run = 0.05;
+constexpr double least_steps = 15; // some with new lists among them
+constexpr double most_steps = 60;  // more would tell no more
+constexpr double shortest_run = 100;
 
 ordered_json read(const std::filesystem::path& file)
 {
@@ -108,9 +110,9 @@ void foretell_development(const CaseSource& source, const Plan& plan, int first,
 
 int steps_to_time(const Plan& plan, double steps)
 {
-    const double few = part_of_run * steps;
-    return plan.fluid && few >= least_steps ? static_cast<int>(std::min<double>(few, most_steps))
-                                            : 0;
+    const double least = std::min(part_of_short_run * steps, least_steps);
+    const double few = std::clamp(part_of_run * steps, least, most_steps);
+    return plan.fluid && steps >= shortest_run ? static_cast<int>(few) : 0;
 }
 
 std::optional<StepCost> time_steps(Simulation& sim, int steps)
@@ -125,14 +127,15 @@ std::optional<StepCost> time_steps(Simulation& sim, int steps)
     }
 }
 
-void write_cost(const std::filesystem::path& folder, double seconds_per_step,
+void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
                 const std::optional<StepCost>& measured)
 {
     const ordered_json plan = read(folder / "plan.json");
     ordered_json summary = read(folder / "summary.json");
+    summary["peak_memory_bytes"] = spent.memory; // with what results.h5 took, which came later
     ordered_json& cost = summary["cost"];
     cost["seconds_per_step"] = {{"predicted", value_at(plan, "/cost/seconds_per_step")},
-                                {"measured", seconds_per_step}};
+                                {"measured", spent.seconds_per_step}};
     cost["steps"] = {{"predicted", value_at(plan, "/time_step/steps")},
                      {"measured", value_at(summary, "/steps")}};
     cost["memory_bytes"] = {{"predicted", value_at(plan, "/forecast/memory_bytes")},

@@ -11,8 +11,8 @@
 
 namespace hyoryu {
 
-/// Steps to time at the start and at the end of a run of so many: about 2 % of it together, and
-/// none of runs too short for that, or without fluid.
+/// Steps to time at the start and at the end of a run of so many: about 2 % of it together, of
+/// short ones a tenth, and none of runs of less than a hundred, or without fluid.
 int steps_to_time(const Plan& plan, double steps);
 
 /// Times the steps; none if there are none to time, or if what lies beyond the end of the run goes
@@ -33,10 +33,16 @@ struct CaseSource {
 void foretell_development(const CaseSource& source, const Plan& plan, int first,
                           double most_seconds, StepCost& cost);
 
+/// What this process has spent.
+struct SpentCost {
+    double seconds_per_step = 0; // of wall time, all included [s]
+    double memory = 0;           // largest resident memory, results.h5 included [B]
+};
+
 /// Adds `cost` to the summary.json in the folder: for each effect that its plan.json names, and for
-/// the run, what the plan foretold and what was measured. `seconds_per_step`: of this process.
-/// Throws IoError, also when one of the two is not what a run wrote.
-void write_cost(const std::filesystem::path& folder, double seconds_per_step,
+/// the run, what the plan foretold and what was measured. Throws IoError, also when one of the two
+/// is not what a run wrote.
+void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
                 const std::optional<StepCost>& measured);
 
 } // namespace hyoryu

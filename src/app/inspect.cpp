@@ -2,7 +2,7 @@
 // Commands that compute nothing: check, describe, info, render, version.
 #include "build_info.hpp"
 #include "commands.hpp"
-#include "cost_report.hpp"
+#include "forecast.hpp"
 #include "options.hpp"
 #include "plan_report.hpp"
 
@@ -83,13 +83,12 @@ int check_case(const CheckOptions& options)
     const Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
     std::optional<StepCost> timed;
-    if (options.time && plan.fluid) {
-        Simulation sim = make_simulation(scene, plan, filling);
-        timed = measure_cost(sim, timed_steps);
-        foretell_development({options.case_file, options.overrides}, plan, timed_steps,
-                             std::clamp(part_for_development * timed->seconds * plan.expected_steps,
-                                        least_for_development, most_for_development),
-                             *timed);
+    if (options.time) {
+        timed = time_case({options.case_file, options.overrides}, scene, plan, filling,
+                          {.steps = timed_steps,
+                           .part = part_for_development,
+                           .least = least_for_development,
+                           .most = most_for_development});
     }
     if (options.json) {
         fmt::print("{}", plan_json(scene, plan, timed));

@@ -1,49 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "plan_report.hpp"
 
+#include "forecast.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/disk.hpp"
+#include "hyoryu/scene/memory.hpp"
 
 #include <cmath>
 
 namespace hyoryu {
 
 namespace {
-
-// Fluid particle-steps a second and thread: measured on one 2-core AVX2 machine in a developed 3-D
-// dam break with all default effects. A forecast from it is an order of magnitude, not a promise.
-constexpr double measured_rate = 0.55e6;
-
-// A box that falls into a heap and rests there, measured with one thread over whole runs of 1,000 and
-// 1,960 boxes. At rest it takes half of that, in flight a tenth.
-constexpr double body_seconds = 35e-6;
-
-// Particles that a gauge looks at in a second; measured on the same machine with one thread. Gauges
-// run side by side, but a single one does not.
-constexpr double gauge_rate = 0.15e9;
-
-double gauge_seconds(const Plan& plan)
-{
-    return plan.gauge_rows * plan.gauge_looks / gauge_rate;
-}
-
-double expected_steps(const Plan& plan, const std::optional<StepCost>& timed)
-{
-    return timed && timed->development ? std::ceil(plan.expected_steps * timed->development->steps)
-                                       : plan.expected_steps;
-}
-
-double forecast(const Plan& plan, const std::optional<StepCost>& timed)
-{
-    const double step =
-        timed ? seconds_of_run(*timed)
-              : static_cast<double>(plan.counts.fluid) / (measured_rate * thread_count()) +
-                    static_cast<double>(plan.counts.bodies) * body_seconds;
-    return expected_steps(plan, timed) * step + gauge_seconds(plan);
-}
 
 nlohmann::ordered_json cost_json(const StepCost& cost)
 {
@@ -54,10 +25,9 @@ nlohmann::ordered_json cost_json(const StepCost& cost)
                       {"effects", ordered_json::object()}};
     if (cost.development) {
         const Development& d = *cost.development;
-        json["development"] = {{"coarsening", d.coarsening},
-                               {"steps", d.steps},
-                               {"step", d.step},
-                               {"seconds", d.seconds}};
+        json["development"] = {
+            {"coarsening", d.coarsening}, {"steps", d.steps}, {"step", d.step},
+            {"seconds", d.seconds},       {"fluid", d.fluid}, {"impacts", d.impacts}};
     }
     for (const StepCost::Share& share : cost.effects) {
         json["effects"][share.effect] = share.share;
@@ -141,9 +111,10 @@ std::string size_lines(const Scene& scene, const Plan& plan, const std::optional
     std::string text = fmt::format("  size\n    particles              {} fluid, {} wall, {} "
                                    "body\n    bodies, walls          {}, {}\n",
                                    n.fluid, n.wall, n.body, n.bodies, n.walls);
-    text += fmt::format("    memory                 about {}\n", readable_bytes(plan.memory));
+    text += fmt::format("    memory                 about {}\n",
+                        readable_bytes(memory_bytes(scene, plan, expected_course(plan, timed))));
     text += fmt::format("    disk                   about {}, with {:.0f} frames\n",
-                        readable_bytes(disk_bytes(scene, plan, expected_steps(plan, timed))),
+                        readable_bytes(disk_bytes(scene, plan, expected_course(plan, timed))),
                         plan.frames);
     if (plan.fluid) {
         text += fmt::format("    pair arithmetic        {} precision, {} instructions\n",
@@ -157,7 +128,11 @@ std::string size_lines(const Scene& scene, const Plan& plan, const std::optional
 
 std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)
 {
-    const std::string about = readable_seconds(forecast(plan, timed));
+    const std::string about = readable_seconds(wall_forecast(plan, timed));
+    if (!plan.fluid && timed) {
+        return fmt::format("    run time               about {}, by {:.3g} s a step timed now\n",
+                           about, seconds_of_run(*timed));
+    }
     if (!plan.fluid) {
         return fmt::format(
             "    run time               about {} if all bodies touch (order of magnitude)\n",
@@ -328,9 +303,9 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
     }
     json["forecast"] = {{"memory_bytes", plan.memory},
                         {"frames", plan.frames},
-                        {"disk_bytes", disk_bytes(scene, plan, expected_steps(plan, timed))},
+                        {"disk_bytes", disk_bytes(scene, plan, expected_course(plan, timed))},
                         {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
-                        {"wall_seconds", forecast(plan, timed)}};
+                        {"wall_seconds", wall_forecast(plan, timed)}};
     if (timed) {
         json["cost"] = cost_json(*timed);
     }

@@ -2,7 +2,7 @@
 // The outer loop of a run: step, write what is due, show how far it is, stop when asked.
 #include "build_info.hpp"
 #include "commands.hpp"
-#include "cost_report.hpp"
+#include "forecast.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "plan_report.hpp"
@@ -39,7 +39,7 @@ fs::path results_folder(const RunOptions& options)
 
 void check_disk(const fs::path& folder, const Scene& scene, const Plan& plan)
 {
-    const double needed = disk_bytes(scene, plan, plan.expected_steps);
+    const double needed = disk_bytes(scene, plan, {.steps = plan.expected_steps});
     std::error_code error;
     const auto space = fs::space(folder, error);
     if (!error && needed > static_cast<double>(space.available)) {
@@ -211,7 +211,8 @@ void tell_cost(Job& job)
     const auto steps = static_cast<double>(job.sim.clock.step - job.first_step);
     const double seconds = steps > 0 ? job.progress.wall_seconds() / steps : 0;
     const int timed = steps_to_time(job.sim.plan, steps);
-    write_cost(job.folder, seconds, time_steps(job.sim, timed));
+    const SpentCost spent{seconds, peak_memory()}; // before the steps that are timed now
+    write_cost(job.folder, spent, time_steps(job.sim, timed));
 }
 
 int finish(Job& job)
@@ -256,28 +257,15 @@ int carry_out(Job& job)
     }
 }
 
-// Timed on simulations of their own, which are gone before that of the run is made.
-std::optional<StepCost> predicted_cost(const RunOptions& options, const Scene& scene,
-                                       const Plan& plan, const Filling& filling)
+// What may be timed before this run.
+TimingBudget timing_budget(const RunOptions& options, const Scene& scene, const Plan& plan)
 {
-    constexpr double part_for_development = 0.02;
-    constexpr double least_for_development = 0.1; // [s]
-    constexpr double most_for_development = 20;
-    const int steps = steps_to_time(plan, plan.expected_steps);
-    if (steps == 0) {
-        return {};
-    }
-    Simulation sim = make_simulation(scene, plan, filling);
-    std::optional<StepCost> cost = time_steps(sim, steps);
-    if (cost) {
-        const double end = std::min(options.until.value_or(infinity), scene.time.end);
-        const double run = cost->seconds * plan.expected_steps * end / scene.time.end;
-        foretell_development(
-            {options.case_file, options.overrides}, plan, steps,
-            std::clamp(part_for_development * run, least_for_development, most_for_development),
-            *cost);
-    }
-    return cost;
+    const double end = std::min(options.until.value_or(infinity), scene.time.end);
+    return {.steps = steps_to_time(plan, plan.expected_steps),
+            .part = 0.02,
+            .least = 1,
+            .most = 20,
+            .part_run = end / scene.time.end};
 }
 
 Job start(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
@@ -286,9 +274,11 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     FolderLock lock = prepare_results(folder, options.force ? Existing::replace : Existing::refuse);
     check_disk(folder, scene, plan);
     const std::string case_text = to_toml(scene);
-    write_text(folder / "case.toml", case_text);
-    write_text(folder / "plan.json",
-               plan_json(scene, plan, predicted_cost(options, scene, plan, filling)));
+    TimingBudget budget = timing_budget(options, scene, plan);
+    budget.file = seconds_to_write(folder / "case.toml", case_text);
+    const std::optional<StepCost> timed =
+        time_case({options.case_file, options.overrides}, scene, plan, filling, budget);
+    write_text(folder / "plan.json", plan_json(scene, plan, timed));
     Simulation sim = make_simulation(scene, plan, filling);
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, 0);
     Outputs outputs(folder, sim, filling.domain);

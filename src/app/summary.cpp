@@ -38,13 +38,6 @@ ordered_json seconds_by_stage(const StageTimer& timer)
     return seconds;
 }
 
-double peak_memory()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
 ordered_json contact_counters(const RigidCounters& c)
 {
     return {{"impacts", c.impacts},
@@ -57,6 +50,13 @@ ordered_json contact_counters(const RigidCounters& c)
 }
 
 } // namespace
+
+double peak_memory()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
 
 std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
                          std::int64_t first_step, const StageTimer& output,

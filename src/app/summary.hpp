@@ -9,6 +9,9 @@
 
 namespace hyoryu {
 
+/// Largest resident memory of this process so far [B].
+double peak_memory();
+
 /// `exit_reason`: "done", "interrupted", "until", "numerical error", "io error". `first_step`: step
 /// at which this process began; `output`: time of the
 /// solver's side for what is written; `frames`: cost of the thread that writes them.

@@ -91,6 +91,18 @@ void put_snapshot(hid_t file, const Snapshot& snapshot)
     }
 }
 
+std::size_t stored_bytes(const Snapshot& snapshot)
+{
+    std::size_t total = 0;
+    for (const auto& [name, column] : snapshot.arrays) {
+        total += view_of(column).bytes.size();
+    }
+    for (const auto& [name, text] : snapshot.texts) {
+        total += text.size();
+    }
+    return total;
+}
+
 Snapshot get_snapshot(hid_t file)
 {
     Snapshot snapshot;
@@ -182,7 +194,7 @@ void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snaps
 {
     AtomicFile atomic(checkpoint_file(folder));
     const hdf5::Session session;
-    hdf5::FileImage image;
+    hdf5::FileImage image(stored_bytes(snapshot));
     put_snapshot(image, snapshot);
     const std::span<const std::byte> bytes = image.bytes();
     atomic.write(header(bytes.size(), libdeflate_crc32(0, bytes.data(), bytes.size())));

@@ -36,10 +36,14 @@ std::string last_error()
     return text.empty() ? "HDF5 gives no reason" : text;
 }
 
-Handle in_memory_access()
+Handle in_memory_access(std::size_t content)
 {
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepare an HDF5 file");
-    constexpr std::size_t growth = std::size_t{8} << 20; // few reallocations, little waste
+    // Few reallocations, little waste: HDF5 fills a portion with zeros before anything is in it,
+    // and 8 MiB a file were a fifth of what a small run held.
+    constexpr std::size_t around_content = std::size_t{64} << 10; // headers, groups, attributes
+    constexpr std::size_t largest = std::size_t{8} << 20;
+    const std::size_t growth = std::min(content + around_content, largest);
     check(H5Pset_fapl_core(access, growth, false), "prepare an HDF5 file");
     // The oldest file format that can hold the content is the one that most programs read.
     check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST),
@@ -110,9 +114,10 @@ void check(herr_t status, std::string_view action)
     }
 }
 
-FileImage::FileImage()
-    : access_(in_memory_access()), file_(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access_),
-                                         H5Fclose, "build an HDF5 file in memory")
+FileImage::FileImage(std::size_t content)
+    : access_(in_memory_access(content)),
+      file_(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access_), H5Fclose,
+            "build an HDF5 file in memory")
 {
 }
 

@@ -52,7 +52,9 @@ void check(herr_t status, std::string_view action);
 /// that it failed to write, and its message hides the reason.
 class FileImage {
 public:
-    FileImage();
+    /// `content`: about the bytes of what will be put into it. Memory is taken in portions of that
+    /// size, 8 MiB at most, and all of a portion is touched at once.
+    explicit FileImage(std::size_t content);
     operator hid_t() const { return file_; }
     /// The bytes of the finished file; they live as long as this object and no more may be added.
     std::span<const std::byte> bytes();

@@ -181,7 +181,7 @@ void put_history(hid_t parent, const std::string& name, std::string_view text)
     }
 }
 
-void put_histories(hid_t file, const fs::path& folder)
+std::vector<fs::path> tables_in(const fs::path& folder)
 {
     std::vector<fs::path> tables;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -190,8 +190,23 @@ void put_histories(hid_t file, const fs::path& folder)
         }
     }
     std::sort(tables.begin(), tables.end());
+    return tables;
+}
+
+/// As text: as numbers they take no more.
+std::size_t bytes_of_tables(const fs::path& folder)
+{
+    std::size_t total = 0;
+    for (const fs::path& table : tables_in(folder)) {
+        total += fs::file_size(table);
+    }
+    return total;
+}
+
+void put_histories(hid_t file, const fs::path& folder)
+{
     const hdf5::Handle group = hdf5::create_group(file, "histories");
-    for (const fs::path& table : tables) {
+    for (const fs::path& table : tables_in(folder)) {
         put_history(group, table.stem().string(), file_text(table));
     }
 }
@@ -203,7 +218,7 @@ void write_master(const std::filesystem::path& folder, const std::string& case_t
 {
     AtomicFile atomic(folder / "results.h5");
     const hdf5::Session session;
-    hdf5::FileImage image;
+    hdf5::FileImage image(bytes_of_tables(folder));
     hdf5::put_attribute(image, "program", std::string("hyoryu"));
     hdf5::put_attribute(image, "version", version);
     hdf5::put_attribute(image, "title", title_of(case_text));

@@ -234,6 +234,18 @@ PackedArray packed(const ArrayView& view)
     return array;
 }
 
+std::size_t stored_bytes(const PackedArray& array)
+{
+    if (array.rows_per_chunk == 0) {
+        return array.view.bytes.size();
+    }
+    std::size_t total = 0;
+    for (const Bytes& chunk : array.chunks) {
+        total += chunk.size();
+    }
+    return total;
+}
+
 void put_array(hid_t parent, const std::string& name, const PackedArray& array,
                const std::string& unit)
 {

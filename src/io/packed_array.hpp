@@ -43,6 +43,9 @@ PackedArray packed(const ArrayView& view);
 /// Never compressed.
 PackedArray raw(const ArrayView& view);
 
+/// Bytes of the array as it will be stored.
+std::size_t stored_bytes(const PackedArray& array);
+
 /// Stores the array as the dataset `name`; a `unit` becomes an attribute. Both need a Session.
 void put_array(hid_t parent, const std::string& name, const PackedArray& array,
                const std::string& unit);

@@ -123,6 +123,16 @@ void put_data(hid_t file, const Frame& frame, const Parts& parts)
     hdf5::put_attribute(meta, "index", std::array<std::int64_t, 1>{frame.index});
 }
 
+std::size_t stored_bytes(const Parts& parts)
+{
+    std::size_t total = stored_bytes(parts.points) + stored_bytes(parts.connectivity) +
+                        stored_bytes(parts.offsets) + stored_bytes(parts.types);
+    for (const PackedArray& column : parts.columns) {
+        total += stored_bytes(column);
+    }
+    return total;
+}
+
 template <class Frame>
 void write_frame(const std::filesystem::path& file, const Frame& frame)
 {
@@ -131,7 +141,7 @@ void write_frame(const std::filesystem::path& file, const Frame& frame)
     const Cells cells = cells_of(frame);
     const Parts parts = parts_of(frame, cells);
     const hdf5::Session session;
-    hdf5::FileImage image;
+    hdf5::FileImage image(stored_bytes(parts));
     put_grid(image, cells, parts);
     put_data(image, frame, parts);
     atomic.write(image.bytes());

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/disk.hpp"
 
+#include "disk_histories.hpp"
 #include "hyoryu/core/motion.hpp"
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/triangles.hpp"
 
 #include <algorithm>
 
@@ -12,76 +15,183 @@ namespace {
 // An array that is smaller is stored as it is (io/packed_array).
 constexpr double worth_compressing = 65536; // [B]
 
-// What compression leaves, measured in the frames of a dam break and of the debris flood.
-constexpr double left_of_floats = 0.8;
-constexpr double left_of_ids = 0.25;
-constexpr double left_of_structure = 0.01; // connectivity, kinds, bodies: nearly constant
+// What compression leaves of the arrays of a frame [1]. Two dimensions leave two thirds of a
+// vector: what is always zero takes no room.
+struct Left {
+    double points;
+    double velocity;
+    double pressure;
+    double density;
+    double ids;
+};
+// Of the dam break of SPHERIC 2, the wedge and the debris flood.
+constexpr Left left_of_fluid{0.75, 0.8, 0.75, 0.45, 0.2};
+// Of the same and two more in three dimensions, where walls lie on lattices and stand still.
+constexpr Left left_of_still_walls{0.2, 0.002, 0.02, 0.01, 0.004};
+// Of a wedge that is driven into water.
+constexpr Left left_of_moving_walls{0.2, 0.002, 0.35, 0.2, 0.004};
+// Of heaps of 2,000 boxes, part of which rests.
+constexpr Left left_of_bodies{0.3, 0.2, 0.1, 0.1, 0.005};
+// Connectivity, offsets, kinds, bodies: nearly constant.
+constexpr double left_of_structure = 0.004;
 
-// HDF5's own share of a file, and that of one body in the file of their surfaces: a box, other
-// shapes take more.
-constexpr double header = 14.4e3;
-constexpr double surface_of_body = 1e3;
+// What HDF5 lays around the arrays of a file, and the index of the chunks of a compressed one [B].
+constexpr double around_cloud = 15.8e3;
+constexpr double around_dry_cloud = 14.2e3; // without pressure and density
+constexpr double around_surface = 13.8e3;
+constexpr double around_checkpoint = 11.4e3;
+constexpr double around_fluid = 8.8e3; // of a checkpoint
+constexpr double around_results = 8.7e3;
+constexpr double frame_in_results = 1.08e3; // links to its files
+constexpr double chunk_index = 2.05e3;
 
-// A row of fluid in a checkpoint and what all else in one takes; there are two.
-constexpr double checkpoint_row = 150;
-constexpr double checkpoint_rest = 24e3;
+// Bytes of a row in a checkpoint: 64 for state and number, 24 for either force, 20 for the tile
+// that lists are made from, 16 for what solids do to it; and of walls or bodies.
+constexpr double checkpoint_fluid = 112;
+constexpr double checkpoint_friction = 24;
+constexpr double checkpoint_at_solids = 16;
+constexpr double checkpoint_tile = 16;
+constexpr double checkpoint_body = 152;       // its state and loads
+constexpr double checkpoint_pair = 136 + 377; // a resting contact, and what the solver keeps of it
 
-// A number in a history, as text and once more in results.h5.
-constexpr double cell = 14 + 8;
-constexpr double column_in_results = 2.5e3; // of a history, beside its numbers
-constexpr double contact_columns = 12;
-constexpr double energy_columns = 16;
-constexpr double body_columns = 21;
+// Texts [B].
+constexpr double plan_of_fluid = 6e3;
+constexpr double plan_of_bodies = 3e3;
+constexpr double plan_of_body = 85; // its limit of the time step
+constexpr double summary = 4.5e3;
+constexpr double line_of_series = 68;
 
 double array_bytes(double rows, double bytes, double left)
 {
-    return rows * bytes < worth_compressing ? rows * bytes : left * rows * bytes;
+    return rows * bytes < worth_compressing ? rows * bytes : left * rows * bytes + chunk_index;
 }
 
-// A frame file of so many particles.
-double cloud_bytes(Index particles, int dimensions)
+// A frame file of so many particles with fluid around.
+double cloud_bytes(double n, const Left& left, int dimensions)
 {
-    const auto n = static_cast<double>(particles);
-    const double vectors = left_of_floats * dimensions / 3; // what is always zero takes no room
-    return n == 0
-               ? 0
-               : header + 2 * array_bytes(n, 12, vectors) + 2 * array_bytes(n, 4, left_of_floats) +
-                     array_bytes(n, 8, left_of_ids) + 2 * array_bytes(n, 8, left_of_structure) +
-                     array_bytes(n, 4, left_of_structure) +
-                     2 * array_bytes(n, 1, left_of_structure);
+    const double vectors = dimensions / 3.0;
+    return n == 0 ? 0
+                  : around_cloud + array_bytes(n, 12, left.points * vectors) +
+                        array_bytes(n, 12, left.velocity * vectors) +
+                        array_bytes(n, 4, left.pressure) + array_bytes(n, 4, left.density) +
+                        array_bytes(n, 8, left.ids) + 2 * array_bytes(n, 8, left_of_structure) +
+                        array_bytes(n, 4, left_of_structure) +
+                        2 * array_bytes(n, 1, left_of_structure);
 }
 
-double history_bytes(const Scene& scene, const Plan& plan, double steps)
+// The same without fluid.
+double dry_cloud_bytes(double n, int dimensions)
 {
-    const double every = scene.output.history_every;
-    const double rows = every > 0 ? scene.time.end / every : steps;
-    const auto bodies = static_cast<double>(plan.counts.bodies);
-    double gauges = 0; // columns
-    for (const Plan::GaugeUse& gauge : plan.gauges) {
-        gauges += 1 + static_cast<double>(std::ranges::count(gauge.columns, ','));
+    const Left& left = left_of_bodies;
+    const double vectors = dimensions / 3.0;
+    return around_dry_cloud + array_bytes(n, 12, left.points * vectors) +
+           array_bytes(n, 12, left.velocity * vectors) + array_bytes(n, 8, left.ids) +
+           2 * array_bytes(n, 8, left_of_structure) + array_bytes(n, 4, left_of_structure) +
+           2 * array_bytes(n, 1, left_of_structure);
+}
+
+struct SurfaceSize {
+    double corners = 0;
+    double triangles = 0;
+};
+
+void add(SurfaceSize& all, const TriangleSurface& part)
+{
+    all.corners += static_cast<double>(part.corners.size());
+    all.triangles += static_cast<double>(part.triangles.size());
+}
+
+SurfaceSize surface_of_bodies(const Scene& scene)
+{
+    SurfaceSize all;
+    for (const BodySettings& body : scene.bodies) {
+        add(all, triangles_of(body.shape, scene.dimensions));
     }
-    const double tables =
-        energy_columns + gauges + (bodies > 0 ? body_columns + contact_columns : 0);
-    return cell * (rows * (energy_columns + body_columns * bodies) + plan.gauge_rows * gauges) +
-           column_in_results * tables;
+    return all;
+}
+
+SurfaceSize surface_of_walls(const Scene& scene)
+{
+    SurfaceSize all;
+    const Bounds domain = domain_of(scene);
+    for (const Wall& wall : scene.walls) {
+        add(all, triangles_of(wall, domain, scene.dimensions));
+    }
+    return all;
+}
+
+// Walls have no velocities.
+double surface_bytes(const SurfaceSize& s, double bytes_of_velocity)
+{
+    const Left& left = left_of_bodies;
+    return around_surface + array_bytes(s.corners, 12, left.points) +
+           array_bytes(s.corners, bytes_of_velocity, left.velocity) +
+           array_bytes(s.corners, 4, left_of_structure) +
+           array_bytes(s.triangles, 24, left_of_structure) +
+           array_bytes(s.triangles, 8, left_of_structure) +
+           array_bytes(s.triangles, 1, left_of_structure);
+}
+
+// Frames, their walls, and the lists of them.
+double frames_bytes(const Scene& scene, const Plan& plan, const Course& course)
+{
+    const int d = scene.dimensions;
+    const Plan::Counts& n = plan.counts;
+    const bool moving =
+        std::ranges::any_of(scene.walls, [](const Wall& wall) { return moves(wall.motion); });
+    double frame = cloud_bytes(course.fluid * static_cast<double>(n.fluid), left_of_fluid, d);
+    double files = plan.fluid ? 1 : 0;
+    if (n.bodies > 0) {
+        const auto drawn = static_cast<double>(n.drawn);
+        frame += plan.fluid ? cloud_bytes(drawn, left_of_bodies, d) : dry_cloud_bytes(drawn, d);
+        frame += surface_bytes(surface_of_bodies(scene), 12);
+        files += 2;
+    }
+    const auto wall = static_cast<double>(n.wall);
+    const double shapes = scene.walls.empty() ? 0 : surface_bytes(surface_of_walls(scene), 0);
+    if (moving) {
+        frame += cloud_bytes(wall, left_of_moving_walls, d) + shapes;
+        files += 2;
+    }
+    return plan.frames * (frame + files * line_of_series) +
+           cloud_bytes(wall, left_of_still_walls, d) + shapes;
+}
+
+// Both checkpoints: of the start and of the end.
+double checkpoints_bytes(const Scene& scene, const Plan& plan, const Course& course)
+{
+    const auto column = [&](const char* name) {
+        return std::ranges::find(plan.fields, name, &Plan::FieldUse::name) != plan.fields.end();
+    };
+    const Plan::Counts& n = plan.counts;
+    const bool moving =
+        std::ranges::any_of(scene.walls, [](const Wall& wall) { return moves(wall.motion); });
+    const bool sticks = column("ViscousForce") && plan.runs("no_slip");
+    const double row = checkpoint_fluid + (column("ViscousForce") ? checkpoint_friction : 0) +
+                       (column("SolidRate") ? checkpoint_at_solids : 0);
+    const auto wall = static_cast<double>(n.wall);
+    const auto body = static_cast<double>(n.body);
+    const double solids = (sticks ? checkpoint_friction : 0) * (wall + body) +
+                          checkpoint_tile * (body + (moving ? wall : 0));
+    const double one = around_checkpoint + (plan.fluid ? around_fluid : 0) + solids +
+                       checkpoint_body * static_cast<double>(n.bodies);
+    return 2 * one + (1 + course.fluid_end) * row * static_cast<double>(n.fluid) +
+           checkpoint_pair * resting_pairs(scene, plan);
 }
 
 } // namespace
 
-double disk_bytes(const Scene& scene, const Plan& plan, double steps)
+double disk_bytes(const Scene& scene, const Plan& plan, const Course& course)
 {
-    const int d = scene.dimensions;
-    const Plan::Counts& n = plan.counts;
-    double frame = cloud_bytes(n.fluid, d) + cloud_bytes(n.drawn, d);
-    if (n.bodies > 0) {
-        frame += header + surface_of_body * static_cast<double>(n.bodies);
-    }
-    const double checkpoint = checkpoint_row * static_cast<double>(n.fluid) + checkpoint_rest;
-    const bool moving =
-        std::ranges::any_of(scene.walls, [](const Wall& wall) { return moves(wall.motion); });
-    const double walls = cloud_bytes(n.wall, d) + header;
-    return plan.frames * frame + (moving ? plan.frames : 1) * walls + 2 * checkpoint +
-           history_bytes(scene, plan, steps);
+    const double report =
+        plan.fluid ? plan_of_fluid + plan_of_body * static_cast<double>(plan.counts.bodies)
+                   : plan_of_bodies;
+    const auto case_text = static_cast<double>(to_toml(scene).size());
+    // The case stands in a file of its own, in the checkpoints and in results.h5.
+    const double texts = 4 * case_text + 2 * (report + summary);
+    return frames_bytes(scene, plan, course) + checkpoints_bytes(scene, plan, course) +
+           history_bytes(histories(scene, plan, course)) + around_results +
+           frame_in_results * plan.frames + texts;
 }
 
 } // namespace hyoryu

@@ -2,6 +2,7 @@
 #include "hyoryu/scene/plan.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/memory.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_checks.hpp"
 #include "plan_contact.hpp"
@@ -22,8 +23,6 @@ namespace {
 constexpr double bodies_only_step = 1e-3; // [s]
 // Sound speed over the largest expected speed: Mach 0.1 keeps density within 1 %.
 constexpr double sound_over_speed = 10;
-// The program with its libraries and the buffers of its files, as a run of one box holds it [B].
-constexpr double process_memory = 44e6;
 // Skin of the neighbour lists in spacings that flows come to, for the estimate of memory.
 constexpr double usual_skin = 0.2;
 
@@ -290,25 +289,11 @@ void list_fields(Plan& plan)
 
 void estimate_cost(const Scene& scene, Plan& plan)
 {
-    double columns = 0;
-    for (const auto& field : plan.fields) {
-        columns += static_cast<double>(field.bytes());
-    }
-    const auto n = static_cast<double>(plan.counts.particles());
-    plan.memory = process_memory;
-    if (plan.fluid) {
-        // Columns, ids and owners, pair records, positions at the last build, cells, lists of the
-        // fluid rows; the lists of solid rows are short.
-        constexpr double records = 64 + 24 + 16 + 12;
-        // Last good state, image of a checkpoint, two frames on their way to the disk.
-        constexpr double kept = 2 * 150 + 2 * 62;
-        plan.memory += columns + n * records + kept * static_cast<double>(plan.counts.fluid) +
-                       static_cast<double>(plan.counts.fluid) * list_bytes(*plan.fluid);
-    }
     plan.frames = std::floor(scene.time.end / scene.output.every) + 1;
     constexpr double frame_row = 12 + 8 + 8 + 1 + 12 + 4 + 4 + 8 + 1 + 4;
     plan.frame_bytes = frame_row * static_cast<double>(plan.counts.fluid + plan.counts.body);
     plan.expected_steps = std::ceil(scene.time.end / plan.first_step);
+    plan.memory = memory_bytes(scene, plan, {.steps = plan.expected_steps});
 }
 
 } // namespace

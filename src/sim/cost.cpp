@@ -2,10 +2,13 @@
 #include "hyoryu/sim/cost.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/sim/watch.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <numeric>
+#include <span>
 #include <string_view>
 
 namespace hyoryu {
@@ -77,6 +80,32 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+double impacts_of_step(const Simulation& sim)
+{
+    return static_cast<double>(
+        std::ranges::count(sim.contacts, Contact::Kind::impact, &Contact::kind));
+}
+
+double sum(std::span<const double> values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// How the fluid of a simulation and its impacts went by.
+struct Passed {
+    double fluid_time = 0; // particles times seconds
+    double impacts = 0;
+};
+
+void pass(Simulation& sim, Passed& passed)
+{
+    const double before = sim.clock.time;
+    step(sim);
+    passed.impacts += impacts_of_step(sim);
+    passed.fluid_time +=
+        static_cast<double>(sim.fluid->particles.fluid().size()) * (sim.clock.time - before);
+}
+
 double seconds_of_step(Simulation& sim)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -89,7 +118,21 @@ double seconds_of_step(Simulation& sim)
 double seconds_of_run(const StepCost& cost)
 {
     const double grows = cost.development ? cost.development->step : 1;
-    return grows * (cost.seconds - cost.bodies) + cost.bodies;
+    return grows * (cost.seconds - cost.bodies) + cost.bodies + cost.output;
+}
+
+double measure_row(const Simulation& sim)
+{
+    constexpr int looks = 2;
+    double least = infinity;
+    for (int k = 0; k < looks; ++k) {
+        const auto start = std::chrono::steady_clock::now();
+        const Totals now = totals(sim);
+        watch_energy(sim, now);
+        static_cast<void>(totals(sim));
+        least = std::min(least, seconds_since(start));
+    }
+    return least;
 }
 
 StepCost measure_cost(Simulation& sim, int steps)
@@ -120,22 +163,50 @@ StepCost measure_cost(Simulation& sim, int steps)
     return cost;
 }
 
+std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool()>& goes_on)
+{
+    constexpr double grows = 1.3; // more than noise makes of two halves alike
+    sim.scene.output.every = infinity;
+    sim.clock.frame = 1;
+    std::vector<double> steps; // seconds of each
+    StepCost cost;
+    try {
+        while (!finished(sim.clock, sim.scene) && goes_on()) {
+            steps.push_back(seconds_of_step(sim));
+            cost.impacts += impacts_of_step(sim);
+        }
+    } catch (const NumericalError&) {
+        return {};
+    }
+    const std::span<const double> all(steps);
+    const std::size_t half = all.size() / 2;
+    const bool done = finished(sim.clock, sim.scene);
+    if (half == 0 || (!done && sum(all.last(half)) > grows * sum(all.first(half)))) {
+        return {};
+    }
+    const auto count = static_cast<double>(all.size());
+    cost.seconds = cost.bodies = sum(all) / count;
+    cost.impacts *= done ? 1 : std::max(1.0, sim.plan.expected_steps / count);
+    return cost;
+}
+
 std::optional<Development> measure_development(Simulation& sim, int first,
                                                const std::function<bool()>& goes_on)
 {
     const auto start = std::chrono::steady_clock::now();
-    const double expected = sim.plan.expected_steps;
+    const auto particles = static_cast<double>(sim.fluid->particles.fluid().size());
     sim.scene.output.every = infinity; // no frame cuts a step short
     sim.clock.frame = 1;
     double early = 0;
+    Passed passed;
     try {
-        step(sim);
+        pass(sim, passed);
         const double before = spent(sim).all_else;
         while (!finished(sim.clock, sim.scene)) {
             if (!goes_on()) {
                 return {};
             }
-            step(sim);
+            pass(sim, passed);
             if (sim.clock.step == first + 1) {
                 early = (spent(sim).all_else - before) / first;
             }
@@ -144,9 +215,13 @@ std::optional<Development> measure_development(Simulation& sim, int first,
         if (!(early > 0)) {
             return {};
         }
-        return Development{.steps = steps / expected,
+        const auto left = static_cast<double>(sim.fluid->particles.fluid().size());
+        return Development{.steps = steps / sim.plan.expected_steps,
                            .step = (spent(sim).all_else - before) / (steps - 1) / early,
-                           .seconds = seconds_since(start)};
+                           .seconds = seconds_since(start),
+                           .fluid = passed.fluid_time / (particles * sim.clock.time),
+                           .fluid_end = left / particles,
+                           .impacts = passed.impacts};
     } catch (const NumericalError&) {
         return {};
     }

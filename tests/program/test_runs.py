@@ -52,6 +52,24 @@ class Runs(ProgramTest):
         self.assertAlmostEqual(plan["forecast"]["wall_seconds"],
                                plan["time_step"]["steps"] * plan["cost"]["seconds_per_step"], delta=1e-6)
 
+    def test_memory_and_disk_are_foretold_to_a_quarter(self):
+        # Of HDF5 around little, of shapes that are round, of what never changes, of fluid that leaves.
+        for name in ("tilted_box", "skid_to_roll", "free_rotation", "cradle", "dam_break"):
+            self.call("run", CASES / name / "case.toml", "-o", name, "--quiet")
+            cost = json.loads((self.dir / name / "summary.json").read_text())["cost"]
+            for what in ("memory_bytes", "disk_bytes"):
+                ratio = cost[what]["predicted"] / cost[what]["measured"]
+                self.assertAlmostEqual(ratio, 1, delta=0.25, msg=f"{name} {what}")
+
+    def test_what_bodies_alone_cost_is_measured_before_the_run(self):
+        self.call("run", CASES / "cradle" / "case.toml", "-o", "out", "--quiet")
+        plan = json.loads((self.dir / "out/plan.json").read_text())
+        self.assertIsNone(plan["cost"]["development"])
+        self.assertGreater(plan["cost"]["seconds_per_step"], plan["cost"]["seconds_per_first_step"])
+        done = self.call("check", CASES / "cradle" / "case.toml", "--time")
+        self.assertIn("a step timed now", done.stdout)
+        self.assertNotIn("if all bodies touch", done.stdout)
+
     def test_a_damaged_plan_is_told_when_the_cost_would_be(self):
         self.call("run", self.write(FLOOD), "-o", "out", "--until", "0.01", "--set", "time.end=0.02")
         (self.dir / "out/plan.json").write_text("{")

@@ -107,5 +107,87 @@ TEST(Cost, DevelopmentIsLeftWhereItTakesTooLongOrGoesWrong)
     EXPECT_FALSE(measure_development(short_run, 1'000'000, [] { return true; }).has_value());
 }
 
+constexpr const char* bounce = R"(
+[time]
+end = 1.0
+step = 1e-3
+[particles]
+spacing = 0.05
+[[wall]]
+shape = "plane"
+[[body]]
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 500
+position = [0, 0, 0.3]
+[contact]
+restitution = 0.5
+)";
+
+TEST(Cost, OfBodiesIsThatOfTheirRunAndItsImpacts)
+{
+    Simulation counted = make(bounce);
+    double impacts = 0;
+    while (!finished(counted.clock, counted.scene)) {
+        step_on(counted);
+        for (const Contact& contact : counted.contacts) {
+            impacts += contact.kind == Contact::Kind::impact ? 1 : 0;
+        }
+    }
+    ASSERT_GT(impacts, 0);
+    Simulation sim = make(bounce);
+    const auto cost = measure_bodies(sim, [] { return true; });
+    ASSERT_TRUE(cost.has_value());
+    EXPECT_TRUE(finished(sim.clock, sim.scene));
+    EXPECT_EQ(cost->impacts, impacts);
+    EXPECT_GT(cost->seconds, 0);
+    EXPECT_EQ(cost->seconds, cost->bodies);
+}
+
+TEST(Cost, OfBodiesIsNotToldByNoStep)
+{
+    Simulation sim = make(bounce);
+    EXPECT_FALSE(measure_bodies(sim, [] { return false; }).has_value());
+}
+
+// Forty boxes in flight, then on the floor: a look that ends soon after they land sees steps that
+// grow, and the cost of those to come is not theirs.
+TEST(Cost, OfBodiesIsNotToldByStepsThatGrow)
+{
+    Simulation sim =
+        make(bounce, {"body[0].copies.count=[5,8,1]", "body[0].copies.pitch=[0.3,0.3,0]"});
+    EXPECT_FALSE(measure_bodies(sim, [&] { return sim.clock.step < 300; }).has_value());
+}
+
+// Water in the air falls out of the domain.
+TEST(Cost, DevelopmentTellsWhatFluidIsLeft)
+{
+    Simulation rests = make(tank, {"time.end=0.05"});
+    const auto all = measure_development(rests, 5, [] { return true; });
+    ASSERT_TRUE(all.has_value());
+    EXPECT_NEAR(all->fluid, 1, 1e-9);
+    EXPECT_EQ(all->fluid_end, 1);
+    Simulation falls =
+        make(tank, {"time.end=0.25", "wall[0].min=[0.0,0.0,-9.0]", "wall[0].max=[0.2,0.0,-8.0]",
+                    "domain.min=[-0.1,0.0,0.0]", "domain.max=[0.3,0.0,0.4]"});
+    const auto some = measure_development(falls, 5, [] { return true; });
+    ASSERT_TRUE(some.has_value());
+    EXPECT_LT(some->fluid_end, 0.2);
+    EXPECT_GT(some->fluid, 0.3);
+    EXPECT_LT(some->fluid, 0.9);
+}
+
+TEST(Cost, OfTheRunHasWhatIsWritten)
+{
+    EXPECT_EQ(seconds_of_run({.seconds = 5, .bodies = 2, .output = 1}), 6);
+}
+
+TEST(Cost, OfARowIsAFewLooksAtAllParticles)
+{
+    const double row = measure_row(make(tank));
+    EXPECT_GT(row, 0);
+    EXPECT_LT(row, 0.1);
+}
+
 } // namespace
 } // namespace hyoryu

@@ -20,6 +20,9 @@ struct Development {
     double steps = 1;      // its steps over those that its plan expects
     double step = 1;       // a step without bodies, on average, over one of the first
     double seconds = 0;    // that it took
+    double fluid = 1;      // share of its fluid that is left, on average over the run [1]
+    double fluid_end = 1;  // and at its end [1]
+    double impacts = 0;    // of its bodies, which are those of the case
 };
 
 /// The wall time of a step, and the share of it that goes with each effect that can be left out.
@@ -30,12 +33,15 @@ struct StepCost {
     };
     double seconds = 0; // of a step with everything on, on average [s]
     double bodies = 0;  // of them, for the motion of bodies and their contacts [s]
+    double row = 0;     // of the sums of a row of the histories [s]
+    double output = 0;  // of a step on average over the run, besides, for what is written [s]
+    double impacts = 0; // rows of contacts.csv that tell of one, over the whole run
     std::vector<Share> effects;
     std::optional<Development> development;
 };
 
-/// The wall time of a step on average over the run [s]: that of the timed ones, if nothing is known
-/// of how the flow develops.
+/// The wall time of a step on average over the run [s], with what is written: that of the timed
+/// ones, if nothing is known of how the flow develops.
 double seconds_of_run(const StepCost& cost);
 
 /// Times about so many steps of a simulation with fluid, in rounds, two at least: in each one step
@@ -45,6 +51,15 @@ double seconds_of_run(const StepCost& cost);
 /// from where it stands, beyond its end, and is no result any more. Throws NumericalError like
 /// step().
 StepCost measure_cost(Simulation& sim, int steps);
+
+/// Runs a simulation of bodies alone until its end, or until `goes_on`, asked before each step,
+/// says no. None where it goes wrong, and where it is stopped while its steps take longer and
+/// longer, as those of a heap on which more bodies fall: then they tell nothing of the later ones.
+std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool()>& goes_on);
+
+/// Seconds that the sums of one row of the histories take, besides its text: the energies are added
+/// up for the row, and to see whether a run gains energy [s].
+double measure_row(const Simulation& sim);
 
 /// Runs a simulation with fluid to its end and compares all its steps with the first ones, so many.
 /// None where it goes wrong, or where `goes_on`, asked before each step, says no first.

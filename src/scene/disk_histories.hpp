@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What the histories of a run will take, as text and as columns of results.h5.
+#pragma once
+
+#include "hyoryu/scene/disk.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+/// One table of the results.
+struct HistorySize {
+    double rows = 0;
+    double row_text = 0; // bytes of a row of the CSV file [B]
+    double active = 0;   // columns of numbers that change
+    double idle = 0;     // columns of numbers that stay what they are, mostly zero
+    double names = 0;    // bytes of the columns of texts in a row of results.h5 [B]
+    double text_columns = 0;
+};
+
+/// The tables that a run writes: energy, and bodies, contacts and gauges where there are any.
+std::vector<HistorySize> histories(const Scene& scene, const Plan& plan, const Course& course);
+
+/// Bytes of the CSV files and of their columns in results.h5 [B].
+double history_bytes(const std::vector<HistorySize>& tables);
+
+/// Pairs that rest on each other at one time, if everything that may touch something does.
+double resting_pairs(const Scene& scene, const Plan& plan);
+
+} // namespace hyoryu

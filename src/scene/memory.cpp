@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/scene/memory.hpp"
+
+#include "disk_histories.hpp"
+#include "hyoryu/core/motion.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+// The program with its libraries and what every run holds, as that of one box does; and what comes
+// with VTK, which reads meshes [B].
+constexpr double process = 21.3e6;
+constexpr double mesh_reader = 31e6;
+
+// Of a particle beside its columns: pair records, ids and owners, positions at the last build,
+// cells [B].
+constexpr double of_particle = 64 + 24 + 16 + 12;
+
+// Of a fluid particle: the last good state; and on its way to the disk, a checkpoint and two
+// frames [B].
+constexpr double good_state = 150;
+constexpr double on_its_way = 150 + 2 * 62;
+
+// A solid particle of a frame: numbers and cells, and where it was placed; that of a frame of what
+// moves, which wait two at a time and have tiles that lists are made from [B].
+constexpr double drawn_once = 100;
+constexpr double drawn_always = 2 * 62 + 30;
+
+// A body with its shape, contacts, place in the broad phase, surface in frames and text in the
+// case, as heaps of 2,000 boxes have it [B].
+constexpr double of_body = 6e3;
+
+// A table on its way into results.h5 beside its text: numbers grow in steps of two, texts are
+// objects of 32 bytes, each line has a view of 16 [B].
+constexpr double number = 1.5 * 8;
+constexpr double text = 1.5 * 32;
+constexpr double line = 16;
+
+double of_table(const HistorySize& table)
+{
+    return table.rows * (table.row_text + line + number * (table.active + table.idle) +
+                         text * table.text_columns);
+}
+
+// What results.h5 needs at the end of a run: its image, and the largest table as text and numbers.
+double closing(const std::vector<HistorySize>& tables)
+{
+    double most = 0;
+    double image = 0;
+    for (const HistorySize& table : tables) {
+        most = std::max(most, of_table(table));
+        image += 8 * table.rows * (table.active + table.idle) + table.rows * table.names;
+    }
+    return most + image;
+}
+
+bool is_mesh(const Shape& shape)
+{
+    return std::holds_alternative<MeshShape>(shape);
+}
+
+bool reads_meshes(const Scene& scene)
+{
+    return std::ranges::any_of(scene.bodies, is_mesh, &BodySettings::shape) ||
+           std::ranges::any_of(scene.walls, [](const Wall& wall) {
+               const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+               return solid != nullptr && is_mesh(solid->shape);
+           });
+}
+
+} // namespace
+
+double memory_bytes(const Scene& scene, const Plan& plan, const Course& course)
+{
+    const auto n = static_cast<double>(plan.counts.particles());
+    const auto fluid = static_cast<double>(plan.counts.fluid);
+    const auto wall = static_cast<double>(plan.counts.wall);
+    const auto drawn = static_cast<double>(plan.counts.drawn);
+    double lasting = process + (reads_meshes(scene) ? mesh_reader : 0);
+    for (const Plan::FieldUse& field : plan.fields) {
+        lasting += static_cast<double>(field.bytes());
+    }
+    lasting +=
+        n * of_particle + good_state * fluid + of_body * static_cast<double>(plan.counts.bodies);
+    if (plan.fluid) {
+        // The lists of solid rows are short.
+        lasting += fluid * list_bytes(*plan.fluid);
+    }
+    const bool moving =
+        std::ranges::any_of(scene.walls, [](const Wall& w) { return moves(w.motion); });
+    const double frames = on_its_way * fluid + drawn_once * (wall + drawn) +
+                          drawn_always * (drawn + (moving ? wall : 0));
+    return lasting + std::max(frames, closing(histories(scene, plan, course)));
+}
+
+} // namespace hyoryu
