@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace hyoryu {
@@ -73,18 +75,24 @@ TEST(Cost, IsMeasuredAtTheEndOfARunToo)
 }
 
 // Water at rest does not develop: as many steps as planned, as long as the first. The factor is
-// wide for a machine with other work; what a column that collapses adds is told by the shipped
-// cases.
+// wide for a machine with other work, and of three looks the middle one counts; what a column that
+// collapses adds is told by the shipped cases.
 TEST(Cost, OfWaterAtRestDoesNotChange)
 {
-    Simulation sim = make(tank, {"time.end=0.2"});
-    const auto found = measure_development(sim, 50, [] { return true; });
-    ASSERT_TRUE(found.has_value());
-    EXPECT_TRUE(finished(sim.clock, sim.scene));
-    EXPECT_NEAR(found->steps * sim.plan.expected_steps, static_cast<double>(sim.clock.step), 1e-6);
-    EXPECT_NEAR(found->steps, 1, 0.02);
-    EXPECT_GT(found->step, 0.2);
-    EXPECT_LT(found->step, 5);
+    std::array<double, 3> step{};
+    for (double& once : step) {
+        Simulation sim = make(tank, {"time.end=0.2"});
+        const auto found = measure_development(sim, 50, [] { return true; });
+        ASSERT_TRUE(found.has_value());
+        EXPECT_TRUE(finished(sim.clock, sim.scene));
+        EXPECT_NEAR(found->steps * sim.plan.expected_steps, static_cast<double>(sim.clock.step),
+                    1e-6);
+        EXPECT_NEAR(found->steps, 1, 0.02);
+        once = found->step;
+    }
+    std::ranges::sort(step);
+    EXPECT_GT(step[1], 0.2);
+    EXPECT_LT(step[1], 5);
 }
 
 TEST(Cost, OfTheRunCountsBodiesApart)
