@@ -2,6 +2,7 @@
 #include "hyoryu/scene/fill.hpp"
 
 #include "conform.hpp"
+#include "displace.hpp"
 #include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 
 namespace hyoryu {
@@ -27,13 +27,6 @@ Placed placed(const Scene& scene, const FluidBlock& block)
 Placed placed(const Scene& scene, const BodySettings& body)
 {
     return {&body.shape, body.position, body.rotation, scene.dimensions};
-}
-
-// Height along -g, or along z without gravity.
-double height(const Scene& scene, const Vec3& p)
-{
-    const double g = scene.gravity.norm();
-    return g > 0 ? -scene.gravity.dot(p) / g : p.z();
 }
 
 struct BlockPoints {
@@ -96,116 +89,6 @@ double surface_above(const Scene& scene, const std::vector<BlockPoints>& blocks,
         }
     }
     return top;
-}
-
-// Fraction of the lattice cell about p that lies inside the shape, by sub-cells.
-double covered(const Placed& shape, const Vec3& p, double spacing)
-{
-    constexpr int n = 4;
-    const int ny = shape.dimensions == 2 ? 1 : n;
-    int inside = 0;
-    for (int k = 0; k < n; ++k) {
-        for (int j = 0; j < ny; ++j) {
-            for (int i = 0; i < n; ++i) {
-                const Vec3 offset{(i + 0.5) / n - 0.5, ny == 1 ? 0.0 : (j + 0.5) / n - 0.5,
-                                  (k + 0.5) / n - 0.5};
-                inside += signed_distance(shape, p + spacing * offset) < 0 ? 1 : 0;
-            }
-        }
-    }
-    return static_cast<double>(inside) / (n * n * ny);
-}
-
-// A particle whose cell the surface of a shape cuts.
-struct CutCell {
-    std::size_t row = 0;
-    double distance = 0;     // of its centre from the surface, negative inside [m]
-    double covered = 0;      // part of the cell that the shape displaces
-    std::uint64_t place = 0; // along a curve on which neighbours are near (Morton 1966)
-};
-
-// The bits of the cell numbers in turns.
-std::uint64_t morton(const Vec3& cells)
-{
-    constexpr int bits = 20;
-    std::uint64_t place = 0;
-    for (int bit = 0; bit < bits; ++bit) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto number = static_cast<std::uint64_t>(cells[axis]);
-            place |= ((number >> bit) & 1U) << (3 * bit + axis);
-        }
-    }
-    return place;
-}
-
-// Marks as many cut cells as the shape displaces, group after group of neighbours, the deepest of
-// each first; what a group is over or short of whole particles goes to the next one. One count for
-// all of them could take its last particles from one side, which sets the body turning.
-void choose(std::vector<CutCell>& cut, std::vector<bool>& gone)
-{
-    constexpr std::size_t group = 8;
-    std::sort(cut.begin(), cut.end(), [](const CutCell& a, const CutCell& b) {
-        return std::pair(a.place, a.row) < std::pair(b.place, b.row);
-    });
-    double displaced = 0;
-    std::size_t taken = 0;
-    for (std::size_t first = 0; first < cut.size(); first += group) {
-        const auto begin = cut.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto end =
-            cut.begin() + static_cast<std::ptrdiff_t>(std::min(first + group, cut.size()));
-        std::sort(begin, end, [](const CutCell& a, const CutCell& b) {
-            return std::pair(a.distance, a.row) < std::pair(b.distance, b.row);
-        });
-        for (auto cell = begin; cell != end; ++cell) {
-            displaced += cell->covered;
-        }
-        const auto wanted = static_cast<std::size_t>(std::llround(displaced));
-        for (auto cell = begin; cell != end && taken < wanted; ++cell) {
-            gone[cell->row] = true;
-            taken += 1;
-        }
-    }
-}
-
-// Takes out as many particles as the shape displaces, everywhere about its surface: an excess of a
-// quarter of a layer would start the water with a jolt.
-void take_out(const Placed& shape, double spacing, Filling& filling)
-{
-    Bounds box = bounds(shape);
-    box.min -= Vec3::Constant(spacing);
-    box.max += Vec3::Constant(spacing);
-    std::vector<bool> gone(filling.fluid.size(), false);
-    std::vector<CutCell> cut;
-    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
-        const Vec3& p = filling.fluid[k];
-        if (((p - box.min).array() < 0).any() || ((box.max - p).array() < 0).any()) {
-            continue;
-        }
-        const double distance = signed_distance(shape, p);
-        if (distance >= spacing) {
-            continue;
-        }
-        const double part = distance < -spacing ? 1.0 : covered(shape, p, spacing);
-        gone[k] = part == 1;
-        if (part > 0 && part < 1) {
-            cut.push_back({k, distance, part, morton((p - box.min) / spacing)});
-        }
-    }
-    choose(cut, gone);
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
-        if (!gone[k]) {
-            filling.fluid[kept] = filling.fluid[k];
-            filling.fluid_velocity[kept] = filling.fluid_velocity[k];
-            filling.fluid_depth[kept] = filling.fluid_depth[k];
-            filling.fluid_pressure[kept] = filling.fluid_pressure[k];
-            ++kept;
-        }
-    }
-    filling.fluid.resize(kept);
-    filling.fluid_velocity.resize(kept);
-    filling.fluid_depth.resize(kept);
-    filling.fluid_pressure.resize(kept);
 }
 
 bool behind_a_wall(const Scene& scene, const Vec3& p)
@@ -379,7 +262,7 @@ Filling fill(const Scene& scene)
                 volume(body.shape, scene.dimensions) / static_cast<double>(filled.points.size());
         }
         if (scene.fluid) {
-            take_out(placed(scene, body), scene.spacing, filling);
+            take_out(scene, body, filling);
         }
     }
     return filling;

@@ -157,6 +157,8 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         place_bodies(sim.rigid, sim.poses, sim.body_particles, *sim.fluid);
         update_neighbours(*sim.fluid);
         update_pressure(*sim.fluid);
+        // The first step compresses what is struck at the start as it does in every later step.
+        update_rates(*sim.fluid);
     }
     sim.ledger.start = totals(sim);
     return sim;

@@ -247,5 +247,73 @@ position = [0.45, 0.0, 0.4]
     EXPECT_NEAR(static_cast<double>(filling.fluid.size()), 45 * 20 - 13.5 * 5, 0.51);
 }
 
+// Its bottom cuts cells by four fifths, of which one in five stays, and its top by a fifth.
+TEST(Fill, WhatStaysOfCutCellsStandsOutsideTheBody)
+{
+    const Filling filling = fill(parse_case(R"(
+dimensions = 2
+[time]
+end = 1.0
+[particles]
+spacing = 0.02
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.4, 0.0, 0.4]
+[[body]]
+shape = "box"
+size = [0.2, 0.0, 0.2]
+density = 500.0
+position = [0.2, 0.0, 0.204]
+)",
+                                            "test.toml"));
+    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
+        const Vec3& p = filling.fluid[k];
+        EXPECT_GT(std::max(std::abs(p.x() - 0.2), std::abs(p.z() - 0.204)), 0.1) << p.transpose();
+        EXPECT_NEAR(filling.fluid_depth[k], 0.4 - p.z(), 1e-12);
+    }
+    EXPECT_EQ(filling.fluid.size(), 20u * 20 - 100);
+}
+
+// At a wall it could not give way: it was pressed into the joint of wall and body.
+TEST(Fill, WhatStaysOfCutCellsStandsOffTheWalls)
+{
+    for (const char* x : {"0.08", "0.32"}) {
+        const Filling filling = fill(parse_case(R"(
+dimensions = 2
+[time]
+end = 1.0
+[particles]
+spacing = 0.02
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.4, 0.0, 0.4]
+[[wall]]
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [0.4, 0.0, 0.8]
+open = ["+z"]
+[[body]]
+shape = "box"
+size = [0.16, 0.0, 0.2]
+density = 500.0
+position = [)" + std::string(x) + R"(, 0.0, 0.304]
+)",
+                                                "test.toml"));
+        Index stay = 0;
+        for (const Vec3& p : filling.fluid) {
+            if (p.z() > 0.2 && p.z() < 0.22 && std::abs(p.x() - std::stod(x)) < 0.08) {
+                EXPECT_GT(p.x(), 0.02);
+                EXPECT_LT(p.x(), 0.38);
+                stay += 1;
+            }
+        }
+        EXPECT_GE(stay, 1);
+    }
+}
+
 } // namespace
 } // namespace hyoryu

@@ -111,12 +111,11 @@ double gain(const std::string& cfl)
     return most / start - 1;
 }
 
-TEST(LeavingWalls, WhatBouncesOffGainsWithTheSquareOfTheStepOnly)
+// The patch touches the wall at time 0: in the first step, too, what compresses it slows it down.
+TEST(LeavingWalls, WhatBouncesOffGainsNothing)
 {
-    const double whole = gain("0.6");
-    EXPECT_LT(whole, 0.01);
-    EXPECT_LT(gain("0.3"), 0.27 * whole)
-        << "the scheme is of second order; 0.25 and its next order";
+    EXPECT_LE(gain("0.6"), 1e-12);
+    EXPECT_LE(gain("0.3"), 1e-12);
 }
 
 } // namespace
