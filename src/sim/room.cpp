@@ -103,7 +103,7 @@ private:
 
 std::optional<Crushed> crushed(const Simulation& sim)
 {
-    const double deep = std::min(0.5 * sim.scene.spacing, 0.25 * sim.thinnest);
+    const double deep = 0.25 * std::min(sim.scene.spacing, sim.thinnest);
     const auto& walls = sim.scene.walls;
     if (std::ranges::none_of(walls, [](const Wall& wall) { return moves(wall.motion); }) ||
         std::ranges::none_of(sim.contacts, [&](const Contact& c) { return c.depth > deep; })) {

@@ -19,7 +19,7 @@ struct Crushed {
 };
 
 /// The first such body, by the contacts of the last step, whose column has a contact deeper than
-/// half a spacing or a quarter of the inner radius of the thinnest body. No search unless a wall
+/// a quarter of a spacing or of the inner radius of the thinnest body. No search unless a wall
 /// moves and a contact of the step is so deep.
 std::optional<Crushed> crushed(const Simulation& sim);
 
