@@ -235,6 +235,7 @@ std::vector<Moment> moments_of(const fs::path& results, const std::vector<double
     add_series(results, "fluid", &Moment::fluid, by_number);
     add_series(results, "bodies", &Moment::bodies, by_number);
     add_series(results, "surfaces", &Moment::surfaces, by_number);
+    add_series(results, "structures", &Moment::structures, by_number);
     std::vector<Moment> moments;
     for (const auto& [number, moment] : by_number) {
         moments.push_back(moment);
@@ -250,9 +251,13 @@ Survey survey_of(const std::vector<Moment>& moments, const Surface& structures,
 {
     Survey survey;
     std::vector<float> sample;
+    Box around = all_of(structures.points);
     const std::size_t step = 1 + (moments.size() - 1) / frames_surveyed;
     for (std::size_t k = 0; k < moments.size(); k += step) {
         survey_moment(moments[k], colour, sample, survey);
+        if (!moments[k].structures.empty()) {
+            around.extend(all_of(read_surface(moments[k].structures).points));
+        }
     }
     choose_range(sample, survey);
     survey.time_digits = digits_between(moments);
@@ -264,7 +269,7 @@ Survey survey_of(const std::vector<Moment>& moments, const Surface& structures,
         survey.spacing = spacing_of(read_frame(first.bodies), survey.flat);
     }
     survey.bounds = survey.inner;
-    survey.bounds.extend(all_of(structures.points));
+    survey.bounds.extend(around);
     if (survey.bounds.isEmpty()) {
         throw IoError("the frames hold neither fluid nor bodies");
     }

@@ -20,6 +20,7 @@ struct Moment {
     std::filesystem::path fluid; // empty if the run has none; likewise below
     std::filesystem::path bodies;
     std::filesystem::path surfaces;
+    std::filesystem::path structures; // empty if no wall moves
 };
 
 /// All moments in the order of time, or those next to the `times` asked for. Throws IoError.
@@ -40,7 +41,7 @@ struct Survey {
     bool flat = false;   // a 2-D case: everything in one x-z plane
 };
 
-/// Looks at some frames spread over all of them. `structures` may be empty.
+/// Looks at some frames spread over all of them. `structures`, those of the start, may be empty.
 Survey survey_of(const std::vector<Moment>& moments, const Surface& structures,
                  const std::string& colour);
 

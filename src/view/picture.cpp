@@ -120,14 +120,23 @@ void Picture::place_camera(const RenderSettings& settings)
 void Picture::add_surroundings(const std::filesystem::path& results, const Surface& structures)
 {
     if (!structures.triangles.empty()) {
-        const Sides sides = survey_.flat ? Sides::all : Sides::facing_camera;
-        const Actor actor = structures_actor(structures, sides);
-        put_into_plane(*actor, Layer::structures);
-        scene_->AddActor(actor);
-        scene_->AddActor(edges_actor(structures));
+        set_structures(structures);
     } else if (std::filesystem::exists(results / "walls.hdf")) {
         scene_->AddActor(wall_particles_actor(read_frame(results / "walls.hdf"), radius_,
                                               survey_.inner, to_camera_));
+    }
+}
+
+void Picture::set_structures(const Surface& structures)
+{
+    for (const Actor& actor : structures_) {
+        scene_->RemoveActor(actor);
+    }
+    const Sides sides = survey_.flat ? Sides::all : Sides::facing_camera;
+    structures_ = {structures_actor(structures, sides), edges_actor(structures)};
+    put_into_plane(*structures_.front(), Layer::structures);
+    for (const Actor& actor : structures_) {
+        scene_->AddActor(actor);
     }
 }
 
@@ -166,6 +175,9 @@ void Picture::show(const Moment& moment)
         scene_->RemoveActor(actor);
     }
     of_this_moment_.clear();
+    if (!moment.structures.empty()) {
+        set_structures(read_surface(moment.structures));
+    }
     if (!moment.fluid.empty()) {
         const Cloud fluid = read_frame(moment.fluid);
         add_for_this_moment(fluid_actor(fluid, magnitudes(fluid, colour_), radius_, *colours_));

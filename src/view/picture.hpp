@@ -25,6 +25,7 @@ private:
 
     void place_camera(const RenderSettings& settings);
     void add_surroundings(const std::filesystem::path& results, const Surface& structures);
+    void set_structures(const Surface& structures);
     void add_labels(const RenderSettings& settings);
     void show(const Moment& moment);
     void put_into_plane(vtkActor& actor, Layer layer) const;
@@ -39,6 +40,7 @@ private:
     vtkSmartPointer<vtkColorTransferFunction> colours_;
     double radius_; // of a particle [m]
     vtkSmartPointer<vtkTextActor> time_;
+    std::vector<Actor> structures_; // of the start until a moment has its own
     std::vector<Actor> of_this_moment_;
 };
 

@@ -125,6 +125,61 @@ TEST_F(Render, ShowsBodiesAlone)
     expect_picture(result.pictures[0]);
 }
 
+// Mean column of what covers the sky, as a part of the width.
+double middle_of(const fs::path& picture)
+{
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(picture.c_str());
+    reader->Update();
+    vtkImageData& image = *reader->GetOutput();
+    const int width = image.GetDimensions()[0];
+    double sum = 0;
+    double count = 0;
+    for (int y = image.GetDimensions()[1] / 5; y < image.GetDimensions()[1] * 9 / 10; ++y) {
+        for (int x = 0; x < width; ++x) {
+            constexpr double dither = 6;
+            const double off = image.GetScalarComponentAsDouble(x, y, 0, 0) -
+                               image.GetScalarComponentAsDouble(0, y, 0, 0);
+            sum += std::abs(off) > dither ? x : 0;
+            count += std::abs(off) > dither ? 1 : 0;
+        }
+    }
+    return sum / count / width;
+}
+
+// A timber that stays where it is, and a wall that goes from one side of it to the other.
+TEST_F(Render, ShowsWallsWhereTheyAre)
+{
+    FrameWriter writer(folder);
+    const auto wall_at = [](double x, std::int64_t index) {
+        Surface wall{.name = "structures",
+                     .time = 0.1 * static_cast<double>(index),
+                     .index = index,
+                     .points = {},
+                     .triangles = {},
+                     .columns = {}};
+        std::vector<std::int32_t> owner;
+        testing::add_box(wall, owner, {x, 0.2, 0.5}, {0.3, 0.3, 0.4}, Mat3::Identity(), 0, false);
+        wall.columns = {{"Wall", "", 1, owner}};
+        return wall;
+    };
+    writer.write_static(wall_at(0, 0));
+    for (std::int64_t index = 0; index < 2; ++index) {
+        Surface timber = testing::make_timbers(0, 1);
+        timber.time = 0.1 * static_cast<double>(index);
+        timber.index = index;
+        writer.write(timber);
+        writer.write(wall_at(index == 0 ? 0.0 : 2.0, index));
+    }
+    writer.finish();
+    const RenderResult result = rendered(small());
+    if (!no_context.empty()) {
+        GTEST_SKIP() << no_context;
+    }
+    ASSERT_EQ(result.pictures.size(), 2U);
+    EXPECT_GT(std::abs(middle_of(result.pictures[1]) - middle_of(result.pictures[0])), 0.1);
+}
+
 TEST_F(Render, ShowsAPlaneCaseFromItsSide)
 {
     Cloud timber{.name = "bodies", .time = 0, .index = 0, .points = {}, .columns = {}};
