@@ -3,9 +3,9 @@
 
 #include "stop_request.hpp"
 
-#include "hyoryu/core/motion.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/moving_walls.hpp"
 
 #include <algorithm>
 #include <array>
@@ -48,8 +48,7 @@ double seconds_since(SteadyClock::time_point start)
 
 double frame_files(const Scene& scene, const Plan& plan)
 {
-    const bool moving =
-        std::ranges::any_of(scene.walls, [](const auto& w) { return moves(w.motion); });
+    const bool moving = has_moving_walls(scene);
     return plan.frames * ((plan.fluid ? 1 : 0) + (scene.bodies.empty() ? 0 : 2) + (moving ? 2 : 0));
 }
 

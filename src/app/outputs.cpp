@@ -2,6 +2,7 @@
 #include "outputs.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/moving_walls.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/frames.hpp"
 #include "hyoryu/sim/gauges.hpp"
@@ -246,8 +247,7 @@ void Outputs::write_frame(const Simulation& sim)
         frames_->write(body_cloud(sim));
         frames_->write(body_surface(sim));
     }
-    const auto& walls = sim.scene.walls;
-    if (std::any_of(walls.begin(), walls.end(), [](const Wall& w) { return moves(w.motion); })) {
+    if (has_moving_walls(sim.scene)) {
         if (sim.fluid) {
             frames_->write(wall_cloud(sim));
         }

@@ -2,8 +2,8 @@
 #include "hyoryu/scene/disk.hpp"
 
 #include "disk_histories.hpp"
-#include "hyoryu/core/motion.hpp"
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/moving_walls.hpp"
 #include "hyoryu/scene/triangles.hpp"
 
 #include <algorithm>
@@ -137,8 +137,7 @@ double frames_bytes(const Scene& scene, const Plan& plan, const Course& course)
 {
     const int d = scene.dimensions;
     const Plan::Counts& n = plan.counts;
-    const bool moving =
-        std::ranges::any_of(scene.walls, [](const Wall& wall) { return moves(wall.motion); });
+    const bool moving = has_moving_walls(scene);
     double frame = cloud_bytes(course.fluid * static_cast<double>(n.fluid), left_of_fluid, d);
     double files = plan.fluid ? 1 : 0;
     if (n.bodies > 0) {
@@ -164,8 +163,7 @@ double checkpoints_bytes(const Scene& scene, const Plan& plan, const Course& cou
         return std::ranges::find(plan.fields, name, &Plan::FieldUse::name) != plan.fields.end();
     };
     const Plan::Counts& n = plan.counts;
-    const bool moving =
-        std::ranges::any_of(scene.walls, [](const Wall& wall) { return moves(wall.motion); });
+    const bool moving = has_moving_walls(scene);
     const bool sticks = column("ViscousForce") && plan.runs("no_slip");
     const double row = checkpoint_fluid + (column("ViscousForce") ? checkpoint_friction : 0) +
                        (column("SolidRate") ? checkpoint_at_solids : 0);

@@ -2,7 +2,7 @@
 #include "hyoryu/scene/memory.hpp"
 
 #include "disk_histories.hpp"
-#include "hyoryu/core/motion.hpp"
+#include "hyoryu/scene/moving_walls.hpp"
 
 #include <algorithm>
 
@@ -89,8 +89,7 @@ double memory_bytes(const Scene& scene, const Plan& plan, const Course& course)
         // The lists of solid rows are short.
         lasting += fluid * list_bytes(*plan.fluid);
     }
-    const bool moving =
-        std::ranges::any_of(scene.walls, [](const Wall& w) { return moves(w.motion); });
+    const bool moving = has_moving_walls(scene);
     const double frames = on_its_way * fluid + drawn_once * (wall + drawn) +
                           drawn_always * (drawn + (moving ? wall : 0));
     return lasting + std::max(frames, closing(histories(scene, plan, course)));

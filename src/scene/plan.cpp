@@ -3,6 +3,7 @@
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/memory.hpp"
+#include "hyoryu/scene/moving_walls.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_checks.hpp"
 #include "plan_contact.hpp"
@@ -245,8 +246,7 @@ void list_effects(const Scene& scene, Plan& plan)
                                                          : "the body may meet a wall"),
                plan.counts.bodies == 0 ? "the scene has no bodies"
                                        : "one body alone, and no wall that it could meet");
-    const bool moving = std::any_of(scene.walls.begin(), scene.walls.end(),
-                                    [](const Wall& w) { return moves(w.motion); });
+    const bool moving = has_moving_walls(scene);
     census.add("moving_walls", when(moving, "a wall has `motion`"), "every wall stands still");
     census.add("gauges", when(!scene.gauges.empty(), fmt::format("{} gauges", scene.gauges.size())),
                "the scene has no gauges");

@@ -3,6 +3,7 @@
 
 #include "surroundings.hpp"
 
+#include "hyoryu/scene/moving_walls.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ std::optional<Crushed> crushed(const Simulation& sim)
 {
     const double deep = 0.25 * std::min(sim.scene.spacing, sim.thinnest);
     const auto& walls = sim.scene.walls;
-    if (std::ranges::none_of(walls, [](const Wall& wall) { return moves(wall.motion); }) ||
+    if (!has_moving_walls(sim.scene) ||
         std::ranges::none_of(sim.contacts, [&](const Contact& c) { return c.depth > deep; })) {
         return std::nullopt;
     }
