@@ -145,6 +145,9 @@ Benchmark read_benchmark(const fs::path& folder)
     BenchmarkFile& file = opened.file;
     Section root(file, opened.document, "");
     Benchmark benchmark = read_root(root);
+    if (benchmark.runs.empty() && file.mistakes.empty()) {
+        root.error("run", "makes no run", "leave it out to run the case as it is");
+    }
     if (!file.mistakes.empty()) {
         throw CaseError(file.mistakes);
     }

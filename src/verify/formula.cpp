@@ -28,6 +28,9 @@ namespace {
             known.push_back(column);
         }
     }
+    if (known.empty()) {
+        throw FormulaError(fmt::format("nothing is named \"{}\"; there are no names", name));
+    }
     const std::string near = did_you_mean(name, known);
     throw FormulaError(fmt::format("nothing is named \"{}\"; {}", name,
                                    near.empty() ? "there are: " + quoted_list(known) : near));

@@ -196,7 +196,8 @@ std::vector<std::string> read_patterns(Section& section, std::string_view key,
     std::vector<std::string> patterns = section.texts(key);
     for (const std::string& pattern : patterns) {
         const auto is_fit = [&](const BenchmarkRun& run) { return fits(pattern, run.name); };
-        if (std::none_of(runs.begin(), runs.end(), is_fit)) {
+        // Without a run the mistake in their place has been told.
+        if (!runs.empty() && std::none_of(runs.begin(), runs.end(), is_fit)) {
             std::vector<std::string_view> names;
             for (const BenchmarkRun& run : runs) {
                 names.push_back(run.name);

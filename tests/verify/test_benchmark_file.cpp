@@ -85,6 +85,16 @@ TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
     EXPECT_NE(mistake("title = \n").find("1:"), std::string::npos);
 }
 
+TEST_F(BenchmarkFiles, WithoutAnyRunThereIsNothingToCheck)
+{
+    const std::string none = head + "run = []\n" + check;
+    EXPECT_EQ(mistake(none), "4:run: makes no run (leave it out to run the case as it is)");
+    // Patterns of runs that a mistake has left out.
+    EXPECT_EQ(mistake(head + "[constants]\ng = nan\n[[run]]\ngrid = { k = [1] }\n" + check +
+                      "runs = [\"a*\"]\n"),
+              "5:constants.g: nothing is named \"nan\"; there are no names ()");
+}
+
 TEST_F(BenchmarkFiles, AToleranceNeedsAReason)
 {
     std::string text = check;
