@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/plan.hpp"
 
+#include "hyoryu/core/built_effects.hpp"
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/memory.hpp"
 #include "hyoryu/scene/moving_walls.hpp"
@@ -303,6 +305,16 @@ bool Plan::runs(std::string_view effect) const
     return std::any_of(on.begin(), on.end(), [&](const Effect& e) { return e.name == effect; });
 }
 
+void expect_built(const Plan& plan, std::span<const std::string_view> without)
+{
+    for (const std::string_view name : without) {
+        if (plan.runs(name)) {
+            throw CaseError(fmt::format("{} is not part of this build", name),
+                            "configure it without HYORYU_WITHOUT");
+        }
+    }
+}
+
 double list_bytes(const FluidParameters& fluid)
 {
     const double radius = 2 * fluid.h / fluid.spacing + usual_skin;
@@ -346,6 +358,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     }
     plan.first_step = scene.time.step.value_or(shortest(plan.limits).dt);
     list_effects(scene, plan);
+    expect_built(plan, left_out);
     list_contact(scene, filling, plan);
     list_gauges(scene, plan);
     list_pairs(plan);

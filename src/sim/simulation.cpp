@@ -1,15 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/simulation.hpp"
 
+#include "hyoryu/core/built_effects.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "hyoryu/scene/shapes.hpp"
 #include "hyoryu/sim/watch.hpp"
 
 #include <cmath>
+#include <string_view>
 
 namespace hyoryu {
 
 namespace {
+
+// What a step may consist of besides the effects of the fluid, by the names of the plan.
+struct RigidMotion {
+    static constexpr std::string_view name = "rigid_motion";
+};
+struct BodyLoad {
+    static constexpr std::string_view name = "body_load";
+};
+struct MovingWalls {
+    static constexpr std::string_view name = "moving_walls";
+};
+struct Gauges {
+    static constexpr std::string_view name = "gauges";
+};
 
 std::size_t at(Index row)
 {
@@ -57,7 +73,7 @@ void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
 // Particles of moving walls stand where their wall is at one time and move as it does at another.
 void move_walls(Simulation& sim, double place_time, double velocity_time)
 {
-    if (sim.wall_start.empty()) {
+    if (!is_built<MovingWalls> || sim.wall_start.empty()) {
         return;
     }
     std::vector<Vec3> places;
@@ -130,6 +146,30 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
     return fluid;
 }
 
+// The particles of bodies stand at the poses and move as the bodies do.
+void place_bodies(Simulation& sim)
+{
+    if constexpr (is_built<BodyLoad>) {
+        place_bodies(sim.rigid, sim.poses, sim.body_particles, *sim.fluid);
+    }
+}
+
+// The poses after flying freely for so long.
+void fly_bodies(Simulation& sim, double ahead)
+{
+    if constexpr (is_built<BodyLoad>) {
+        sim.poses = free_flight(sim.rigid, ahead);
+    }
+    place_bodies(sim);
+}
+
+void load_bodies(Simulation& sim)
+{
+    if constexpr (is_built<BodyLoad>) {
+        collect_loads(*sim.fluid, sim.poses, sim.body_particles, sim.loads.bodies);
+    }
+}
+
 } // namespace
 
 Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling)
@@ -153,8 +193,7 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         if (sim.fluid->moving_walls) {
             sim.wall_start = filling.wall;
         }
-        sim.poses = free_flight(sim.rigid, 0);
-        place_bodies(sim.rigid, sim.poses, sim.body_particles, *sim.fluid);
+        fly_bodies(sim, 0);
         update_neighbours(*sim.fluid);
         update_pressure(*sim.fluid);
         // The first step compresses what is struck at the start as it does in every later step.
@@ -188,8 +227,7 @@ void step(Simulation& sim)
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
         move_walls(sim, sim.clock.time + dt / 2, sim.clock.time + dt / 2);
-        sim.poses = free_flight(sim.rigid, dt / 2);
-        place_bodies(sim.rigid, sim.poses, sim.body_particles, fluid);
+        fly_bodies(sim, dt / 2);
         sim.timer.begin("neighbours");
         update_neighbours(fluid);
         sim.timer.begin("pressure");
@@ -197,24 +235,24 @@ void step(Simulation& sim)
         sim.timer.begin("forces");
         update_forces(fluid, dt);
         sim.timer.begin("loads");
-        collect_loads(fluid, sim.poses, sim.body_particles, sim.loads.bodies);
+        load_bodies(sim);
         sim.loads.walls.resize(sim.scene.walls.size());
         collect_wall_forces(fluid, sim.loads.walls);
         sim.timer.begin("kick");
         kick(fluid, dt);
     }
-    if (sim.plan.rigid) {
+    if (is_built<RigidMotion> && sim.plan.rigid) {
         sim.timer.begin("bodies");
         step(sim.rigid, sim.clock.time, dt, sim.loads.bodies, sim.contacts);
     }
-    if (!sim.gauges.forces.empty()) {
+    if (is_built<Gauges> && !sim.gauges.forces.empty()) {
         sim.timer.begin("gauges");
         book_forces(sim, dt);
     }
     if (sim.fluid) {
         Fluid& fluid = *sim.fluid;
         sim.timer.begin("rates");
-        place_bodies(sim.rigid, sim.poses, sim.body_particles, fluid);
+        place_bodies(sim);
         move_walls(sim, sim.clock.time + dt / 2, next.end);
         update_rates(fluid);
         sim.pair_visits += static_cast<double>(fluid.neighbours.visits);

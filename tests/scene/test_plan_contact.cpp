@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What the plan says of contact: method, law, and what every pair of materials has.
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 namespace hyoryu {
 namespace {
@@ -90,6 +92,20 @@ TEST(PlanOfContact, ResolvesEveryPairOfMaterialsThatCanMeet)
     EXPECT_EQ(steel.restitution, 0.2);
     EXPECT_EQ(steel.friction, 0.1);
     EXPECT_FALSE(steel.stiffness);
+}
+
+TEST(PlanOfContact, RefusesWhatTheBuildIsWithout)
+{
+    const Plan plan = plan_of({});
+    constexpr std::array<std::string_view, 3> absent{"gauges", "body_load", "shifting"};
+    EXPECT_NO_THROW(expect_built(plan, absent));
+    constexpr std::array<std::string_view, 2> asked{"gauges", "rigid_motion"};
+    try {
+        expect_built(plan, asked);
+        FAIL() << "moving bodies are on";
+    } catch (const CaseError& error) {
+        EXPECT_EQ(error.diagnostics().front().what, "rigid_motion is not part of this build");
+    }
 }
 
 TEST(PlanOfContact, WarnsOfLongPenaltySubSteps)

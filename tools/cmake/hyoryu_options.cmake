@@ -69,7 +69,7 @@ list(LENGTH HYORYU_WITHOUT HYORYU_WITHOUT_COUNT)
 list(TRANSFORM HYORYU_WITHOUT REPLACE "(.+)" "\"\\1\"" OUTPUT_VARIABLE HYORYU_WITHOUT_NAMES)
 list(JOIN HYORYU_WITHOUT_NAMES ", " HYORYU_WITHOUT_NAMES)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/built_effects.hpp.in
-  ${PROJECT_BINARY_DIR}/include/hyoryu/fluid/built_effects.hpp)
+  ${PROJECT_BINARY_DIR}/include/hyoryu/core/built_effects.hpp)
 
 list(JOIN HYORYU_SETS ", " HYORYU_REGISTER_SIZES)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/compiled_sets.hpp.in

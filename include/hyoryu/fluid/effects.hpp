@@ -3,7 +3,7 @@
 // file with its term and one line here.
 #pragma once
 
-#include "hyoryu/fluid/built_effects.hpp"
+#include "hyoryu/core/built_effects.hpp"
 #include "hyoryu/fluid/collision.hpp"
 #include "hyoryu/fluid/continuity.hpp"
 #include "hyoryu/fluid/density_diffusion.hpp"

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hyoryu {
@@ -80,8 +82,13 @@ struct Plan {
     bool runs(std::string_view effect) const;
 };
 
+/// What a scene asks for is never left out in silence: throws CaseError if an effect that is on is
+/// one of those that the build is `without`.
+void expect_built(const Plan& plan, std::span<const std::string_view> without);
+
 /// Infers the plan. Throws CaseError for what only the filled scene shows: bodies that overlap each
-/// other or a wall, a fixed time step beyond the stability limit, a fluid without particles.
+/// other or a wall, a fixed time step beyond the stability limit, a fluid without particles; and
+/// for effects that are not part of this build.
 Plan make_plan(const Scene& scene, const Filling& filling);
 
 /// Bytes of neighbour lists a particle of full support: one for each of the lattice points within
