@@ -46,6 +46,7 @@ void expect_built(const FluidEffects& effects)
     std::visit(look, effects.shifting);
     std::visit(look, effects.slip);
     std::visit(look, effects.collision);
+    std::visit(look, effects.cavitation);
 }
 
 } // namespace
@@ -62,7 +63,8 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
             using Own = Union<Core, typename std::remove_cvref_t<decltype(effect)>::Writes...>;
             fluid.particles.allocate(Own{}, fluid_count, wall_count, body_count);
         },
-        fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting);
+        fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting,
+        fluid.effects.cavitation);
     if (wall_count + body_count > 0) {
         fluid.particles.add(
             Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
@@ -99,6 +101,15 @@ void part_from_solids(Fluid& fluid, real dt)
     });
 }
 
+void open_cavities(Particles& particles, const Cavitation& cavitation)
+{
+    const auto rho = particles[field::density];
+    const auto cavity = particles[field::cavity];
+    const Rows rows = particles.fluid();
+    parallel_for(rows.begin, rows.end,
+                 [&](Index i) { cavitation.divide(rho[at(i)], cavity[at(i)]); });
+}
+
 } // namespace
 
 void drift(Fluid& fluid, real dt)
@@ -115,6 +126,9 @@ void drift(Fluid& fluid, real dt)
     });
     if (particles.has(field::gap)) {
         part_from_solids(fluid, dt);
+    }
+    if (const auto* cavitation = held<Cavitation>(fluid.effects.cavitation)) {
+        open_cavities(particles, *cavitation);
     }
 }
 

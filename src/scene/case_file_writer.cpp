@@ -160,6 +160,9 @@ std::string fluid_text(const FluidSettings& fluid)
     text += "\n[fluid.collision]\n";
     text += fluid.collision ? "model = \"dynamic\"\n" + line("restitution", *fluid.collision)
                             : "model = \"none\"\n";
+    text += "\n[fluid.cavitation]\n";
+    text += fluid.cavitation ? "model = \"void\"\n" + line("pressure", *fluid.cavitation)
+                             : "model = \"none\"\n";
     for (const FluidBlock& block : fluid.blocks) {
         text += "\n[[fluid.block]]\n" + shape_lines(block.shape) + line("position", block.centre) +
                 line("rotation", block.rotation) + (block.layers ? "layers = true\n" : "");

@@ -18,6 +18,17 @@ Parameter smoothing_row()
     return row;
 }
 
+Parameter void_pressure_row()
+{
+    Parameter row =
+        any_number("fluid.cavitation.pressure", "Pa", "0",
+                   "Pressure of the void over that of the air: 0 where there is no air, about "
+                   "-99000 for water under the atmosphere.");
+    row.bounds = "<= 0";
+    row.maximum = 0;
+    return row;
+}
+
 Parameter velocity_field_row()
 {
     Parameter row =
@@ -84,6 +95,11 @@ std::vector<Parameter> model_parameters()
                    "spacing, which calms splashes and takes energy; \"none\" switches it off."),
         fraction("fluid.collision.restitution", "0",
                  "Share of their approach that they fly apart with."),
+        table_row("fluid.cavitation", "Voids that open where the fluid is pulled."),
+        choice_row("fluid.cavitation.model", {"none", "void"}, "none",
+                   "\"void\" lets a void open where the pressure would fall below that of the "
+                   "void, as in a closed tank that is shaken; \"none\": the fluid bears tension."),
+        void_pressure_row(),
     };
 }
 

@@ -132,6 +132,9 @@ FluidEffects fluid_effects(const Scene& scene, const FluidParameters& f)
     if (settings.collision) {
         effects.collision = ParticleCollision{*settings.collision};
     }
+    if (settings.cavitation) {
+        effects.cavitation = Cavitation{f.eos.density(*settings.cavitation)};
+    }
     if (settings.shifting && *settings.shifting > 0) {
         const Kernel kernel = make_kernel(f.h, f.spacing, f.dimensions);
         effects.shifting = Shifting{*settings.shifting, 1 / kernel(Vec<real>{f.spacing, 0, 0}).w};
@@ -223,6 +226,13 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                when(!std::holds_alternative<Off>(plan.effects.collision),
                     "`fluid.collision.model` is \"dynamic\": calms splashes"),
                fluid ? "`fluid.collision.model` is \"none\"" : none);
+    census.add("cavitation",
+               when(!std::holds_alternative<Off>(plan.effects.cavitation),
+                    fluid && scene.fluid->cavitation
+                        ? fmt::format("`fluid.cavitation.model` is \"void\": opens below {} Pa",
+                                      *scene.fluid->cavitation)
+                        : ""),
+               fluid ? "`fluid.cavitation.model` is \"none\": the fluid bears tension" : none);
     const bool periodic =
         scene.domain && std::ranges::any_of(scene.domain->periodic, std::identity{});
     census.add("periodic", when(periodic, "`domain.periodic` names directions"),

@@ -54,6 +54,14 @@ void read_collision(TableReader table, FluidSettings& fluid)
     table.finish();
 }
 
+void read_cavitation(TableReader table, FluidSettings& fluid)
+{
+    if (table.choice("model") == "void") {
+        fluid.cavitation = table.number("pressure");
+    }
+    table.finish();
+}
+
 void read_diffusion(TableReader table, FluidSettings& fluid)
 {
     const std::string model = table.choice("model");
@@ -225,6 +233,7 @@ void read_fluid(TableReader table, Scene& scene)
     fluid.acceleration = table.planar("acceleration");
     read_diffusion(table.table("density_diffusion"), fluid);
     read_collision(table.table("collision"), fluid);
+    read_cavitation(table.table("cavitation"), fluid);
     TableReader shifting = table.table("shifting");
     if (shifting.choice("model") == "sun") {
         fluid.shifting = shifting.number("coefficient");

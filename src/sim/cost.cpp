@@ -33,12 +33,14 @@ constexpr std::array slots{
     Slot{{"no_slip"}, [](FluidEffects& effects) { effects.slip = Off{}; }},
     Slot{{"shifting"}, [](FluidEffects& effects) { effects.shifting = Off{}; }},
     Slot{{"particle_collision"}, [](FluidEffects& effects) { effects.collision = Off{}; }},
+    Slot{{"cavitation"}, [](FluidEffects& effects) { effects.cavitation = Off{}; }},
 };
 
 // Does not compile any more when FluidEffects gains a slot, which then belongs above too.
 [[maybe_unused]] void expect_all_slots(const FluidEffects& effects)
 {
-    [[maybe_unused]] const auto& [diffusion, viscosity, shifting, slip, collision] = effects;
+    [[maybe_unused]] const auto& [diffusion, viscosity, shifting, slip, collision, cavitation] =
+        effects;
 }
 
 struct Variant {

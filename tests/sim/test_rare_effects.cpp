@@ -34,6 +34,8 @@ smagorinsky = 1.0
 model = "antuono"
 [fluid.collision]
 model = "dynamic"
+[fluid.cavitation]
+model = "void"
 [[fluid.block]]
 shape = "box"
 min = [0.0, 0.0, 0.0]
@@ -148,8 +150,8 @@ velocity_field = ["1 + z", "0", "x*z"]
 
 TEST(RareEffects, AreAbsentUnlessAskedFor)
 {
-    const std::array<const char*, 5> effects{"no_slip", "sps_turbulence", "drive",
-                                             "particle_collision", "moving_walls"};
+    const std::array<const char*, 6> effects{
+        "no_slip", "sps_turbulence", "drive", "particle_collision", "cavitation", "moving_walls"};
     const Simulation with = make(channel);
     for (const char* effect : effects) {
         EXPECT_TRUE(with.plan.runs(effect)) << effect;
@@ -160,7 +162,8 @@ TEST(RareEffects, AreAbsentUnlessAskedFor)
     }
     const Particles& p = without.fluid->particles;
     EXPECT_FALSE(p.has(field::velocity_sum) || p.has(field::depth) || p.has(field::strain) ||
-                 p.has(field::turbulent_viscosity) || p.has(field::moments));
+                 p.has(field::turbulent_viscosity) || p.has(field::moments) ||
+                 p.has(field::cavity));
 }
 
 TEST(RareEffects, EddiesOfNoLengthGiveTheBitsOfLaminarFlow)

@@ -48,6 +48,8 @@ struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"Dif
 struct SolidRate       { using type = real; static constexpr FieldInfo info{"SolidRate", "kg/m3/s"}; };
 /// Density that fluid without pressure has kept in parting from solids.
 struct Gap             { using type = real; static constexpr FieldInfo info{"Gap", "kg/m3"}; };
+/// Density that fluid at the pressure of a void has lost to the void that opens in it.
+struct Cavity          { using type = real; static constexpr FieldInfo info{"Cavity", "kg/m3"}; };
 /// Sum of pair forces that depend on positions and densities; N/m in two dimensions.
 struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N"}; };
 /// Sum of pair forces that depend on velocities.
@@ -84,6 +86,7 @@ inline constexpr DensityRate     density_rate{};
 inline constexpr DiffusionRate   diffusion_rate{};
 inline constexpr SolidRate       solid_rate{};
 inline constexpr Gap             gap{};
+inline constexpr Cavity          cavity{};
 inline constexpr Force           force{};
 inline constexpr ViscousForce    viscous_force{};
 inline constexpr PressureGradient pressure_gradient{};
@@ -116,7 +119,7 @@ inline constexpr bool contains<F, Fields<G...>> = (std::is_same_v<F, G> || ...);
 /// Fields that fluid particles alone have: solids move by their bodies, and their density follows
 /// from the pressure of the fluid.
 using FluidFields =
-    Fields<DensityRate, DiffusionRate, SolidRate, Gap, PressureGradient, CrowdingGradient, Moments,
+    Fields<DensityRate, DiffusionRate, SolidRate, Gap, Cavity, PressureGradient, CrowdingGradient, Moments,
            MixedMoments, ShiftGradient, Strain, MixedStrain>;
 template <Field F>
 inline constexpr bool of_fluid_alone = contains<F, FluidFields>;

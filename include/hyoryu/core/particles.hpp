@@ -16,7 +16,7 @@ namespace hyoryu {
 
 /// Every field that a column can be made of. A new field is one line here and one in fields.hpp.
 using AllFields = Fields<Position, Velocity, Density, Pressure, Volume, DensityRate, DiffusionRate,
-                         SolidRate, Gap, Force, ViscousForce, ShepardSum,
+                         SolidRate, Gap, Cavity, Force, ViscousForce, ShepardSum,
                          PressureGradient, CrowdingGradient, Moments, MixedMoments, ShiftGradient,
                          VelocitySum, OffsetSum, Depth, Strain, MixedStrain, TurbulentViscosity>;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hyoryu/core/built_effects.hpp"
+#include "hyoryu/fluid/cavitation.hpp"
 #include "hyoryu/fluid/collision.hpp"
 #include "hyoryu/fluid/continuity.hpp"
 #include "hyoryu/fluid/density_diffusion.hpp"
@@ -27,6 +28,7 @@ struct FluidEffects {
     std::variant<Off, Shifting> shifting;                                   // after it
     std::variant<Off, NoSlip> slip;                                         // viscosity at solids
     std::variant<Off, ParticleCollision> collision; // with the pressure force
+    std::variant<Off, Cavitation> cavitation;       // where density moves on
 };
 
 /// The effect if the slot holds it and it is part of this build; null otherwise.

@@ -98,10 +98,11 @@ struct FluidSettings {
     bool sticks = false;               // to walls and bodies
     Vec3 acceleration{0, 0, 0};        // besides gravity [m/s2]
     DiffusionModel diffusion = DiffusionModel::fourtakas;
-    double delta = 0.1;              // of the density diffusion [1]
-    std::optional<double> shifting;  // its coefficient [1]; none: off
-    std::optional<double> collision; // restitution of its particles [1]; none: off
-    double smoothing_ratio = 1.5;    // h / spacing [1]
+    double delta = 0.1;               // of the density diffusion [1]
+    std::optional<double> shifting;   // its coefficient [1]; none: off
+    std::optional<double> collision;  // restitution of its particles [1]; none: off
+    std::optional<double> cavitation; // pressure of the void [Pa]; none: it bears tension
+    double smoothing_ratio = 1.5;     // h / spacing [1]
     std::vector<FluidBlock> blocks;
 };
 

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Water that bears no tension: what flies apart flies freely, and what comes together again is not
+// pushed before its voids have closed.
+#include "runs.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hyoryu {
+namespace {
+
+// A square that expands evenly by a fifth in each second, without weight.
+constexpr const char* square = R"(
+dimensions = 2
+gravity = [0.0, 0.0, 0.0]
+[time]
+end = 10.0
+step = 1e-3
+[particles]
+spacing = 0.02
+precision = "double"
+[domain]
+min = [-1.0, 0.0, -1.0]
+max = [1.0, 0.0, 1.0]
+[fluid]
+sound_speed = 10.0
+viscosity.model = "none"
+[[fluid.block]]
+shape = "box"
+min = [-0.2, 0.0, -0.2]
+max = [0.2, 0.0, 0.2]
+velocity_field = ["0.2*x", "0", "0.2*z"]
+)";
+
+struct Deviation {
+    double place = 0;    // from free flight at most [m]
+    double pressure = 0; // at most [Pa]
+    double cavity = 0;   // at most, over the density [1]
+};
+
+// Particles by their numbers: the search for neighbours sorts the rows.
+std::vector<Vec3> places(const Simulation& sim)
+{
+    const Particles& particles = sim.fluid->particles;
+    std::vector<Vec3> x(particles.id().size());
+    for (std::size_t row = 0; row < x.size(); ++row) {
+        x[static_cast<std::size_t>(particles.id()[row])] = particles[field::position][row];
+    }
+    return x;
+}
+
+Deviation deviation(const Simulation& sim, const std::vector<Vec3>& start, double flight)
+{
+    Deviation worst;
+    const std::vector<Vec3> now = places(sim);
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        worst.place = std::max(worst.place, (now[k] - (1 + 0.2 * flight) * start[k]).norm());
+    }
+    for (const real p : sim.fluid->particles[field::pressure]) {
+        worst.pressure = std::max(worst.pressure, std::abs(p));
+    }
+    if (sim.fluid->particles.has(field::cavity)) {
+        for (const real c : sim.fluid->particles[field::cavity]) {
+            worst.cavity = std::max(worst.cavity, c / 1000);
+        }
+    }
+    return worst;
+}
+
+TEST(Cavitation, WaterThatPartsFliesFreely)
+{
+    Simulation sim = make(square, {"fluid.cavitation.model=void"});
+    const std::vector<Vec3> start = places(sim);
+    advance(sim, 200);
+    const Deviation torn = deviation(sim, start, 0.2);
+    EXPECT_LE(torn.place, 1e-14); // round-off
+    EXPECT_EQ(torn.pressure, 0);
+    // Continuity: 1 - exp(-2 x 0.2/s x 0.2 s) of the density, within what the kernel sum misses.
+    EXPECT_NEAR(torn.cavity, 0.077, 0.01);
+
+    Simulation pulled = make(square);
+    advance(pulled, 200);
+    EXPECT_GT(deviation(pulled, start, 0.2).place, 1e-3); // it bears tension and stays together
+}
+
+TEST(Cavitation, VoidsCloseBeforeTheWaterIsCompressed)
+{
+    Simulation sim = make(square, {"fluid.cavitation.model=void"});
+    const std::vector<Vec3> start = places(sim);
+    advance(sim, 200);
+    for (Vec3& v : sim.fluid->particles[field::velocity]) {
+        v = -v;
+    }
+    update_rates(*sim.fluid);
+    advance(sim, 199);
+    const Deviation almost = deviation(sim, start, 1e-3);
+    EXPECT_LE(almost.place, 1e-14);
+    EXPECT_EQ(almost.pressure, 0);
+    EXPECT_LE(almost.cavity, 5e-4); // 2 x 0.2/s x 1e-3 s are left
+    advance(sim, 20);
+    const Deviation closed = deviation(sim, start, 0);
+    EXPECT_GT(closed.pressure, 100); // 2 x 0.2/s x 0.01 s of rho c^2 are 400 Pa; edges give way
+}
+
+TEST(Cavitation, OpensAtThePressureOfTheVoid)
+{
+    Simulation sim = make(square, {"fluid.cavitation.model=void", "fluid.cavitation.pressure=-50"});
+    advance(sim, 100);
+    const auto p = sim.fluid->particles[field::pressure];
+    EXPECT_NEAR(*std::min_element(p.begin(), p.end()), -50, 1e-9);
+}
+
+} // namespace
+} // namespace hyoryu
