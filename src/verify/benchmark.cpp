@@ -30,6 +30,7 @@ Benchmark read_root(Section& root)
     }
     benchmark.title = root.text("title");
     benchmark.group = root.text("group");
+    benchmark.also = root.texts("also");
     benchmark.source = root.text("source");
     benchmark.uncertainty = root.text("uncertainty");
     const Tier tier = read_tier(root, Tier::quick);
@@ -49,6 +50,7 @@ Benchmark read_root(Section& root)
     std::set<std::string> known;
     for (const Benchmark& benchmark : benchmarks) {
         known.insert({benchmark.name, benchmark.group});
+        known.insert(benchmark.also.begin(), benchmark.also.end());
     }
     const std::vector<std::string_view> names(known.begin(), known.end());
     const std::string near = did_you_mean(name, names);
@@ -58,7 +60,8 @@ Benchmark read_root(Section& root)
 
 bool is_named(const Benchmark& benchmark, const std::string& name)
 {
-    return benchmark.name == name || benchmark.group == name;
+    return benchmark.name == name || benchmark.group == name ||
+           std::ranges::find(benchmark.also, name) != benchmark.also.end();
 }
 
 void keep_runs_of(Tier tier, Benchmark& benchmark)

@@ -134,6 +134,9 @@ TEST_F(Selection, TakesNamesGroupsAndTiersThatIncludeTheLowerOnes)
     EXPECT_EQ(select(all, {}, Tier::nightly).size(), 2u);
     EXPECT_EQ(select(all, {"contact"}, Tier::release).size(), 2u);
     EXPECT_EQ(select(all, {"drop"}, Tier::nightly).front().name, "drop");
+    std::vector<Benchmark> two = all;
+    two[1].also = {"stability"};
+    EXPECT_EQ(select(two, {"stability"}, Tier::nightly).front().name, "heap");
 }
 
 TEST_F(Selection, RefusesWhatItDoesNotKnowOrWhatTheTierLeavesOut)

@@ -153,8 +153,9 @@ struct Benchmark {
     std::filesystem::path folder;
     std::string title;
     std::string group;
-    std::string source;      // of the reference
-    std::string uncertainty; // of the reference, in words; may be empty
+    std::vector<std::string> also; // other groups that it belongs to
+    std::string source;            // of the reference
+    std::string uncertainty;       // of the reference, in words; may be empty
     Constants constants;
     std::map<std::string, std::string> columns; // derived columns: expressions of other columns
     std::vector<BenchmarkRun> runs;
