@@ -151,7 +151,7 @@ void restore_tiles(Tiles& tiles, Rows rows, const std::string& name, const Snaps
 // What a step starts from. All else, and all of solid particles, follows from it and from the
 // bodies before it is used.
 using Lasting =
-    Fields<Position, Velocity, Density, DensityRate, SolidRate, Gap, Force, ViscousForce>;
+    Fields<Position, Velocity, Density, DensityRate, SolidRate, Gap, Cavity, Force, ViscousForce>;
 
 // Of solid particles: friction, which acts a step later, and the image that the lists know.
 using LastingOfSolids = Fields<Position, ViscousForce>;

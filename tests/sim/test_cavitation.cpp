@@ -101,6 +101,22 @@ TEST(Cavitation, VoidsCloseBeforeTheWaterIsCompressed)
     EXPECT_GT(closed.pressure, 100); // 2 x 0.2/s x 0.01 s of rho c^2 are 400 Pa; edges give way
 }
 
+TEST(Cavitation, ARestartKeepsTheVoids)
+{
+    Simulation whole = make(square, {"fluid.cavitation.model=void"});
+    advance(whole, 50);
+    const Snapshot middle = save(whole);
+    advance(whole, 50);
+
+    Simulation resumed = make(square, {"fluid.cavitation.model=void"});
+    restore(resumed, middle);
+    advance(resumed, 50);
+    expect_same_bits(save(whole), save(resumed));
+    const double open = deviation(whole, places(whole), 0).cavity;
+    EXPECT_GT(open, 0.03);
+    EXPECT_EQ(deviation(resumed, places(resumed), 0).cavity, open);
+}
+
 TEST(Cavitation, OpensAtThePressureOfTheVoid)
 {
     Simulation sim = make(square, {"fluid.cavitation.model=void", "fluid.cavitation.pressure=-50"});

@@ -119,8 +119,8 @@ inline constexpr bool contains<F, Fields<G...>> = (std::is_same_v<F, G> || ...);
 /// Fields that fluid particles alone have: solids move by their bodies, and their density follows
 /// from the pressure of the fluid.
 using FluidFields =
-    Fields<DensityRate, DiffusionRate, SolidRate, Gap, Cavity, PressureGradient, CrowdingGradient, Moments,
-           MixedMoments, ShiftGradient, Strain, MixedStrain>;
+    Fields<DensityRate, DiffusionRate, SolidRate, Gap, Cavity, PressureGradient, CrowdingGradient,
+           Moments, MixedMoments, ShiftGradient, Strain, MixedStrain>;
 template <Field F>
 inline constexpr bool of_fluid_alone = contains<F, FluidFields>;
 
