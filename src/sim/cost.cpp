@@ -66,6 +66,7 @@ std::vector<Variant> variants(const Simulation& sim)
 // Of the stages so far [s].
 struct Spent {
     double bodies = 0;
+    double lists = 0; // part of all else
     double all_else = 0;
 };
 Spent spent(const Simulation& sim)
@@ -73,6 +74,7 @@ Spent spent(const Simulation& sim)
     Spent total;
     for (const StageTimer::Stage& stage : sim.timer.stages()) {
         (stage.name == "bodies" ? total.bodies : total.all_else) += stage.seconds;
+        total.lists += stage.name == "neighbours" ? stage.seconds : 0;
     }
     return total;
 }
@@ -147,16 +149,22 @@ StepCost measure_cost(Simulation& sim, int steps)
     const int rounds = std::max(least_rounds, steps / static_cast<int>(all.size()));
     step(sim); // what is in no cache yet comes into it
     StepCost cost;
-    const double before = spent(sim).bodies;
+    const Spent start = spent(sim);
     for (int round = 0; round < rounds; ++round) {
         for (Variant& variant : all) {
             sim.fluid->effects = variant.effects;
+            const double lists = spent(sim).lists;
             const double seconds = seconds_of_step(sim);
             variant.least = std::min(variant.least, seconds);
-            cost.seconds += variant.without.empty() ? seconds / rounds : 0;
+            if (variant.without.empty()) {
+                cost.seconds += (seconds - (spent(sim).lists - lists)) / rounds;
+            }
         }
     }
-    cost.bodies = (spent(sim).bodies - before) / (rounds * static_cast<double>(all.size()));
+    // Lists are made in some steps only, whatever the effects: all steps tell how often.
+    const double timed = rounds * static_cast<double>(all.size());
+    cost.seconds += (spent(sim).lists - start.lists) / timed;
+    cost.bodies = (spent(sim).bodies - start.bodies) / timed;
     for (const Variant& variant : all) {
         if (!variant.without.empty()) {
             cost.effects.push_back({variant.without, 1 - variant.least / all.front().least});
