@@ -35,8 +35,9 @@ void foretell_development(const CaseSource& source, const Plan& plan, int first,
 
 /// What this process has spent.
 struct SpentCost {
-    double seconds_per_step = 0; // of wall time, all included [s]
-    double memory = 0;           // largest resident memory, results.h5 included [B]
+    double wall_seconds = 0; // until it was done, all included [s]
+    double steps = 0;        // of them
+    double memory = 0;       // largest resident memory, results.h5 included [B]
 };
 
 /// Adds `cost` to the summary.json in the folder: for each effect that its plan.json names, and for

@@ -38,8 +38,9 @@ constexpr double shortest_look = 0.1;
 constexpr double row_text = 5e-6;
 constexpr double frame_work = 1e-3;
 
-// Files that every run writes beside its frames: checkpoints, histories, walls, structures.
-constexpr double files_of_a_run = 10;
+// Files that every run writes beside its frames, and what is worked to close them: checkpoints,
+// histories, walls, structures, results.h5, the summary.
+constexpr double files_of_a_run = 22;
 
 double seconds_since(SteadyClock::time_point start)
 {

@@ -26,8 +26,9 @@ nlohmann::ordered_json cost_json(const StepCost& cost)
     if (cost.development) {
         const Development& d = *cost.development;
         json["development"] = {
-            {"coarsening", d.coarsening}, {"steps", d.steps}, {"step", d.step},
-            {"seconds", d.seconds},       {"fluid", d.fluid}, {"impacts", d.impacts}};
+            {"coarsening", d.coarsening}, {"steps", d.steps},     {"step", d.step},
+            {"builds", d.builds},         {"seconds", d.seconds}, {"fluid", d.fluid},
+            {"impacts", d.impacts}};
     }
     for (const StepCost::Share& share : cost.effects) {
         json["effects"][share.effect] = share.share;

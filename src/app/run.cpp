@@ -209,9 +209,9 @@ void tell_doubts(Job& job)
 void tell_cost(Job& job)
 {
     const auto steps = static_cast<double>(job.sim.clock.step - job.first_step);
-    const double seconds = steps > 0 ? job.progress.wall_seconds() / steps : 0;
     const int timed = steps_to_time(job.sim.plan, steps);
-    const SpentCost spent{seconds, peak_memory()}; // before the steps that are timed now
+    const SpentCost spent{job.progress.wall_seconds(), steps,
+                          peak_memory()}; // before the steps that are timed now
     write_cost(job.folder, spent, time_steps(job.sim, timed));
 }
 

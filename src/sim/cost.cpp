@@ -66,17 +66,27 @@ std::vector<Variant> variants(const Simulation& sim)
 // Of the stages so far [s].
 struct Spent {
     double bodies = 0;
-    double lists = 0; // part of all else
+    double lists = 0;
     double all_else = 0;
 };
 Spent spent(const Simulation& sim)
 {
     Spent total;
     for (const StageTimer::Stage& stage : sim.timer.stages()) {
-        (stage.name == "bodies" ? total.bodies : total.all_else) += stage.seconds;
-        total.lists += stage.name == "neighbours" ? stage.seconds : 0;
+        double& part = stage.name == "bodies"       ? total.bodies
+                       : stage.name == "neighbours" ? total.lists
+                                                    : total.all_else;
+        part += stage.seconds;
     }
     return total;
+}
+
+// What a step has taken on average since `before`.
+Spent spent_since(const Spent& before, const Simulation& sim, double steps)
+{
+    const Spent now = spent(sim);
+    return {(now.bodies - before.bodies) / steps, (now.lists - before.lists) / steps,
+            (now.all_else - before.all_else) / steps};
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start)
@@ -110,6 +120,39 @@ void pass(Simulation& sim, Passed& passed)
         static_cast<double>(sim.fluid->particles.fluid().size()) * (sim.clock.time - before);
 }
 
+// No frame does.
+void cut_no_step(Simulation& sim)
+{
+    sim.scene.output.every = infinity;
+    sim.clock.frame = 1;
+}
+
+// Of so many steps after the very first one, without bodies and lists, on average.
+double early_step(Simulation& sim, int first)
+{
+    cut_no_step(sim);
+    step(sim);
+    const Spent before = spent(sim);
+    for (int k = 0; k < first; ++k) {
+        step(sim);
+    }
+    return spent_since(before, sim, first).all_else;
+}
+
+// Of making lists, in a fluid that has lists.
+double seconds_of_build(Fluid& fluid)
+{
+    constexpr int builds = 3;
+    double least = infinity;
+    for (int k = 0; k < builds; ++k) {
+        const auto start = std::chrono::steady_clock::now();
+        fluid.neighbours.builds = 0; // as at the start: they are made whatever has moved
+        update_neighbours(fluid);
+        least = std::min(least, seconds_since(start));
+    }
+    return least;
+}
+
 double seconds_of_step(Simulation& sim)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -121,8 +164,12 @@ double seconds_of_step(Simulation& sim)
 
 double seconds_of_run(const StepCost& cost)
 {
-    const double grows = cost.development ? cost.development->step : 1;
-    return grows * (cost.seconds - cost.bodies) + cost.bodies + cost.output;
+    if (!cost.development) {
+        return cost.seconds + cost.output;
+    }
+    const Development& over = *cost.development;
+    return over.step * (cost.seconds - cost.bodies - cost.lists) + over.builds * cost.build +
+           cost.bodies + cost.output;
 }
 
 double measure_row(const Simulation& sim)
@@ -143,13 +190,13 @@ StepCost measure_cost(Simulation& sim, int steps)
 {
     // Neither the end nor a frame may cut a step short.
     sim.scene.time.end = infinity;
-    sim.scene.output.every = infinity;
-    sim.clock.frame = 1;
+    cut_no_step(sim);
     std::vector<Variant> all = variants(sim);
     const int rounds = std::max(least_rounds, steps / static_cast<int>(all.size()));
     step(sim); // what is in no cache yet comes into it
     StepCost cost;
     const Spent start = spent(sim);
+    const long long builds_before = sim.fluid->neighbours.builds;
     for (int round = 0; round < rounds; ++round) {
         for (Variant& variant : all) {
             sim.fluid->effects = variant.effects;
@@ -163,8 +210,12 @@ StepCost measure_cost(Simulation& sim, int steps)
     }
     // Lists are made in some steps only, whatever the effects: all steps tell how often.
     const double timed = rounds * static_cast<double>(all.size());
-    cost.seconds += (spent(sim).lists - start.lists) / timed;
-    cost.bodies = (spent(sim).bodies - start.bodies) / timed;
+    const Spent of_all = spent_since(start, sim, timed);
+    cost.seconds += of_all.lists;
+    cost.bodies = of_all.bodies;
+    const auto builds = static_cast<double>(sim.fluid->neighbours.builds - builds_before) / timed;
+    cost.build = seconds_of_build(*sim.fluid);
+    cost.lists = std::min(builds * cost.build, of_all.lists);
     for (const Variant& variant : all) {
         if (!variant.without.empty()) {
             cost.effects.push_back({variant.without, 1 - variant.least / all.front().least});
@@ -176,8 +227,7 @@ StepCost measure_cost(Simulation& sim, int steps)
 std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool()>& goes_on)
 {
     constexpr double grows = 1.3; // more than noise makes of two halves alike
-    sim.scene.output.every = infinity;
-    sim.clock.frame = 1;
+    cut_no_step(sim);
     std::vector<double> steps; // seconds of each
     StepCost cost;
     try {
@@ -200,34 +250,31 @@ std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool
     return cost;
 }
 
-std::optional<Development> measure_development(Simulation& sim, int first,
+std::optional<Development> measure_development(Simulation& sim, Simulation& again, int first,
                                                const std::function<bool()>& goes_on)
 {
     const auto start = std::chrono::steady_clock::now();
     const auto particles = static_cast<double>(sim.fluid->particles.fluid().size());
-    sim.scene.output.every = infinity; // no frame cuts a step short
-    sim.clock.frame = 1;
-    double early = 0;
+    cut_no_step(sim);
     Passed passed;
     try {
         pass(sim, passed);
-        const double before = spent(sim).all_else;
+        const Spent before = spent(sim);
         while (!finished(sim.clock, sim.scene)) {
             if (!goes_on()) {
                 return {};
             }
             pass(sim, passed);
-            if (sim.clock.step == first + 1) {
-                early = (spent(sim).all_else - before) / first;
-            }
         }
         const auto steps = static_cast<double>(sim.clock.step);
-        if (!(early > 0)) {
+        if (steps <= first) {
             return {};
         }
+        const double late = spent_since(before, sim, steps - 1).all_else;
         const auto left = static_cast<double>(sim.fluid->particles.fluid().size());
         return Development{.steps = steps / sim.plan.expected_steps,
-                           .step = (spent(sim).all_else - before) / (steps - 1) / early,
+                           .step = late / early_step(again, first),
+                           .builds = static_cast<double>(sim.fluid->neighbours.builds) / steps,
                            .seconds = seconds_since(start),
                            .fluid = passed.fluid_time / (particles * sim.clock.time),
                            .fluid_end = left / particles,

@@ -82,7 +82,8 @@ TEST(Cost, OfWaterAtRestDoesNotChange)
     std::array<double, 3> step{};
     for (double& once : step) {
         Simulation sim = make(tank, {"time.end=0.2"});
-        const auto found = measure_development(sim, 50, [] { return true; });
+        Simulation again = make(tank, {"time.end=0.2"});
+        const auto found = measure_development(sim, again, 50, [] { return true; });
         ASSERT_TRUE(found.has_value());
         EXPECT_TRUE(finished(sim.clock, sim.scene));
         EXPECT_NEAR(found->steps * sim.plan.expected_steps, static_cast<double>(sim.clock.step),
@@ -95,24 +96,26 @@ TEST(Cost, OfWaterAtRestDoesNotChange)
     EXPECT_LT(step[1], 5);
 }
 
-TEST(Cost, OfTheRunCountsBodiesApart)
+TEST(Cost, OfTheRunCountsBodiesAndListsApart)
 {
-    StepCost cost{.seconds = 5, .bodies = 2};
-    EXPECT_EQ(seconds_of_run(cost), 5);
-    cost.development = Development{.step = 3};
-    EXPECT_EQ(seconds_of_run(cost), 3 * 3 + 2);
+    StepCost cost{.seconds = 6, .bodies = 2, .lists = 1, .build = 20};
+    EXPECT_EQ(seconds_of_run(cost), 6);
+    cost.development = Development{.step = 3, .builds = 0.25};
+    EXPECT_EQ(seconds_of_run(cost), 3 * 3 + 2 + 5);
 }
 
 TEST(Cost, DevelopmentIsLeftWhereItTakesTooLongOrGoesWrong)
 {
+    Simulation again = make(tank);
     Simulation sim = make(tank);
-    EXPECT_FALSE(measure_development(sim, 5, [n = 0]() mutable { return ++n < 3; }).has_value());
+    EXPECT_FALSE(
+        measure_development(sim, again, 5, [n = 0]() mutable { return ++n < 3; }).has_value());
     EXPECT_EQ(sim.clock.step, 3);
     Simulation wrong = make(tank);
     wrong.fluid->particles[field::velocity][0].x() = std::numeric_limits<real>::quiet_NaN();
-    EXPECT_FALSE(measure_development(wrong, 5, [] { return true; }).has_value());
+    EXPECT_FALSE(measure_development(wrong, again, 5, [] { return true; }).has_value());
     Simulation short_run = make(tank);
-    EXPECT_FALSE(measure_development(short_run, 1'000'000, [] { return true; }).has_value());
+    EXPECT_FALSE(measure_development(short_run, again, 1'000'000, [] { return true; }).has_value());
 }
 
 constexpr const char* bounce = R"(
@@ -171,14 +174,15 @@ TEST(Cost, OfBodiesIsNotToldByStepsThatGrow)
 TEST(Cost, DevelopmentTellsWhatFluidIsLeft)
 {
     Simulation rests = make(tank, {"time.end=0.05"});
-    const auto all = measure_development(rests, 5, [] { return true; });
+    Simulation again = make(tank);
+    const auto all = measure_development(rests, again, 5, [] { return true; });
     ASSERT_TRUE(all.has_value());
     EXPECT_NEAR(all->fluid, 1, 1e-9);
     EXPECT_EQ(all->fluid_end, 1);
     Simulation falls =
         make(tank, {"time.end=0.25", "wall[0].min=[0.0,0.0,-9.0]", "wall[0].max=[0.2,0.0,-8.0]",
                     "domain.min=[-0.1,0.0,0.0]", "domain.max=[0.3,0.0,0.4]"});
-    const auto some = measure_development(falls, 5, [] { return true; });
+    const auto some = measure_development(falls, again, 5, [] { return true; });
     ASSERT_TRUE(some.has_value());
     EXPECT_LT(some->fluid_end, 0.2);
     EXPECT_GT(some->fluid, 0.3);

@@ -18,7 +18,8 @@ namespace hyoryu {
 struct Development {
     double coarsening = 1; // its spacing over that of the case
     double steps = 1;      // its steps over those that its plan expects
-    double step = 1;       // a step without bodies, on average, over one of the first
+    double step = 1;       // a step without bodies and lists, on average, over one of the first
+    double builds = 0;     // of lists, in a step on average
     double seconds = 0;    // that it took
     double fluid = 1;      // share of its fluid that is left, on average over the run [1]
     double fluid_end = 1;  // and at its end [1]
@@ -33,6 +34,8 @@ struct StepCost {
     };
     double seconds = 0; // of a step with everything on, on average [s]
     double bodies = 0;  // of them, for the motion of bodies and their contacts [s]
+    double lists = 0;   // of them, for making lists, which some steps do [s]
+    double build = 0;   // for making them once [s]
     double row = 0;     // of the sums of a row of the histories [s]
     double output = 0;  // of a step on average over the run, besides, for what is written [s]
     double impacts = 0; // rows of contacts.csv that tell of one, over the whole run
@@ -61,10 +64,11 @@ std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool
 /// up for the row, and to see whether a run gains energy [s].
 double measure_row(const Simulation& sim);
 
-/// Runs a simulation with fluid to its end and compares all its steps with the first ones, so many.
-/// None where it goes wrong, or where `goes_on`, asked before each step, says no first.
-/// `coarsening` is left to the caller.
-std::optional<Development> measure_development(Simulation& sim, int first,
+/// Runs a simulation with fluid to its end and compares all its steps with the first ones, so many,
+/// of the same scene begun `again`: timed afterwards, when memory and threads are as warm as in the
+/// later steps. None where it goes wrong, or where `goes_on`, asked before each step, says no
+/// first. `coarsening` is left to the caller.
+std::optional<Development> measure_development(Simulation& sim, Simulation& again, int first,
                                                const std::function<bool()>& goes_on);
 
 } // namespace hyoryu
