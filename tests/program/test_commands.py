@@ -67,7 +67,11 @@ class Commands(ProgramTest):
         case = CASES / "box_heap" / "case.toml"
         done = self.call("check", case, "--json")
         # 1,960 boxes, 2,000 steps, 35 us; it took 157 s
-        self.assertAlmostEqual(json.loads(done.stdout)["forecast"]["wall_seconds"], 137.2, delta=0.1)
+        forecast = json.loads(done.stdout)["forecast"]
+        self.assertAlmostEqual(forecast["wall_seconds"], 137.2, delta=0.1)
+        # It wrote 1,080 MB, most of it rows of impacts, and held 1,849 MB at its end.
+        self.assertAlmostEqual(forecast["disk_bytes"], 1080e6, delta=0.25 * 1080e6)
+        self.assertAlmostEqual(forecast["memory_bytes"], 1849e6, delta=0.25 * 1849e6)
         self.assertIn("if all bodies touch", self.call("check", case).stdout)
 
     def test_every_case_passes_its_check(self):
