@@ -302,7 +302,7 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
         json["precision"] = name(scene.precision);
         json["instruction_set"] = name(widest_instruction_set());
     }
-    json["forecast"] = {{"memory_bytes", plan.memory},
+    json["forecast"] = {{"memory_bytes", memory_bytes(scene, plan, expected_course(plan, timed))},
                         {"frames", plan.frames},
                         {"disk_bytes", disk_bytes(scene, plan, expected_course(plan, timed))},
                         {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
