@@ -89,11 +89,22 @@ TEST(Cost, OfWaterAtRestDoesNotChange)
         EXPECT_NEAR(found->steps * sim.plan.expected_steps, static_cast<double>(sim.clock.step),
                     1e-6);
         EXPECT_NEAR(found->steps, 1, 0.02);
+        EXPECT_NEAR(found->builds * static_cast<double>(sim.clock.step),
+                    static_cast<double>(sim.fluid->neighbours.builds), 1e-9);
         once = found->step;
     }
     std::ranges::sort(step);
     EXPECT_GT(step[1], 0.2);
     EXPECT_LT(step[1], 5);
+}
+
+TEST(Cost, OfListsIsThatOfMakingThemOnceAndAPartOfAStep)
+{
+    Simulation sim = make(tank);
+    const StepCost cost = measure_cost(sim, 10);
+    EXPECT_GT(cost.build, 0);
+    EXPECT_GE(cost.lists, 0);
+    EXPECT_LT(cost.lists, cost.seconds);
 }
 
 TEST(Cost, OfTheRunCountsBodiesAndListsApart)
