@@ -26,8 +26,8 @@ constexpr double measured_rate = 0.55e6;
 // and 1,960 boxes. At rest it takes half of that, in flight a tenth.
 constexpr double body_seconds = 35e-6;
 
-// Impacts of a body in a heap in a step, over whole runs of 490 and 1,960 boxes: 0.43 and 0.8.
-// Fewer bodies are no heap.
+// Impacts of a body in a heap in a step, over a whole run of 1,960 boxes; runs of 490 had 0.43 to
+// 0.58. Fewer bodies are no heap.
 constexpr double heap_impacts = 0.72;
 constexpr Index heap_bodies = 100;
 

@@ -120,7 +120,7 @@ void pass(Simulation& sim, Passed& passed)
         static_cast<double>(sim.fluid->particles.fluid().size()) * (sim.clock.time - before);
 }
 
-// No frame does.
+// No frame cuts a step short.
 void cut_no_step(Simulation& sim)
 {
     sim.scene.output.every = infinity;
@@ -271,9 +271,13 @@ std::optional<Development> measure_development(Simulation& sim, Simulation& agai
             return {};
         }
         const double late = spent_since(before, sim, steps - 1).all_else;
+        const double early = early_step(again, first);
+        if (!(early > 0)) {
+            return {};
+        }
         const auto left = static_cast<double>(sim.fluid->particles.fluid().size());
         return Development{.steps = steps / sim.plan.expected_steps,
-                           .step = late / early_step(again, first),
+                           .step = late / early,
                            .builds = static_cast<double>(sim.fluid->neighbours.builds) / steps,
                            .seconds = seconds_since(start),
                            .fluid = passed.fluid_time / (particles * sim.clock.time),
