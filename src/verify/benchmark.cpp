@@ -37,7 +37,7 @@ Benchmark read_root(Section& root)
     benchmark.constants = read_constants(root);
     benchmark.columns = read_columns(root);
     benchmark.runs = read_runs(root, benchmark.constants, tier);
-    benchmark.checks = read_checks(root, benchmark.runs);
+    benchmark.checks = read_checks(root, benchmark);
     benchmark.figures = read_figures(root, benchmark.runs);
     benchmark.tables = read_summary_tables(root, benchmark);
     root.finish();

@@ -59,7 +59,7 @@ Measure read_measure(Section& check)
     return Measure::last;
 }
 
-/// Exactly one of `expected`, `at_most`, `at_least` and `reference`.
+/// Exactly one of `expected`, `at_most`, `at_least`, `reference` and `same_as`.
 void read_expectation(Section& section, Check& check)
 {
     int given = 0;
@@ -80,8 +80,11 @@ void read_expectation(Section& section, Check& check)
         reference->finish();
         given += 1;
     }
+    check.same_as = section.text("same_as");
+    given += check.same_as.empty() ? 0 : 1;
     if (given != 1) {
-        section.error("", "give one of `expected`, `at_most`, `at_least` and `reference`");
+        section.error("",
+                      "give one of `expected`, `at_most`, `at_least`, `reference` and `same_as`");
     }
     if (is_error_measure(check.quantity.measure) && check.comparison != Comparison::equal) {
         section.error("measure", "is the difference from `expected` or `reference`",
@@ -112,8 +115,29 @@ void read_tolerance(Section& section, Check& check)
     }
 }
 
-Check read_check(Section& section, const std::vector<BenchmarkRun>& runs)
+/// Every run of the check must find the one it is held against: made before it, whatever the tier.
+void find_same(Section& section, const Check& check, const Benchmark& benchmark)
 {
+    const auto place = [&](const BenchmarkRun& run) { return &run - benchmark.runs.data(); };
+    for (const BenchmarkRun& run : benchmark.runs) {
+        if (!matches(check.runs, run.name)) {
+            continue;
+        }
+        const std::string name = expanded(check.same_as, run, scope_of(benchmark, run));
+        const BenchmarkRun* other = find_run(benchmark, name);
+        if (other == nullptr) {
+            section.error("same_as", fmt::format("no run is named \"{}\"", name));
+        } else if (place(*other) > place(run) || other->tier > run.tier) {
+            section.error("same_as",
+                          fmt::format("\"{}\" is not made before \"{}\"", name, run.name),
+                          "put it before, in the same tier or a lower one");
+        }
+    }
+}
+
+Check read_check(Section& section, const Benchmark& benchmark)
+{
+    const std::vector<BenchmarkRun>& runs = benchmark.runs;
     Check check;
     section.require("name");
     check.name = section.text("name");
@@ -130,6 +154,13 @@ Check read_check(Section& section, const std::vector<BenchmarkRun>& runs)
                                                  : std::vector<std::string>{"*"};
     if (section.has("xfail_runs") && check.xfail.empty()) {
         section.error("xfail_runs", "has no meaning without `xfail`");
+    }
+    try {
+        if (!check.same_as.empty()) {
+            find_same(section, check, benchmark);
+        }
+    } catch (const FormulaError& fault) {
+        section.error("same_as", fault.what());
     }
     section.finish();
     return check;
@@ -196,11 +227,11 @@ Series read_series(Section& section, std::string_view key)
     return series;
 }
 
-std::vector<Check> read_checks(Section& root, const std::vector<BenchmarkRun>& runs)
+std::vector<Check> read_checks(Section& root, const Benchmark& benchmark)
 {
     std::vector<Check> checks;
     for (Section& section : root.tables("check")) {
-        checks.push_back(read_check(section, runs));
+        checks.push_back(read_check(section, benchmark));
         const auto same = [&](const Check& other) { return other.name == checks.back().name; };
         if (std::find_if(checks.begin(), checks.end() - 1, same) != checks.end() - 1) {
             section.error("name", fmt::format("the check \"{}\" stands twice", checks.back().name));

@@ -305,8 +305,14 @@ Measured error_from(const Quantity& quantity, const std::string& expected, const
 Measured error_from(const Quantity& quantity, const Series& reference, const Scope& scope,
                     RunFiles& files)
 {
+    return error_from(quantity, samples(reference, scope, files), scope, files);
+}
+
+Measured error_from(const Quantity& quantity, const Samples& reference, const Scope& scope,
+                    RunFiles& files)
+{
     const Samples run = samples(quantity.series, scope, files);
-    const Samples right = within(quantity, scope, samples(reference, scope, files));
+    const Samples right = within(quantity, scope, reference);
     if (run.values.empty() || right.values.empty()) {
         return {none, "no row fits"};
     }

@@ -9,7 +9,8 @@ namespace hyoryu {
 /// The runs, every combination of the values of a `grid` by itself.
 std::vector<BenchmarkRun> read_runs(Section& root, const Constants& constants, Tier tier);
 
-std::vector<Check> read_checks(Section& root, const std::vector<BenchmarkRun>& runs);
+/// Of a benchmark whose constants and runs are read.
+std::vector<Check> read_checks(Section& root, const Benchmark& benchmark);
 std::vector<Figure> read_figures(Section& root, const std::vector<BenchmarkRun>& runs);
 std::vector<SummaryTable> read_summary_tables(Section& root, const Benchmark& benchmark);
 

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace hyoryu {
 
@@ -19,29 +21,55 @@ bool is_error_measure(Measure measure)
     return measure == Measure::rms_error || measure == Measure::largest_error;
 }
 
-/// Fills in what was expected and what came out.
-void take(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFiles& files,
-          CheckResult& result)
+/// The quantity in the words of the run: every `${...}` replaced.
+Quantity in(const MadeRun& made, Quantity quantity)
 {
-    Quantity quantity = check.quantity;
-    quantity.series = expanded(quantity.series, run, scope);
-    const Series reference = expanded(check.reference.value_or(Series{}), run, scope);
-    Measured got;
+    quantity.series = expanded(quantity.series, made.run, made.scope);
     if (quantity.band) {
-        quantity.band->lower = expanded(quantity.band->lower, run, scope);
-        got = share_within(quantity, scope, files);
-        result.expected = evaluate(check.expected, scope);
-    } else if (is_error_measure(quantity.measure)) {
-        got = check.reference ? error_from(quantity, reference, scope, files)
-                              : error_from(quantity, check.expected, scope, files);
+        quantity.band->lower = expanded(quantity.band->lower, made.run, made.scope);
+    }
+    return quantity;
+}
+
+/// What the run is held against, over time: a file, or the same quantity in another run.
+Samples reference_of(const Check& check, MadeRun& made, MadeRun* other)
+{
+    if (other != nullptr) {
+        return samples(in(*other, check.quantity).series, other->scope, other->files);
+    }
+    return samples(expanded(*check.reference, made.run, made.scope), made.scope, made.files);
+}
+
+/// The number that the measure should give.
+Measured expected_of(const Check& check, MadeRun& made, MadeRun* other)
+{
+    if (!check.reference && other == nullptr) {
+        return {evaluate(check.expected, made.scope), ""};
+    }
+    return measure(check.quantity, other != nullptr ? other->scope : made.scope,
+                   reference_of(check, made, other));
+}
+
+Measured error_of(const Check& check, const Quantity& quantity, MadeRun& made, MadeRun* other)
+{
+    if (!check.reference && other == nullptr) {
+        return error_from(quantity, check.expected, made.scope, made.files);
+    }
+    return error_from(quantity, reference_of(check, made, other), made.scope, made.files);
+}
+
+/// Fills in what was expected and what came out.
+void take(const Check& check, MadeRun& made, MadeRun* other, CheckResult& result)
+{
+    const Quantity quantity = in(made, check.quantity);
+    Measured got;
+    if (is_error_measure(quantity.measure)) {
+        got = error_of(check, quantity, made, other);
     } else {
-        got = measure(quantity, scope, samples(quantity.series, scope, files));
-        Measured expected;
-        if (check.reference) {
-            expected = measure(quantity, scope, samples(reference, scope, files));
-        } else {
-            expected.value = evaluate(check.expected, scope);
-        }
+        got = quantity.band
+                  ? share_within(quantity, made.scope, made.files)
+                  : measure(quantity, made.scope, samples(quantity.series, made.scope, made.files));
+        const Measured expected = expected_of(check, made, other);
         result.expected = expected.value;
         result.note = expected.why.empty() ? "" : "reference: " + expected.why;
     }
@@ -50,7 +78,7 @@ void take(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFi
         result.note = got.why;
     }
     result.allowed = check.tolerance.empty() ? check.relative * std::abs(result.expected)
-                                             : evaluate(check.tolerance, scope);
+                                             : evaluate(check.tolerance, made.scope);
 }
 
 bool is_good(const CheckResult& result)
@@ -116,13 +144,13 @@ bool counts_as_failure(Verdict verdict)
     return verdict == Verdict::fail || verdict == Verdict::xpass;
 }
 
-CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFiles& files)
+CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
 {
     CheckResult result{
         .check = check.name, .comparison = check.comparison, .got = none, .because = check.because};
     // A check that cannot be made as it is written is no known failure.
     try {
-        take(check, run, scope, files, result);
+        take(check, made, other, result);
     } catch (const FormulaError& fault) {
         result.note = fault.what();
         return result;
@@ -130,11 +158,12 @@ CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scop
         result.note = fault.what();
         return result;
     }
-    if (!matches(check.judged, run.name)) {
+    const bool is_other = other != nullptr && other->run.name == made.run.name;
+    if (is_other || !matches(check.judged, made.run.name)) {
         result.verdict = Verdict::measured;
         return result;
     }
-    const bool known_to_fail = !check.xfail.empty() && matches(check.xfail_runs, run.name);
+    const bool known_to_fail = !check.xfail.empty() && matches(check.xfail_runs, made.run.name);
     result.verdict = verdict_of(is_good(result), known_to_fail);
     if (result.verdict == Verdict::xfail && result.note.empty()) {
         result.note = check.xfail;
@@ -159,6 +188,22 @@ CheckResult unmade(const Check& check, const std::string& error)
             .because = check.because};
 }
 
+// The run that the check names, opened once; null where it names none.
+MadeRun* other_of(const Check& check, const Benchmark& benchmark, const MadeRun& made,
+                  const std::filesystem::path& runs, std::map<std::string, MadeRun>& opened)
+{
+    if (check.same_as.empty()) {
+        return nullptr;
+    }
+    const std::string name = expanded(check.same_as, made.run, made.scope);
+    const BenchmarkRun* run = find_run(benchmark, name);
+    if (run == nullptr) {
+        throw FormulaError(fmt::format("no run is named \"{}\"", name));
+    }
+    MadeRun other{*run, scope_of(benchmark, *run), {runs / name, benchmark.folder}};
+    return &opened.try_emplace(name, std::move(other)).first->second;
+}
+
 // Whether a run that is to stop did, and said why.
 CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
 {
@@ -178,22 +223,23 @@ RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
                     const std::filesystem::path& results, const std::string& error)
 {
     RunResult result{.run = run, .cost = {}, .error = error, .checks = {}};
-    const Scope scope = scope_of(benchmark, run);
-    RunFiles files(results, benchmark.folder);
+    MadeRun made{run, scope_of(benchmark, run), {results, benchmark.folder}};
     if (!run.stops.empty()) {
         result.checks.push_back(stop_as_asked(run, error));
     }
     const bool good =
         run.stops.empty() ? error.empty() : result.checks.front().verdict == Verdict::pass;
     if (good) {
-        result.cost = read_cost(files);
+        result.cost = read_cost(made.files);
     }
+    std::map<std::string, MadeRun> others;
     for (const Check& check : benchmark.checks) {
         if (!matches(check.runs, run.name)) {
             continue;
         }
         if (good) {
-            result.checks.push_back(judge(check, run, scope, files));
+            MadeRun* other = other_of(check, benchmark, made, results.parent_path(), others);
+            result.checks.push_back(judge(check, made, other));
         } else {
             result.checks.push_back(unmade(check, error));
         }

@@ -67,6 +67,25 @@ TEST_F(BenchmarkFiles, WithoutRunsTheCaseRunsOnceAsItIs)
     EXPECT_EQ(benchmark.runs[0].tier, Tier::quick);
 }
 
+TEST_F(BenchmarkFiles, TheRunThatACheckIsHeldAgainstIsMadeBefore)
+{
+    const auto with = [&](const std::string& same_as, const std::string& tier) {
+        return head + "[[run]]\nname = \"a-${n}\"\ngrid = { n = [1, 2] }\n" + tier +
+               "[[check]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\ntolerance = 1\n"
+               "because = \"a test\"\nsame_as = \"" +
+               same_as + "\"\n";
+    };
+    EXPECT_EQ(read(with("a-${n > 1 ? 1 : n}", "")).checks[0].same_as, "a-${n > 1 ? 1 : n}");
+    EXPECT_NE(mistake(with("b", "")).find("no run is named \"b\""), std::string::npos);
+    EXPECT_NE(mistake(with("a-${m}", "")).find("check[0].same_as"), std::string::npos);
+    EXPECT_NE(mistake(with("a-2", "")).find("\"a-2\" is not made before \"a-1\""),
+              std::string::npos);
+    const std::string later = "[[run]]\nname = \"c\"\ntier = \"quick\"\n";
+    EXPECT_NE(mistake(with("a-1", "tier = \"nightly\"\n" + later)).find("not made before"),
+              std::string::npos);
+    EXPECT_NE(mistake(with("a-1", "") + "expected = 1\n").find("give one of"), std::string::npos);
+}
+
 TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
 {
     EXPECT_EQ(mistake(head + "tiers = \"quick\"\n"),

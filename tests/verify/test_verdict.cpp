@@ -3,6 +3,10 @@
 #include "hyoryu/verify/report.hpp"
 #include "io/results_fixture.hpp"
 
+#include <fmt/format.h>
+
+#include <tuple>
+
 namespace hyoryu {
 namespace {
 
@@ -34,8 +38,8 @@ protected:
 
     CheckResult judged(const Check& check) const
     {
-        RunFiles files(folder, folder);
-        return judge(check, run, {}, files);
+        MadeRun made{run, {}, {folder, folder}};
+        return judge(check, made);
     }
 
     const BenchmarkRun run{.name = "a", .set = {}, .tier = Tier::quick, .parameters = {{"n", 2.0}}};
@@ -95,6 +99,36 @@ TEST_F(Verdicts, RunsThatAreOnlyMeasuredAreNotJudged)
     measured.judged = {"b"};
     EXPECT_EQ(judged(measured).verdict, Verdict::measured);
     EXPECT_EQ(judged(measured).got, 10);
+}
+
+TEST_F(Verdicts, ARunIsHeldAgainstTheSameQuantityInAnother)
+{
+    Benchmark benchmark;
+    benchmark.folder = folder;
+    for (const auto& [name, scale, way] : {std::tuple("one", 1.0, "10"), {"two", 2.0, "20.5"}}) {
+        benchmark.runs.push_back({.name = name, .parameters = {{"L", scale}}});
+        std::filesystem::create_directories(folder / name);
+        put_text_into(folder / name / "bodies.csv", fmt::format("time,x\n0,0\n1,{}\n", way));
+        put_text_into(folder / name / "summary.json", "{}");
+    }
+    Check same = check("", "0.26");
+    same.same_as = "one";
+    same.quantity.series.value = "x/L"; // each by its own L: 10 and 10.25
+    Check along = same;
+    along.quantity.measure = Measure::largest_error;
+    benchmark.checks = {same, along};
+    const auto results = [&](std::size_t k) {
+        return judge_run(benchmark, benchmark.runs[k], folder / benchmark.runs[k].name, "").checks;
+    };
+    EXPECT_EQ(results(0)[0].verdict, Verdict::measured) << "it is the other's reference";
+    EXPECT_EQ(results(1)[0].verdict, Verdict::pass);
+    EXPECT_EQ(results(1)[0].expected, 10);
+    EXPECT_EQ(results(1)[1].got, 0.25);
+    benchmark.checks[0].tolerance = benchmark.checks[1].tolerance = "0.24";
+    EXPECT_EQ(results(1)[0].verdict, Verdict::fail);
+    EXPECT_EQ(results(1)[1].verdict, Verdict::fail);
+    std::filesystem::remove_all(folder / "one");
+    EXPECT_EQ(results(1)[0].verdict, Verdict::fail) << "without its reference";
 }
 
 TEST_F(Verdicts, AStoppedRunFailsAllItsChecksEvenKnownFailures)

@@ -57,6 +57,8 @@ Measured error_from(const Quantity& quantity, const std::string& expected, const
                     RunFiles& files);
 Measured error_from(const Quantity& quantity, const Series& reference, const Scope& scope,
                     RunFiles& files);
+Measured error_from(const Quantity& quantity, const Samples& reference, const Scope& scope,
+                    RunFiles& files);
 
 /// Share of the rows of the band, 0 to 1, in which the run, linear between its rows, lies within.
 Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& files);

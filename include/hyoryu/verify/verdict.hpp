@@ -54,11 +54,20 @@ struct BenchmarkResult {
     std::vector<RunResult> runs;
 };
 
-/// Measures and judges one check in one run that came to its end.
-CheckResult judge(const Check& check, const BenchmarkRun& run, const Scope& scope, RunFiles& files);
+/// A run that was made, with the numbers that its expressions know and what it wrote.
+struct MadeRun {
+    const BenchmarkRun& run;
+    Scope scope;
+    RunFiles files;
+};
 
-/// All checks of a run from the results that it wrote to `results`; they fail if `error` says why
-/// it stopped. Throws IoError if the summary cannot be read.
+/// Measures and judges one check in one run that came to its end. `other`: the run that
+/// `check.same_as` names; null where it names none.
+CheckResult judge(const Check& check, MadeRun& made, MadeRun* other = nullptr);
+
+/// All checks of a run from the results that it wrote to `results`, beside those of the runs before
+/// it; they fail if `error` says why it stopped. Throws IoError if the summary cannot be read, and
+/// FormulaError if a check names a run that the benchmark does not have.
 RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
                     const std::filesystem::path& results, const std::string& error);
 
