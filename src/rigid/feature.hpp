@@ -24,13 +24,15 @@ struct SolidPose {
 SolidPose pose_of(const Vec3& x, const Quat& q);
 
 /// A half-space of a boundary at time 0; it holds points within [lower, upper] only, and only while
-/// they are less than `slack` reaches of their body behind it.
+/// they are less than `slack` reaches of their body behind it and beside [from, to].
 struct HalfSpace {
     int side = 0;
     Vec3 normal{0, 0, 1};
     Vec3 point{0, 0, 0};
     Vec3 lower = Vec3::Constant(-infinity);
     Vec3 upper = Vec3::Constant(infinity);
+    Vec3 from = Vec3::Constant(-infinity);
+    Vec3 to = Vec3::Constant(infinity);
     double slack = infinity;
 };
 

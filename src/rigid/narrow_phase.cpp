@@ -16,21 +16,24 @@ namespace {
 // A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
 constexpr double standing = 0.995;
 
-// A point that a thin side does not hold: past its extent, or so far behind that it is outside.
-bool past(const HalfSpace& plane, const ContactWall& wall, const Vec3& point, double time)
+bool is_within(const Vec3& p, const Vec3& lower, const Vec3& upper)
 {
-    const Vec3 p = point - displacement(wall.motion, time);
-    return ((p - plane.lower).array() < 0).any() || ((p - plane.upper).array() > 0).any();
+    return ((p - lower).array() >= 0).all() && ((p - upper).array() <= 0).all();
 }
 
 void add_to_plane(const Feature& feature, const HalfSpace& plane, const Configuration& at,
                   std::vector<Candidate>& found)
 {
     const Touch touch = touch_of(feature, at);
-    if (past(plane, at.geometry.walls[-1 - feature.b], touch.point, at.time)) {
+    const ContactWall& wall = at.geometry.walls[-1 - feature.b];
+    const Vec3 p = touch.point - displacement(wall.motion, at.time);
+    if (!is_within(p, plane.lower, plane.upper)) {
         return;
     }
-    const bool beyond = touch.gap < -plane.slack * at.geometry.solids[feature.a].reach;
+    // So far behind the side, or behind the one beside it, that it is outside.
+    const double slack = plane.slack * at.geometry.solids[feature.a].reach;
+    const Vec3 margin = Vec3::Constant(slack);
+    const bool beyond = touch.gap < -slack || !is_within(p, plane.from - margin, plane.to + margin);
     found.push_back({feature, touch, beyond});
 }
 

@@ -107,13 +107,12 @@ std::vector<HalfSpace> sides_of(const Basin& basin, int dimensions)
         half.normal = (side % 2 == 0 ? 1 : -1) * Vec3::Unit(axis);
         half.point = side % 2 == 0 ? basin.min : basin.max;
         half.slack = basin_slack;
-        for (int k = 0; k < 3; ++k) { // a closed neighbour holds what is beyond the common edge
-            if (k != axis && basin.open[2 * k]) {
-                half.lower[k] = basin.min[k];
+        for (int k = 0; k < 3; ++k) { // what is a little beyond the edge of closed sides is held
+            if (k == axis || (dimensions == 2 && k == 1)) {
+                continue;
             }
-            if (k != axis && basin.open[2 * k + 1]) {
-                half.upper[k] = basin.max[k];
-            }
+            (basin.open[2 * k] ? half.lower : half.from)[k] = basin.min[k];
+            (basin.open[2 * k + 1] ? half.upper : half.to)[k] = basin.max[k];
         }
         sides.push_back(half);
     }

@@ -165,5 +165,24 @@ TEST(Basin, FlushCornerKeepsTheBoxFromTurning)
     EXPECT_LE(angular_velocity(rigid.bodies[0]).norm(), 1e-9);
 }
 
+TEST(Basin, IsNotMetByWhatStandsBesideIt)
+{
+    // no gravity, so that nothing but a side could turn a ball from its way: one flies across the
+    // planes of the sides beside a closed basin, one over its open top
+    Rigid rigid = scene(0.4, 0.3);
+    rigid.settings.gravity.setZero();
+    Basin basin{{-1, -1, 0}, {1, 1, 1}};
+    basin.open[5] = true;
+    rigid.boundaries.push_back({"tank", basin});
+    for (const Vec3& start : {Vec3(-2, 1.5, 0.5), Vec3(-2, 0, 1.5), Vec3(-0.5, 0, 0.5)}) {
+        rigid.bodies.push_back(body_of(Ball{0.1}, 500, start));
+        rigid.bodies.back().velocity = {2, 0, 0};
+    }
+    run(rigid, 1e-3, 2000);
+    EXPECT_NEAR(rigid.bodies[0].position.x(), 2, 1e-12);
+    EXPECT_NEAR(rigid.bodies[1].position.x(), 2, 1e-12);
+    EXPECT_LT(rigid.bodies[2].velocity.x(), 0) << "what is inside stays";
+}
+
 } // namespace
 } // namespace hyoryu

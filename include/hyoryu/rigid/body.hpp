@@ -90,8 +90,9 @@ struct Plane {
     Vec3 normal{0, 0, 1}; // unit
 };
 /// The inside of a box with optional sides (-x +x -y +y -z +z); a side holds a point only while the
-/// point is within the extent of the side towards open neighbours, and not further behind it than a
-/// twentieth of the reach of its body: what has left over a rim is not pulled back.
+/// point is within the extent of the side towards open neighbours, and not further behind it or
+/// behind a closed neighbour than a twentieth of the reach of its body: what has left over a rim is
+/// not pulled back, and what stands beside the basin does not meet it.
 struct Basin {
     Vec3 min{0, 0, 0};
     Vec3 max{0, 0, 0};
