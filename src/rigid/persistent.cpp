@@ -69,11 +69,15 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
             first = memory.persistent.size();
         }
         const bool touches = !c.beyond && (c.closing || c.touch.gap <= settings.contact_tolerance);
-        const bool rests = touches && separation_speed(memory, c, sub.time) <= sub.slow;
+        const double apart = separation_speed(memory, c, sub.time);
+        const bool rests = touches && apart <= sub.slow;
         if (rests) {
             memory.persistent.push_back({c});
         }
-        if (rests || c.touch.gap < -located) {
+        // What bounces off opens at once, and may come back within the sub-step, though the
+        // projection of the contacts beside it has pushed it in a little.
+        const bool opens = apart * sub.h > -2 * c.touch.gap;
+        if (rests || (c.touch.gap < -located && !opens)) {
             memory.held.push_back(f);
         }
     }
