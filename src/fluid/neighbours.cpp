@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <numeric>
 
 namespace hyoryu {
@@ -80,6 +82,53 @@ void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
     }
 }
 
+// Whether a row behind this one, of the same cell, is at the same place.
+bool is_met(std::span<const Vec3> x, std::span<const std::uint64_t> key, Index row)
+{
+    for (std::size_t k = at(row) + 1; k < x.size() && key[k] == key[at(row)]; ++k) {
+        if (x[k] == x[at(row)]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// No direction leads from one particle at a place to another, so that no force would ever part
+// them. They are set on a ring about it, by their numbers; its radius is small enough to change
+// nothing else. `key`: the cells of the rows, which are in their order.
+void part_coincident(Fluid& fluid, std::span<const std::uint64_t> key)
+{
+    Particles& particles = fluid.particles;
+    const auto x = particles[field::position].first(at(particles.fluid().size()));
+    const auto met = [&](Index row) { return is_met(x, key, row); };
+    const auto count = static_cast<Index>(x.size());
+    if (!reduce(0, count, false, met, std::logical_or<>{})) {
+        return;
+    }
+    constexpr real golden_angle = 2.399963229728653; // so that rings of several places differ
+    const real radius = 0.05 * fluid.parameters.spacing;
+    std::vector<std::size_t> ring;
+    for (Index row = 0; row < count; ++row) {
+        if (!met(row)) {
+            continue;
+        }
+        ring.clear();
+        for (std::size_t k = at(row); k < x.size() && key[k] == key[at(row)]; ++k) {
+            if (x[k] == x[at(row)]) {
+                ring.push_back(k);
+            }
+        }
+        const auto id = particles.id();
+        std::ranges::sort(ring, {}, [&](std::size_t k) { return id[k]; });
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const real part = static_cast<real>(k) / static_cast<real>(ring.size());
+            const real angle =
+                golden_angle * static_cast<real>(id[ring[0]]) + 2 * std::numbers::pi_v<real> * part;
+            x[ring[k]] += radius * Vec3(std::cos(angle), 0, std::sin(angle));
+        }
+    }
+}
+
 // Puts the fluid rows into the order of the tiles, without those that left the domain.
 void sort_fluid(Fluid& fluid)
 {
@@ -99,6 +148,7 @@ void sort_fluid(Fluid& fluid)
     std::visit(
         [&](auto& data) { particles.permute_fluid(order.first(at(kept)), data.records.room()); },
         fluid.pair_data);
+    part_coincident(fluid, space.key);
     std::iota(space.row.begin(), space.row.begin() + kept, 0);
     make_tiles(fluid.neighbours.fluid, lattice, particles[field::position], space, kept);
 }
