@@ -2,6 +2,7 @@
 #include "hyoryu/verify/verdict.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/verify/read.hpp"
 
 #include <fmt/format.h>
 
@@ -15,11 +16,6 @@ namespace hyoryu {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-bool is_error_measure(Measure measure)
-{
-    return measure == Measure::rms_error || measure == Measure::largest_error;
-}
 
 /// The quantity in the words of the run: every `${...}` replaced.
 Quantity in(const MadeRun& made, Quantity quantity)
