@@ -93,6 +93,21 @@ bool is_met(std::span<const Vec3> x, std::span<const std::uint64_t> key, Index r
     return false;
 }
 
+// Sets rows at one place on a ring about it in x-z, in the order of their numbers [m].
+void set_on_ring(Particles& particles, std::span<std::size_t> ring, real radius)
+{
+    constexpr real golden_angle = 2.399963229728653; // so that rings of several places differ
+    const auto x = particles[field::position];
+    const auto id = particles.id();
+    std::ranges::sort(ring, {}, [&](std::size_t k) { return id[k]; });
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+        const real part = static_cast<real>(k) / static_cast<real>(ring.size());
+        const real angle =
+            golden_angle * static_cast<real>(id[ring[0]]) + 2 * std::numbers::pi_v<real> * part;
+        x[ring[k]] += radius * Vec3(std::cos(angle), 0, std::sin(angle));
+    }
+}
+
 // No direction leads from one particle at a place to another, so that no force would ever part
 // them. They are set on a ring about it, by their numbers; its radius is small enough to change
 // nothing else. `key`: the cells of the rows, which are in their order.
@@ -105,8 +120,6 @@ void part_coincident(Fluid& fluid, std::span<const std::uint64_t> key)
     if (!reduce(0, count, false, met, std::logical_or<>{})) {
         return;
     }
-    constexpr real golden_angle = 2.399963229728653; // so that rings of several places differ
-    const real radius = 0.05 * fluid.parameters.spacing;
     std::vector<std::size_t> ring;
     for (Index row = 0; row < count; ++row) {
         if (!met(row)) {
@@ -118,14 +131,7 @@ void part_coincident(Fluid& fluid, std::span<const std::uint64_t> key)
                 ring.push_back(k);
             }
         }
-        const auto id = particles.id();
-        std::ranges::sort(ring, {}, [&](std::size_t k) { return id[k]; });
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-            const real part = static_cast<real>(k) / static_cast<real>(ring.size());
-            const real angle =
-                golden_angle * static_cast<real>(id[ring[0]]) + 2 * std::numbers::pi_v<real> * part;
-            x[ring[k]] += radius * Vec3(std::cos(angle), 0, std::sin(angle));
-        }
+        set_on_ring(particles, ring, 0.05 * fluid.parameters.spacing);
     }
 }
 

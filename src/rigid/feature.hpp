@@ -23,8 +23,9 @@ struct SolidPose {
 };
 SolidPose pose_of(const Vec3& x, const Quat& q);
 
-/// A half-space of a boundary at time 0; it holds points within [lower, upper] only, and only while
-/// they are less than `slack` reaches of their body behind it and beside [from, to].
+/// A half-space of a boundary at time 0; it holds points within [lower, upper] only, which open
+/// neighbours bound, and only while they are less than `slack` reaches of their body behind it and
+/// outside [from, to], which closed neighbours bound.
 struct HalfSpace {
     int side = 0;
     Vec3 normal{0, 0, 1};

@@ -104,8 +104,8 @@ struct Check {
     Comparison comparison = Comparison::equal;
     std::string expected;            // expression; of rows for the error measures
     std::optional<Series> reference; // taken instead of `expected`
-    /// Taken instead of `expected`: the run, of another or of the same parameters, in which the
-    /// same quantity is what is expected; holds `${...}` as the names of runs do.
+    /// Taken instead of `expected`: the run in which the same quantity, with the parameters of that
+    /// run, is what is expected; holds `${...}` as the names of runs do.
     std::string same_as;
     std::string tolerance; // expression: absolute, in the unit of the value; empty: relative
     double relative = 0;   // part of the expected value
