@@ -2,6 +2,7 @@
 #include "broad_phase.hpp"
 
 #include "box_tree.hpp"
+#include "compound.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 
@@ -85,6 +86,24 @@ std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<d
     return pairs;
 }
 
+// How far the body reaches from its centre of mass against the direction n.
+double reach_against(const Solid& solid, const SolidPose& pose, const Vec3& n)
+{
+    const Vec3 local = pose.R.transpose() * n;
+    if (solid.form == Form::ball) {
+        return solid.radius;
+    }
+    if (solid.form == Form::rod) {
+        return solid.half_length * std::abs(local.x()) +
+               solid.radius * std::hypot(local.y(), local.z());
+    }
+    double reach = -infinity;
+    for (const int corner : solid.extremes) {
+        reach = std::max(reach, -local.dot(solid.corners[corner]));
+    }
+    return reach;
+}
+
 bool may_touch(const StepContext& context, int body, const ContactWall& wall, double margin)
 {
     const Solid& solid = context.memory.geometry.solids[body];
@@ -94,20 +113,19 @@ bool may_touch(const StepContext& context, int body, const ContactWall& wall, do
         margin + thick +
         context.dt * speed_bound(wall.motion, context.start, context.start + context.dt);
     const Vec3 shift = displacement(wall.motion, context.start);
-    for (const HalfSpace& plane : wall.half_spaces) {
-        if (plane.normal.dot(pose.x - plane.point - shift) < solid.reach + room) {
-            return true;
-        }
-    }
-    if (!wall.half_spaces.empty()) {
-        return false;
+    if (wall.plane) {
+        return wall.plane->normal.dot(pose.x - wall.plane->point - shift) <
+               reach_against(solid, pose, wall.plane->normal) + room;
     }
     if (!wall.mesh.triangles.empty()) {
         const AlignedBox box = box_of(solid, pose, room + thick);
         return any_near(wall.mesh.tree, {box.low - shift, box.high - shift});
     }
-    const SolidPose there = pose_of(wall.pose.x + shift, wall.pose.q);
-    return box_of(solid, pose, room + thick).meets(box_of(wall.solid, there, thick));
+    const SolidPose there{wall.pose.x + shift, wall.pose.q, wall.pose.R};
+    const AlignedBox box = box_of(solid, pose, room + thick);
+    return std::ranges::any_of(convex_parts(wall.solid), [&](const Solid& part) {
+        return box.meets(box_of(part, there, thick));
+    });
 }
 
 std::vector<BodyPair> wall_pairs(const StepContext& context, const std::vector<double>& margins)

@@ -2,6 +2,7 @@
 #include "compound.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -63,14 +64,14 @@ std::vector<int> outermost(const std::vector<Vec3>& corners)
 
 } // namespace
 
-Solid compound_solid(const Compound& shape)
+Solid compound_solid(const Compound& shape, int dimensions)
 {
     Solid whole;
     whole.form = Form::compound;
     whole.thickness = infinity;
     AlignedBox box;
     for (const Polytope& polytope : shape.parts) {
-        Solid part = solid_of(polytope, 3);
+        Solid part = solid_of(polytope, dimensions);
         part.first_corner = static_cast<int>(whole.corners.size());
         part.first_face = static_cast<int>(whole.faces.size());
         append(whole, part);
@@ -81,7 +82,12 @@ Solid compound_solid(const Compound& shape)
     }
     whole.box_centre = 0.5 * (box.low + box.high);
     whole.box_half = 0.5 * (box.high - box.low);
-    whole.extremes = outermost(whole.corners);
+    if (dimensions == 3 && !whole.parts.empty()) {
+        whole.extremes = outermost(whole.corners);
+    } else {
+        whole.extremes.resize(whole.corners.size());
+        std::iota(whole.extremes.begin(), whole.extremes.end(), 0);
+    }
     return whole;
 }
 

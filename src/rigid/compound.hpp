@@ -9,7 +9,7 @@
 namespace hyoryu {
 
 /// The tables of a compound in three dimensions.
-Solid compound_solid(const Compound& shape);
+Solid compound_solid(const Compound& shape, int dimensions);
 
 /// The convex parts: those of a compound, or the solid itself.
 std::span<const Solid> convex_parts(const Solid& solid);

@@ -18,6 +18,10 @@ enum State { open = 0, slides = 1, sticks = 2 };
 
 // Changes of the active set after which the iteration takes over.
 constexpr int rounds_of_guesses = 4;
+constexpr int rounds_of_a_pile = 12;
+// And rounds in a row that do not leave less than this part of the least so far.
+constexpr int patience = 3;
+constexpr double improvement = 0.7;
 // A direction of sliding that turns by less has settled, since what is left is the square [rad].
 constexpr double settled_direction = 3e-8;
 // What is this part below the cone lies on it.
@@ -30,6 +34,9 @@ constexpr double shift = 1e-8;
 constexpr int corrections = 6;
 // What the corrections may leave of the right-hand side.
 constexpr double corrected = 1e-13;
+
+// More contacts are solved for by the velocities of their bodies.
+constexpr std::size_t dense_contacts = 8;
 
 // A factorisation takes as long as so many updates of rows as the cube of its unknowns over this.
 constexpr double factored_in_an_update = 250;
@@ -102,30 +109,35 @@ Vec6 joined(const Vec3& linear, const Vec3& angular)
     return both;
 }
 
-// The velocities of a body that a unit of the impulse P on the arm leads to.
-Vec6 answer(const Response& body, const Vec3& arm, const Vec3& P)
+// The velocities of a body that the impulse P with this moment leads to.
+Vec6 answer(const Response& body, const Vec3& P, const Vec3& moment)
 {
-    return joined(body.inverse_mass.cwiseProduct(P), body.inverse_inertia * arm.cross(P));
+    return joined(body.inverse_mass.cwiseProduct(P), body.inverse_inertia * moment);
 }
 
 // Numbers the unknowns, and lays out what each does to its bodies and sees of them.
 void lay_out(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work)
 {
     work.columns.clear();
+    work.across.clear();
     work.unknowns.clear();
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const Row& row = rows[k];
         const int state = work.states[k];
         const Vec3& d = work.directions[k];
         work.columns.push_back(static_cast<int>(work.unknowns.size()));
+        work.across.push_back(unknowns(row, state) == 2 && state == slides ? work.columns.back() + 1
+                                                                           : -1);
         for (int m = 0; m < unknowns(row, state); ++m) {
-            const Vec3 P = row.B * direction(row, state, d, m);
-            const Vec3 n = row.D * asked(state, d, m);
-            Unknown unknown{answer(bodies[row.a], row.arm_a, P), Vec6::Zero(),
-                            joined(n, row.seen_a.cross(n)), Vec6::Zero()};
+            const Vec3 p = direction(row, state, d, m);
+            const Vec3 P = row.B * p;
+            const Vec3 u = asked(state, d, m);
+            const Vec3 n = row.D * u;
+            Unknown unknown{answer(bodies[row.a], P, row.turn_a * p), Vec6::Zero(),
+                            joined(n, row.lever_a * u), Vec6::Zero()};
             if (row.b >= 0) {
-                unknown.answer_b = -answer(bodies[row.b], row.arm_b, P);
-                unknown.sight_b = -joined(n, row.seen_b.cross(n));
+                unknown.answer_b = -answer(bodies[row.b], P, row.turn_b * p);
+                unknown.sight_b = -joined(n, row.lever_b * u);
             }
             work.unknowns.push_back(unknown);
         }
@@ -150,27 +162,35 @@ void couple(const Row& i, const Row& j, SolverWork& work, std::size_t at_i, std:
     }
 }
 
-void assemble(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work)
+// What the velocities are asked to change by.
+void set_right_side(std::span<const Row> rows, SolverWork& work)
 {
-    lay_out(rows, bodies, work);
+    work.rhs.setZero(static_cast<Index>(work.unknowns.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Vec3 change = Vec3(rows[i].target, 0, 0) - work.momenta[i];
+        const int first = work.columns[i];
+        for (int r = first; r < work.columns[i + 1]; ++r) {
+            work.rhs[r] = change.dot(asked(work.states[i], work.directions[i], r - first));
+        }
+        if (work.across[i] >= 0) {
+            work.rhs[work.across[i]] *= work.held[i];
+        }
+    }
+}
+
+void assemble(std::span<const Row> rows, SolverWork& work)
+{
     const auto n = static_cast<Index>(work.unknowns.size());
     work.W.setZero(n, n);
-    work.rhs.setZero(n);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         for (std::size_t j = 0; j < rows.size(); ++j) {
             if (share_a_body(rows[i], rows[j])) {
                 couple(rows[i], rows[j], work, i, j);
             }
         }
-        const Vec3 change = Vec3(rows[i].target, 0, 0) - work.momenta[i];
-        const int first = work.columns[i];
-        for (int r = first; r < work.columns[i + 1]; ++r) {
-            work.rhs[r] = change.dot(asked(work.states[i], work.directions[i], r - first));
-        }
-        if (work.states[i] == slides && work.columns[i + 1] == first + 2) {
-            work.W.row(first + 1) *= work.held[i];
-            work.rhs[first + 1] *= work.held[i];
-            work.W(first + 1, first + 1) += (1 - work.held[i]) / tangential_mass(rows[i]);
+        if (const int m = work.across[i]; m >= 0) {
+            work.W.row(m) *= work.held[i];
+            work.W(m, m) += (1 - work.held[i]) / tangential_mass(rows[i]);
         }
     }
 }
@@ -205,11 +225,21 @@ void solve_orthogonally(SolverWork& work)
     work.solution = decomposition.solve(work.rhs);
 }
 
+bool solve_densely(std::span<const Row> rows, SolverWork& work)
+{
+    assemble(rows, work);
+    work.updates += cubed(static_cast<double>(work.W.rows())) / factored_in_an_update;
+    if (work.W.size() > 0 && !solve_shifted(work)) {
+        solve_orthogonally(work);
+    }
+    return true;
+}
+
 // Impulses of all rows from the solution of the reduced problem, applied to the bodies.
 void apply(std::span<Row> rows, std::vector<Response>& bodies, const SolverWork& work)
 {
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        Vec3 p = Vec3::Zero();
+        Vec3 p = work.base[k];
         for (int m = 0; m < unknowns(rows[k], work.states[k]); ++m) {
             p += work.solution[work.columns[k] + m] *
                  direction(rows[k], work.states[k], work.directions[k], m);
@@ -256,6 +286,35 @@ bool improve_states(std::span<const Row> rows, const std::vector<Response>& bodi
     return changed;
 }
 
+// The impulses that the states allow nearest to what the rows hold. Where contacts share a load in
+// many ways, the solution nearest to those is the one whose states are most likely to be right:
+// that of the smallest norm would load every contact of a pile anew.
+void choose_base(std::span<const Row> rows, SolverWork& work)
+{
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Row& row = rows[k];
+        Vec3& base = work.base[k];
+        base = Vec3::Zero();
+        if (work.states[k] == sticks) {
+            base.head(row.cone.size) = row.p.head(row.cone.size);
+        } else if (work.states[k] == slides) {
+            base = row.p[0] * direction(row, slides, work.directions[k], 0);
+        }
+    }
+}
+
+// Applies the base, and takes the velocities that it leads to.
+void start_from_base(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
+{
+    work.momenta.clear();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        push(rows[k], work.base[k] - rows[k].p, bodies);
+    }
+    for (const Row& row : rows) {
+        work.momenta.push_back(velocity(row, bodies));
+    }
+}
+
 } // namespace
 
 bool cold(std::span<const Row> rows)
@@ -281,25 +340,35 @@ void guess_states(std::span<const Row> rows, const std::vector<Response>& bodies
 
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
-    work.momenta.clear();
-    for (Row& row : rows) {
-        push(row, -row.p, bodies);
+    const bool by_bodies = rows.size() > dense_contacts;
+    if (by_bodies) {
+        order_bodies(rows, bodies, work);
     }
-    for (const Row& row : rows) {
-        work.momenta.push_back(velocity(row, bodies));
-    }
+    work.base.assign(rows.size(), Vec3::Zero());
+    start_from_base(rows, bodies, work);
     bool changed = true;
-    for (int round = 0; round < rounds_of_guesses && changed; ++round) {
-        assemble(rows, bodies, work);
-        work.updates += cubed(static_cast<double>(work.W.rows())) / factored_in_an_update;
-        if (work.W.size() > 0 && !solve_shifted(work)) {
-            solve_orthogonally(work);
+    double best = infinity;
+    int since_best = 0;
+    const int rounds = by_bodies ? rounds_of_a_pile : rounds_of_guesses;
+    for (int round = 0; round < rounds && changed && since_best < patience; ++round) {
+        if (by_bodies) {
+            choose_base(rows, work);
+            start_from_base(rows, bodies, work);
         }
-        if (!work.solution.allFinite()) {
+        lay_out(rows, bodies, work);
+        set_right_side(rows, work);
+        const bool solved = by_bodies ? solve_by_bodies(rows, work) : solve_densely(rows, work);
+        if (!solved || !work.solution.allFinite()) {
             return false; // the impulses of the round before stay
         }
         apply(rows, bodies, work);
         changed = improve_states(rows, bodies, work);
+        if (by_bodies) {
+            const double left = residual(rows, bodies);
+            changed = changed && left > solved_speed * work.unit;
+            since_best = left < improvement * best ? 0 : since_best + 1;
+            best = std::min(best, left);
+        }
     }
     return !changed;
 }

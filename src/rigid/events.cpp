@@ -17,7 +17,7 @@ constexpr double closed_in_contact = -1e-6;
 constexpr double located = 1e-11; // gap at the time found [units]
 constexpr int root_steps = 60;
 // Halvings of the time at which a contact that has just bounced off is found open.
-constexpr int halvings = 40;
+constexpr int open_halvings = 40;
 // Rotation above which the middle of the sub-step is looked at as well [rad].
 constexpr double half_look = 0.1;
 constexpr int most_looks = 1024;
@@ -122,6 +122,7 @@ private:
     double clearance(const BodyPair& pair, double s)
     {
         const Configuration at = configuration(memory_, memory_.trial, sub_.time + s);
+        memory_.work += look_work;
         if (has_axis(pair, memory_.geometry) && !holds(pair)) {
             return axis_distance(pair, at);
         }
@@ -143,46 +144,62 @@ private:
         return clearance(pair, s);
     }
 
-    // Illinois method between an open and a closed time; bisection when a feature changes in
-    // between.
+    // The time in between at which an open pair closes. One that stays closed, as where a contact
+    // has just been let go, is caught when it is deeper by the play of the description.
     double closing_time(const BodyPair& pair, double low, double high)
     {
         const double zero = located * unit_;
-        double f_high = clearance_at(pair, high);
+        const double f_high = clearance_at(pair, high);
         double f_low = clearance_at(pair, low);
-        for (int k = 1; f_low <= zero && k <= halvings; ++k) {
+        if (f_low > zero) {
+            return root(pair, {low, high, f_low, f_high}, 0);
+        }
+        for (int k = 1; k <= open_halvings; ++k) {
             const double s = low + (high - low) * std::ldexp(1.0, -k);
-            f_low = clearance_at(pair, s);
-            if (f_low > zero) {
-                low = s;
+            const double f = clearance_at(pair, s);
+            if (f > zero) {
+                return root(pair, {s, high, f, f_high}, 0);
             }
         }
-        if (f_low <= zero) {
-            return high; // closed all the time: left to the projection
-        }
+        const double deeper = f_low + closed_in_contact * unit_;
+        return f_high < deeper ? root(pair, {low, high, f_low, f_high}, deeper) : high;
+    }
+
+    struct Bracket {
+        double low = 0, high = 0;     // [s]
+        double f_low = 0, f_high = 0; // clearance [m]
+    };
+
+    // Illinois method for the time at which the clearance is `level`; bisection when a feature
+    // changes in between.
+    double root(const BodyPair& pair, Bracket at, double level)
+    {
+        at.f_low -= level;
+        at.f_high -= level;
         int side = 0;
         for (int k = 0; k < root_steps; ++k) {
-            const bool finite = f_low < infinity && f_high > -infinity;
+            const bool finite = at.f_low < infinity && at.f_high > -infinity;
             const bool bisect = !finite || k % 3 == 2;
-            double s = bisect ? 0.5 * (low + high) : low + (high - low) * f_low / (f_low - f_high);
-            s = std::clamp(s, low, high);
-            const double f = clearance_at(pair, s);
-            if (std::abs(f) < zero) {
+            double s = bisect ? 0.5 * (at.low + at.high)
+                              : at.low + (at.high - at.low) * at.f_low / (at.f_low - at.f_high);
+            s = std::clamp(s, at.low, at.high);
+            const double f = clearance_at(pair, s) - level;
+            if (std::abs(f) < located * unit_) {
                 return s;
             }
             if (f > 0) {
-                low = s;
-                f_low = f;
-                f_high *= side == 1 ? 0.5 : 1;
+                at.low = s;
+                at.f_low = f;
+                at.f_high *= side == 1 ? 0.5 : 1;
                 side = 1;
             } else {
-                high = s;
-                f_high = f;
-                f_low *= side == -1 ? 0.5 : 1;
+                at.high = s;
+                at.f_high = f;
+                at.f_low *= side == -1 ? 0.5 : 1;
                 side = -1;
             }
         }
-        return high;
+        return at.high;
     }
 
     // So many that no body turns or moves past another between two looks.
@@ -195,7 +212,7 @@ private:
             looks = std::max(looks, turn > half_look ? 2.0 : 1.0);
         }
         for (const BodyPair& pair : sub_.cluster.pairs) {
-            if (pair.b >= 0 || memory_.geometry.walls[-1 - pair.b].half_spaces.empty()) {
+            if (pair.b >= 0 || !memory_.geometry.walls[-1 - pair.b].plane) {
                 looks = std::max(looks, std::ceil(relative_travel(pair) / thickness(pair)));
             }
         }

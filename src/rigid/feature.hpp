@@ -10,6 +10,7 @@
 #include "hyoryu/rigid/rigid.hpp"
 
 #include <compare>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,23 +24,10 @@ struct SolidPose {
 };
 SolidPose pose_of(const Vec3& x, const Quat& q);
 
-/// A half-space of a boundary at time 0; it holds points within [lower, upper] only, which open
-/// neighbours bound, and only while they are less than `slack` reaches of their body behind it and
-/// outside [from, to], which closed neighbours bound.
-struct HalfSpace {
-    int side = 0;
-    Vec3 normal{0, 0, 1};
-    Vec3 point{0, 0, 0};
-    Vec3 lower = Vec3::Constant(-infinity);
-    Vec3 upper = Vec3::Constant(infinity);
-    Vec3 from = Vec3::Constant(-infinity);
-    Vec3 to = Vec3::Constant(infinity);
-    double slack = infinity;
-};
-
-/// A boundary as the contact search sees it: half-spaces, a mesh, or a solid.
+/// A boundary as the contact search sees it: a plane at time 0, a mesh, or a solid; a basin is the
+/// compound of its sides.
 struct ContactWall {
-    std::vector<HalfSpace> half_spaces;
+    std::optional<Plane> plane;
     MeshTable mesh;
     Solid solid;
     SolidPose pose; // of the solid at time 0
@@ -48,9 +36,9 @@ struct ContactWall {
 ContactWall wall_of(const Boundary& boundary, int dimensions);
 
 enum class FeatureKind {
-    corner_plane, // corner i of a, half-space or patch f
-    ball_plane,   // ball a, half-space or patch f
-    rim_low,      // the point of rim i of rod a nearest to half-space or patch f
+    corner_plane, // corner i of a, the plane or patch f
+    ball_plane,   // ball a, the plane or patch f
+    rim_low,      // the point of rim i of rod a nearest to the plane or patch f
     round,        // a ball and its nearest point on part f of the partner; on face k - 1 if k > 0
     corner_face,  // corner i of the owner, face f of the other
     crossing,     // edge i-j of the owner over the side k-l of face f of the other
@@ -85,11 +73,10 @@ struct Touch {
     double gap = 0;       // [m], negative if they overlap
 };
 
-/// A possible contact: in contact if the gap is within the tolerance, and not `beyond` a thin side.
+/// A possible contact: in contact if the gap is within the tolerance.
 struct Candidate {
     Feature feature;
     Touch touch;
-    bool beyond = false;
     bool closing = false; // in a jam: open now, and closed before the sub-step ends
 };
 

@@ -15,16 +15,14 @@ namespace {
 // Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
 constexpr double no_direction = 1e-9;
 
-// A half-space of a boundary or the plane of a patch of its mesh, at time 0.
+// The plane of a boundary or of a patch of its mesh, at time 0.
 Plane plane_of(const ContactWall& wall, int side)
 {
     if (!wall.mesh.patches.empty()) {
         const Patch& patch = wall.mesh.patches[side];
         return {patch.offset * patch.normal, patch.normal};
     }
-    const auto found = std::find_if(wall.half_spaces.begin(), wall.half_spaces.end(),
-                                    [&](const HalfSpace& h) { return h.side == side; });
-    return {found->point, found->normal};
+    return *wall.plane;
 }
 
 Touch plane_touch(const Feature& feature, const Configuration& at)

@@ -54,13 +54,26 @@ std::vector<Face> first_tetrahedron(const std::vector<Vec3>& p)
             make_face(p, c, d, a)};
 }
 
-// Replaces the faces that see the point by a cone from their horizon to it.
-void add_point(const std::vector<Vec3>& p, int point, double tolerance, std::vector<Face>& faces)
+// Corners of one face are off its plane by the rounding of a mesh in single precision, 6e-8, and
+// more where three that are near each other span it; a point that sticks out by less is left out of the hull [sizes].
+constexpr double plane_enough = 1e-6;
+// One less the cosine of the angle between two triangles of one face, 1e-5, at most.
+constexpr double flat = 5e-11;
+// Rounding of distances in double precision, with room [sizes].
+constexpr double rounding = 1e-13;
+
+// Replaces the faces that see the point by a cone from their horizon to it. A point that is a
+// corner at all is seen by every face that it is above: with a play there, some faces of one nearly
+// flat side would see it and others not, and the hull would come apart.
+void add_point(const std::vector<Vec3>& p, int point, double size, std::vector<Face>& faces)
 {
     const Vec3& x = p[static_cast<std::size_t>(point)];
-    const auto sees = [&](const Face& face) {
-        return face.normal.dot(x) > face.offset + tolerance;
-    };
+    const auto above = [&](const Face& face) { return face.normal.dot(x) - face.offset; };
+    const auto sees = [&](const Face& face) { return above(face) > rounding * size; };
+    if (std::ranges::none_of(faces,
+                             [&](const Face& f) { return above(f) > plane_enough * size; })) {
+        return;
+    }
     std::set<std::pair<int, int>> edges;
     for (const Face& face : faces) {
         if (sees(face)) {
@@ -103,14 +116,15 @@ std::vector<int> outline(const std::vector<Face>& faces)
 
 Polytope convex_hull(const std::vector<Vec3>& points)
 {
-    const int low = farthest(points, [](const Vec3& x) { return -x.sum(); });
-    const int high = farthest(points, [](const Vec3& x) { return x.sum(); });
-    const double size =
-        (points[static_cast<std::size_t>(high)] - points[static_cast<std::size_t>(low)]).norm();
-    const double tolerance = 1e-9 * size; // rounding of plane offsets, with room
+    Vec3 low = points.front(), high = points.front();
+    for (const Vec3& x : points) {
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const double size = (high - low).norm();
     std::vector<Face> faces = first_tetrahedron(points);
     for (int k = 0; k < static_cast<int>(points.size()); ++k) {
-        add_point(points, k, tolerance, faces);
+        add_point(points, k, size, faces);
     }
 
     Polytope hull;
@@ -119,8 +133,8 @@ Polytope convex_hull(const std::vector<Vec3>& points)
         const Face first = faces.front();
         const auto coplanar =
             std::stable_partition(faces.begin(), faces.end(), [&](const Face& face) {
-                return face.normal.dot(first.normal) < 1 - 1e-12 ||
-                       std::abs(face.offset - first.offset) > 1e-7 * size;
+                return face.normal.dot(first.normal) < 1 - flat ||
+                       std::abs(face.offset - first.offset) > plane_enough * size;
             });
         std::vector<int> face;
         for (const int k : outline({coplanar, faces.end()})) {

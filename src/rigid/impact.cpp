@@ -39,17 +39,17 @@ void apply_round(const std::vector<Row>& rows, const StepContext& context)
 {
     for (const Row& row : rows) {
         const Vec3 P = row.impulse();
-        const auto add = [&](int k, const Vec3& arm, double sign) {
+        const auto add = [&](int k, const Mat3& turn, double sign) {
             Body& body = context.rigid.bodies[k];
             body.velocity += sign * context.memory.rotors[k].inverse_mass.cwiseProduct(P);
-            const Vec3 dL = sign * arm.cross(P);
+            const Vec3 dL = sign * (turn * row.p);
             for (int m = 0; m < 3; ++m) {
                 body.angular_momentum[m] += context.memory.rotors[k].turns[m] ? dL[m] : 0;
             }
         };
-        add(row.a, row.arm_a, 1);
+        add(row.a, row.turn_a, 1);
         if (row.b >= 0) {
-            add(row.b, row.arm_b, -1);
+            add(row.b, row.turn_b, -1);
         }
     }
 }
@@ -80,8 +80,9 @@ int entry_at_same_point(const ContactMemory& memory, int contact)
 
 // Books a round; the energy of the round is shared in proportion to what each contact lost, or, if
 // the law may gain energy, as it is.
-void book(const std::vector<Row>& rows, const StepContext& context, double time)
+void book(const std::vector<Row>& rows, const StepContext& context, const SubStep& sub, double time)
 {
+    const bool located = sub.arms == Arms::ahead;
     ContactMemory& memory = context.memory;
     const bool may_gain = context.rigid.settings.law == ImpactLaw::paper;
     double total = 0;
@@ -106,6 +107,7 @@ void book(const std::vector<Row>& rows, const StepContext& context, double time)
             contact.approach_speed = std::max(0.0, -row.before[0]);
             contact.effective_mass = 1 / row.cone.K(0, 0);
             contact.depth = std::max(0.0, -c.touch.gap);
+            contact.located = located && !tired(memory, c.feature.a, c.feature.b);
             index = static_cast<int>(context.log.size());
             context.log.push_back(contact);
         }
@@ -134,10 +136,9 @@ double solve_impacts(const StepContext& context, const SubStep& sub, double time
         }
         left = change; // of earlier rounds is made good by later ones
         apply_round(memory.rows, context);
-        book(memory.rows, context, time);
+        book(memory.rows, context, sub, time);
         set_responses(context, sub.cluster);
         ++counters.rounds;
-        memory.solved_contacts += memory.rows.size();
         for (const Row& row : memory.rows) {
             counters.tangential_impacts += row.tangential ? 1 : 0;
         }

@@ -51,7 +51,7 @@ void collect(const StepContext& context, const Round& round, double slower, std:
     rows.clear();
     for (std::size_t k = 0; k < memory.candidates.size(); ++k) {
         const Candidate& c = memory.candidates[k];
-        if (c.beyond || (c.touch.gap > settings.contact_tolerance && !c.closing) ||
+        if ((c.touch.gap > settings.contact_tolerance && !c.closing) ||
             separation_speed(memory, c, round.time) >= slower) {
             continue;
         }

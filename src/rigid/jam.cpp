@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Clusters of so many bodies, or with so many impacts, that locating each would cost without end.
-#include "sub_step.hpp"
+#include "groups.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 
@@ -24,6 +24,8 @@ constexpr Effort impact_effort{.enough = 1e-3, .direct_tries = 0, .sweeps = 40};
 constexpr Effort contact_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
 // A pile hands a gap on from body to body; below this none is worth chasing [units].
 constexpr double no_gap = 1e-9;
+// A sub-step may leave solids deeper in each other by this [units].
+constexpr double deep = 1e-5;
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
 
@@ -48,34 +50,6 @@ double travel(const ContactMemory& memory, int k, const SubStep& sub)
     return memory.rotors[k].movable ? sub.h * (speed + spin) : 0;
 }
 
-// The features of a pair that touch, or that close on the free paths within the sub-step.
-void find_closing(const StepContext& context, const BodyPair& pair, const SubStep& sub,
-                  std::vector<Candidate>& found)
-{
-    const ContactMemory& memory = context.memory;
-    const Configuration now = configuration(memory, memory.poses, sub.time);
-    const Configuration later = configuration(memory, memory.end, sub.time + sub.h);
-    const double apart = clearly_apart(memory.geometry);
-    const double near = apart + travel(memory, pair.a, sub) + travel(memory, pair.b, sub);
-    const std::size_t first = found.size();
-    find_candidates(pair, now, near, found);
-    const double tolerance = context.rigid.settings.contact_tolerance;
-    const auto far = [&](Candidate& c) {
-        hold_pressed(memory, c);
-        c.closing = !c.beyond && c.touch.gap > tolerance && c.touch.gap <= near &&
-                    (c.touch.gap <= apart || touch_of(c.feature, later).gap < 0);
-        return c.touch.gap > tolerance && !c.closing;
-    };
-    found.erase(
-        std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), far),
-        found.end());
-    const bool open = std::all_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
-                                  [&](const Candidate& c) { return c.touch.gap > apart; });
-    if (open && has_axis(pair, memory.geometry) && axis_distance(pair, later) > 0) {
-        found.resize(first); // they pass each other
-    }
-}
-
 void find_all_closing(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
@@ -98,8 +72,38 @@ void find_all_closing(const StepContext& context, const SubStep& sub)
     }
     double& worst = context.rigid.counters.worst_penetration;
     for (const Candidate& c : memory.candidates) {
-        worst = std::max(worst, c.beyond ? 0 : -c.touch.gap);
+        worst = std::max(worst, -c.touch.gap);
     }
+}
+
+// Blows on what closes within the sub-step, and the motion with the contacts that they leave.
+void plan_jam(const StepContext& context, const SubStep& sub)
+{
+    set_responses(context, sub.cluster);
+    predict_free_motion(context, sub);
+    find_all_closing(context, sub);
+    solve_impacts(context, sub, sub.time); // what it leaves, the contacts of the motion take up
+    plan_motion(context, sub);
+}
+
+// The deepest overlap in those poses of the pairs whose events are not looked for [m].
+double deepest(const StepContext& context, const SubStep& sub, const std::vector<SolidPose>& poses,
+               double time)
+{
+    ContactMemory& memory = context.memory;
+    const Configuration at = configuration(memory, poses, time);
+    double most = 0;
+    for (const BodyPair& pair : sub.cluster.pairs) {
+        if (sub.arms == Arms::ahead && !tired(memory, pair.a, pair.b)) {
+            continue;
+        }
+        memory.looked_at.clear();
+        find_candidates(pair, at, clearly_apart(memory.geometry), memory.looked_at);
+        for (const Candidate& c : memory.looked_at) {
+            most = std::max(most, -c.touch.gap);
+        }
+    }
+    return most;
 }
 
 // The gaps of the known features where the bodies are now.
@@ -117,6 +121,32 @@ void update_gaps(ContactMemory& memory, double time)
 
 } // namespace
 
+void find_closing(const StepContext& context, const BodyPair& pair, const SubStep& sub,
+                  std::vector<Candidate>& found)
+{
+    const ContactMemory& memory = context.memory;
+    const Configuration now = configuration(memory, memory.poses, sub.time);
+    const Configuration later = configuration(memory, memory.end, sub.time + sub.h);
+    const double apart = clearly_apart(memory.geometry);
+    const double near = apart + travel(memory, pair.a, sub) + travel(memory, pair.b, sub);
+    const std::size_t first = found.size();
+    find_candidates(pair, now, near, found);
+    const double tolerance = context.rigid.settings.contact_tolerance;
+    const auto far = [&](Candidate& c) {
+        c.closing = c.touch.gap > tolerance && c.touch.gap <= near &&
+                    (c.touch.gap <= apart || touch_of(c.feature, later).gap < 0);
+        return c.touch.gap > tolerance && !c.closing;
+    };
+    found.erase(
+        std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), far),
+        found.end());
+    const bool open = std::all_of(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
+                                  [&](const Candidate& c) { return c.touch.gap > apart; });
+    if (open && has_axis(pair, memory.geometry) && axis_distance(pair, later) > 0) {
+        found.resize(first); // they pass each other
+    }
+}
+
 double sub_step_length(const StepContext& context, const Cluster& cluster, double rest)
 {
     const ContactMemory& memory = context.memory;
@@ -131,10 +161,37 @@ double sub_step_length(const StepContext& context, const Cluster& cluster, doubl
     return fastest * rest > most_turn ? std::min(rest, std::max(most_turn / fastest, least)) : rest;
 }
 
+void find_contacts_of_tired(const StepContext& context, const SubStep& sub)
+{
+    ContactMemory& memory = context.memory;
+    predict_free_motion(context, sub);
+    memory.candidates.clear();
+    memory.work += look_work * static_cast<double>(sub.cluster.pairs.size());
+    const Configuration now = configuration(memory, memory.poses, sub.time);
+    for (const BodyPair& pair : sub.cluster.pairs) {
+        if (tired(memory, pair.a, pair.b)) {
+            find_closing(context, pair, sub, memory.candidates);
+            continue;
+        }
+        find_candidates(pair, now, clearly_apart(memory.geometry), memory.candidates);
+    }
+}
+
+bool ends_deep(const StepContext& context, const SubStep& sub)
+{
+    ContactMemory& memory = context.memory;
+    for (const int k : sub.cluster.bodies) {
+        memory.trial[k] = pose_at(memory.paths[k], memory.rotors[k], sub.h);
+    }
+    const double after = deepest(context, sub, memory.trial, sub.time + sub.h);
+    return after > deep * context.rigid.settings.unit &&
+           after > deepest(context, sub, memory.poses, sub.time);
+}
+
 void advance_jam(const StepContext& context, const Cluster& cluster, double done)
 {
     ContactMemory& memory = context.memory;
-    memory.jammed = true;
+    memory.stepped = true;
     const double change = fastest_change(context, cluster);
     while (done < context.dt) {
         set_responses(context, cluster);
@@ -142,17 +199,19 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
         const double h = sub_step_length(context, cluster, rest);
         const double slow =
             std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
-        const SubStep sub{cluster,       context.start + done, h,         slow,  most_rounds,
-                          impact_effort, contact_effort,       Arms::now, no_gap};
-        predict_free_motion(context, sub);
-        find_all_closing(context, sub);
-        solve_impacts(context, sub, sub.time); // what it leaves, the contacts of the motion take up
-        plan_motion(context, sub);
-        move_to(context, sub, h);
-        remember(memory, h);
-        update_gaps(memory, sub.time + h);
-        project_gaps(context, sub, sub.time + h);
-        done = h < rest ? done + h : context.dt;
+        SubStep sub{cluster,       context.start + done, h,         slow,  most_rounds,
+                    impact_effort, contact_effort,       Arms::now, no_gap};
+        plan_jam(context, sub);
+        for (int k = 0; k < halvings && ends_deep(context, sub); ++k) {
+            sub.h *= 0.5;
+            plan_jam(context, sub);
+        }
+        move_to(context, sub, sub.h);
+        remember(memory, sub.h);
+        update_gaps(memory, sub.time + sub.h);
+        project_gaps(context, sub, sub.time + sub.h);
+        note_motion(context, sub, sub.h);
+        done = sub.h < rest ? done + sub.h : context.dt;
     }
 }
 

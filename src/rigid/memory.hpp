@@ -3,6 +3,7 @@
 #pragma once
 
 #include "narrow_phase.hpp"
+#include "patch.hpp"
 #include "solver.hpp"
 
 namespace hyoryu {
@@ -32,17 +33,33 @@ struct Cluster {
     std::vector<BodyPair> pairs;
 };
 
+/// What a body's motion within a step had beyond its free path.
+struct Deviation {
+    Vec3 start{0, 0, 0};              // x at the start of the step [m]
+    Vec3 velocity{0, 0, 0};           // V then [m/s]
+    Vec3 low{0, 0, 0}, high{0, 0, 0}; // bounds of x less the free path [m]
+    double turn = 0;                  // bound on the angle from the start [rad]
+};
+
 /// A persistent contact of the current sub-step.
 struct Persistent {
     Candidate candidate;
     Vec3 impulse{0, 0, 0};     // over the whole sub-step, on a [N s]
     Vec3 place{0, 0, 0};       // as of Remembered
+    Vec3 rub{0, 0, 0};         // from the contact point to that of its friction, at the start [m]
     bool recalled = false;     // a force of the last sub-step is its first guess
     TwoTouches touches;        // at the middle and the end
     double effective_mass = 0; // [kg]
     double dissipated = 0;     // [J]
+    Vec3 before{0, 0, 0};      // relative velocity at the start, tangents where it rubs [m/s]
     Vec3 slip_before{0, 0, 0}; // relative tangential velocity at the start [m/s]
     Vec3 slip_after{0, 0, 0};  // and at the end of the sub-step
+};
+
+/// Persistent contacts of one pair in one plane, by their indices.
+struct FrictionPatch {
+    std::vector<int> contacts;
+    PatchRule rule;
 };
 
 /// What a persistent contact did over a sub-step.
@@ -62,26 +79,31 @@ struct ContactMemory {
     std::vector<SolidPose> poses, trial, middle, end;
     std::vector<Path> paths;
     std::vector<Response> responses;
-    std::vector<int> events; // located events of this step
+    std::vector<int> events;            // located events of this step
+    std::vector<Deviation> deviations;  // while a cluster is advanced in groups
+    std::vector<int> parents_of_groups; // of the bodies of that cluster
+    bool in_groups = false;
 
     // Scratch of the cluster in hand.
     std::vector<Cluster> clusters;
     std::vector<Candidate> candidates, looked_at;
     std::vector<std::vector<Candidate>> found; // of each block of pairs
     std::vector<Persistent> persistent;
-    std::vector<Feature> held;         // sorted; not looked for by the event search
-    std::span<const Remembered> known; // forces of the last sub-step
+    std::vector<FrictionPatch> patches; // of more than one contact, with friction
+    std::vector<Feature> held;          // sorted; not looked for by the event search
+    std::span<const Remembered> known;  // forces of the last sub-step
     std::vector<Remembered> recent, fresh;
     std::vector<char> taken; // of `known`
     std::vector<Resting> resting;
     std::vector<std::size_t> order; // of `resting`, by feature
     std::vector<Feature> pressed;
     std::vector<Row> rows, group;
-    bool jammed = false;             // a cluster of this step went on without location
-    std::size_t solved_contacts = 0; // by the impacts of the cluster in this step, round by round
-    double updates = 0;              // of rows, by all solves of the cluster in this step
-    bool given_up = false;           // a solve of the cluster in this step
-    std::vector<int> entries;        // in the log, of each candidate; -1 if none
+    bool jammed = false;      // a cluster of this step went on without location
+    bool stepped = false;     // contacts of the cluster in hand were not located
+    int event_limit = 0;      // of a body of the cluster in this step
+    double work = 0;          // spent on the cluster in this step, in updates of rows
+    double worth = 0;         // what it may cost to locate
+    std::vector<int> entries; // in the log, of each candidate; -1 if none
     std::vector<int> parents, island_of_root, island_of_row;
     std::vector<SolverWork> solvers; // of each island
     std::vector<double> left;        // residual of each island [m/s]

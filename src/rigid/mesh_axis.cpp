@@ -43,11 +43,12 @@ TriangleAxis under_face(const PartAt& part, std::size_t f, const FlatTriangle& t
     return axis;
 }
 
-// Keeps the better of two axes; one that points behind the triangle only separates.
-void improve(TriangleAxis& best, const TriangleAxis& axis, const Vec3& n, const Patch& patch)
+// Keeps the better of two axes; one that points behind the triangle only separates or touches.
+void improve(TriangleAxis& best, const TriangleAxis& axis, const Vec3& n, const Patch& patch,
+             double touch)
 {
     const bool backward = n.dot(patch.normal) < 0;
-    if (axis.distance > best.distance && !(backward && axis.distance < 0)) {
+    if (axis.distance > best.distance && !(backward && axis.distance < -touch)) {
         const int deepest = best.corner;
         best = axis;
         if (axis.kind == TriangleAxis::Kind::edges) {
@@ -57,7 +58,7 @@ void improve(TriangleAxis& best, const TriangleAxis& axis, const Vec3& n, const 
 }
 
 void improve_by_edges(TriangleAxis& best, const PartAt& part, const FlatTriangle& triangle,
-                      const Patch& patch, int deepest, double enough)
+                      const Patch& patch, int deepest, double enough, double touch)
 {
     for (const Edge& edge : part.solid.edges) {
         const Vec3& c = part.corners[number(edge.i)];
@@ -78,8 +79,8 @@ void improve_by_edges(TriangleAxis& best, const PartAt& part, const FlatTriangle
                 for (const Vec3& v : triangle.point) {
                     highest = std::max(highest, n.dot(v));
                 }
-                improve(best, {n.dot(c) - highest, TriangleAxis::Kind::edges, 0, deepest}, n,
-                        patch);
+                improve(best, {n.dot(c) - highest, TriangleAxis::Kind::edges, 0, deepest}, n, patch,
+                        touch);
             }
         }
     }
@@ -104,7 +105,7 @@ PartAt part_at(const Solid& whole, const Solid& part, const SolidPose& pose, con
 }
 
 TriangleAxis triangle_axis(const PartAt& part, const MeshTable& mesh, const FlatTriangle& triangle,
-                           double enough)
+                           double enough, double touch)
 {
     const Patch& patch = mesh.patches[number(triangle.patch)];
     TriangleAxis best;
@@ -115,10 +116,10 @@ TriangleAxis triangle_axis(const PartAt& part, const MeshTable& mesh, const Flat
     best = above(part, patch);
     const int deepest = best.corner;
     for (std::size_t f = 0; f < part.normals.size() && best.distance <= enough; ++f) {
-        improve(best, under_face(part, f, triangle), -part.normals[f], patch);
+        improve(best, under_face(part, f, triangle), -part.normals[f], patch, touch);
     }
     if (best.distance <= enough) {
-        improve_by_edges(best, part, triangle, patch, deepest, enough);
+        improve_by_edges(best, part, triangle, patch, deepest, enough, touch);
     }
     return best;
 }

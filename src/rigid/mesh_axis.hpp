@@ -31,10 +31,11 @@ struct TriangleAxis {
 };
 
 /// Infinite if the middle of the part is behind the triangle: meshes have one side. Returns early
-/// with an axis that separates by more than `enough`. An axis that points behind the triangle
-/// separates, but is no way out of an overlap.
+/// with an axis that separates by more than `enough`. An axis that points behind the triangle, as
+/// that of a contact on a crease sharper than a right angle may, separates but for a `touch`, and
+/// is no way out of a deeper overlap.
 TriangleAxis triangle_axis(const PartAt& part, const MeshTable& mesh, const FlatTriangle& triangle,
-                           double enough);
+                           double enough, double touch);
 
 /// Whether the part lies above the edge, seen along n, with a slack of the cosines for faces that
 /// lie flat.

@@ -49,7 +49,7 @@ public:
 
     void over(const FlatTriangle& triangle)
     {
-        const TriangleAxis axis = triangle_axis(part_, mesh_, triangle, near_);
+        const TriangleAxis axis = triangle_axis(part_, mesh_, triangle, near_, near_);
         if (axis.distance > near_) {
             return;
         }
@@ -207,6 +207,7 @@ double mesh_distance(const BodyPair& pair, const Configuration& at)
 {
     const Solid& solid = at.geometry.solids[number(pair.a)];
     const ContactWall& wall = at.geometry.walls[number(-1 - pair.b)];
+    const double touch = near_enough * at.geometry.unit;
     double smallest = infinity;
     std::vector<int> near;
     for (const Solid& own : convex_parts(solid)) {
@@ -215,8 +216,8 @@ double mesh_distance(const BodyPair& pair, const Configuration& at)
         find_near(wall.mesh.tree, part.box, near);
         for (const int t : near) {
             const FlatTriangle& triangle = wall.mesh.triangles[number(t)];
-            smallest =
-                std::min(smallest, triangle_axis(part, wall.mesh, triangle, smallest).distance);
+            smallest = std::min(smallest,
+                                triangle_axis(part, wall.mesh, triangle, smallest, touch).distance);
         }
     }
     return smallest;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace hyoryu {
 
@@ -65,6 +66,7 @@ public:
                 ball_over(triangle);
             } else {
                 rod_over(triangle, patch);
+                show_overlap(triangle, patch);
             }
         }
     }
@@ -79,6 +81,40 @@ private:
                         [&](const Candidate& c) { return c.feature == f; });
         if (!known) {
             found_.push_back({f, touch_of(f, at_)});
+        }
+    }
+
+    // Whether the depth of a feature of the rod is that in this triangle: what is deeper than the
+    // rod overlaps it lies behind another one.
+    bool faces(const FlatTriangle& triangle, double gap)
+    {
+        const double slack = deep * at_.geometry.unit;
+        if (gap < -slack && !distance_) {
+            distance_ = rod_triangle_distance({solid_, pose_}, triangle.point);
+        }
+        const bool so = gap >= -slack || gap >= 2 * std::min(*distance_, 0.0) - slack;
+        lowest_ = so ? std::min(lowest_, gap) : lowest_;
+        return so;
+    }
+
+    // The low point of the rod, when overlap is so deep that no pair of features shows it.
+    void show_overlap(const FlatTriangle& triangle, const Patch& patch)
+    {
+        Feature f = feature(FeatureKind::rim_low);
+        f.f = triangle.patch;
+        const auto height = [&](int rim) {
+            return patch.normal.dot(low_point({solid_, pose_}, rim, patch.normal)) - patch.offset;
+        };
+        f.i = height(0) < height(1) ? 0 : 1;
+        const double low = height(f.i);
+        if (lowest_ < 0 || low >= -deep * at_.geometry.unit) {
+            return;
+        }
+        if (!distance_) {
+            distance_ = rod_triangle_distance({solid_, pose_}, triangle.point);
+        }
+        if (*distance_ < -deep * at_.geometry.unit) {
+            add(f);
         }
     }
 
@@ -119,6 +155,8 @@ private:
 
     void rod_over(const FlatTriangle& triangle, const Patch& patch)
     {
+        distance_.reset();
+        lowest_ = infinity;
         Feature f = feature(FeatureKind::rim_low);
         f.f = triangle.patch;
         for (f.i = 0; f.i < 2; ++f.i) {
@@ -134,9 +172,9 @@ private:
         }
         for (std::size_t k = 0; k < 3; ++k) {
             if (triangle.crease[k] >= 0) {
-                rod_on(mesh_.creases[number(triangle.crease[k])], triangle.crease[k]);
+                rod_on(triangle, triangle.crease[k]);
             }
-            rod_at(mesh_.corners[number(triangle.corner[k])], triangle.corner[k]);
+            rod_at(triangle, triangle.corner[k]);
         }
     }
 
@@ -147,47 +185,49 @@ private:
         const double rim = rim_tolerance * solid_.reach;
         const Vec3 point = touch.point - displacement(wall_.motion, at_.time);
         if (past_sides(triangle, point) <= (touch.gap < -deep * at_.geometry.unit ? -rim : rim) &&
-            touch.gap > -solid_.thickness) {
+            faces(triangle, touch.gap)) {
             add(f);
         }
     }
 
-    void rod_on(const Crease& crease, int k)
+    void rod_on(const FlatTriangle& triangle, int k)
     {
+        const Crease& crease = mesh_.creases[number(k)];
         Feature f = feature(FeatureKind::side_line);
         f.k = k;
-        add_curve(f, crease);
+        add_curve(triangle, f, crease);
         for (f.i = 0; f.i < 2; ++f.i) {
             f.kind = FeatureKind::rim_line;
-            add_curve(f, crease);
+            add_curve(triangle, f, crease);
             f.kind = FeatureKind::cap_line;
             for (f.j = 0; f.j < 2; ++f.j) {
-                add_curve(f, crease);
+                add_curve(triangle, f, crease);
             }
             f.j = 0;
         }
     }
 
     // A rim has the normals between its cap and the side only.
-    void add_curve(const Feature& f, const Crease& crease)
+    void add_curve(const FlatTriangle& triangle, const Feature& f, const Crease& crease)
     {
         const RodTouch found = rod_touch(f, at_);
         const Vec3& n = found.touch.normal;
         const double outward = (f.i == 0 ? 1 : -1) * pose_.R.col(0).dot(n);
         const bool of_rod = f.kind == FeatureKind::side_line || outward >= -lying_flat;
         if (of_rod && found.past <= rim_tolerance * solid_.reach && in_cone(crease, n) &&
-            found.touch.gap > -solid_.thickness) {
+            faces(triangle, found.touch.gap)) {
             add(f);
         }
     }
 
-    void rod_at(const MeshCorner& corner, int k)
+    void rod_at(const FlatTriangle& triangle, int k)
     {
+        const MeshCorner& corner = mesh_.corners[number(k)];
         Feature f = feature(FeatureKind::rod_corner);
         f.k = k;
         if (corner.sharp) {
             const Touch touch = touch_of(f, at_);
-            if (in_cone(mesh_, corner, touch.normal) && touch.gap > -solid_.thickness) {
+            if (in_cone(mesh_, corner, touch.normal) && faces(triangle, touch.gap)) {
                 add(f);
             }
         }
@@ -201,6 +241,8 @@ private:
     SolidPose pose_; // in the axes of the mesh at time 0
     std::vector<Candidate>& found_;
     std::size_t first_;
+    std::optional<double> distance_; // of the rod and the triangle in hand [m]
+    double lowest_ = infinity;       // gap of a feature of it [m]
 };
 
 } // namespace

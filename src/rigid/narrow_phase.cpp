@@ -16,67 +16,48 @@ namespace {
 // A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
 constexpr double standing = 0.995;
 
-bool is_within(const Vec3& p, const Vec3& lower, const Vec3& upper)
+void add(const Feature& feature, const Configuration& at, std::vector<Candidate>& found)
 {
-    return ((p - lower).array() >= 0).all() && ((p - upper).array() <= 0).all();
+    found.push_back({feature, touch_of(feature, at)});
 }
 
-void add_to_plane(const Feature& feature, const HalfSpace& plane, const Configuration& at,
-                  std::vector<Candidate>& found)
-{
-    const Touch touch = touch_of(feature, at);
-    const ContactWall& wall = at.geometry.walls[-1 - feature.b];
-    const Vec3 p = touch.point - displacement(wall.motion, at.time);
-    if (!is_within(p, plane.lower, plane.upper)) {
-        return;
-    }
-    // So far behind the side, or behind the one beside it, that it is outside.
-    const double slack = plane.slack * at.geometry.solids[feature.a].reach;
-    const Vec3 margin = Vec3::Constant(slack);
-    const bool beyond = touch.gap < -slack || !is_within(p, plane.from - margin, plane.to + margin);
-    found.push_back({feature, touch, beyond});
-}
-
-void rod_on_plane(Feature feature, const HalfSpace& plane, const Configuration& at,
+void rod_on_plane(Feature feature, const Vec3& normal, const Configuration& at,
                   std::vector<Candidate>& found)
 {
     feature.kind = FeatureKind::rim_low;
     for (feature.i = 0; feature.i < 2; ++feature.i) {
-        add_to_plane(feature, plane, at, found);
+        add(feature, at, found);
     }
-    const double upright = at.poses[feature.a].R.col(0).dot(plane.normal);
+    const double upright = at.poses[feature.a].R.col(0).dot(normal);
     if (std::abs(upright) > standing) {
         feature.kind = FeatureKind::corner_plane;
         for (const int corner : at.geometry.solids[feature.a].faces[upright > 0 ? 0 : 1].corners) {
             feature.i = corner;
-            add_to_plane(feature, plane, at, found);
+            add(feature, at, found);
         }
     }
 }
 
-void on_half_spaces(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
+void on_plane(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
 {
     const Solid& solid = at.geometry.solids[pair.a];
-    for (const HalfSpace& plane : at.geometry.walls[-1 - pair.b].half_spaces) {
-        Feature feature{pair.a, pair.b};
-        feature.f = plane.side;
-        if (solid.form == Form::ball) {
-            feature.kind = FeatureKind::ball_plane;
-            add_to_plane(feature, plane, at, found);
-        } else if (solid.form == Form::rod) {
-            rod_on_plane(feature, plane, at, found);
-        } else {
-            for (const int corner : solid.extremes) {
-                feature.i = corner;
-                add_to_plane(feature, plane, at, found);
-            }
+    Feature feature{pair.a, pair.b};
+    if (solid.form == Form::ball) {
+        feature.kind = FeatureKind::ball_plane;
+        add(feature, at, found);
+    } else if (solid.form == Form::rod) {
+        rod_on_plane(feature, at.geometry.walls[-1 - pair.b].plane->normal, at, found);
+    } else {
+        for (const int corner : solid.extremes) {
+            feature.i = corner;
+            add(feature, at, found);
         }
     }
 }
 
-bool on_planes(const BodyPair& pair, const Geometry& geometry)
+bool on_plane(const BodyPair& pair, const Geometry& geometry)
 {
-    return pair.b < 0 && !geometry.walls[-1 - pair.b].half_spaces.empty();
+    return pair.b < 0 && geometry.walls[-1 - pair.b].plane;
 }
 
 bool on_mesh(const BodyPair& pair, const Geometry& geometry)
@@ -89,25 +70,42 @@ Form form_of(int index, const Geometry& geometry)
     return index >= 0 ? geometry.solids[index].form : geometry.walls[-1 - index].solid.form;
 }
 
-// Calls visit(a, b) for all convex parts whose bounding spheres are nearer than that.
-void for_each_part_pair(const BodyPair& pair, const Configuration& at, double near,
-                        const auto& visit)
+// How far the bounding sphere of one is at least from the bounding box of the other.
+double apart_at_least(const PartPair& parts)
+{
+    const auto apart = [&](const PlacedSolid& box, const PlacedSolid& ball) {
+        const Vec3 centre = ball.pose.x + ball.pose.R * ball.solid.box_centre - box.pose.x;
+        const Vec3 p = box.pose.R.transpose() * centre - box.solid.box_centre;
+        const Vec3 out = (p.cwiseAbs() - box.solid.box_half).cwiseMax(0);
+        return out.norm() - ball.solid.box_half.norm();
+    };
+    return std::max(apart(parts.b, parts.a), apart(parts.a, parts.b));
+}
+
+// Calls visit(parts) for all convex parts that may be nearer than that; returns how far the others
+// are apart at least.
+double for_each_part_pair(const BodyPair& pair, const Configuration& at, double near,
+                          const auto& visit)
 {
     const PlacedSolid a = placed(at, pair.a);
     const PlacedSolid b = placed(at, pair.b);
-    if ((a.pose.x - b.pose.x).norm() > a.solid.reach + b.solid.reach + near) {
-        return;
+    const double between = (a.pose.x - b.pose.x).norm() - a.solid.reach - b.solid.reach;
+    if (between > near) {
+        return between;
     }
-    const auto parts_of_b = convex_parts(b.solid);
+    double others = infinity;
     for (const Solid& part_a : convex_parts(a.solid)) {
-        const Vec3 centre = a.pose.x + a.pose.R * part_a.box_centre - b.pose.x;
-        for (const Solid& part_b : parts_of_b) {
-            const double apart = (centre - b.pose.R * part_b.box_centre).norm();
-            if (apart <= part_a.box_half.norm() + part_b.box_half.norm() + near) {
-                visit(PartPair{{part_a, a.pose}, {part_b, b.pose}});
+        for (const Solid& part_b : convex_parts(b.solid)) {
+            const PartPair parts{{part_a, a.pose}, {part_b, b.pose}};
+            const double apart = apart_at_least(parts);
+            if (apart <= near) {
+                visit(parts);
+            } else {
+                others = std::min(others, apart);
             }
         }
     }
+    return others;
 }
 
 Vec3 in_frame(const SolidPose& pose, const Vec3& p)
@@ -158,8 +156,10 @@ void between_parts(const BodyPair& pair, const Configuration& at, double near,
     });
 }
 
-// A ball and every convex part of the other.
-void of_ball(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
+// A ball and every convex part of the other; only what is nearer than that is asked whether another
+// part covers it.
+void of_ball(const BodyPair& pair, const Configuration& at, double near,
+             std::vector<Candidate>& found)
 {
     Feature feature{pair.a, pair.b, FeatureKind::round};
     feature.owner = form_of(pair.a, at.geometry) == Form::ball ? 0 : 1;
@@ -172,6 +172,11 @@ void of_ball(const BodyPair& pair, const Configuration& at, std::vector<Candidat
     for (const Solid& part : parts) {
         feature.k = 0;
         const Touch touch = touch_of(feature, at);
+        if (touch.gap > near) {
+            found.push_back({feature, touch});
+            ++feature.f;
+            continue;
+        }
         const Vec3 out =
             other.pose.R.transpose() * (feature.owner == 0 ? touch.normal : Vec3(-touch.normal));
         const Vec3 point = in_frame(other.pose, touch.point);
@@ -193,7 +198,7 @@ bool has_axis(const BodyPair& pair, const Geometry& geometry)
         const Form form = form_of(pair.a, geometry);
         return form == Form::polytope || form == Form::compound;
     }
-    return !on_planes(pair, geometry) && form_of(pair.a, geometry) != Form::ball &&
+    return !on_plane(pair, geometry) && form_of(pair.a, geometry) != Form::ball &&
            form_of(pair.b, geometry) != Form::ball;
 }
 
@@ -202,34 +207,28 @@ double axis_distance(const BodyPair& pair, const Configuration& at)
     if (on_mesh(pair, at.geometry)) {
         return mesh_distance(pair, at);
     }
-    const PlacedSolid a = placed(at, pair.a);
-    const PlacedSolid b = placed(at, pair.b);
-    const double apart = (a.pose.x - b.pose.x).norm() - a.solid.reach - b.solid.reach;
-    if (apart > 0) {
-        return apart;
-    }
     double smallest = infinity;
     const double near = clearly_apart(at.geometry);
-    for_each_part_pair(pair, at, near, [&](const PartPair& parts) {
+    const double others = for_each_part_pair(pair, at, near, [&](const PartPair& parts) {
         const double distance = has_rod(parts)
                                     ? rod_distance(pair, parts, at, near)
                                     : separation(parts.a, parts.b, near, at.geometry.unit).distance;
         smallest = std::min(smallest, distance);
     });
-    return smallest;
+    return std::min(smallest, others);
 }
 
 void find_candidates(const BodyPair& pair, const Configuration& at, double near,
                      std::vector<Candidate>& found)
 {
-    if (on_planes(pair, at.geometry)) {
-        on_half_spaces(pair, at, found);
+    if (on_plane(pair, at.geometry)) {
+        on_plane(pair, at, found);
     } else if (on_mesh(pair, at.geometry)) {
         find_mesh_candidates(pair, at, found);
     } else if (has_axis(pair, at.geometry)) {
         between_parts(pair, at, near, found);
     } else {
-        of_ball(pair, at, found);
+        of_ball(pair, at, near, found);
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The nearest point on the surface of a solid, and boundaries as half-spaces or solids.
+// The nearest point on the surface of a solid, and boundaries as planes, meshes or solids.
+#include "compound.hpp"
 #include "feature.hpp"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace {
 
 // Nearer than this to a surface the difference of points gives no direction [m].
 constexpr double on_surface = 1e-12;
-// A point this part of its body's reach behind a side of a basin is outside, not in contact.
-constexpr double basin_slack = 0.05;
 
 Touch nearest_on_ball(const Solid& ball, const Vec3& p)
 {
@@ -95,28 +94,39 @@ Touch nearest_on_polytope(const Solid& solid, const Vec3& p)
     return {p - deepest * deepest_face->normal, deepest_face->normal, deepest};
 }
 
-std::vector<HalfSpace> sides_of(const Basin& basin, int dimensions)
+// A box from `low` to `high`, in the axes whose origin is `origin`.
+Polytope box_between(const Vec3& low, const Vec3& high, const Vec3& origin, int dimensions)
 {
-    std::vector<HalfSpace> sides;
+    Polytope box = box_polytope(high - low, dimensions);
+    for (Vec3& corner : box.corners) { // exact planes: no sums of halves
+        for (int k = 0; k < 3; ++k) {
+            if (dimensions == 3 || k != 1) {
+                corner[k] = (corner[k] < 0 ? low[k] : high[k]) - origin[k];
+            }
+        }
+    }
+    return box;
+}
+
+// The closed sides as slabs that share the columns and corners between them, from the lower corner.
+Compound slabs_of(const Basin& basin, int dimensions)
+{
+    Compound slabs;
     for (int side = 0; side < 6; ++side) {
         const int axis = side / 2;
         if (basin.open[side] || (dimensions == 2 && axis == 1)) {
             continue;
         }
-        HalfSpace half{side};
-        half.normal = (side % 2 == 0 ? 1 : -1) * Vec3::Unit(axis);
-        half.point = side % 2 == 0 ? basin.min : basin.max;
-        half.slack = basin_slack;
-        for (int k = 0; k < 3; ++k) { // what is a little beyond the edge of closed sides is held
-            if (k == axis || (dimensions == 2 && k == 1)) {
-                continue;
-            }
-            (basin.open[2 * k] ? half.lower : half.from)[k] = basin.min[k];
-            (basin.open[2 * k + 1] ? half.upper : half.to)[k] = basin.max[k];
+        Vec3 low = basin.min;
+        Vec3 high = basin.max;
+        for (int k = 0; k < 3; ++k) {
+            low[k] -= basin.open[2 * k] ? 0 : basin.thickness;
+            high[k] += basin.open[2 * k + 1] ? 0 : basin.thickness;
         }
-        sides.push_back(half);
+        (side % 2 == 0 ? high : low)[axis] = (side % 2 == 0 ? basin.min : basin.max)[axis];
+        slabs.parts.push_back(box_between(low, high, basin.min, dimensions));
     }
-    return sides;
+    return slabs;
 }
 
 } // namespace
@@ -147,12 +157,11 @@ ContactWall wall_of(const Boundary& boundary, int dimensions)
     ContactWall wall;
     wall.motion = boundary.motion;
     if (const auto* plane = std::get_if<Plane>(&boundary.surface)) {
-        HalfSpace half;
-        half.normal = plane->normal.normalized();
-        half.point = plane->point;
-        wall.half_spaces.push_back(half);
+        wall.plane = Plane{plane->point, plane->normal.normalized()};
     } else if (const auto* basin = std::get_if<Basin>(&boundary.surface)) {
-        wall.half_spaces = sides_of(*basin, dimensions);
+        wall.solid = compound_solid(slabs_of(*basin, dimensions), dimensions);
+        wall.pose = pose_of(dimensions == 3 ? basin->min : Vec3(basin->min.x(), 0, basin->min.z()),
+                            Quat::Identity());
     } else if (const auto* mesh = std::get_if<MeshSurface>(&boundary.surface)) {
         wall.mesh = mesh_table(*mesh);
     } else {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The smooth motion of a sub-step with persistent contacts.
+#include "friction_patches.hpp"
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -8,46 +9,6 @@
 namespace hyoryu {
 
 namespace {
-
-// More coplanar contacts of a pair than this are thinned out to the outermost ones.
-constexpr std::size_t most_contacts = 8;
-
-// Keeps, of the contacts of one pair in one plane, those outermost in eight directions: the others
-// lie within their hull and cannot approach on their own.
-void thin_out(std::vector<Persistent>& found, std::size_t first)
-{
-    if (found.size() - first <= most_contacts) {
-        return;
-    }
-    const Vec3 n = found[first].candidate.touch.normal;
-    int helper = 0;
-    n.cwiseAbs().minCoeff(&helper);
-    const Vec3 u = n.cross(Vec3::Unit(helper)).normalized();
-    const Vec3 w = n.cross(u);
-    std::vector<bool> kept(found.size() - first, false);
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-        // another normal belongs to another plane
-        kept[k] = found[first + k].candidate.touch.normal.dot(n) < 1 - 1e-9;
-    }
-    for (const auto& [x, y] :
-         {std::pair(1, 0), {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {
-        const Vec3 out = x * u + y * w;
-        std::size_t best = 0;
-        for (std::size_t k = 1; k < kept.size(); ++k) {
-            const Vec3 step =
-                found[first + k].candidate.touch.point - found[first + best].candidate.touch.point;
-            best = step.dot(out) > 0 ? k : best;
-        }
-        kept[best] = true;
-    }
-    std::size_t end = first;
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-        if (kept[k]) {
-            found[end++] = found[first + k];
-        }
-    }
-    found.resize(end);
-}
 
 // Touching contacts that do not fly apart; everything that the event search must not look for is
 // held.
@@ -58,17 +19,9 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
     const double located = 1e-10 * settings.unit; // deeper than an event leaves a contact [m]
     memory.persistent.clear();
     memory.held.clear();
-    std::size_t first = 0;
-    for (std::size_t k = 0; k < memory.candidates.size(); ++k) {
-        const Candidate& c = memory.candidates[k];
+    for (const Candidate& c : memory.candidates) {
         const Feature& f = c.feature;
-        const bool new_pair = k > 0 && (memory.candidates[k - 1].feature.a != f.a ||
-                                        memory.candidates[k - 1].feature.b != f.b);
-        if (new_pair) {
-            thin_out(memory.persistent, first);
-            first = memory.persistent.size();
-        }
-        const bool touches = !c.beyond && (c.closing || c.touch.gap <= settings.contact_tolerance);
+        const bool touches = c.closing || c.touch.gap <= settings.contact_tolerance;
         const double apart = separation_speed(memory, c, sub.time);
         const bool rests = touches && apart <= sub.slow;
         if (rests) {
@@ -81,9 +34,10 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
             memory.held.push_back(f);
         }
     }
-    thin_out(memory.persistent, first);
+    find_patches(context, sub);
     std::sort(memory.held.begin(), memory.held.end());
     recall_forces(memory, sub.h);
+    set_rubs(memory);
 }
 
 void plan_free_motion(const StepContext& context, const SubStep& sub)
@@ -101,11 +55,10 @@ void plan_free_motion(const StepContext& context, const SubStep& sub)
     }
 }
 
-void add_impulse(ContactMemory& memory, int k, const Vec3& arm, const Vec3& P)
+void add_impulse(ContactMemory& memory, int k, const Vec3& P, const Vec3& dL)
 {
     Path& path = memory.paths[k];
     path.v1 += memory.rotors[k].inverse_mass.cwiseProduct(P);
-    const Vec3 dL = arm.cross(P);
     for (int m = 0; m < 3; ++m) {
         path.L1[m] += memory.rotors[k].turns[m] ? dL[m] : 0;
     }
@@ -133,16 +86,36 @@ void set_end_responses(const StepContext& context, const SubStep& sub)
     }
 }
 
+// The touches of the contacts at the middle and the end, and where the patches rub there.
+void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
+{
+    const Configuration middle = configuration(memory, memory.middle, sub.time + 0.5 * ahead);
+    const Configuration end = configuration(memory, memory.end, sub.time + ahead);
+    for (Persistent& p : memory.persistent) {
+        const Feature& f = p.candidate.feature;
+        p.touches = {touch_of(f, middle), touch_of(f, end)};
+    }
+    for (const FrictionPatch& patch : memory.patches) {
+        const Vec3 push = centre_of(memory.persistent, patch,
+                                    [](const Persistent& p) { return p.touches.push.point; });
+        const Vec3 see = centre_of(memory.persistent, patch,
+                                   [](const Persistent& p) { return p.touches.see.point; });
+        for (const int k : patch.contacts) {
+            TwoTouches& at = memory.persistent[k].touches;
+            at.push_rub = (1 - patch.rule.scale) * (push - at.push.point);
+            at.see_rub = (1 - patch.rule.scale) * (see - at.see.point);
+        }
+    }
+}
+
 void build_rows(const StepContext& context, const SubStep& sub, double ahead)
 {
     ContactMemory& memory = context.memory;
-    const Configuration middle = configuration(memory, memory.middle, sub.time + 0.5 * ahead);
-    const Configuration end = configuration(memory, memory.end, sub.time + ahead);
+    set_touches(sub, ahead, memory);
     memory.rows.clear();
     for (std::size_t k = 0; k < memory.persistent.size(); ++k) {
         Persistent& p = memory.persistent[k];
         const Feature& f = p.candidate.feature;
-        p.touches = {touch_of(f, middle), touch_of(f, end)};
         Row row;
         row.a = f.a;
         row.b = std::max(f.b, -1);
@@ -184,9 +157,9 @@ void solve_pass(const StepContext& context, const SubStep& sub, double ahead)
     for (const Row& row : memory.rows) {
         const Vec3 P = row.impulse();
         memory.persistent[row.contact].impulse = P;
-        add_impulse(memory, row.a, row.arm_a, P);
+        add_impulse(memory, row.a, P, row.turn_a * row.p);
         if (row.b >= 0) {
-            add_impulse(memory, row.b, row.arm_b, -P);
+            add_impulse(memory, row.b, -P, -row.turn_b * row.p);
         }
     }
 }
@@ -196,42 +169,48 @@ void add_known_impulses(ContactMemory& memory)
 {
     for (const Persistent& p : memory.persistent) {
         const Feature& f = p.candidate.feature;
-        add_impulse(memory, f.a, p.candidate.touch.point - memory.poses[f.a].x, p.impulse);
+        const Touch& touch = p.candidate.touch;
+        const Vec3 twist = p.rub.cross(p.impulse - touch.normal * touch.normal.dot(p.impulse));
+        const auto moment = [&](int k) {
+            return Vec3((touch.point - memory.poses[k].x).cross(p.impulse) + twist);
+        };
+        add_impulse(memory, f.a, p.impulse, moment(f.a));
         if (f.b >= 0) {
-            add_impulse(memory, f.b, p.candidate.touch.point - memory.poses[f.b].x, -p.impulse);
+            add_impulse(memory, f.b, -p.impulse, -moment(f.b));
         }
     }
 }
 
 // Energy that friction takes over the whole sub-step: - P . (u0 + u1) / 2 at the contact.
-void book_dissipation(const StepContext& context, const std::vector<Vec3>& before)
+void book_dissipation(const StepContext& context)
 {
     ContactMemory& memory = context.memory;
     for (const Row& row : memory.rows) {
         Persistent& p = memory.persistent[row.contact];
         const Vec3 after = row.D * velocity(row, memory.responses);
-        p.dissipated = std::max(0.0, -0.5 * p.impulse.dot(before[row.contact] + after));
+        p.dissipated = std::max(0.0, -0.5 * p.impulse.dot(p.before + after));
         const auto tangential = [](const Vec3& u, const Vec3& n) { return Vec3(u - n * n.dot(u)); };
-        p.slip_before = tangential(before[row.contact], p.candidate.touch.normal);
+        p.slip_before = tangential(p.before, p.candidate.touch.normal);
         p.slip_after = tangential(after, p.touches.see.normal);
         context.rigid.counters.tangential_impacts += row.tangential ? 1 : 0;
     }
 }
 
-// Relative velocities of the persistent contacts at the start, in world axes.
-std::vector<Vec3> contact_velocities(const ContactMemory& memory, double time)
+// Relative velocities of the persistent contacts at the start, in world axes: along the normal at
+// the contact point, along the tangents where friction acts.
+void set_velocities_before(ContactMemory& memory, double time)
 {
-    std::vector<Vec3> velocities;
-    for (const Persistent& p : memory.persistent) {
+    for (Persistent& p : memory.persistent) {
         const Feature& f = p.candidate.feature;
+        const Vec3& n = p.candidate.touch.normal;
         const auto at_point = [&](int k) {
             const Response& body = memory.responses[k];
-            return Vec3(body.v + body.omega.cross(p.candidate.touch.point - memory.poses[k].x));
+            const Vec3 turn = body.omega.cross(p.rub);
+            return Vec3(body.v + body.omega.cross(p.candidate.touch.point - memory.poses[k].x) +
+                        turn - n * n.dot(turn));
         };
-        velocities.emplace_back(at_point(f.a) -
-                                (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b, time)));
+        p.before = at_point(f.a) - (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b, time));
     }
-    return velocities;
 }
 
 } // namespace
@@ -250,7 +229,7 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     if (memory.persistent.empty()) {
         return;
     }
-    const std::vector<Vec3> before = contact_velocities(memory, sub.time);
+    set_velocities_before(memory, sub.time);
     if (sub.arms == Arms::now) {
         solve_pass(context, sub, 0);
     } else {
@@ -258,7 +237,7 @@ void plan_motion(const StepContext& context, const SubStep& sub)
         solve_pass(context, sub, sub.h);
         solve_pass(context, sub, sub.h); // with the impulses of the first
     }
-    book_dissipation(context, before);
+    book_dissipation(context);
 }
 
 void plan_again(const StepContext& context, const SubStep& sub)

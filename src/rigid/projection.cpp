@@ -36,8 +36,8 @@ void turn_by(SolidPose& pose, const Vec3& w)
 
 struct Goal {
     Feature feature;
-    double wanted = 0;         // gap [m]
-    bool may_be_wider = false; // then only what is narrower is put right
+    double wanted = 0; // gap [m]
+    double play = 0;   // by which it may be wider [m]
 };
 
 // Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one;
@@ -48,7 +48,7 @@ double close_gap(const StepContext& context, const Goal& goal, double no_gap, do
     const Feature& f = goal.feature;
     const Touch touch = touch_of(f, configuration(memory, memory.poses, time));
     const double off = touch.gap - goal.wanted;
-    if (std::abs(off) <= no_gap || (goal.may_be_wider && off > 0)) {
+    if (std::abs(off) <= no_gap || (off > 0 && off <= goal.play)) {
         return 0;
     }
     const Vec3& n = touch.normal;
@@ -82,18 +82,25 @@ double aim(double gap, double unit)
     return gap < -at_once * unit ? (1 - share_of_deep) * gap : 0.0;
 }
 
-// Pressed contacts close in both senses, all others only open. In a jam all only open: so many
-// pressed contacts want more than their bodies are free to do, and what is open closes by itself.
+// A pile may press more contacts than its bodies have freedoms; then not all can have a gap of
+// zero, and a tenth of what passes for contact is left open [units].
+constexpr double play_of_a_pile = 1e-8;
+
+// Pressed contacts close in both senses, but for that play; all others only open. In a jam all only
+// open, and what is open closes by itself.
 std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
     const Configuration now = configuration(memory, memory.poses, time);
     const double unit = context.rigid.settings.unit;
+    const double play = sub.arms == Arms::now                           ? infinity
+                        : memory.persistent.size() > contacts_of_a_pile ? play_of_a_pile * unit
+                                                                        : 0;
     std::vector<Goal> list;
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
         if (p.impulse.dot(p.touches.push.normal) > 0 && std::abs(touch.gap) < at_once * unit) {
-            list.push_back({.feature = p.candidate.feature, .may_be_wider = sub.arms == Arms::now});
+            list.push_back({.feature = p.candidate.feature, .play = play});
         }
     }
     std::vector<Feature>& pressed = memory.pressed;
@@ -103,10 +110,10 @@ std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double t
     }
     std::sort(pressed.begin(), pressed.end());
     for (const Candidate& c : memory.candidates) {
-        if (!c.beyond && c.touch.gap < overlapping * unit &&
+        if (c.touch.gap < overlapping * unit &&
             !std::binary_search(pressed.begin(), pressed.end(), c.feature)) {
             list.push_back(
-                {.feature = c.feature, .wanted = aim(c.touch.gap, unit), .may_be_wider = true});
+                {.feature = c.feature, .wanted = aim(c.touch.gap, unit), .play = infinity});
         }
     }
     return list;
@@ -133,18 +140,27 @@ void move_to(const StepContext& context, const SubStep& sub, double s)
 void project_gaps(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
-    const std::vector<Goal> list = goals(context, sub, time);
+    std::vector<Goal> list = goals(context, sub, time);
     if (list.empty()) {
         return;
     }
     set_responses(context, sub.cluster);
     const double no_gap = sub.no_gap * context.rigid.settings.unit;
-    double off = infinity;
-    for (int sweep = 0; sweep < most_sweeps && off > no_gap; ++sweep) {
-        off = 0;
-        for (const Goal& goal : list) {
-            off = std::max(off, close_gap(context, goal, no_gap, time));
+    const auto sweep = [&] {
+        double off = infinity;
+        for (int k = 0; k < most_sweeps && off > no_gap; ++k) {
+            off = 0;
+            for (const Goal& goal : list) {
+                off = std::max(off, close_gap(context, goal, no_gap, time));
+            }
         }
+        return off;
+    };
+    if (sweep() > no_gap && memory.persistent.size() > contacts_of_a_pile) {
+        for (Goal& goal : list) { // rather wide than overlapping
+            goal.play = infinity;
+        }
+        sweep();
     }
     const Configuration now = configuration(memory, memory.poses, time);
     for (Candidate& candidate : memory.candidates) {

@@ -18,6 +18,8 @@ constexpr double standing = 0.995;
 // A gap below this and twice the overlap of the solids belongs to features that do not face each
 // other [units].
 constexpr double no_overlap = -1e-9;
+// Contacts show the distance of the solids to this [units].
+constexpr double exact = 1e-10;
 
 // max n . (x - origin of the body)
 double support(const PlacedSolid& body, const Vec3& n)
@@ -94,15 +96,22 @@ void add_meeting(Look& look, const Feature& feature, const Edge* edge)
     const double distance = distance_along(look.parts, touch.normal);
     if (distance > look.distance) {
         look.distance = distance;
-        look.best_meeting = static_cast<int>(look.meetings.size()) - 1;
+        // A normal that is all but that of a face belongs to the face: the lines meet elsewhere.
+        if (touch.gap <= distance + exact * look.at.geometry.unit) {
+            look.best_meeting = static_cast<int>(look.meetings.size()) - 1;
+        }
     }
 }
 
-void add_meetings_of_rods(Look& look)
+// Both stop at a normal that separates by more than `enough`.
+void add_meetings_of_rods(Look& look, double enough)
 {
     add_meeting(look, look.feature(FeatureKind::side_line, 0), nullptr);
     for (const int i : {0, 1}) {
         for (const int j : {0, 1}) {
+            if (look.distance > enough) {
+                return;
+            }
             Feature rim = look.feature(FeatureKind::rim_line, i);
             rim.i = j;
             add_meeting(look, rim, nullptr);
@@ -114,15 +123,21 @@ void add_meetings_of_rods(Look& look)
     }
 }
 
-void add_meetings_with_polytope(Look& look, int rod)
+void add_meetings_with_polytope(Look& look, int rod, double enough)
 {
     const Solid& polytope = look.part(1 - rod).solid;
     for (int k = 0; k < static_cast<int>(polytope.corners.size()); ++k) {
+        if (look.distance > enough) {
+            return;
+        }
         Feature corner = look.feature(FeatureKind::rod_corner, rod);
         corner.k = polytope.first_corner + k;
         add_meeting(look, corner, nullptr);
     }
     for (const Edge& edge : polytope.edges) {
+        if (look.distance > enough) {
+            return;
+        }
         Feature side = look.feature(FeatureKind::side_line, rod);
         side.k = polytope.first_corner + edge.i;
         side.l = polytope.first_corner + edge.j;
@@ -141,13 +156,16 @@ Look look_at(const BodyPair& pair, const PartPair& parts, const Configuration& a
     Look look{pair, parts, at, rim_tolerance * std::min(parts.a.solid.reach, parts.b.solid.reach)};
     add_faces(look, 0);
     add_faces(look, 1);
-    if (look.distance > enough) {
+    const int owner = look.best_face.owner;
+    if (look.distance > enough ||
+        (!look.is_rod(owner) &&
+         lies_over(look.part(1 - owner), look.part(owner), look.best_face.face))) {
         return look;
     }
     if (look.is_rod(0) && look.is_rod(1)) {
-        add_meetings_of_rods(look);
+        add_meetings_of_rods(look, enough);
     } else {
-        add_meetings_with_polytope(look, look.is_rod(0) ? 0 : 1);
+        add_meetings_with_polytope(look, look.is_rod(0) ? 0 : 1, enough);
     }
     return look;
 }
@@ -288,7 +306,6 @@ Candidate nearest_feature(const Look& look)
     return lowest;
 }
 
-// Appends what is no deeper than the solids overlap, each point once.
 // Appends what is neither deeper than the solids overlap nor more than `near` farther apart than
 // they are, each point once.
 class Collection {
@@ -370,7 +387,7 @@ void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configu
             add(is_open(look, meeting), {meeting.feature, meeting.at.touch});
         }
     }
-    if (!covered && collection.lowest() > look.distance + look.tolerance) {
+    if (!covered && collection.lowest() > look.distance + exact * at.geometry.unit) {
         found.push_back(nearest_feature(look));
     }
 }

@@ -16,14 +16,16 @@ constexpr double no_direction = 1e-9;
 // Lines this near to parallel (sine) touch by their ends, which are then 1e-11 m at most farther
 // apart than the lines where they cross.
 constexpr double parallel_lines = 1e-5;
+// And below this their crossing is noise.
+constexpr double one_direction = 1e-9;
 // Newton steps and halvings of one of them; a handful is the rule.
 constexpr int most_steps = 40;
 constexpr int most_halvings = 20;
-// Tangents of two rims are parallel below this sine: the rims meet in no single point.
-constexpr double parallel_tangents = 1e-6;
 // A normal nearer to the axis than this is that of the cap, and the rim has no one point (unit
 // vectors).
 constexpr double flat = 1e-5;
+// A normal nearer to an axis than this may have been caught by the edge of the gap there.
+constexpr double near_axis = 1e-2;
 constexpr double longest_step = 0.4; // about what lies between two samples [rad]
 // Round-off of an angle, and as a part of a length.
 constexpr double round_off = 1e-14;
@@ -89,9 +91,9 @@ RodTouch side_on_line(const Line& side, const Line& line)
     const Vec3 cross = side.along.cross(line.along);
     const double sine = cross.norm();
     const Vec3 r = side.from - line.from;
-    const bool parallel = sine <= parallel_lines;
-    const double s0 = parallel ? 0.5 * side.length : line.along.cross(r).dot(cross) / sq(sine);
-    const double t0 = parallel ? 0.5 * line.length : side.along.cross(r).dot(cross) / sq(sine);
+    const bool lost = sine <= one_direction;
+    const double s0 = lost ? 0.5 * side.length : line.along.cross(r).dot(cross) / sq(sine);
+    const double t0 = lost ? 0.5 * line.length : side.along.cross(r).dot(cross) / sq(sine);
     double s = std::clamp(s0, 0.0, side.length);
     const double t = std::clamp(line.along.dot(r + s * side.along), 0.0, line.length);
     s = std::clamp(side.along.dot(t * line.along - r), 0.0, side.length);
@@ -99,7 +101,8 @@ RodTouch side_on_line(const Line& side, const Line& line)
     const Vec3 n = direction(apart);
     const double gap = apart.norm() - side.radius - line.radius;
     const Vec3 point = line.from + t * line.along + (line.radius + 0.5 * gap) * n;
-    return {{point, n, gap}, parallel ? infinity : std::max(side.past(s0), line.past(t0))};
+    return {{point, n, gap},
+            sine <= parallel_lines ? infinity : std::max(side.past(s0), line.past(t0))};
 }
 
 // The normal of the ellipse (x/1)^2 + (y/beta)^2 = 1, kappa = 1 - beta^2, through the point (x, y)
@@ -182,89 +185,128 @@ RodTouch cap_on_cap(const Rim& rim, int side, const Rim& other, int end)
     return {{rim.centre + p, -into, into.dot(d - p)}, root > 0 ? 0 : infinity};
 }
 
-// A point of a rim, by the arm from its centre.
-struct RimPoint {
-    Rim rim;
-    Vec3 arm{0, 0, 0};
+// How far the discs within two rims are apart along n, from the first to the second.
+struct DiscGap {
+    const Rim& a;
+    const Rim& b;
 
-    Vec3 at() const { return rim.centre + arm; }
-    Vec3 tangent() const { return rim.axis.cross(arm); } // the change with the angle
-    void turn(double angle) { arm = std::cos(angle) * arm + std::sin(angle) * tangent(); }
+    Vec3 on_a(const Vec3& n) const { return a.centre + a.towards(n); }
+    Vec3 on_b(const Vec3& n) const { return b.centre - b.towards(n); }
+    double along(const Vec3& n) const { return n.dot(on_b(n) - on_a(n)); }
+    // The change along the sphere, the discs being round: 0 leaves out the first, 1 the second.
+    Vec3 slope(const Vec3& n, int left_out) const
+    {
+        const Vec3 d = (left_out == 1 ? b.centre : on_b(n)) - (left_out == 0 ? a.centre : on_a(n));
+        return d - n * n.dot(d);
+    }
+    const Rim& disc(int k) const { return k == 0 ? a : b; }
 };
 
-// Of some points of rim j of rod b, the one nearest to rod a.
-RimPoint nearest_sample(const PlacedSolid& a, const PlacedSolid& b, int j)
+// Goes along the sphere as long as the gap grows, with half the step after each try that failed.
+bool climb(const DiscGap& discs, const Vec3& step, Vec3& n)
 {
-    RimPoint best{rim_of(b, j)};
-    double smallest = infinity;
-    for (const int corner : b.solid.faces[j].corners) {
-        const Vec3 arm = b.pose.R * b.solid.corners[corner] + b.pose.x - best.rim.centre;
-        const Vec3 p = a.pose.R.transpose() * (best.rim.centre + arm - a.pose.x);
-        const double gap = nearest(a.solid, p).gap;
-        if (gap < smallest) {
-            smallest = gap;
-            best.arm = arm;
+    const double gap = discs.along(n);
+    double part = std::min(1.0, longest_step / std::max(step.norm(), round_off));
+    for (int h = 0; h < most_halvings; ++h, part *= 0.5) {
+        const Vec3 next = (n + part * step).normalized();
+        if (discs.along(next) > gap) {
+            n = next;
+            return true;
         }
+    }
+    return false;
+}
+
+Vec3 newton_step(const DiscGap& discs, const Vec3& n)
+{
+    Eigen::Matrix<double, 3, 2> plane;
+    plane.col(0) = any_square_to(n);
+    plane.col(1) = n.cross(plane.col(0));
+    Eigen::Matrix2d bend = std::max(discs.along(n), 0.0) * Eigen::Matrix2d::Identity();
+    for (const int k : {0, 1}) {
+        const Vec3 across = discs.disc(k).axis.cross(n);
+        const double length = std::max(across.norm(), no_direction);
+        const Eigen::Vector2d t = plane.transpose() * across / length;
+        bend += discs.disc(k).radius / length *
+                (t * t.transpose() + round_off * Eigen::Matrix2d::Identity());
+    }
+    return plane * (bend.inverse() * (plane.transpose() * discs.slope(n, -1)));
+}
+
+// The normal of the widest gap, which is concave where it is positive: Newton's method on the
+// sphere gets there from any side, but for the axes of the discs, where the gap has an edge.
+Vec3 widest(const DiscGap& discs, Vec3 n)
+{
+    for (int k = 0; k < most_steps; ++k) {
+        Vec3 step = newton_step(discs, n);
+        if (climb(discs, step, n)) {
+            if (step.norm() <= round_off) {
+                return n;
+            }
+            continue;
+        }
+        bool left = false;
+        for (int m = 0; m < 2 && !left; ++m) {
+            const Rim& disc = discs.disc(m);
+            const Vec3 slope = discs.slope(n, m);
+            if (disc.axis.cross(n).norm() < near_axis && slope.norm() > disc.radius) {
+                left = climb(discs, longest_step / slope.norm() * slope, n);
+            }
+        }
+        if (!left) {
+            return n;
+        }
+    }
+    return n;
+}
+
+// The side of its rod that a cap is on.
+int out_of(int cap)
+{
+    return cap == 0 ? -1 : 1;
+}
+
+// Of the normals between the rims at some points of the second, out of both caps, the one of the
+// widest gap.
+Vec3 first_normal(const DiscGap& discs, int i, const PlacedSolid& b, int j)
+{
+    const Vec3 across = direction(discs.b.centre - discs.a.centre);
+    if (discs.along(across) > 0) { // from where the climb gets to the top, which is the only one
+        return across;
+    }
+    Vec3 best = direction(out_of(i) * discs.a.axis - out_of(j) * discs.b.axis);
+    double widest_gap = discs.along(best);
+    const auto look = [&](const Vec3& n) {
+        const double gap = discs.along(n);
+        if (gap > widest_gap && out_of(i) * n.dot(discs.a.axis) >= 0 &&
+            out_of(j) * n.dot(discs.b.axis) <= 0) {
+            widest_gap = gap;
+            best = n;
+        }
+    };
+    for (const int corner : b.solid.faces[j].corners) {
+        const Vec3 q = b.pose.x + b.pose.R * b.solid.corners[corner];
+        const Vec3 p = discs.a.centre + discs.a.towards(q - discs.a.centre);
+        const Vec3 u = discs.a.axis.cross(p - discs.a.centre);
+        const Vec3 n = direction(u.cross(discs.b.axis.cross(q - discs.b.centre)));
+        look(n);
+        look(-n);
+        look(direction(q - p));
     }
     return best;
 }
 
-// Turns both points to where they are nearest to each other: Newton's method for half the square of
-// their distance, by Gauss and Newton where that is not convex.
-void approach(RimPoint& p, RimPoint& q)
-{
-    for (int k = 0; k < most_steps; ++k) {
-        const Vec3 d = q.at() - p.at();
-        const Vec3 u = p.tangent();
-        const Vec3 w = q.tangent();
-        const Eigen::Vector2d slope(-d.dot(u), d.dot(w));
-        Eigen::Matrix2d bend;
-        bend << u.squaredNorm() + d.dot(p.arm), -u.dot(w), -u.dot(w),
-            w.squaredNorm() - d.dot(q.arm);
-        if (bend.determinant() <= 0 || bend.trace() <= 0) {
-            bend << u.squaredNorm(), -u.dot(w), -u.dot(w), w.squaredNorm();
-            bend += parallel_tangents * bend.trace() * Eigen::Matrix2d::Identity();
-        }
-        Eigen::Vector2d step = -(bend.inverse() * slope);
-        step *= std::min(1.0, longest_step / step.norm());
-        for (int h = 0; h < most_halvings; ++h, step *= 0.5) {
-            RimPoint p_next = p;
-            RimPoint q_next = q;
-            p_next.turn(step[0]);
-            q_next.turn(step[1]);
-            if ((q_next.at() - p_next.at()).norm() <= d.norm() + round_off * p.rim.radius) {
-                p = p_next;
-                q = q_next;
-                break;
-            }
-        }
-        if (step.norm() <= round_off) {
-            return;
-        }
-    }
-}
-
-// The normal is square to both tangents, towards b from the edge of a that the rim is.
 RodTouch rim_on_rim(const PlacedSolid& a, int i, const PlacedSolid& b, int j)
 {
-    RimPoint q = nearest_sample(a, b, j);
-    RimPoint p{rim_of(a, i)};
-    p.arm = p.rim.towards(q.at() - p.rim.centre);
-    approach(p, q);
-    const auto outwards = [](const RimPoint& x, int end) {
-        return Vec3(x.arm / x.rim.radius + (end == 0 ? -1 : 1) * x.rim.axis);
-    };
-    const Vec3 d = q.at() - p.at();
-    const Vec3 cross = p.tangent().cross(q.tangent());
-    const double length = cross.norm();
-    if (length <= parallel_tangents * p.rim.radius * q.rim.radius) {
-        return {{0.5 * (p.at() + q.at()), -direction(d), d.norm()}, infinity};
-    }
-    const double sign = cross.dot(outwards(p, i) - outwards(q, j)) < 0 ? -1 : 1;
-    const Vec3 n = sign / length * cross;
+    const Rim of_a = rim_of(a, i);
+    const Rim of_b = rim_of(b, j);
+    const DiscGap discs{of_a, of_b};
+    const Vec3 n = widest(discs, first_normal(discs, i, b, j));
+    const Vec3 d = discs.on_b(n) - discs.on_a(n);
     const double gap = n.dot(d);
-    const bool on_cap = std::min(p.rim.axis.cross(n).norm(), q.rim.axis.cross(n).norm()) < flat;
-    return {{0.5 * (p.at() + q.at()), -n, gap}, on_cap ? infinity : (d - gap * n).norm()};
+    const bool on_cap = std::min(of_a.axis.cross(n).norm(), of_b.axis.cross(n).norm()) < flat;
+    return {{0.5 * (discs.on_a(n) + discs.on_b(n)), -n, gap},
+            on_cap ? infinity : (d - gap * n).norm()};
 }
 
 Touch over_face(const Vec3& point, const PlacedSolid& other, int f)
@@ -346,6 +388,32 @@ Vec3 low_point(const PlacedSolid& rod, int i, const Vec3& n)
     const double length = down.norm();
     return rim.centre +
            rim.radius * (length > no_direction ? Vec3(down / length) : Vec3(rod.pose.R.col(1)));
+}
+
+double rod_triangle_distance(const PlacedSolid& rod, const std::array<Vec3, 3>& triangle)
+{
+    const Vec3 axis = rod.pose.R.col(0);
+    double distance = -infinity;
+    const auto look = [&](const Vec3& n) { // towards the rod
+        const double along = n.dot(axis);
+        const double lowest = n.dot(rod.pose.x) - rod.solid.half_length * std::abs(along) -
+                              rod.solid.radius * axis.cross(n).norm();
+        const double highest =
+            std::max({n.dot(triangle[0]), n.dot(triangle[1]), n.dot(triangle[2])});
+        distance = std::max(distance, lowest - highest);
+    };
+    const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+    for (const Vec3& n : {normal, Vec3(-normal), axis, Vec3(-axis)}) {
+        look(n);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Line edge = line_between(triangle[k], triangle[(k + 1) % 3]);
+        look(corner_touch(rod, triangle[k]).touch.normal);
+        look(side_on_line(side_of(rod), edge).touch.normal);
+        look(rim_on_line(rim_of(rod, 0), edge).touch.normal);
+        look(rim_on_line(rim_of(rod, 1), edge).touch.normal);
+    }
+    return distance;
 }
 
 RodTouch rod_touch(const Feature& feature, const Configuration& at)

@@ -4,6 +4,8 @@
 
 #include "feature.hpp"
 
+#include <array>
+
 namespace hyoryu {
 
 /// A touch, and how far its point lies past the ends of what touches [m].
@@ -15,6 +17,10 @@ struct RodTouch {
 /// The touch of rim_face, cap_line, cap_cap, rod_corner, side_line, rim_line and rim_rim; the edges
 /// and corners of a mesh are its creases and corners.
 RodTouch rod_touch(const Feature& feature, const Configuration& at);
+
+/// The signed distance of a rod and a triangle [m]: the largest distance along the normals of the
+/// triangle, of the caps, and of the pairs of features that can be nearest.
+double rod_triangle_distance(const PlacedSolid& rod, const std::array<Vec3, 3>& triangle);
 
 /// The point of rim i of a rod nearest to a plane of unit normal n.
 Vec3 low_point(const PlacedSolid& rod, int i, const Vec3& n);

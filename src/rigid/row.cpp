@@ -27,27 +27,33 @@ Mat3 axes(const Vec3& n, int helper, int dimensions)
     return basis;
 }
 
-// What the impulse of one body's side changes at the contact, for unit impulses along the axes.
-Mat3 inverse_mass(const Row& row, const Response& body, const Vec3& arm, const Vec3& seen)
+// The moments about the centre of unit vectors along the axes: the normal at the contact point, the
+// tangents where friction acts.
+Mat3 moments(const Vec3& arm, const Vec3& rub, const Mat3& axes)
 {
-    Mat3 K;
-    for (int m = 0; m < 3; ++m) {
-        const Vec3 P = row.B.col(m);
-        K.col(m) = row.D.transpose() * (body.inverse_mass.cwiseProduct(P) +
-                                        (body.inverse_inertia * arm.cross(P)).cross(seen));
-    }
-    return K;
+    Mat3 result;
+    result.col(0) = arm.cross(axes.col(0));
+    result.col(1) = (arm + rub).cross(axes.col(1));
+    result.col(2) = (arm + rub).cross(axes.col(2));
+    return result;
+}
+
+// What the impulse of one body's side changes at the contact, for unit impulses along the axes.
+Mat3 inverse_mass(const Row& row, const Response& body, const Mat3& turn, const Mat3& lever)
+{
+    return row.D.transpose() * body.inverse_mass.asDiagonal() * row.B +
+           lever.transpose() * (body.inverse_inertia * turn);
 }
 
 void fill(Row& row, const TwoTouches& at, const Centres& c, const std::vector<Response>& bodies)
 {
-    row.arm_a = at.push.point - c.push_a;
-    row.seen_a = at.see.point - c.see_a;
-    row.cone.K = inverse_mass(row, bodies[row.a], row.arm_a, row.seen_a);
+    row.turn_a = moments(at.push.point - c.push_a, at.push_rub, row.B);
+    row.lever_a = moments(at.see.point - c.see_a, at.see_rub, row.D);
+    row.cone.K = inverse_mass(row, bodies[row.a], row.turn_a, row.lever_a);
     if (row.b >= 0) {
-        row.arm_b = at.push.point - c.push_b;
-        row.seen_b = at.see.point - c.see_b;
-        row.cone.K += inverse_mass(row, bodies[row.b], row.arm_b, row.seen_b);
+        row.turn_b = moments(at.push.point - c.push_b, at.push_rub, row.B);
+        row.lever_b = moments(at.see.point - c.see_b, at.see_rub, row.D);
+        row.cone.K += inverse_mass(row, bodies[row.b], row.turn_b, row.lever_b);
     }
 }
 
@@ -94,12 +100,14 @@ void complete(Row& row, const TwoTouches& at, const Centres& centres,
 Vec3 velocity(const Row& row, const std::vector<Response>& bodies)
 {
     const Response& a = bodies[row.a];
-    Vec3 u = a.v + a.omega.cross(row.seen_a) - row.wall_velocity;
+    Vec3 v = a.v - row.wall_velocity;
+    Vec3 u = row.lever_a.transpose() * a.omega;
     if (row.b >= 0) {
         const Response& b = bodies[row.b];
-        u -= b.v + b.omega.cross(row.seen_b);
+        v -= b.v;
+        u -= row.lever_b.transpose() * b.omega;
     }
-    return row.D.transpose() * u;
+    return u + row.D.transpose() * v;
 }
 
 void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)
@@ -110,12 +118,12 @@ void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)
     Response& a = bodies[row.a];
     if (a.movable) {
         a.v += a.inverse_mass.cwiseProduct(P);
-        a.omega += a.inverse_inertia * row.arm_a.cross(P);
+        a.omega += a.inverse_inertia * (row.turn_a * dp);
     }
     if (row.b >= 0 && bodies[row.b].movable) {
         Response& b = bodies[row.b];
         b.v -= b.inverse_mass.cwiseProduct(P);
-        b.omega -= b.inverse_inertia * row.arm_b.cross(P);
+        b.omega -= b.inverse_inertia * (row.turn_b * dp);
     }
 }
 

@@ -20,22 +20,25 @@ struct Response {
 };
 
 /// A contact at two configurations: the impulse acts at `push`, the velocity is asked for at `see`.
-/// They are the same in an impact; in a smooth step they are its middle and its end.
+/// They are the same in an impact; in a smooth step they are its middle and its end. Friction may
+/// act beside the contact point, in its tangent plane.
 struct TwoTouches {
     Touch push;
     Touch see;
+    Vec3 push_rub{0, 0, 0}, see_rub{0, 0, 0}; // from the contact point to that of friction [m]
 };
 
-/// Rows of the contact problem: u = D^T (v_a + omega_a x s_a - v_b - omega_b x s_b - w), and the
-/// impulse P = B p changes v by P / M and omega by I^-1 (r x P).
+/// Rows of the contact problem: u = D^T (v_a - v_b - w) + S_a^T omega_a - S_b^T omega_b, and the
+/// impulse p changes v by B p / M and omega by I^-1 T p. Columns of T and S are r x B and s x D
+/// with the arms r and s of the normal and of friction.
 struct Row {
     int a = 0, b = -1; // bodies; b < 0 is a boundary
     int contact = 0;   // index of the contact in the caller's list
     Cone cone;
-    Mat3 B = Mat3::Identity();             // n, t1, t2 where the impulse acts
-    Mat3 D = Mat3::Identity();             // the same where the velocity is seen
-    Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};   // r, of the impulse [m]
-    Vec3 seen_a{0, 0, 0}, seen_b{0, 0, 0}; // s, of the velocity [m]
+    Mat3 B = Mat3::Identity();                           // n, t1, t2 where the impulse acts
+    Mat3 D = Mat3::Identity();                           // the same where the velocity is seen
+    Mat3 turn_a = Mat3::Zero(), turn_b = Mat3::Zero();   // T, moments of unit impulses [m]
+    Mat3 lever_a = Mat3::Zero(), lever_b = Mat3::Zero(); // S, velocities of unit spins [m]
     Vec3 wall_velocity{0, 0, 0};
     double target = 0;    // wanted normal velocity [m/s]
     Vec3 before{0, 0, 0}; // velocity at the start of the solve, in the axes of D [m/s]

@@ -108,14 +108,33 @@ void improve_by_edges(Separation& best, const PlacedSolid& a, const PlacedSolid&
     }
 }
 
+// Whether no edge can be nearer than the face of the axis.
+bool covers(const Separation& best, const PlacedSolid& a, const PlacedSolid& b)
+{
+    return best.kind == AxisKind::face_of_a ? lies_over(b, a, best.a) : lies_over(a, b, best.b);
+}
+
 } // namespace
+
+bool lies_over(const PlacedSolid& body, const PlacedSolid& under, int face)
+{
+    const Vec3 centre = under.pose.R.transpose() *
+                        (body.pose.x + body.pose.R * body.solid.box_centre - under.pose.x);
+    const double radius = body.solid.box_half.norm();
+    for (const Side& side : under.solid.faces[static_cast<std::size_t>(face)].sides) {
+        if (side.normal.dot(centre) - side.offset > -radius) {
+            return false;
+        }
+    }
+    return true;
+}
 
 Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough, double unit)
 {
     const Relative ab{a.pose.R.transpose() * b.pose.R,
                       a.pose.R.transpose() * (b.pose.x - a.pose.x)};
     Separation best = best_face(a, b, ab, enough, unit);
-    if (best.distance <= enough) {
+    if (best.distance <= enough && !covers(best, a, b)) {
         improve_by_edges(best, a, b, ab, unit);
     }
     return best;

@@ -17,6 +17,10 @@ struct Separation {
     int b = 0; // face or edge of b
 };
 
+/// Whether the face stretches under the whole of the other solid: then nothing but the face can be
+/// nearest to it.
+bool lies_over(const PlacedSolid& body, const PlacedSolid& under, int face);
+
 /// Separating axes of two polytopes: the normals of all faces, and the cross products of those
 /// edges that span a face of the Minkowski difference (Gregorius, GDC 2013). Returns early with the
 /// first face axis that separates by more than `enough`. Which axis is as good as another goes by

@@ -68,6 +68,9 @@ void end_with_slip(const StepContext& context, SubStep& sub)
         if (stops(contacts, slow)) {
             end = known ? end : 0.5 * end;
             margin *= known ? more : 1;
+            if (margin >= 1) {
+                break; // no time before it that is worth a sub-step
+            }
             continue;
         }
         if (known && margin > short_of) {

@@ -236,7 +236,7 @@ Solid solid_of(const ContactShape& shape, int dimensions)
         solid.form = Form::polytope;
         add_polytope(solid, *polytope, dimensions);
     } else {
-        return compound_solid(std::get<Compound>(shape));
+        return compound_solid(std::get<Compound>(shape), dimensions);
     }
     return solid;
 }

@@ -15,10 +15,9 @@ constexpr int sweeps_at_once = 20;
 // Updates of rows worth doing between two direct solutions; but so many sweeps in any case.
 constexpr std::size_t updates_in_turn = 2000;
 constexpr std::size_t fewest_sweeps = 60;
+constexpr std::size_t fewest_between_tries = 20;
 // After so many turns all known impulses are dropped, as a pile of bodies drops them one by one.
 constexpr int turns_of_dropping = 3;
-// Contacts above which a dense direct solution costs more than the iteration.
-constexpr std::size_t dense_contacts = 60;
 
 bool one_body(std::span<const Row> rows, const std::vector<Response>& bodies)
 {
@@ -108,9 +107,9 @@ void drop_bad_guess(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 
 Turns turns_for(std::span<const Row> rows, const Effort& effort, double enough)
 {
-    const int tries = rows.size() <= dense_contacts ? effort.direct_tries : 0;
-    const std::size_t sweeps = std::max(fewest_sweeps, updates_in_turn / rows.size());
-    return {tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
+    const std::size_t fewest = effort.direct_tries > 0 ? fewest_between_tries : fewest_sweeps;
+    const std::size_t sweeps = std::max(fewest, updates_in_turn / rows.size());
+    return {effort.direct_tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
 }
 
 } // namespace
@@ -118,7 +117,6 @@ Turns turns_for(std::span<const Row> rows, const Effort& effort, double enough)
 double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
              const Effort& effort)
 {
-    work.given_up = false;
     if (rows.size() == 1) {
         gauss_seidel(rows, bodies, {1, 0});
         return 0;
@@ -132,11 +130,6 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         }
     }
     const double asked = change_asked(rows);
-    work.given_up = rows.size() > contacts_of_a_pile && !cold(rows) &&
-                    residual(rows, bodies) > effort.unrest * asked;
-    if (work.given_up) {
-        return 0;
-    }
     drop_bad_guess(rows, bodies, work);
     const double enough = alone ? solved : std::max(effort.enough * asked, solved);
     if (cold(rows)) {

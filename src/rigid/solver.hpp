@@ -2,6 +2,7 @@
 // The impulses of many contacts at once.
 #pragma once
 
+#include "block_matrix.hpp"
 #include "colours.hpp"
 
 #include <Eigen/LU>
@@ -16,12 +17,21 @@ struct Twist {
     Vec3 omega{0, 0, 0}; // [rad/s]
 };
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-
 /// An unknown impulse of the direct solution: the velocities (v, omega) that a unit of it gives to
 /// the two bodies of its contact, and what its equation sees of theirs.
 struct Unknown {
     Vec6 answer_a, answer_b, sight_a, sight_b;
+};
+
+/// Scratch of the direct solution by bodies.
+struct BlockWork {
+    std::vector<int> members;               // bodies that move
+    std::vector<int> place;                 // of each body in the elimination; -1: it does not move
+    std::vector<std::pair<int, int>> pairs; // of members that touch
+    std::vector<std::pair<int, int>> ends;  // of each unknown: places of its bodies
+    std::vector<double> shifts, yields;     // of each unknown: on the diagonal of W [1/kg]
+    std::vector<Vec6> velocities;           // by place
+    BlockMatrix matrix;
 };
 
 /// Scratch of the solvers, kept between calls.
@@ -33,9 +43,11 @@ struct SolverWork {
     Eigen::VectorXd left_over;
     std::vector<int> states;
     std::vector<int> columns; // where the unknowns of each row begin, and the end
+    std::vector<int> across;  // the unknown of each row across its direction of sliding; -1: none
     std::vector<Unknown> unknowns;
-    std::vector<Vec3> directions, momenta;
+    std::vector<Vec3> directions, momenta, base;
     std::vector<double> held; // of what moves across each direction of sliding [1]
+    BlockWork blocks;
     Colours colours;
     std::vector<double> shares;    // of the known impulse of each row in the energy [J]
     std::vector<double> changes;   // of each row in a sweep [m/s]
@@ -44,8 +56,7 @@ struct SolverWork {
     std::vector<int> moved;        // bodies that are not held, sorted
     std::vector<Twist> velocities; // theirs after the last sweep
     double unit = 1;               // of the speeds that pass for solved [m/s]
-    double updates = 0;    // of rows, since this was set to zero: what solves cost, on any machine
-    bool given_up = false; // the last solve
+    double updates = 0; // of rows, since this was set to zero: what solves cost, on any machine
 };
 
 /// Islands of more contacts are piles. Of those that rattle nine in ten do not settle in a direct
@@ -59,14 +70,11 @@ struct Effort {
     double enough = 1e-6;
     int direct_tries = 2; // direct solutions of a small island, each before sweeps
     int sweeps = 300;     // in each turn
-    /// A pile whose known impulses leave more than this part of that change is given up before it
-    /// is solved: it rattles, and a solution this good takes long and is of no use to it [1].
-    double unrest = infinity;
 };
 
 /// Solves normal velocity >= target, impulse >= 0, Coulomb friction for all rows together, from the
 /// impulses the rows hold (already applied to the bodies). Returns the largest speed by which a
-/// contact still wants to change [m/s], zero if it gave up. A row that met a Painleve configuration
+/// contact still wants to change [m/s]. A row that met a Painleve configuration
 /// has `tangential` set.
 ///
 /// One body and few contacts: Gauss-Seidel with exact local solutions. Otherwise the active-set
@@ -89,6 +97,10 @@ bool cold(std::span<const Row> rows);
 void guess_states(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
 /// From the states in `work`; false if they did not settle.
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
+/// Prepares `solve_by_bodies` for the rows, whatever their states.
+void order_bodies(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
+/// The solution of the linear problem that is laid out in `work`; false if it is none.
+bool solve_by_bodies(std::span<const Row> rows, SolverWork& work);
 /// Sweeps with Nesterov's momentum and its restart (O'Donoghue and Candes 2015), which settle high
 /// piles in tens of sweeps where plain ones need thousands. Many rows are sorted by colour, and the
 /// sweeps go on all threads.

@@ -6,17 +6,16 @@
 
 namespace hyoryu {
 
-/// Contacts that the events of a cluster may look at and solve in one step, round by round, before
-/// they are closed early and the rest of the step goes without location: it bounds what a step may
-/// cost, above what single bodies, stacks and chains of balls need.
-inline constexpr std::size_t worth_rounds = 300;
-/// The same for the updates of rows by all solves of a cluster: what does not settle is not worth
-/// the solution to round-off that location needs.
-inline constexpr double worth_updates = 5000;
-/// Whether the cluster in hand is below both.
+/// What locating the impacts of a cluster may cost in a step, in updates of rows: something for
+/// each body, and the cluster's part of what the settings add for all.
+double located_work(const StepContext& context, const Cluster& cluster);
+/// A look at a pair, and a contact in a plan of the motion, in updates of rows.
+inline constexpr double look_work = 8;
+inline constexpr double plan_work = 5;
+/// Whether the cluster in hand has cost less than it may.
 inline bool is_worth_locating(const ContactMemory& memory)
 {
-    return memory.solved_contacts < worth_rounds && memory.updates < worth_updates;
+    return memory.work < memory.worth;
 }
 
 /// Where smooth contacts take their arms and normals: at the middle and the end of the planned
@@ -56,15 +55,25 @@ void recall_forces(ContactMemory& memory, double h);
 /// The forces of the persistent contacts of the last sub-step, for the warm start of what follows.
 void remember(ContactMemory& memory, double h);
 
-/// Events of one body within a step after which its contacts are inelastic and no longer located.
+/// Events of one body within a step after which its contacts are inelastic and no longer located,
+/// as long as the cluster has not cost much.
 inline constexpr int event_limit = 50;
+/// Whether one of the bodies had more events than `memory.event_limit`.
 bool tired(const ContactMemory& memory, int a, int b);
-
-/// What pressed in the last sub-step is not let go for having been pushed deep into a thin side.
-void hold_pressed(const ContactMemory& memory, Candidate& contact);
+/// Lowers that limit while the cluster costs more than half of what it may, so that the part of it
+/// that rattles most is let go first; sets `memory.stepped` if any body is tired.
+void let_go_of_rattle(ContactMemory& memory, const Cluster& cluster);
 
 /// Finds all possible contacts of the cluster at the current poses.
 void find_contacts(const StepContext& context, const Cluster& cluster, double time);
+
+/// Takes the contacts of tired bodies as a jam does: those that touch, and those that close within
+/// the sub-step on the free paths, of length `sub.h`.
+void find_contacts_of_tired(const StepContext& context, const SubStep& sub);
+
+/// The features of a pair that touch, or that close on the free paths within the sub-step.
+void find_closing(const StepContext& context, const BodyPair& pair, const SubStep& sub,
+                  std::vector<Candidate>& found);
 
 /// Impact rounds: while any touching contacts approach, all of them are solved together, each with
 /// the restitution of its own approach; then looked at again. The clamp of the energy (Kane and
@@ -92,6 +101,13 @@ void end_with_slip(const StepContext& context, SubStep& sub);
 
 /// The first time within the sub-step at which a contact that is not held closes; h if none does.
 double first_event(const StepContext& context, const SubStep& sub);
+
+/// Whether the planned motion leaves pairs whose events are not looked for deeper in each other:
+/// what turns away from a contact on its free path, and is pressed back by another, is not seen to
+/// close.
+bool ends_deep(const StepContext& context, const SubStep& sub);
+/// Such a sub-step is halved so often at most.
+inline constexpr int halvings = 8;
 
 /// Moves the bodies along their paths to s and books the share of the contact impulses.
 void move_to(const StepContext& context, const SubStep& sub, double s);

@@ -52,7 +52,7 @@ double part_on_contacts(const StepContext& context, double rest)
     std::size_t touching = 0;
     bool any = false;
     for (const Candidate& c : memory.candidates) {
-        if (!c.beyond && c.touch.gap <= settings.contact_tolerance) {
+        if (c.touch.gap <= settings.contact_tolerance) {
             ++touching;
             any = any || turns(c.feature.a) || turns(c.feature.b);
         }

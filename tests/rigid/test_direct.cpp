@@ -58,7 +58,7 @@ TEST(Direct, FourCornersShareAnUnevenLoadBySmallestNorm)
     }
     solve(rows, bodies);
     for (const Row& row : rows) {
-        const double lever = 0.4 / (inverse_moment * 4 * half * half) * row.arm_a.x();
+        const double lever = 0.4 / (inverse_moment * 4 * half * half) * -row.turn_a(1, 0);
         // the shift of 1e-8 leaves the round-off of the sharing eight digits short
         EXPECT_NEAR(row.p[0], mass / 4 + lever, 1e-8);
     }
@@ -143,24 +143,19 @@ struct Pile {
     }
 };
 
-TEST(Solve, GivesUpOnAPileWhoseKnownImpulsesAreOff)
+// Loads that change in every step leave known impulses that fit no more: the pile is solved all the
+// same, as one of which nothing is known.
+TEST(Solve, SolvesAPileWhoseKnownImpulsesAreOff)
 {
-    for (const double part : {0.9, 0.9999}) {
+    for (const double part : {0.0, 0.5, 0.9, 0.9999, 1.3}) {
         Pile pile;
         pile.push_all(part);
-        const std::vector<Row> known = pile.rows;
         SolverWork work;
-        const double left = solve(pile.rows, pile.bodies, work, {.unrest = 1e-2});
-        EXPECT_EQ(work.given_up, part == 0.9);
-        EXPECT_LE(left, 1e-8); // the millionth of the change that is asked for
-        EXPECT_EQ(pile.rows[0].p == known[0].p, work.given_up);
-    }
-    Pile unknown; // cold rows say nothing of unrest
-    SolverWork work;
-    EXPECT_LE(solve(unknown.rows, unknown.bodies, work, {.unrest = 1e-2}), 1e-8);
-    EXPECT_FALSE(work.given_up);
-    for (const Response& body : unknown.bodies) {
-        EXPECT_LT(body.v.norm() + body.omega.norm(), 1e-8);
+        EXPECT_LE(solve(pile.rows, pile.bodies, work, {}),
+                  1e-8); // a millionth of what is asked for
+        for (const Response& body : pile.bodies) {
+            EXPECT_LT(body.v.norm() + body.omega.norm(), 1e-8);
+        }
     }
 }
 

@@ -139,8 +139,9 @@ TEST(Piles, LockedHeapRestsWithoutOverlap)
     Rigid rigid = heap(3, 6, 0.025);
     run(rigid, 1e-3, 1200);
     rigid.counters.worst_penetration = 0;
+    rigid.counters.capped_steps = 0;
     run(rigid, 1e-3, 50);
-    EXPECT_GT(rigid.counters.capped_steps, 500); // a jam
+    EXPECT_EQ(rigid.counters.capped_steps, 0); // at rest every step is located
     // What the projection leaves alone and what the speeds that are left of the contacts, 1e-6 m/s,
     // make of it in a step: 1e-9 m each; doubled.
     EXPECT_LE(rigid.counters.worst_penetration, 4e-9);

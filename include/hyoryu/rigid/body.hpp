@@ -89,14 +89,14 @@ struct Plane {
     Vec3 point{0, 0, 0};  // [m]
     Vec3 normal{0, 0, 1}; // unit
 };
-/// The inside of a box with optional sides (-x +x -y +y -z +z); a side holds a point only while the
-/// point is within the extent of the side towards open neighbours, and not further behind it or
-/// behind a closed neighbour than a twentieth of the reach of its body: what has left over a rim is
-/// not pulled back, and what stands beside the basin does not meet it.
+/// The inside of a box with optional sides (-x +x -y +y -z +z). A closed side is a slab of that
+/// thickness outside the box: it ends at the rim towards an open neighbour and goes on through the
+/// corner towards a closed one, and bodies meet it from inside, from outside and on its rim.
 struct Basin {
-    Vec3 min{0, 0, 0};
-    Vec3 max{0, 0, 0};
+    Vec3 min{0, 0, 0}; // [m]
+    Vec3 max{0, 0, 0}; // [m]
     std::array<bool, 6> open{};
+    double thickness = 0.1; // of the sides [m]
 };
 /// A fixed or prescribed convex obstacle.
 struct Obstacle {

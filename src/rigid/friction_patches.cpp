@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "friction_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::size_t most_contacts = 8;
+// Contacts of one patch: normals closer than this (1 - cosine), heights closer than that [units].
+constexpr double same_direction = 1e-9;
+constexpr double same_height = 1e-6;
+
+bool same_plane(const Touch& a, const Touch& b, double unit)
+{
+    return a.normal.dot(b.normal) > 1 - same_direction &&
+           std::abs(a.normal.dot(b.point - a.point)) < same_height * unit;
+}
+
+// Takes the contacts that lie in one plane with the first of `left`.
+std::vector<int> take_plane(const ContactMemory& memory, std::vector<int>& left)
+{
+    const Touch base = memory.persistent[left[0]].candidate.touch;
+    const auto apart = std::ranges::stable_partition(left, [&](int k) {
+        return !same_plane(base, memory.persistent[k].candidate.touch, memory.geometry.unit);
+    });
+    std::vector<int> taken(apart.begin(), apart.end());
+    left.erase(apart.begin(), apart.end());
+    return taken;
+}
+
+// The contacts that bound the patch, in the order in which they stood.
+std::vector<int> bounding(const ContactMemory& memory, const std::vector<int>& contacts)
+{
+    if (contacts.size() < 3) {
+        return contacts;
+    }
+    std::vector<Vec3> points;
+    for (const int k : contacts) {
+        points.push_back(memory.persistent[k].candidate.touch.point);
+    }
+    const Vec3& n = memory.persistent[contacts[0]].candidate.touch.normal;
+    std::vector<int> kept;
+    for (const int corner : outermost(points, n, most_contacts)) {
+        kept.push_back(contacts[corner]);
+    }
+    std::ranges::sort(kept);
+    return kept;
+}
+
+// A rod stands on the disc on whose rim its contacts lie, if they lie all around.
+PatchForm form_of(const ContactMemory& memory, const std::vector<int>& contacts)
+{
+    const Candidate& c = memory.persistent[contacts[0]].candidate;
+    const auto stands = [&](int k) {
+        return k >= 0 && memory.geometry.solids[k].form == Form::rod &&
+               std::abs(memory.poses[k].R.col(0).dot(c.touch.normal)) > 1 - same_direction;
+    };
+    const bool all_around = contacts.size() == most_contacts;
+    return all_around && (stands(c.feature.a) || stands(c.feature.b)) ? PatchForm::disc
+                                                                      : PatchForm::hull;
+}
+
+PatchRule rule_of(const ContactMemory& memory, const FrictionPatch& patch)
+{
+    std::vector<Vec3> points;
+    for (const int k : patch.contacts) {
+        points.push_back(memory.persistent[k].candidate.touch.point);
+    }
+    const Vec3& n = memory.persistent[patch.contacts[0]].candidate.touch.normal;
+    return patch_rule(points, n, form_of(memory, patch.contacts));
+}
+
+// Takes the contacts out that no patch kept, and numbers the others anew.
+void keep(const std::vector<char>& kept, ContactMemory& memory)
+{
+    std::vector<int> number(kept.size());
+    int next = 0;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        number[k] = next;
+        if (kept[k] != 0) {
+            memory.persistent[next++] = memory.persistent[k];
+        }
+    }
+    memory.persistent.resize(next);
+    for (FrictionPatch& patch : memory.patches) {
+        for (int& k : patch.contacts) {
+            k = number[k];
+        }
+    }
+}
+
+} // namespace
+
+void find_patches(const StepContext& context, const SubStep& sub)
+{
+    ContactMemory& memory = context.memory;
+    const std::vector<Persistent>& contacts = memory.persistent;
+    memory.patches.clear();
+    std::vector<char> kept(contacts.size(), 0);
+    std::vector<int> left;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        left.push_back(static_cast<int>(k));
+        const Feature& f = contacts[k].candidate.feature;
+        const Feature* next =
+            k + 1 < contacts.size() ? &contacts[k + 1].candidate.feature : nullptr;
+        if (next != nullptr && next->a == f.a && next->b == f.b) {
+            continue;
+        }
+        // In the plane of a two-dimensional scene it does not matter where friction acts.
+        const bool rubs = context.rigid.settings.dimensions == 3 && sub.arms == Arms::ahead &&
+                          law_of(context.rigid, f.a, f.b).friction > 0;
+        while (!left.empty()) {
+            const std::vector<int> patch = bounding(memory, take_plane(memory, left));
+            for (const int m : patch) {
+                kept[m] = 1;
+            }
+            if (rubs && patch.size() > 1) {
+                memory.patches.push_back({patch, {}});
+            }
+        }
+    }
+    keep(kept, memory);
+    for (FrictionPatch& patch : memory.patches) {
+        patch.rule = rule_of(memory, patch);
+    }
+}
+
+void set_rubs(ContactMemory& memory)
+{
+    for (const FrictionPatch& patch : memory.patches) {
+        const Vec3 centre = centre_of(memory.persistent, patch,
+                                      [](const Persistent& p) { return p.candidate.touch.point; });
+        for (const int k : patch.contacts) {
+            Persistent& p = memory.persistent[k];
+            p.rub = (1 - patch.rule.scale) * (centre - p.candidate.touch.point);
+        }
+    }
+}
+
+} // namespace hyoryu

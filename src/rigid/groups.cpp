@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+#include "groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hyoryu {
+
+namespace {
+
+// Repetitions after which what is left of the cluster is advanced as one group.
+constexpr int most_repetitions = 4;
+// The direction of an angular velocity changes in a sub-step, in which a body turns by 0.3 rad at
+// most: a bound on the speed between its ends [1].
+constexpr double more_turn = 1.2;
+// Two edges whose cross product is shorter than this count as parallel [1].
+constexpr double no_direction = 1e-6;
+
+struct Direction {
+    Vec3 normal{0, 0, 1}; // from b to a
+    double gap = -infinity;
+};
+
+// The oriented box around a solid, or the ball that it is.
+struct Block {
+    Vec3 centre;
+    Mat3 axes;
+    Vec3 half;
+    double radius = 0;
+};
+
+Block block_of(const ContactMemory& memory, int k)
+{
+    const Solid& solid = memory.geometry.solids[k];
+    const SolidPose& pose = memory.poses[k];
+    const bool round = solid.form == Form::ball;
+    return {pose.x + pose.R * solid.box_centre, pose.R, round ? Vec3::Zero() : solid.box_half,
+            round ? solid.radius : 0};
+}
+
+void look_along(const Vec3& n, const Block& a, const Block& b, Direction& best)
+{
+    const Vec3 apart = a.centre - b.centre;
+    const double along = n.dot(apart);
+    const auto reach = [&](const Block& block) {
+        return block.radius + (block.axes.transpose() * n).cwiseAbs().dot(block.half);
+    };
+    const double gap = std::abs(along) - reach(a) - reach(b);
+    if (gap > best.gap) {
+        best = {along < 0 ? Vec3(-n) : n, gap};
+    }
+}
+
+// The direction in which two boxes are farthest apart, of those that separate boxes.
+Direction widest_gap(const Block& a, const Block& b)
+{
+    Direction best;
+    const Vec3 between = a.centre - b.centre;
+    if (between.norm() > 0) {
+        look_along(between.normalized(), a, b, best);
+    }
+    for (int m = 0; m < 3; ++m) {
+        look_along(a.axes.col(m), a, b, best);
+        look_along(b.axes.col(m), a, b, best);
+    }
+    for (int m = 0; m < 3 && best.gap <= 0; ++m) {
+        for (int n = 0; n < 3; ++n) {
+            const Vec3 cross = a.axes.col(m).cross(b.axes.col(n));
+            if (cross.norm() > no_direction) {
+                look_along(cross.normalized(), a, b, best);
+            }
+        }
+    }
+    return best;
+}
+
+// A pair of movable bodies that the broad phase found, and how they are apart at the start.
+struct Link {
+    int a = 0, b = 0;
+    Direction direction;
+    double shift = 0; // least change of the gap on the free paths, of the centres of mass [m]
+};
+
+// The least of b t + c t^2 / 2 within [0, dt].
+double least_of(double b, double c, double dt)
+{
+    double least = std::min(0.0, dt * (b + 0.5 * c * dt));
+    if (c > 0 && b < 0 && -b < c * dt) {
+        least = std::min(least, -0.5 * sq(b) / c);
+    }
+    return least;
+}
+
+Link link_of(const StepContext& context, const BodyPair& pair)
+{
+    const ContactMemory& memory = context.memory;
+    Link link{pair.a, pair.b, widest_gap(block_of(memory, pair.a), block_of(memory, pair.b))};
+    const Vec3& n = link.direction.normal;
+    const auto& bodies = context.rigid.bodies;
+    link.shift =
+        least_of(n.dot(bodies[pair.a].velocity - bodies[pair.b].velocity),
+                 n.dot(acceleration(context, pair.a) - acceleration(context, pair.b)), context.dt);
+    return link;
+}
+
+// How far the motion of a body beyond its free path goes against the direction [m].
+double towards(const ContactMemory& memory, int k, const Vec3& n)
+{
+    const Deviation& deviation = memory.deviations[k];
+    const double along = (n.array() < 0).select(deviation.high, deviation.low).dot(n);
+    return -along + memory.geometry.solids[k].reach * std::min(deviation.turn, 2.0);
+}
+
+bool stays_apart(const ContactMemory& memory, const Link& link)
+{
+    const Vec3& n = link.direction.normal;
+    return link.direction.gap + link.shift - towards(memory, link.a, n) -
+               towards(memory, link.b, -n) >
+           clearly_apart(memory.geometry);
+}
+
+// The motion that the state of the start lets expect: the free one.
+void expect_free_motion(const StepContext& context, const Cluster& cluster)
+{
+    ContactMemory& memory = context.memory;
+    for (const int k : cluster.bodies) {
+        const Mat3 inverse = inverse_inertia(memory.rotors[k], memory.poses[k].R);
+        const double spin = (inverse * context.rigid.bodies[k].angular_momentum).norm() +
+                            context.dt * (inverse * context.loads[k].torque).norm();
+        memory.deviations[k] = {};
+        memory.deviations[k].turn = more_turn * context.dt * spin;
+    }
+}
+
+// A group and what its step did, kept until no other group turns out to have been in its way.
+struct Group {
+    Cluster cluster;
+    bool done = false;
+    bool jammed = false;
+    RigidCounters counters;
+    std::vector<Contact> log;
+    std::vector<Remembered> fresh;
+};
+
+struct Start {
+    std::vector<SolidPose> poses; // of the bodies of the cluster, in their order
+    std::vector<Vec3> velocities, momenta;
+};
+
+Start start_of(const StepContext& context, const Cluster& cluster)
+{
+    Start start;
+    for (const int k : cluster.bodies) {
+        start.poses.push_back(context.memory.poses[k]);
+        start.velocities.push_back(context.rigid.bodies[k].velocity);
+        start.momenta.push_back(context.rigid.bodies[k].angular_momentum);
+    }
+    return start;
+}
+
+void put_back(const StepContext& context, const Cluster& all, const Start& start,
+              const Cluster& group)
+{
+    for (const int k : group.bodies) {
+        const auto m =
+            static_cast<std::size_t>(std::ranges::lower_bound(all.bodies, k) - all.bodies.begin());
+        context.memory.poses[k] = start.poses[m];
+        context.memory.events[k] = 0;
+        context.rigid.bodies[k].velocity = start.velocities[m];
+        context.rigid.bodies[k].angular_momentum = start.momenta[m];
+    }
+}
+
+int root_of(std::vector<int>& parents, int k)
+{
+    while (parents[k] != k) {
+        parents[k] = parents[parents[k]];
+        k = parents[k];
+    }
+    return k;
+}
+
+void join(std::vector<int>& parents, int a, int b)
+{
+    const int root_a = root_of(parents, a);
+    const int root_b = root_of(parents, b);
+    parents[std::max(root_a, root_b)] = std::min(root_a, root_b);
+}
+
+// The groups that the roots make of the cluster; those that have not changed keep what they did.
+std::vector<Group> groups_of(const StepContext& context, const Cluster& cluster,
+                             std::vector<int>& parents, std::vector<Group>& last)
+{
+    ContactMemory& memory = context.memory;
+    std::vector<Group> groups;
+    memory.island_of_root.assign(memory.rotors.size(), -1);
+    for (const int k : cluster.bodies) {
+        int& index = memory.island_of_root[root_of(parents, k)];
+        if (index < 0) {
+            index = static_cast<int>(groups.size());
+            groups.emplace_back();
+        }
+        groups[static_cast<std::size_t>(index)].cluster.bodies.push_back(k);
+    }
+    const auto group_of = [&](int body) -> Group& {
+        return groups[static_cast<std::size_t>(memory.island_of_root[root_of(parents, body)])];
+    };
+    for (const BodyPair& pair : cluster.pairs) {
+        const bool moves = memory.rotors[pair.a].movable;
+        const bool both = moves && pair.b >= 0 && memory.rotors[pair.b].movable;
+        if (!both || root_of(parents, pair.a) == root_of(parents, pair.b)) {
+            group_of(moves ? pair.a : pair.b).cluster.pairs.push_back(pair);
+        }
+    }
+    for (Group& old : last) {
+        Group& group = group_of(old.cluster.bodies[0]);
+        if (group.cluster.bodies.size() == old.cluster.bodies.size()) {
+            group = std::move(old);
+        }
+    }
+    return groups;
+}
+
+void run(const StepContext& context, Group& group, const AdvanceCluster& advance)
+{
+    ContactMemory& memory = context.memory;
+    for (const int k : group.cluster.bodies) {
+        memory.deviations[k] = {memory.poses[k].x, context.rigid.bodies[k].velocity};
+    }
+    const RigidCounters counters = std::exchange(context.rigid.counters, {});
+    const bool jammed = std::exchange(memory.jammed, false);
+    const std::size_t known = memory.fresh.size();
+    advance({context.rigid, memory, context.loads, group.log, context.start, context.dt},
+            group.cluster);
+    const auto first = memory.fresh.begin() + static_cast<std::ptrdiff_t>(known);
+    group.fresh.assign(first, memory.fresh.end());
+    memory.fresh.erase(first, memory.fresh.end());
+    group.jammed = std::exchange(memory.jammed, jammed);
+    group.counters = std::exchange(context.rigid.counters, counters);
+    group.done = true;
+}
+
+void hand_over(const StepContext& context, const Group& group)
+{
+    ContactMemory& memory = context.memory;
+    RigidCounters& sum = context.rigid.counters;
+    sum.impacts += group.counters.impacts;
+    sum.rounds += group.counters.rounds;
+    sum.events += group.counters.events;
+    sum.tangential_impacts += group.counters.tangential_impacts;
+    sum.worst_residual = std::max(sum.worst_residual, group.counters.worst_residual);
+    sum.worst_penetration = std::max(sum.worst_penetration, group.counters.worst_penetration);
+    memory.jammed = memory.jammed || group.jammed;
+    memory.fresh.insert(memory.fresh.end(), group.fresh.begin(), group.fresh.end());
+    context.log.insert(context.log.end(), group.log.begin(), group.log.end());
+}
+
+// Movable bodies of a cluster that the broad phase paired.
+std::vector<Link> links_of(const StepContext& context, const Cluster& cluster)
+{
+    const std::vector<Rotor>& rotors = context.memory.rotors;
+    std::vector<Link> links;
+    for (const BodyPair& pair : cluster.pairs) {
+        if (pair.b >= 0 && rotors[pair.a].movable && rotors[pair.b].movable) {
+            links.push_back(link_of(context, pair));
+        }
+    }
+    return links;
+}
+
+// Joins the bodies that do not stay apart; whether there were any that were not joined before.
+bool join_near(const ContactMemory& memory, const std::vector<Link>& links,
+               std::vector<int>& parents)
+{
+    bool any = false;
+    for (const Link& link : links) {
+        if (root_of(parents, link.a) != root_of(parents, link.b) && !stays_apart(memory, link)) {
+            join(parents, link.a, link.b);
+            any = true;
+        }
+    }
+    return any;
+}
+
+bool is_one(const Cluster& cluster, std::vector<int>& parents)
+{
+    return std::ranges::all_of(cluster.bodies, [&](int k) {
+        return root_of(parents, k) == root_of(parents, cluster.bodies[0]);
+    });
+}
+
+// Advances the groups until none has been in the way of another.
+std::vector<Group> advance_apart(const StepContext& context, const Cluster& cluster,
+                                 const std::vector<Link>& links, const AdvanceCluster& advance)
+{
+    ContactMemory& memory = context.memory;
+    const Start start = start_of(context, cluster);
+    std::vector<Group> groups;
+    bool met = true;
+    for (int repetition = 0; met; ++repetition) {
+        groups = groups_of(context, cluster, memory.parents_of_groups, groups);
+        for (Group& group : groups) {
+            if (!group.done) {
+                put_back(context, cluster, start, group.cluster);
+                run(context, group, advance);
+            }
+        }
+        met = join_near(memory, links, memory.parents_of_groups);
+        for (const int k : cluster.bodies) {
+            if (met && repetition == most_repetitions) {
+                join(memory.parents_of_groups, k, cluster.bodies[0]);
+            }
+        }
+    }
+    return groups;
+}
+
+} // namespace
+
+void advance_in_groups(const StepContext& context, const Cluster& cluster,
+                       const AdvanceCluster& advance)
+{
+    ContactMemory& memory = context.memory;
+    memory.deviations.resize(memory.rotors.size());
+    memory.parents_of_groups.resize(memory.rotors.size());
+    for (const int k : cluster.bodies) {
+        memory.parents_of_groups[k] = k;
+    }
+    const std::vector<Link> links = links_of(context, cluster);
+    expect_free_motion(context, cluster);
+    join_near(memory, links, memory.parents_of_groups);
+    if (is_one(cluster, memory.parents_of_groups)) {
+        advance(context, cluster);
+        return;
+    }
+    memory.in_groups = true;
+    for (const Group& group : advance_apart(context, cluster, links, advance)) {
+        hand_over(context, group);
+    }
+    memory.in_groups = false;
+}
+
+void note_motion(const StepContext& context, const SubStep& sub, double s)
+{
+    ContactMemory& memory = context.memory;
+    if (!memory.in_groups) {
+        return;
+    }
+    const double now = sub.time + s - context.start;
+    for (const int k : sub.cluster.bodies) {
+        const Path& path = memory.paths[k];
+        Deviation& deviation = memory.deviations[k];
+        const Vec3 a = acceleration(context, k);
+        const Vec3 off =
+            memory.poses[k].x - deviation.start - now * deviation.velocity - 0.5 * sq(now) * a;
+        // Between its ends the difference of two parabolas is off a straight line by this.
+        const Vec3 bow = sq(s) / 8 * ((path.v1 - path.v0) / path.h - a).cwiseAbs();
+        deviation.low = deviation.low.cwiseMin(off - bow);
+        deviation.high = deviation.high.cwiseMax(off + bow);
+        const Mat3 inverse = inverse_inertia(memory.rotors[k], path.start.R);
+        deviation.turn +=
+            more_turn * s * std::max((inverse * path.L0).norm(), (inverse * path.L1).norm());
+    }
+}
+
+} // namespace hyoryu
