@@ -170,6 +170,30 @@ void update_pressure(Fluid& fluid)
 
 namespace {
 
+// Forces of solids on each other in thin films, less what is left to joints: with the volumes of
+// the particles, both sides of a pair shrink alike.
+void add_film_forces(Fluid& fluid, const FluidTerms& terms)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    const bool shared = !fluid.film_share.empty();
+    if (shared) {
+        const auto V = std::as_const(fluid.particles)[field::volume];
+        const Index first = fluid.particles.body().begin;
+        std::visit(
+            [&](auto& data) {
+                data.records.lend(n.body, field::volume, [&](std::size_t i) {
+                    return V[i] * fluid.film_share[i - at(first)];
+                });
+            },
+            fluid.pair_data);
+    }
+    run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
+    run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
+    if (shared) {
+        load(fluid, n.body, Fields<Volume>{});
+    }
+}
+
 // Forces between fluid and solids, and of solids in thin films. Fluid that has parted from them
 // shows them no pressure.
 void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
@@ -188,8 +212,7 @@ void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
     run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_loads; });
     run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_loads; });
     load(fluid, n.fluid, Fields<Pressure>{});
-    run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
-    run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
+    add_film_forces(fluid, terms);
 }
 
 } // namespace

@@ -343,6 +343,7 @@ void rebuild_neighbours(Fluid& fluid)
         bound_chunks(*tiles);
     }
     build_lists(fluid);
+    dry(fluid); // a store that was just made holds the pressures of time 0
     if (!fluid.moving_walls) {
         bound_motion(fluid.neighbours.wall, fluid.particles[field::position],
                      fluid.neighbours.wall_motion.box);

@@ -3,6 +3,7 @@
 // added mass (measured: -29 % acceleration; rings: -4 %), so round shapes get rings and shells.
 #include "hyoryu/scene/fill.hpp"
 
+#include "hyoryu/scene/triangle_tree.hpp"
 #include "hyoryu/scene/voxels.hpp"
 
 #include <algorithm>
@@ -121,12 +122,13 @@ void fill_shape(Aggregate& body, const MeshShape& mesh, double spacing, int dime
     const Index ny = cells(size.y(), spacing);
     const Index nz = cells(size.z(), spacing);
     const Vec3 centre = (box.min + box.max) / 2;
+    const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
     for (Index k = 0; k < nz; ++k) {
         for (Index j = 0; j < ny; ++j) {
             for (Index i = 0; i < nx; ++i) {
                 const Vec3 p = centre + Vec3{middle(i, nx, size.x()), middle(j, ny, size.y()),
                                              middle(k, nz, size.z())};
-                const double distance = signed_distance(placed, p);
+                const double distance = nearest_place(tree, p, infinity).distance;
                 if (distance < 0) {
                     place(body, p, distance > -spacing);
                 }

@@ -180,7 +180,8 @@ std::string geometry_lines(const Wall& wall)
     }
     if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
         return "shape = \"basin\"\n" + line("min", basin->min) + line("max", basin->max) +
-               line("open", named(basin->open, {"-x", "+x", "-y", "+y", "-z", "+z"}));
+               line("open", named(basin->open, {"-x", "+x", "-y", "+y", "-z", "+z"})) +
+               (basin->thickness ? line("thickness", *basin->thickness) : "");
     }
     if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
         return "shape = \"round_basin\"\n" + line("radius", round->radius) +
@@ -222,6 +223,7 @@ std::string body_text(const BodySettings& body, int dimensions)
            line("velocity", body.velocity) + line("angular_velocity", body.angular_velocity) +
            line("spacing", body.spacing) + line("material", body.material) +
            line("fixed", body.fixed) +
+           line("stands", std::string(body.sealed ? "sealed" : "open")) +
            line("locks", named(body.locks, {"x", "y", "z", "rx", "ry", "rz"}));
 }
 

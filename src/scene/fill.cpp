@@ -3,9 +3,11 @@
 
 #include "conform.hpp"
 #include "displace.hpp"
+#include "fill_block.hpp"
 #include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
+#include "stand_off.hpp"
 #include "walls.hpp"
 
 #include <fmt/format.h>
@@ -30,42 +32,21 @@ Placed placed(const Scene& scene, const BodySettings& body)
 }
 
 struct BlockPoints {
-    std::vector<Vec3> points;
+    BlockParticles particles;
     double top = -infinity; // highest height of the block's surface
-    double bottom = infinity;
     Bounds box;
 };
 
-// A block on its own lattice, so that its faces are half a spacing from the outermost particles, or
-// in layers that follow a round surface.
-BlockPoints lattice_of(const Scene& scene, const FluidBlock& block)
+BlockPoints points_of(const Scene& scene, std::size_t block)
 {
-    BlockPoints result;
-    const Placed shape = placed(scene, block);
-    result.box = bounds(shape);
+    BlockPoints result{fill_block(scene, block)};
+    result.box = bounds(placed(scene, scene.fluid->blocks[block]));
     for (int corner = 0; corner < 8; ++corner) {
         const Bounds& b = result.box;
         const double h = height(scene, {(corner & 1) != 0 ? b.max.x() : b.min.x(),
                                         (corner & 2) != 0 ? b.max.y() : b.min.y(),
                                         (corner & 4) != 0 ? b.max.z() : b.min.z()});
         result.top = std::max(result.top, h);
-        result.bottom = std::min(result.bottom, h);
-    }
-    if (block.layers) {
-        for (const Vec3& p : aggregate(block.shape, scene.spacing, scene.dimensions).points) {
-            result.points.push_back(block.centre + block.rotation * p);
-        }
-        return result;
-    }
-    const Aggregate filled = [&] {
-        const Vec3 size = result.box.max - result.box.min;
-        return aggregate(BoxShape{size}, scene.spacing, scene.dimensions);
-    }();
-    const Vec3 centre = (result.box.min + result.box.max) / 2;
-    for (const Vec3& p : filled.points) {
-        if (signed_distance(shape, centre + p) < 0) {
-            result.points.push_back(centre + p);
-        }
     }
     return result;
 }
@@ -89,13 +70,6 @@ double surface_above(const Scene& scene, const std::vector<BlockPoints>& blocks,
         }
     }
     return top;
-}
-
-bool behind_a_wall(const Scene& scene, const Vec3& p)
-{
-    return std::any_of(scene.walls.begin(), scene.walls.end(), [&](const Wall& wall) {
-        return depth_behind(wall, p, scene.dimensions) > 0;
-    });
 }
 
 // Velocity and pressure of a block at the start.
@@ -137,28 +111,26 @@ private:
     std::optional<Formula> pressure_;
 };
 
+void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticles& particles,
+                      Filling& filling)
+{
+    Diagnostic note = diagnostic_at(
+        scene, scene.fluid->blocks[block].place, fmt::format("fluid.block[{}]", block),
+        fmt::format("{} of its {} particles lie behind a wall and are left out", particles.in_walls,
+                    particles.all));
+    note.severity = Diagnostic::Severity::warning;
+    filling.warnings.push_back(note);
+}
+
 void fill_fluid(const Scene& scene, Filling& filling)
 {
     std::vector<BlockPoints> blocks;
-    for (const FluidBlock& block : scene.fluid->blocks) {
-        blocks.push_back(lattice_of(scene, block));
+    for (std::size_t b = 0; b < scene.fluid->blocks.size(); ++b) {
+        blocks.push_back(points_of(scene, b));
     }
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const FluidBlock& block = scene.fluid->blocks[b];
-        const StartField start(block, scene.dimensions);
-        Index behind = 0;
-        for (const Vec3& p : blocks[b].points) {
-            const bool taken = std::any_of(
-                blocks.begin(), blocks.begin() + static_cast<Index>(b),
-                [&](const BlockPoints& earlier) {
-                    const auto e = static_cast<std::size_t>(&earlier - blocks.data());
-                    return signed_distance(placed(scene, scene.fluid->blocks[e]), p) < 0;
-                });
-            const bool walled = behind_a_wall(scene, p);
-            behind += walled ? 1 : 0;
-            if (taken || walled) {
-                continue;
-            }
+        const StartField start(scene.fluid->blocks[b], scene.dimensions);
+        for (const Vec3& p : blocks[b].particles.points) {
             const double surface = surface_above(scene, blocks, b, p);
             filling.fluid.push_back(p);
             filling.fluid_velocity.push_back(start.velocity(p));
@@ -166,13 +138,8 @@ void fill_fluid(const Scene& scene, Filling& filling)
             filling.fluid_depth.push_back(scene.gravity.norm() > 0 ? surface - height(scene, p)
                                                                    : 0);
         }
-        if (behind > 0) {
-            Diagnostic note = diagnostic_at(
-                scene, block.place, fmt::format("fluid.block[{}]", b),
-                fmt::format("{} of its {} particles lie behind a wall and are left out", behind,
-                            blocks[b].points.size()));
-            note.severity = Diagnostic::Severity::warning;
-            filling.warnings.push_back(note);
+        if (blocks[b].particles.in_walls > 0) {
+            warn_about_walls(scene, b, blocks[b].particles, filling);
         }
     }
 }
@@ -264,6 +231,9 @@ Filling fill(const Scene& scene)
         if (scene.fluid) {
             take_out(scene, body, filling);
         }
+    }
+    if (scene.fluid && !scene.bodies.empty()) {
+        stand_off_bodies(scene, filling);
     }
     return filling;
 }

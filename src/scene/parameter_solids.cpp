@@ -64,6 +64,10 @@ std::vector<Parameter> wall_parameters()
         vector_row("wall[].max", "m", "", "Upper corner of a basin or box."),
         texts_row("wall[].open", {"-x", "+x", "-y", "+y", "-z", "+z"}, "[]",
                   "Sides of a basin without a wall."),
+        positive("wall[].thickness", "m", "that of the rows of wall particles",
+                 "Of the sides of a basin as bodies meet them, from outside and on their rims too; "
+                 "by default 2 fluid.smoothing_ratio spacings rounded up to whole ones, without a "
+                 "fluid three; the penalty method takes two spacings."),
         vector_row("wall[].size", "m", "", "Edge lengths of a box, instead of min and max."),
         vector_row("wall[].position", "m", "",
                    "Centre of the shape; of a mesh where its file's origin goes."),
@@ -135,6 +139,10 @@ std::vector<Parameter> body_parameters()
          .kind = ValueKind::boolean,
          .fallback = "false",
          .meaning = "Whether the body is held where it is."},
+        choice_row("body[].stands", {"open", "sealed"}, "open",
+                   "Whether water gets into the joint between the body and what it stands on. "
+                   "\"open\": it seeps in from the rim and lifts the body; \"sealed\": the joint "
+                   "stays dry, as under a body that is glued or sunk into the ground."),
         texts_row("body[].locks", {"x", "y", "z", "rx", "ry", "rz"}, "[]",
                   "Directions of the world in which the body cannot move (x, y, z) or turn (rx, "
                   "ry, rz)."),

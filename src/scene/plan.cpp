@@ -180,6 +180,11 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                fluid ? "the fluid meets no wall and no body" : none);
     census.add("solid_backstop", when(solids, "the fluid meets walls or bodies"),
                fluid ? "the fluid meets no wall and no body" : none);
+    const bool surfaces = fluid && (plan.counts.walls > 0 || plan.counts.bodies > 0);
+    census.add("wall_barrier",
+               when(surfaces, "the fluid meets walls or bodies: what would pass their exact "
+                              "surfaces is held, and they feel it"),
+               fluid ? "the scene has no wall and no body" : none);
     const bool viscous = !std::holds_alternative<Off>(plan.effects.viscosity);
     const ViscosityModel model = fluid ? scene.fluid->viscosity : ViscosityModel::none;
     census.add("artificial_viscosity",
@@ -242,6 +247,15 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                fluid ? "the scene has no bodies" : none);
     census.add("film_pressure", when(coupled, "thin films of fluid between solids carry pressure"),
                fluid ? "the scene has no bodies" : none);
+    const auto open = std::ranges::count(scene.bodies, false, &BodySettings::sealed);
+    census.add("seepage",
+               when(coupled && open > 0,
+                    fmt::format("water seeps under {} bodies where they stand: `body.stands` is "
+                                "\"open\"",
+                                open)),
+               !fluid    ? none
+               : coupled ? "`body.stands` of every body is \"sealed\""
+                         : "the scene has no bodies");
 }
 
 void list_effects(const Scene& scene, Plan& plan)

@@ -3,6 +3,7 @@
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
+#include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
 
 #include <fmt/format.h>
@@ -24,44 +25,6 @@ constexpr double stable_cfl = 1.2;
 std::string body_key(std::size_t b)
 {
     return fmt::format("body[{}]", b);
-}
-
-// Depth by which a body stands across a side of a basin: contact looks no deeper than a corner can
-// get in a step, and takes a body beyond that for one outside.
-double depth_in_basin(const BodySettings& body, const Wall& wall, int dimensions)
-{
-    const auto* basin = std::get_if<BasinWall>(&wall.geometry);
-    if (basin == nullptr) {
-        return 0;
-    }
-    const Bounds box = bounds({&body.shape, body.position, body.rotation, dimensions});
-    double depth = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (dimensions == 2 && axis == 1) {
-            continue;
-        }
-        const auto k = static_cast<std::size_t>(axis);
-        const bool beside = [&] {
-            bool apart = false;
-            for (int other = 0; other < 3; ++other) {
-                apart =
-                    apart ||
-                    (other != axis && !(dimensions == 2 && other == 1) &&
-                     (box.max[other] <= basin->min[other] || box.min[other] >= basin->max[other]));
-            }
-            return apart;
-        }();
-        if (beside) {
-            continue;
-        }
-        if (!basin->open[2 * k] && box.max[axis] > basin->min[axis]) {
-            depth = std::max(depth, basin->min[axis] - box.min[axis]);
-        }
-        if (!basin->open[2 * k + 1] && box.min[axis] < basin->max[axis]) {
-            depth = std::max(depth, box.max[axis] - basin->max[axis]);
-        }
-    }
-    return depth;
 }
 
 // Depth of the centre of a body within a wall that is a mesh: contact looks at surfaces, and a body
@@ -109,9 +72,8 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
         for (int w = 0; w < walls; ++w) {
             const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
             const Wall& wall = scene.walls[static_cast<std::size_t>(w)];
-            const double depth = std::max({overlap(rigid, a, -1 - w, 0),
-                                           depth_in_basin(body, wall, scene.dimensions),
-                                           depth_in_mesh(body, wall, scene.dimensions)});
+            const double depth =
+                std::max(overlap(rigid, a, -1 - w, 0), depth_in_mesh(body, wall, scene.dimensions));
             if (depth > allowed) {
                 report(a, fmt::format("wall \"{}\"", scene.walls[static_cast<std::size_t>(w)].name),
                        depth);
@@ -346,6 +308,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     if (scene.fluid) {
         warn_about_sound(scene, plan);
         warn_about_leaks(scene, filling, plan);
+        warn_about_gaps(scene, filling, plan);
     }
 }
 

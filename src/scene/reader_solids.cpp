@@ -38,6 +38,7 @@ BasinWall read_basin(TableReader& table)
         basin.open[static_cast<std::size_t>(std::find(sides.begin(), sides.end(), side) -
                                             sides.begin())] = true;
     }
+    basin.thickness = table.find_number("thickness");
     if (low && high) {
         basin.min = *low;
         basin.max = *high;
@@ -142,6 +143,7 @@ void read_state(TableReader& table, BodySettings& body)
         table.error(body.velocity.norm() > 0 ? "velocity" : "angular_velocity",
                     "has no meaning for a fixed body");
     }
+    body.sealed = table.choice("stands") == "sealed";
     constexpr std::array<std::string_view, 6> directions{"x", "y", "z", "rx", "ry", "rz"};
     for (const std::string& lock : table.texts("locks")) {
         body.locks[static_cast<std::size_t>(std::find(directions.begin(), directions.end(), lock) -

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/rigid_scene.hpp"
 
+#include "hyoryu/geometry/mesh.hpp"
 #include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/shapes.hpp"
 #include "hyoryu/scene/voxels.hpp"
@@ -133,11 +134,9 @@ MassProperties mass_of(const BodySettings& body, const ContactShape& contact, in
 {
     const double density = effective_density(body, dimensions);
     if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) {
-        Polytope surface{mesh->corners, {}};
-        for (const auto& t : mesh->triangles) {
-            surface.faces.push_back({t[0], t[1], t[2]});
-        }
-        return mass_properties(surface, density, dimensions);
+        const SolidProperties solid = solid_properties({mesh->corners, mesh->triangles});
+        const Mat3& second = solid.second_moment;
+        return {density * solid.volume, density * (second.trace() * Mat3::Identity() - second)};
     }
     if (const auto* particles = std::get_if<ParticleShape>(&body.shape)) {
         return mass_of_cubes(*particles, density);
@@ -174,8 +173,17 @@ Body make_body(const BodySettings& settings, const ContactShape& shape, int dime
     return body;
 }
 
-Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
+// How thick the rows of wall particles are, or would be with the usual kernel.
+double thickness_of_rows(const Scene& scene)
 {
+    const double ratio =
+        scene.fluid ? scene.fluid->smoothing_ratio : FluidSettings{}.smoothing_ratio;
+    return wall_layers(ratio) * scene.spacing;
+}
+
+Boundary make_boundary(const Wall& wall, const Scene& scene, Materials& materials)
+{
+    const int dimensions = scene.dimensions;
     Boundary boundary;
     boundary.name = wall.name;
     boundary.motion = wall.motion;
@@ -183,7 +191,8 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
     if (const auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
         boundary.surface = Plane{plane->point, plane->normal};
     } else if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
-        Basin inside{basin->min, basin->max, basin->open};
+        Basin inside{basin->min, basin->max, basin->open,
+                     basin->thickness.value_or(thickness_of_rows(scene))};
         if (dimensions == 2) {
             inside.open[2] = inside.open[3] = true; // no walls across the section
         }
@@ -191,7 +200,8 @@ Boundary make_boundary(const Wall& wall, int dimensions, Materials& materials)
     } else if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
         Basin box{round->centre - Vec3::Constant(round->radius),
                   round->centre + Vec3::Constant(round->radius),
-                  {}};
+                  {},
+                  thickness_of_rows(scene)};
         box.open[2] = box.open[3] = dimensions == 2;
         boundary.surface = box;
     } else {
@@ -289,7 +299,7 @@ Rigid make_rigid(const Scene& scene)
             make_body(body, shapes.of(body, scene.dimensions), scene.dimensions, materials));
     }
     for (const Wall& wall : scene.walls) {
-        rigid.boundaries.push_back(make_boundary(wall, scene.dimensions, materials));
+        rigid.boundaries.push_back(make_boundary(wall, scene, materials));
     }
     const double unit = unit_of_tolerances(rigid);
     rigid.settings.unit = unit;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "walls.hpp"
 
+#include "hyoryu/scene/triangle_tree.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -122,8 +124,29 @@ void add_points(const RoundWall& round, const Lattice& lattice, std::vector<Vec3
     }
 }
 
+// Of a mesh: what its lattice puts nearer to the surface than half a spacing goes to that depth, or
+// the fluid before it would be crowded.
+void add_mesh_points(const SolidWall& solid, const MeshShape& mesh, const Lattice& lattice,
+                     std::vector<Vec3>& points)
+{
+    const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
+    std::vector<Vec3> all = aggregate(solid.shape, lattice.spacing, lattice.dimensions).points;
+    for (Vec3& p : all) {
+        const NearestPlace nearest = nearest_place(tree, p, lattice.layers * lattice.spacing);
+        if (nearest.distance < infinity) {
+            const double lacking = nearest.distance + lattice.spacing / 2;
+            p -= std::max(lacking, 0.0) * nearest.normal;
+            points.push_back(solid.centre + solid.rotation * p);
+        }
+    }
+}
+
 void add_points(const SolidWall& solid, const Lattice& lattice, std::vector<Vec3>& points)
 {
+    if (const auto* mesh = std::get_if<MeshShape>(&solid.shape)) {
+        add_mesh_points(solid, *mesh, lattice, points);
+        return;
+    }
     const Placed own{.shape = &solid.shape, .dimensions = lattice.dimensions};
     // The core of a thick obstacle is out of reach of the fluid.
     const double depth = lattice.layers * lattice.spacing;

@@ -132,9 +132,9 @@ TEST_F(ParticleBody, TheHullOfAMeshIsTheBox)
     expect_same_motion(std::move(hull), box(size, 0.01), 300);
 }
 
-TEST(MeshBody, IsTheBoxesOfItsCellsWhereItIsNotConvex)
+// An L of 0.4 x 0.2 x 0.4 m, 0.1 m thick, with one corner in the origin.
+MeshShape l_mesh()
 {
-    // an L of 0.4 x 0.2 x 0.4 m, 0.1 m thick
     MeshShape mesh;
     for (const double y : {0.0, 0.2}) {
         for (const auto& [x, z] :
@@ -149,8 +149,13 @@ TEST(MeshBody, IsTheBoxesOfItsCellsWhereItIsNotConvex)
         mesh.triangles.push_back({k, k + 6, next + 6});
         mesh.triangles.push_back({k, next + 6, next});
     }
+    return mesh;
+}
+
+TEST(MeshBody, IsTheBoxesOfItsCellsWhereItIsNotConvex)
+{
     BodySettings body;
-    body.shape = mesh;
+    body.shape = l_mesh();
     body.spacing = 0.05;
     const ContactShape shape = contact_shape(body, 3);
     const auto* compound = std::get_if<Compound>(&shape);
@@ -159,6 +164,26 @@ TEST(MeshBody, IsTheBoxesOfItsCellsWhereItIsNotConvex)
     // the lattice fits the mesh here, so that the staircase is the mesh
     const double volume_of_l = 0.2 * (0.4 * 0.1 + 0.1 * 0.3);
     EXPECT_NEAR(mass_properties(shape, 1, 3).mass, volume_of_l, 1e-12);
+}
+
+TEST(MeshBody, HasTheMassOfWhatItEnclosesWhereItIsNotConvex)
+{
+    Scene scene;
+    scene.bodies.resize(1);
+    BodySettings& body = scene.bodies[0];
+    MeshShape mesh = l_mesh(); // about its centre of mass, as the reader of cases moves it
+    const Vec3 centre = (0.04 * Vec3(0.2, 0.1, 0.05) + 0.03 * Vec3(0.05, 0.1, 0.25)) / 0.07;
+    for (Vec3& corner : mesh.corners) {
+        corner -= centre;
+    }
+    body.shape = mesh;
+    body.spacing = 0.05;
+    body.density = 250;
+    body.mass = 250 * 0.2 * 0.07;
+    const Rigid rigid = make_rigid(scene);
+    const MassProperties parts = mass_properties(contact_shape(body, 3), 250, 3);
+    EXPECT_NEAR(rigid.bodies[0].mass.mass, body.mass, 1e-12);
+    EXPECT_LE((rigid.bodies[0].mass.inertia - parts.inertia).norm(), 1e-12 * parts.inertia.norm());
 }
 
 TEST_F(ParticleBody, IsACompoundWhereItIsNotConvex)

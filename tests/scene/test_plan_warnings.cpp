@@ -3,6 +3,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,6 +44,29 @@ TEST(PlanWarnings, OfThinAndTippingBodiesAreForWaterOnly)
         EXPECT_TRUE(warns(plank + water, words)) << words;
         EXPECT_FALSE(warns(plank, words)) << words << " in a scene without water";
     }
+}
+
+// A paddle between upright sides, its foot at a height over the floor.
+std::string paddle(double foot, const std::string& motion)
+{
+    return fmt::format("[time]\nend = 1.0\n[particles]\nspacing = 0.05\n[fluid]\n[[fluid.block]]\n"
+                       "shape = \"box\"\nmin = [0.5, 0, 0]\nmax = [2, 0.4, 0.5]\n[[wall]]\n"
+                       "name = \"flume\"\nshape = \"basin\"\nmin = [0, 0, 0]\n"
+                       "max = [2, 0.4, 1]\nopen = [\"+z\"]\n[[wall]]\nname = \"paddle\"\n"
+                       "shape = \"box\"\nmin = [0.3, 0.0, {}]\nmax = [0.5, 0.4, 1.0]\n{}",
+                       foot, motion);
+}
+
+TEST(PlanWarnings, OfAGapThroughWhichAPaddleLeaks)
+{
+    const std::string moves = "motion.velocity = [0.1, 0, 0]\n";
+    const std::string words = "\"paddle\" moves and leaves a gap";
+    EXPECT_TRUE(warns(paddle(0.05, moves), words));
+    EXPECT_TRUE(warns(paddle(0.1, moves), words));
+    EXPECT_FALSE(warns(paddle(0.02, moves), words)) << "no particle fits in";
+    EXPECT_FALSE(warns(paddle(0, moves), words));
+    EXPECT_FALSE(warns(paddle(0.4, moves), words)) << "meant";
+    EXPECT_FALSE(warns(paddle(0.05, ""), words)) << "it stands still";
 }
 
 } // namespace

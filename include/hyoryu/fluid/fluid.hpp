@@ -63,6 +63,9 @@ struct Fluid {
     LostParticles lost;
     bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
+    /// By body row: the share of its film forces that a particle keeps, 0 where the joint below it
+    /// carries the pressure; empty while no body has a joint.
+    std::vector<real> film_share;
 };
 
 /// Whether friction acts between the fluid and solids.

@@ -111,11 +111,12 @@ struct PlaneWall {
     Vec3 point{0, 0, 0};  // [m]
     Vec3 normal{0, 0, 1}; // unit, into the free space
 };
-/// The inside of a box; the sides named open have no wall.
+/// The inside of a box; the sides named open have no wall, the others are slabs outside it.
 struct BasinWall {
-    Vec3 min{0, 0, 0};          // [m]
-    Vec3 max{0, 0, 0};          // [m]
-    std::array<bool, 6> open{}; // -x +x -y +y -z +z
+    Vec3 min{0, 0, 0};               // [m]
+    Vec3 max{0, 0, 0};               // [m]
+    std::array<bool, 6> open{};      // -x +x -y +y -z +z
+    std::optional<double> thickness; // of the sides [m]; none: that of the rows of wall particles
 };
 /// The inside of a sphere, of a circle in two dimensions, for the fluid; bodies meet the box about
 /// it.
@@ -150,6 +151,7 @@ struct BodySettings {
     double spacing = 0;               // of its particles [m]; the scene's unless the user set one
     std::string material;
     bool fixed = false;
+    bool sealed = false;         // no water gets under it while it stands: `stands = "sealed"`
     std::array<bool, 6> locks{}; // x y z rx ry rz, in world axes
     Place place;
 };

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The signed distance to a closed triangle surface by a tree of boxes: O(log n) for n triangles.
+#pragma once
+
+#include "hyoryu/scene/shapes.hpp"
+
+#include <array>
+#include <vector>
+
+namespace hyoryu {
+
+/// The place of a surface that is nearest to a point.
+struct NearestPlace {
+    double distance = infinity; // of the point from it, negative inside [m]
+    Vec3 normal{0, 0, 1};       // unit: the way in which the distance grows fastest
+};
+
+/// A closed triangle surface. Plain data; the first child of a node follows it.
+struct TriangleTree {
+    struct Node {
+        Bounds box;
+        int right = -1;           // second child; -1: a leaf
+        int first = 0, count = 0; // range of its triangles, of all below it
+        Vec3 area{0, 0, 0};       // sum of area times normal [m2]
+        Vec3 middle{0, 0, 0};     // of the triangles, by area [m]
+        double radius = 0;        // from there to the farthest corner [m]
+    };
+    struct Triangle {
+        std::array<Vec3, 3> corner; // [m]
+        /// Any length: of the face, of its edges from corner k on, of its corners, weighted by
+        /// angles: on which side a point is, is the sign of the one of the nearest feature.
+        std::array<Vec3, 7> normal;
+    };
+    std::vector<Node> nodes;
+    std::vector<Triangle> triangles; // in the order of the leaves
+    /// The surface is connected, so that none of it can lie inside another part of it.
+    bool is_one_piece = false;
+};
+
+/// The tree of a closed surface whose triangles wind outwards.
+TriangleTree triangle_tree(const std::vector<Vec3>& corners,
+                           const std::vector<std::array<int, 3>>& triangles);
+
+/// The nearest place of the surface. The sign is that of the pseudonormal of the nearest feature
+/// (Baerentzen and Aanaes 2005); where parts may overlap, of the winding number (Barill et al.
+/// 2018, with one term). Distance infinity if it is farther away than `farthest`.
+NearestPlace nearest_place(const TriangleTree& tree, const Vec3& point, double farthest);
+
+} // namespace hyoryu

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Where a block of fluid may be filled in: outside of walls and of the blocks before it.
+#pragma once
+
+#include "hyoryu/scene/scene.hpp"
+#include "hyoryu/scene/solid_surface.hpp"
+
+#include <span>
+#include <vector>
+
+namespace hyoryu {
+
+/// The space that is free at time 0; distances in it are exact.
+class FreeSpace {
+public:
+    /// What walls and bodies leave.
+    explicit FreeSpace(const Scene& scene);
+    /// What walls and the blocks before it leave to a block.
+    FreeSpace(const Scene& scene, std::size_t block);
+
+    /// Numbers of obstacles: of all, of those that may be within a distance of a point [m].
+    std::span<const int> all() const { return all_; }
+    std::vector<int> about(const Vec3& point, double distance) const;
+
+    /// The nearest surface of some obstacles, with its normal into the free space.
+    NearestPlace nearest(const Vec3& point, std::span<const int> among) const;
+    /// Distance from what is not free [m], negative in it.
+    double clearance(const Vec3& point) const { return nearest(point, all_).distance; }
+    bool is_in_wall(const Vec3& point) const;
+
+private:
+    void number_obstacles();
+    Vec3 from(const SolidSurface& solid, const Vec3& point) const;
+
+    std::vector<SolidSurface> obstacles_; // walls, then the others
+    std::size_t walls_ = 0;
+    int dimensions_ = 3;
+    std::vector<int> all_;
+};
+
+/// Moves a point to a distance from those surfaces of some obstacles that are nearer; false if it
+/// is in one of them afterwards.
+bool step_off(const FreeSpace& space, std::span<const int> among, double distance, Vec3& point);
+
+} // namespace hyoryu

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "plan_gaps.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/fill.hpp"
+#include "hyoryu/scene/solid_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+// A wall as surfaces that can each be at a distance: a basin as its sides.
+std::vector<SolidSurface> parts_of(const Scene& scene, const Wall& wall)
+{
+    const double thickness = wall_layers(scene.fluid->smoothing_ratio) * scene.spacing;
+    const SolidSurface whole = surface_of(wall, thickness, scene.dimensions);
+    const auto* basin = std::get_if<HollowBox>(&whole.shape);
+    if (basin == nullptr) {
+        return {whole};
+    }
+    std::vector<SolidSurface> sides;
+    for (const Bounds& side : basin->sides) {
+        SolidSurface part = whole;
+        part.shape = SolidBox{(side.max - side.min) / 2};
+        part.centre = (side.min + side.max) / 2;
+        sides.push_back(part);
+    }
+    return sides;
+}
+
+double distance(const SolidSurface& solid, const Vec3& point, int dimensions)
+{
+    Vec3 r = point - solid.centre;
+    r.y() = dimensions == 2 ? 0 : r.y();
+    return nearest_place(solid, solid.rotation.conjugate() * r).distance;
+}
+
+// From the surface of a wall, whose particles are at these points, to another solid [m].
+double gap_between(const SolidSurface& own, std::span<const Vec3> points, const SolidSurface& other,
+                   int dimensions)
+{
+    double gap = infinity;
+    for (const Vec3& p : points) {
+        gap = std::min(gap, distance(other, p, dimensions) + distance(own, p, dimensions));
+    }
+    return gap;
+}
+
+// The particles of a wall.
+std::vector<Vec3> points_of(const Filling& filling, std::size_t wall)
+{
+    std::vector<Vec3> points;
+    for (std::size_t k = 0; k < filling.wall.size(); ++k) {
+        if (filling.wall_owner[k] == static_cast<std::int32_t>(wall)) {
+            points.push_back(filling.wall[k]);
+        }
+    }
+    return points;
+}
+
+// Gaps that are larger are meant: four spacings, or a tenth of the size of the obstacle [m].
+double largest_slip(const Scene& scene, const SolidWall& solid)
+{
+    const Bounds box = bounds({&solid.shape, solid.centre, solid.rotation, scene.dimensions});
+    return std::max(4 * scene.spacing, 0.1 * (box.max - box.min).maxCoeff());
+}
+
+void warn(const Scene& scene, std::size_t wall, const Wall& other, double gap, Plan& plan)
+{
+    Diagnostic note = diagnostic_at(
+        scene, scene.walls[wall].place, fmt::format("wall[{}]", wall),
+        fmt::format("\"{}\" moves and leaves a gap of {:.3g} m, {:.2g} spacings, to \"{}\": water "
+                    "passes through it",
+                    scene.walls[wall].name, gap, gap / scene.spacing, other.name),
+        "let it reach to half a spacing from that wall");
+    note.severity = Diagnostic::Severity::warning;
+    plan.warnings.push_back(std::move(note));
+}
+
+} // namespace
+
+void warn_about_gaps(const Scene& scene, const Filling& filling, Plan& plan)
+{
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        const auto* solid = std::get_if<SolidWall>(&scene.walls[w].geometry);
+        if (solid == nullptr || !moves(scene.walls[w].motion)) {
+            continue;
+        }
+        const SolidSurface own = parts_of(scene, scene.walls[w]).front();
+        const std::vector<Vec3> points = points_of(filling, w);
+        for (const Wall& other : scene.walls) {
+            if (moves(other.motion)) {
+                continue;
+            }
+            for (const SolidSurface& part : parts_of(scene, other)) {
+                const double gap = gap_between(own, points, part, scene.dimensions);
+                if (gap > scene.spacing * (1 - 1e-6) && gap < largest_slip(scene, *solid)) {
+                    warn(scene, w, other, gap, plan);
+                }
+            }
+        }
+    }
+}
+
+} // namespace hyoryu

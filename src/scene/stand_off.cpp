@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "stand_off.hpp"
+
+#include "displace.hpp"
+#include "free_space.hpp"
+
+#include "hyoryu/core/cell_grid.hpp"
+#include "hyoryu/core/parallel.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+// In spacings.
+constexpr double clearly = 0.45; // nearer than that to a surface; cells are rounded to as near
+constexpr double apart = 0.875;  // what pairs are moved to
+constexpr double around = 2.5;   // of what was moved: what gives way
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+// Calls f for the points in the cells about a place.
+void for_cells_about(const CellGrid& grid, const Vec3& place, const auto& f)
+{
+    const auto home = grid.cell_of(place);
+    const auto first = [&](std::size_t a) { return std::max<Index>(home[a] - 1, 0); };
+    const auto last = [&](std::size_t a) { return std::min(home[a] + 2, grid.count[a]); };
+    for (Index z = first(2); z < last(2); ++z) {
+        for (Index y = first(1); y < last(1); ++y) {
+            const Index row = (z * grid.count[1] + y) * grid.count[0];
+            for (Index k = grid.start[at(row + first(0))]; k < grid.start[at(row + last(0))]; ++k) {
+                f(at(grid.order[at(k)]));
+            }
+        }
+    }
+}
+
+// Rows of the fluid that are clearly too near to a body.
+std::vector<std::uint8_t> too_near(const Scene& scene, const std::vector<Vec3>& points)
+{
+    std::vector<std::uint8_t> near(points.size(), 0);
+    for (const BodySettings& body : scene.bodies) {
+        const Placed shape{&body.shape, body.position, body.rotation, scene.dimensions};
+        Bounds box = bounds(shape);
+        box.min -= Vec3::Constant(scene.spacing);
+        box.max += Vec3::Constant(scene.spacing);
+        parallel_for(0, static_cast<Index>(points.size()), [&](Index k) {
+            const Vec3& p = points[at(k)];
+            const bool in_box =
+                (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+            if (in_box && signed_distance(shape, p) < clearly * scene.spacing) {
+                near[at(k)] = 1;
+            }
+        });
+    }
+    return near;
+}
+
+// The rows within a distance of marked ones.
+std::vector<std::uint8_t> about(const std::vector<Vec3>& points,
+                                const std::vector<std::uint8_t>& marked, double distance)
+{
+    CellGrid grid;
+    build(grid, points, 0, distance);
+    std::vector<std::uint8_t> near = marked;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        if (marked[k] != 0) {
+            for_cells_about(grid, points[k], [&](std::size_t j) {
+                near[j] = (points[k] - points[j]).norm() < distance ? 1 : near[j];
+            });
+        }
+    }
+    return near;
+}
+
+// Half of what is lacking of their distance in every pair of point k, away from the other [m].
+Vec3 way_apart(const CellGrid& grid, const std::vector<Vec3>& points, std::size_t k,
+               double distance)
+{
+    Vec3 way = Vec3::Zero();
+    for_cells_about(grid, points[k], [&](std::size_t j) {
+        const Vec3 r = points[k] - points[j];
+        const double length = r.norm();
+        if (j != k && length < distance) {
+            const Vec3 sideways = (k < j ? 1.0 : -1.0) * Vec3::UnitX();
+            way += 0.5 * (distance - length) * (length > 0 ? Vec3(r / length) : sideways);
+        }
+    });
+    return way;
+}
+
+// Moves pairs apart of which at least one is free to, and keeps those off the surfaces.
+void relax(const FreeSpace& space, double spacing, const std::vector<std::uint8_t>& is_free,
+           std::vector<Vec3>& points)
+{
+    constexpr int rounds = 40;
+    constexpr double roam = 3; // spacings: farther than anything is moved
+    std::vector<std::vector<int>> solids(points.size());
+    parallel_for(0, static_cast<Index>(points.size()),
+                 [&](Index k) { solids[at(k)] = space.about(points[at(k)], roam * spacing); });
+    for (int round = 0; round < rounds; ++round) {
+        CellGrid grid;
+        build(grid, points, 0, spacing);
+        std::vector<Vec3> moved = points;
+        parallel_for(0, static_cast<Index>(points.size()), [&](Index k) {
+            if (is_free[at(k)] != 0) {
+                Vec3& p = moved[at(k)];
+                p += way_apart(grid, points, at(k), apart * spacing);
+                if (space.nearest(p, solids[at(k)]).distance < clearly * spacing) {
+                    step_off(space, solids[at(k)], spacing / 2, p);
+                }
+            }
+        });
+        points = std::move(moved);
+    }
+}
+
+} // namespace
+
+void stand_off_bodies(const Scene& scene, Filling& filling)
+{
+    const double spacing = scene.spacing;
+    const std::vector<std::uint8_t> near = too_near(scene, filling.fluid);
+    if (std::ranges::find(near, 1) == near.end()) {
+        return;
+    }
+    const std::vector<std::uint8_t> giving = about(filling.fluid, near, around * spacing);
+    const std::vector<std::uint8_t> seen = about(filling.fluid, giving, spacing);
+    std::vector<std::size_t> rows;
+    std::vector<Vec3> points;
+    std::vector<std::uint8_t> is_free;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        if (seen[k] != 0) {
+            rows.push_back(k);
+            points.push_back(filling.fluid[k]);
+            is_free.push_back(giving[k]);
+        }
+    }
+    relax(FreeSpace(scene), spacing, is_free, points);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        Vec3& p = filling.fluid[rows[k]];
+        if (scene.gravity.norm() > 0) {
+            filling.fluid_depth[rows[k]] += height(scene, p) - height(scene, points[k]);
+        }
+        p = points[k];
+    }
+}
+
+} // namespace hyoryu
