@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "joint_gaps.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// The triangles of a mesh wall that a body may touch; searched anew when it has moved on.
+bool near_mesh(NearTriangles& near, const RayWall& wall, const Vec3& centre, double reach)
+{
+    if (!((centre - near.at).norm() <= near.margin)) {
+        near.at = centre;
+        near.margin = reach / 4;
+        const Vec3 half = Vec3::Constant(reach + near.margin);
+        near.triangles = triangles_near(wall, centre - half, centre + half);
+    }
+    return !near.triangles.empty();
+}
+
+void find_near_walls(JointTables& tables, int b, const Vec3& centre)
+{
+    BodyJoints& body = tables.bodies[at(b)];
+    const double reach = tables.solids[at(b)].reach + tables.reach;
+    for (std::size_t w = 0; w < tables.walls.size(); ++w) {
+        const RayWall& wall = tables.walls[w];
+        const Vec3 from_wall = centre - tables.displaced[w];
+        const bool near = wall.triangles.empty()
+                              ? near_wall(wall, from_wall, reach)
+                              : near_mesh(body.meshes[w], wall, from_wall, reach);
+        if (near) {
+            body.near.push_back(-1 - static_cast<int>(w));
+        }
+    }
+}
+
+// Spheres about the bodies meet; those that start left of its right end are looked at.
+void find_near_bodies(JointTables& tables, const std::vector<Pose>& poses, int b)
+{
+    std::vector<int>& near = tables.bodies[at(b)].near;
+    const std::size_t walls = near.size();
+    const Vec3& centre = poses[at(b)].position;
+    const double reach = tables.solids[at(b)].reach + tables.reach;
+    const double left = centre.x() - reach - 2 * tables.largest_reach;
+    auto other = std::lower_bound(tables.along_x.begin(), tables.along_x.end(),
+                                  std::pair{left, std::numeric_limits<int>::min()});
+    for (; other != tables.along_x.end() && other->first <= centre.x() + reach; ++other) {
+        const int o = other->second;
+        const double most = reach + tables.solids[at(o)].reach;
+        if (o != b && (poses[at(o)].position - centre).squaredNorm() <= sq(most)) {
+            near.push_back(o);
+        }
+    }
+    std::sort(near.begin() + static_cast<Index>(walls), near.end());
+}
+
+} // namespace
+
+JointTables joint_tables(const Rigid& rigid, double reach)
+{
+    JointTables tables;
+    const int dimensions = rigid.settings.dimensions;
+    tables.reach = reach;
+    for (const Boundary& boundary : rigid.boundaries) {
+        tables.walls.push_back(ray_wall(boundary, dimensions));
+    }
+    tables.displaced.resize(tables.walls.size());
+    for (const Body& body : rigid.bodies) {
+        tables.solids.push_back(ray_solid(body.shape, dimensions));
+        tables.largest_reach = std::max(tables.largest_reach, tables.solids.back().reach);
+    }
+    tables.bodies.resize(rigid.bodies.size());
+    tables.along_x.resize(rigid.bodies.size());
+    for (BodyJoints& body : tables.bodies) {
+        body.meshes.resize(tables.walls.size());
+    }
+    return tables;
+}
+
+void find_near(JointTables& tables, const Rigid& rigid, const std::vector<Pose>& poses, double time)
+{
+    for (std::size_t w = 0; w < tables.walls.size(); ++w) {
+        tables.displaced[w] = displacement(rigid.boundaries[w].motion, time);
+    }
+    for (std::size_t b = 0; b < poses.size(); ++b) {
+        tables.along_x[b] = {poses[b].position.x() - tables.solids[b].reach, static_cast<int>(b)};
+    }
+    std::ranges::sort(tables.along_x);
+    parallel_blocks(0, static_cast<Index>(poses.size()), [&](Index b) {
+        tables.bodies[at(b)].near.clear();
+        find_near_walls(tables, static_cast<int>(b), poses[at(b)].position);
+        find_near_bodies(tables, poses, static_cast<int>(b));
+    });
+}
+
+OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, int b,
+                     const Ray& ray)
+{
+    OtherHit first;
+    const BodyJoints& body = tables.bodies[at(b)];
+    const auto keep = [&](int other, const std::optional<RayHit>& hit) {
+        if (hit && hit->enter < first.hit.enter) {
+            first = {other, *hit};
+        }
+    };
+    for (const int other : body.near) {
+        if (other < 0) {
+            const auto w = at(-1 - other);
+            keep(other, enters(tables.walls[w], {ray.origin - tables.displaced[w], ray.direction},
+                               body.meshes[w].triangles));
+            continue;
+        }
+        const Pose& pose = poses[at(other)];
+        const Quat back = pose.orientation.conjugate();
+        auto hit = enters(tables.solids[at(other)],
+                          {back * (ray.origin - pose.position), back * ray.direction});
+        if (hit) {
+            hit->normal = pose.orientation * hit->normal;
+        }
+        keep(other, hit);
+    }
+    return first;
+}
+
+bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const Joins& joins)
+{
+    constexpr double facing = -0.8;  // cosine of the two normals, at most
+    constexpr double overlap = 0.25; // by how much surfaces may overlap, over the reach
+    BodyJoints& body = tables.bodies[at(b)];
+    const Mat3 R = poses[at(b)].orientation.toRotationMatrix();
+    bool any = false;
+    body.nodes.resize(body.faces.cells.size());
+    for (std::size_t c = 0; c < body.nodes.size(); ++c) {
+        const JointCell& cell = body.faces.cells[c];
+        JointNode& node = body.nodes[c];
+        node = {.place = poses[at(b)].position + R * cell.centre,
+                .normal = R * body.faces.faces[at(cell.face)].normal};
+        const OtherHit found = first_other(tables, poses, b, {node.place, node.normal});
+        const double gap = found.hit.enter;
+        if (found.other != JointNode::none && gap >= -overlap * tables.reach &&
+            gap < tables.reach && found.hit.normal.dot(node.normal) < facing &&
+            joins(b, found.other, node.normal)) {
+            node.other = found.other;
+            node.gap = gap;
+            any = true;
+        }
+    }
+    return any;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Which cells of a body's faces lie opposite another solid, and how far off.
+#pragma once
+
+#include "joint_faces.hpp"
+#include "joint_surface.hpp"
+
+#include <functional>
+#include <limits>
+
+namespace hyoryu {
+
+/// A cell of a face in this step.
+struct JointNode {
+    static constexpr int none = std::numeric_limits<int>::max();
+    int other = none;     // opposite: a body, -1 - (index of the boundary), or none
+    double gap = 0;       // [m]
+    double opening = 0;   // speed at which the two faces part [m/s]
+    double mass = 0;      // that parts from the other side: reduced of two bodies [kg]
+    double pressure = 0;  // of the seepage [Pa]
+    double film = 1;      // share of its film forces that a particle behind the cell keeps
+    double carried = 0;   // pressure that the joint adds to that of the particles [Pa]
+    Vec3 place{0, 0, 0};  // of its centre [m]
+    Vec3 normal{0, 0, 1}; // of the face, outward
+};
+
+/// Triangles of a mesh wall near a body, good while the body stays within `margin` of `at`.
+struct NearTriangles {
+    std::vector<int> triangles;
+    Vec3 at = Vec3::Constant(infinity); // seen from the wall [m]
+    double margin = 0;                  // [m]
+};
+
+/// A body with its joints.
+struct BodyJoints {
+    bool has_faces = false;
+    BodyFaces faces;
+    std::vector<int> near;             // other solids that it may touch, walls first
+    std::vector<NearTriangles> meshes; // by wall
+    std::vector<JointNode> nodes;      // by cell; empty while no cell lies opposite anything
+    std::vector<std::uint8_t> joined;  // by face: it has touched what lies opposite
+};
+
+/// All surfaces of the scene.
+struct JointTables {
+    std::vector<RayWall> walls;
+    std::vector<Vec3> displaced;  // walls, at the time of the step [m]
+    std::vector<RaySolid> solids; // bodies
+    std::vector<BodyJoints> bodies;
+    std::vector<std::pair<double, int>> along_x; // bodies by the lower end of their spheres
+    double largest_reach = 0;
+    double reach = 0; // widest gap that may belong to a joint [m]
+};
+
+/// The tables of a scene whose joints are at most `reach` wide.
+JointTables joint_tables(const Rigid& rigid, double reach);
+
+/// Moves the walls to a time and lists for every body which solids are near it.
+void find_near(JointTables& tables, const Rigid& rigid, const std::vector<Pose>& poses,
+               double time);
+
+/// Where a ray from body b, in world axes, first enters another solid that is near.
+struct OtherHit {
+    int other = JointNode::none;
+    RayHit hit;
+};
+OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, int b,
+                     const Ray& ray);
+
+/// Whether the joint of body b and another solid is open to water and belongs to the cells of b;
+/// `normal` is that of the face, outward.
+using Joins = std::function<bool(int b, int other, const Vec3& normal)>;
+
+/// Finds what lies opposite each cell of body b. Whether anything does.
+bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const Joins& joins);
+
+} // namespace hyoryu

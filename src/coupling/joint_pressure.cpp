@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// Seepage through a gap of uniform width: div grad (p - rho0 g . x) = 0 within the joint, p of the
+// fluid at rims and where particles of the fluid have come in between, no flow through rims that
+// another solid closes. Finite volumes on the cells of a face; p >= 0 by projection, since the
+// joint bears no tension (successive over-relaxation with projection: Cryer 1971).
+#include "joint_pressure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hyoryu {
+
+namespace {
+
+// Sweeps end when one changes less than this of the largest pressure: round-off in two dimensions,
+// where they are cheap and mirrored scenes have to stay so, less in space.
+constexpr int most_sweeps = 2000;
+constexpr double settled_flat = 1e-14;
+constexpr double settled_in_space = 1e-8;
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// A way for water between a cell and its surroundings.
+struct Way {
+    double conductance = 0; // of a uniform gap, relative
+    double pressure = 0;    // outside, moved to the centre of the cell [Pa]
+    double enters = 0;      // share of the conductance by which water comes in; all lets it out
+};
+
+// Fluid particles between the two faces.
+struct Filled {
+    double taken = 0;    // share of the pressure that they transmit, 0 to 1
+    double pressure = 0; // theirs, at the centre of the cell [Pa]
+    double trapped = 0;  // share of a gap too narrow for a row of them that they fill, 0 to 1
+};
+
+// Sums W over a row of the lattice at a distance z, from the point first_x on.
+double row_sum(const Fluid& fluid, int first_x, double z)
+{
+    const double dp = fluid.parameters.spacing;
+    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
+    const int across = fluid.parameters.dimensions == 3 ? reach : 0;
+    double total = 0;
+    for (int x = first_x; x <= reach; ++x) {
+        for (int y = -across; y <= across; ++y) {
+            const Vec<real> r{x * dp, y * dp, z};
+            total += fluid.parameters.formulation == FormulationKind::mps ? fluid.mps_kernel(r).w
+                                                                          : fluid.kernel(r).w;
+        }
+    }
+    return total;
+}
+
+// The joint of one face.
+class FaceJoint {
+public:
+    FaceJoint(JointTables& tables, const std::vector<Pose>& poses, int b, const JointFace& face,
+              const ParticlePressure& fluid)
+        : tables_(tables), poses_(poses), b_(b), face_(face), fluid_(fluid),
+          body_(tables.bodies[at(b)]), edges_(face.v == Vec3(0, 0, 0) ? 2 : 4)
+    {
+    }
+
+    void solve()
+    {
+        const Index cells = face_.last - face_.first;
+        inside_.assign(at(cells), Filled{});
+        ways_.assign(at(4 * cells), Way{});
+        bool open = false;
+        for (int c = face_.first; c < face_.last; ++c) {
+            if (joined(c)) {
+                open = find_ways(c) || open;
+            }
+        }
+        if (!open) { // dry, or closed all around: left to the films
+            for (int c = face_.first; c < face_.last; ++c) {
+                node(c).other = JointNode::none;
+            }
+            return;
+        }
+        start();
+        relax();
+        const double drop = inflow_drop();
+        for (int c = face_.first; c < face_.last; ++c) {
+            if (joined(c)) {
+                hand_over(c, drop);
+            }
+        }
+    }
+
+private:
+    const JointCell& cell(int c) const { return body_.faces.cells[at(c)]; }
+    JointNode& node(int c) { return body_.nodes[at(c)]; }
+    bool joined(int c) { return c >= 0 && node(c).other != JointNode::none; }
+    Way& way(int c, int edge) { return ways_[at(4 * (c - face_.first) + edge)]; }
+    Filled& inside(int c) { return inside_[at(c - face_.first)]; }
+
+    double conductance(int edge) const
+    {
+        return edge < 2 ? face_.dv / face_.du : face_.du / face_.dv;
+    }
+
+    // All ways out of a cell but those to its neighbours; whether water enters by any.
+    bool find_ways(int c)
+    {
+        look_inside(c);
+        bool open = false;
+        for (int edge = 0; edge < edges_; ++edge) {
+            if (!joined(cell(c).next[at(edge)])) {
+                way(c, edge) = rim(c, edge);
+                open = open || way(c, edge).enters > 0;
+            }
+        }
+        return open;
+    }
+
+    // Particles of the fluid between the faces, for which there is room from half a spacing on.
+    void look_inside(int c)
+    {
+        double wet = 0;
+        double pressure = 0;
+        for (int k = cell(c).first; k < cell(c).inner; ++k) {
+            const std::size_t row = fluid_.first + at(body_.faces.particles[at(k)]);
+            wet += fluid_.shepard[row];
+            pressure += fluid_.shepard[row] * pressure_at(row, node(c).place);
+        }
+        const double width = node(c).gap / fluid_.spacing;
+        const int outer = std::max(cell(c).inner - cell(c).first, 1);
+        const double rows = wet / (outer * fluid_.sums.row(width));
+        inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
+                     wet > 0 ? pressure / wet : 0,
+                     width < 1 ? std::min(rows / std::max(width, 1e-3), 1.0) : 0};
+    }
+
+    // Whether the particles at a cell are too far from every open rim to see fluid outside.
+    bool sheltered(int c)
+    {
+        for (int edge = 0; edge < edges_; ++edge) {
+            const double size = edge < 2 ? face_.du : face_.dv;
+            int k = c;
+            for (double seen = 0; seen < fluid_.support; seen += size) {
+                const int next = cell(k).next[at(edge)];
+                if (!joined(next)) {
+                    if (way(k, edge).conductance > 0) {
+                        return false;
+                    }
+                    break;
+                }
+                k = next;
+            }
+        }
+        return true;
+    }
+
+    // Water or air beyond the rim, or a solid nearer than a spacing that closes it.
+    Way rim(int c, int edge)
+    {
+        const Pose& pose = poses_[at(b_)];
+        const Vec3 place = pose.position + pose.orientation * cell(c).rim[at(edge)];
+        const Vec3 outward =
+            pose.orientation * ((edge % 2 == 0 ? -1 : 1) * (edge < 2 ? face_.u : face_.v));
+        const Ray ray{place - 0.5 * fluid_.spacing * node(c).normal, outward};
+        constexpr double room = 0.9; // spacings that a particle needs
+        if (first_other(tables_, poses_, b_, ray).hit.enter < room * fluid_.spacing) {
+            return {};
+        }
+        Way way{2 * conductance(edge), 0, 0};
+        if (cell(c).probe[at(edge)] >= 0) {
+            const std::size_t row = fluid_.first + at(cell(c).probe[at(edge)]);
+            const double wet = std::min(2 * fluid_.shepard[row] / fluid_.sums.rim, 1.0);
+            way.pressure = wet * pressure_at(row, place);
+            way.enters = wet;
+        }
+        way.pressure += fluid_.weight.dot(node(c).place - place);
+        return way;
+    }
+
+    // What a solid particle took over, moved to a place.
+    double pressure_at(std::size_t row, const Vec3& place) const
+    {
+        return std::max(fluid_.p[row] + fluid_.weight.dot(place - fluid_.x[row]), 0.0);
+    }
+
+    // The hydrostatic field of the mean of the ways by which water enters.
+    void start()
+    {
+        double head = 0;
+        double weight = 0;
+        const auto add = [&](int c, const Way& w) {
+            const double share = w.enters * w.conductance;
+            head += share * (w.pressure - fluid_.weight.dot(node(c).place));
+            weight += share;
+        };
+        for (int c = face_.first; c < face_.last; ++c) {
+            for (int edge = 0; edge < edges_; ++edge) {
+                add(c, way(c, edge));
+            }
+        }
+        for (int c = face_.first; c < face_.last; ++c) {
+            const double p = weight > 0 ? head / weight + fluid_.weight.dot(node(c).place) : 0.0;
+            node(c).pressure = joined(c) ? std::max(p, 0.0) : 0;
+        }
+    }
+
+    // The pressure that a cell would have between its neighbours and ways.
+    double balanced(int c)
+    {
+        const double own = node(c).pressure;
+        double total = 0;
+        double weight = 0;
+        for (int edge = 0; edge < edges_; ++edge) {
+            const int next = cell(c).next[at(edge)];
+            const Way& out = way(c, edge);
+            if (joined(next)) {
+                const double g = conductance(edge);
+                const Vec3 step = node(c).place - node(next).place;
+                total += g * (node(next).pressure + fluid_.weight.dot(step));
+                weight += g;
+            } else {
+                const double g = out.conductance * (out.pressure > own ? out.enters : 1);
+                total += g * out.pressure;
+                weight += g;
+            }
+        }
+        return weight > 0 ? total / weight : own;
+    }
+
+    // What flows in through the rim while the faces part has to be sped up: by Bernoulli's law the
+    // pressure falls by rho u^2 / 2, u the flow over the section of the rim by which water enters;
+    // what is dry lets in air. The section counts as a spacing high at least: the unevenness of
+    // real joints. Implicit in the speed, which is taken to act on the mass alone, so that the drop
+    // never turns it round.
+    double inflow_drop()
+    {
+        double flow = 0;
+        double area = 0;
+        double section = 0;
+        double mass = infinity;
+        for (int c = face_.first; c < face_.last; ++c) {
+            if (!joined(c)) {
+                continue;
+            }
+            flow += cell(c).area * node(c).opening;
+            area += cell(c).area;
+            mass = std::min(mass, node(c).mass);
+            for (int edge = 0; edge < edges_; ++edge) {
+                const double length = edge < 2 ? face_.dv : face_.du;
+                section += way(c, edge).enters * length * std::max(node(c).gap, fluid_.spacing);
+            }
+        }
+        if (!(flow > 0) || !(section > 0)) {
+            return 0;
+        }
+        // m v' = -k v^2, k = rho A^3 / (2 section^2)
+        const double k = fluid_.density * area * sq(area / section) / 2;
+        const double rate = 2 * k * fluid_.dt / mass;
+        const double v = flow / area;
+        const double later = rate * v > 1e-12 ? (std::sqrt(1 + 2 * rate * v) - 1) / rate : v;
+        return k * sq(later) / area;
+    }
+
+    // The joint adds what the particles in it do not transmit yet: those that come first, drawn
+    // into a gap that opens, are without pressure. At two spacings it is left to them alone.
+    // What closing faces have trapped, at more than the pressure of the seepage, holds them apart:
+    // it did so before they came near enough for a joint, and goes on to. Of a gap w wide it
+    // fills all with w/dp of a row.
+    void hand_over(int c, double drop)
+    {
+        JointNode& n = node(c);
+        n.pressure = std::max(n.pressure - drop, 0.0);
+        const Filled& in = inside(c);
+        const bool trapped = in.trapped * in.pressure > n.pressure && sheltered(c);
+        const double taken = trapped ? std::max(in.taken, in.trapped) : in.taken;
+        const double joint = std::clamp(4 - 2 * n.gap / fluid_.spacing, 0.0, 1.0);
+        n.film = 1 - joint * (1 - taken);
+        n.carried = joint * std::max(n.pressure - taken * in.pressure, 0.0);
+    }
+
+    void relax()
+    {
+        const double along = std::sqrt(static_cast<double>(face_.last - face_.first));
+        const double n = edges_ == 2 ? sq(along) : along;
+        const double omega = 2 / (1 + std::sin(std::numbers::pi / (n + 1)));
+        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+            double change = 0;
+            double largest = 0;
+            for (int c = face_.first; c < face_.last; ++c) {
+                if (!joined(c)) {
+                    continue;
+                }
+                const double before = node(c).pressure;
+                node(c).pressure = std::max(before + omega * (balanced(c) - before), 0.0);
+                change = std::max(change, std::abs(node(c).pressure - before));
+                largest = std::max(largest, node(c).pressure);
+            }
+            if (change <= (edges_ == 2 ? settled_flat : settled_in_space) * largest) {
+                return;
+            }
+        }
+    }
+
+    JointTables& tables_;
+    const std::vector<Pose>& poses_;
+    int b_;
+    const JointFace& face_;
+    const ParticlePressure& fluid_;
+    BodyJoints& body_;
+    int edges_;
+    std::vector<Filled> inside_; // by cell
+    std::vector<Way> ways_;      // by cell and edge
+};
+
+} // namespace
+
+double LatticeSums::row(double width) const
+{
+    const double place = steps * std::clamp(width - 1, 0.0, 1.0);
+    const auto k = std::min(static_cast<int>(place), steps - 1);
+    return between[at(k)] + (place - k) * (between[at(k + 1)] - between[at(k)]);
+}
+
+LatticeSums lattice_sums(const Fluid& fluid)
+{
+    const double dp = fluid.parameters.spacing;
+    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
+    LatticeSums sums;
+    for (int k = 0; k <= LatticeSums::steps; ++k) {
+        // Solid particles stand half a spacing behind their face.
+        const double width = 1 + static_cast<double>(k) / LatticeSums::steps;
+        sums.between[at(k)] = row_sum(fluid, -reach, (1 + width) / 2 * dp);
+    }
+    sums.rim = row_sum(fluid, 1, 0);
+    return sums;
+}
+
+void solve_pressure(JointTables& tables, const std::vector<Pose>& poses, int b,
+                    const ParticlePressure& fluid)
+{
+    for (const JointFace& face : tables.bodies[at(b)].faces.faces) {
+        FaceJoint(tables, poses, b, face, fluid).solve();
+    }
+}
+
+} // namespace hyoryu

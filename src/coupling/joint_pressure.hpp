@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The pressure in the joints of one body, from that of the fluid at their rims.
+#pragma once
+
+#include "joint_gaps.hpp"
+
+namespace hyoryu {
+
+/// Sums W over rows of the lattice of fluid particles as a solid particle sees them [1/m^d].
+struct LatticeSums {
+    static constexpr int steps = 8;
+    /// Of a row in the middle between faces 1, 1 + 1/8, ... 2 spacings apart.
+    std::array<double, steps + 1> between{};
+    double rim = 0; // of half a row that begins a spacing away, beside the particle
+
+    /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1 counts
+    /// as 1.
+    double row(double width) const;
+};
+LatticeSums lattice_sums(const Fluid& fluid);
+
+/// What the particles show to the joints.
+struct ParticlePressure {
+    std::span<const Vec3> x;       // of all rows [m]
+    std::span<const real> p;       // [Pa]; of solids what they took over from the fluid
+    std::span<const real> shepard; // of solids: sum W over the fluid [1/m^d]
+    std::size_t first = 0;         // row of the first particle of the body
+    double spacing = 0;            // of the fluid [m]
+    double support = 0;            // radius of its kernel [m]
+    Vec3 weight{0, 0, 0};          // rho0 g [N/m3]
+    LatticeSums sums;
+    double density = 0; // rho0 [kg/m3]
+    double dt = 0;      // of the step [s]
+};
+
+/// Pressures of all nodes of body b whose gaps are known.
+void solve_pressure(JointTables& tables, const std::vector<Pose>& poses, int b,
+                    const ParticlePressure& fluid);
+
+} // namespace hyoryu

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+#include "joint_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+Vec3 mean_of(const std::vector<Vec3>& points)
+{
+    Vec3 total = Vec3::Zero();
+    for (const Vec3& p : points) {
+        total += p;
+    }
+    return total / static_cast<double>(points.size());
+}
+
+ConvexPiece piece_of(const Polytope& shape, int dimensions)
+{
+    ConvexPiece piece;
+    const Vec3 inside = mean_of(shape.corners);
+    for (const std::vector<int>& face : faces_of(shape, dimensions)) {
+        if (const auto side = side_through(shape, face, inside)) {
+            piece.sides.push_back(*side);
+        }
+    }
+    return piece;
+}
+
+// Narrows the stretch of a ray to where a + b t + c t^2 <= 0, c >= 0. False if nothing is left.
+bool clip_round(double a, double b, double c, RayHit& hit)
+{
+    if (c < 1e-12) {
+        return a <= 0;
+    }
+    const double root = b * b - 4 * a * c;
+    if (root < 0) {
+        return false;
+    }
+    const double first = (-b - std::sqrt(root)) / (2 * c);
+    const double last = (-b + std::sqrt(root)) / (2 * c);
+    if (first > hit.enter) {
+        hit.enter = first;
+        hit.normal.setZero(); // of the round part, set by the caller
+    }
+    hit.leave = std::min(hit.leave, last);
+    return hit.enter <= hit.leave;
+}
+
+bool clip_side(const HalfSpaceOf& side, const Ray& ray, RayHit& hit)
+{
+    const double slope = side.normal.dot(ray.direction);
+    const double room = side.offset - side.normal.dot(ray.origin);
+    if (std::abs(slope) < 1e-12) {
+        return room >= 0;
+    }
+    const double at = room / slope;
+    if (slope > 0) {
+        hit.leave = std::min(hit.leave, at);
+    } else if (at > hit.enter) {
+        hit.enter = at;
+        hit.normal = side.normal;
+    }
+    return hit.enter <= hit.leave;
+}
+
+std::optional<RayHit> enters(const ConvexPiece& piece, const Ray& ray)
+{
+    RayHit hit{-infinity, infinity, Vec3::Zero()};
+    for (const HalfSpaceOf& side : piece.sides) {
+        if (!clip_side(side, ray, hit)) {
+            return std::nullopt;
+        }
+    }
+    if (piece.round != ConvexPiece::Round::none) {
+        const Vec3 across = piece.round == ConvexPiece::Round::ball ? Vec3(1, 1, 1) : Vec3(0, 1, 1);
+        const Vec3 o = ray.origin.cwiseProduct(across);
+        const Vec3 d = ray.direction.cwiseProduct(across);
+        if (!clip_round(o.squaredNorm() - sq(piece.radius), 2 * o.dot(d), d.squaredNorm(), hit)) {
+            return std::nullopt;
+        }
+        if (hit.normal.squaredNorm() == 0) {
+            hit.normal = (o + hit.enter * d) / piece.radius;
+        }
+    }
+    return hit;
+}
+
+void add_polytope(RaySolid& solid, const Polytope& shape, int dimensions)
+{
+    solid.pieces.push_back(piece_of(shape, dimensions));
+    for (const Vec3& corner : shape.corners) {
+        solid.reach = std::max(solid.reach, corner.norm());
+    }
+}
+
+RayWall walls_of(const Basin& basin)
+{
+    RayWall wall;
+    wall.low = basin.min;
+    wall.high = basin.max;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        const Vec3 unit = Vec3::Unit(axis);
+        if (!basin.open[2 * k]) {
+            wall.half_spaces.push_back({unit, basin.min[axis]});
+        }
+        if (!basin.open[2 * k + 1]) {
+            wall.half_spaces.push_back({-unit, -basin.max[axis]});
+        }
+        if (basin.open[2 * k] && basin.open[2 * k + 1]) { // both sides open: no wall along this axis
+            wall.low[axis] = -infinity;
+            wall.high[axis] = infinity;
+        }
+    }
+    return wall;
+}
+
+RayWall walls_of(const MeshSurface& mesh)
+{
+    RayWall wall;
+    for (const auto& corners : mesh.triangles) {
+        std::array<Vec3, 3> triangle;
+        for (std::size_t k = 0; k < 3; ++k) {
+            triangle[k] = mesh.position +
+                          mesh.orientation * mesh.corners[static_cast<std::size_t>(corners[k])];
+        }
+        wall.boxes.push_back({triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]),
+                              triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2])});
+        wall.triangles.push_back(triangle);
+    }
+    return wall;
+}
+
+// Moeller and Trumbore (1997), from the front side.
+std::optional<RayHit> meets(const std::array<Vec3, 3>& t, const Ray& ray)
+{
+    const Vec3 a = t[1] - t[0];
+    const Vec3 b = t[2] - t[0];
+    const Vec3 normal = a.cross(b);
+    const double slope = -normal.dot(ray.direction);
+    if (!(slope > 1e-12 * normal.norm())) {
+        return std::nullopt;
+    }
+    const Vec3 from = ray.origin - t[0];
+    const Vec3 turn = from.cross(ray.direction);
+    const double u = b.dot(turn) / slope;
+    const double v = -a.dot(turn) / slope;
+    constexpr double slack = 1e-9; // so that no ray slips through between two triangles
+    if (u < -slack || v < -slack || u + v > 1 + slack) {
+        return std::nullopt;
+    }
+    return RayHit{normal.dot(from) / slope, infinity, normal.normalized()};
+}
+
+} // namespace
+
+std::optional<HalfSpaceOf> side_through(const Polytope& shape, const std::vector<int>& face,
+                                        const Vec3& inside)
+{
+    const auto corner = [&](std::size_t k) {
+        return shape.corners[static_cast<std::size_t>(face[k % face.size()])];
+    };
+    Vec3 normal = Vec3::Zero();
+    if (face.size() == 2) {
+        normal = Vec3::UnitY().cross(corner(1) - corner(0));
+    }
+    for (std::size_t k = 2; k < face.size(); ++k) {
+        normal += (corner(k - 1) - corner(0)).cross(corner(k) - corner(0));
+    }
+    if (!(normal.norm() > 0)) {
+        return std::nullopt;
+    }
+    normal.normalize();
+    normal *= normal.dot(corner(0) - inside) < 0 ? -1 : 1;
+    return HalfSpaceOf{normal, normal.dot(corner(0))};
+}
+
+std::vector<std::vector<int>> faces_of(const Polytope& shape, int dimensions)
+{
+    if (dimensions == 3) {
+        return shape.faces;
+    }
+    std::vector<std::vector<int>> edges;
+    for (const auto& face : shape.faces) {
+        for (std::size_t k = 0; k < (face.size() == 2 ? 1 : face.size()); ++k) {
+            edges.push_back({face[k], face[(k + 1) % face.size()]});
+        }
+    }
+    return edges;
+}
+
+RaySolid ray_solid(const ContactShape& shape, int dimensions)
+{
+    RaySolid solid;
+    if (const auto* ball = std::get_if<Ball>(&shape)) {
+        solid = {{{{}, ConvexPiece::Round::ball, ball->radius}}, ball->radius};
+    } else if (const auto* rod = std::get_if<Rod>(&shape)) {
+        if (dimensions == 2) {
+            add_polytope(solid, box_polytope({rod->length, 0, 2 * rod->radius}, 2), 2);
+            return solid;
+        }
+        const double half = rod->length / 2;
+        solid = {{{{{Vec3::UnitX(), half}, {-Vec3::UnitX(), half}},
+                   ConvexPiece::Round::cylinder,
+                   rod->radius}},
+                 std::hypot(half, rod->radius)};
+    } else if (const auto* polytope = std::get_if<Polytope>(&shape)) {
+        add_polytope(solid, *polytope, dimensions);
+    } else {
+        for (const Polytope& part : std::get<Compound>(shape).parts) {
+            add_polytope(solid, part, dimensions);
+        }
+    }
+    return solid;
+}
+
+bool holds(const ConvexPiece& piece, const Vec3& point, double margin)
+{
+    const bool between = std::ranges::all_of(piece.sides, [&](const HalfSpaceOf& side) {
+        return side.normal.dot(point) <= side.offset + margin;
+    });
+    const double across =
+        piece.round == ConvexPiece::Round::ball ? point.norm() : std::hypot(point.y(), point.z());
+    return between && (piece.round == ConvexPiece::Round::none || across <= piece.radius + margin);
+}
+
+std::optional<RayHit> enters(const RaySolid& solid, const Ray& ray)
+{
+    std::optional<RayHit> first;
+    for (const ConvexPiece& piece : solid.pieces) {
+        const auto hit = enters(piece, ray);
+        if (hit && hit->leave >= 0 && (!first || hit->enter < first->enter)) {
+            first = hit;
+        }
+    }
+    return first;
+}
+
+RayWall ray_wall(const Boundary& boundary, int dimensions)
+{
+    if (const auto* plane = std::get_if<Plane>(&boundary.surface)) {
+        RayWall wall;
+        wall.half_spaces.push_back({plane->normal, plane->normal.dot(plane->point)});
+        return wall;
+    }
+    if (const auto* basin = std::get_if<Basin>(&boundary.surface)) {
+        return walls_of(*basin);
+    }
+    if (const auto* mesh = std::get_if<MeshSurface>(&boundary.surface)) {
+        return walls_of(*mesh);
+    }
+    const auto& obstacle = std::get<Obstacle>(boundary.surface);
+    RayWall wall;
+    wall.solid = ray_solid(obstacle.shape, dimensions);
+    wall.position = obstacle.position;
+    wall.orientation = obstacle.orientation;
+    return wall;
+}
+
+bool near_wall(const RayWall& wall, const Vec3& point, double reach)
+{
+    const auto is_near = [&](const HalfSpaceOf& side) {
+        return side.normal.dot(point) - side.offset <= reach;
+    };
+    if (std::ranges::any_of(wall.half_spaces, is_near)) {
+        return true;
+    }
+    if (!wall.solid.pieces.empty()) {
+        return (point - wall.position).norm() <= reach + wall.solid.reach;
+    }
+    const Vec3 low = point - Vec3::Constant(reach);
+    const Vec3 high = point + Vec3::Constant(reach);
+    return std::ranges::any_of(wall.boxes, [&](const std::array<Vec3, 2>& box) {
+        return (box[0].array() <= high.array()).all() && (low.array() <= box[1].array()).all();
+    });
+}
+
+std::vector<int> triangles_near(const RayWall& wall, const Vec3& low, const Vec3& high)
+{
+    std::vector<int> near;
+    for (std::size_t k = 0; k < wall.boxes.size(); ++k) {
+        if ((wall.boxes[k][0].array() <= high.array()).all() &&
+            (low.array() <= wall.boxes[k][1].array()).all()) {
+            near.push_back(static_cast<int>(k));
+        }
+    }
+    return near;
+}
+
+std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const std::vector<int>& near)
+{
+    std::optional<RayHit> first;
+    const auto keep = [&](const std::optional<RayHit>& hit) {
+        if (hit && (!first || hit->enter < first->enter)) {
+            first = hit;
+        }
+    };
+    for (const HalfSpaceOf& side : wall.half_spaces) {
+        RayHit hit{-infinity, infinity, side.normal};
+        if (!clip_side(side, ray, hit)) {
+            continue;
+        }
+        const Vec3 at = ray.origin + hit.enter * ray.direction;
+        constexpr double slack = 1e-9; // [m]
+        if (hit.enter > -infinity && (at.array() >= wall.low.array() - slack).all() &&
+            (at.array() <= wall.high.array() + slack).all()) {
+            keep(hit);
+        }
+    }
+    if (!wall.solid.pieces.empty()) {
+        const Quat back = wall.orientation.conjugate();
+        auto hit = enters(wall.solid, {back * (ray.origin - wall.position), back * ray.direction});
+        if (hit) {
+            hit->normal = wall.orientation * hit->normal;
+        }
+        keep(hit);
+    }
+    for (const int k : near) {
+        keep(meets(wall.triangles[static_cast<std::size_t>(k)], ray));
+    }
+    return first;
+}
+
+} // namespace hyoryu

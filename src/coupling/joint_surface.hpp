@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Surfaces of solids as rays meet them: what lies opposite a face, and what closes a rim.
+#pragma once
+
+#include "hyoryu/rigid/rigid.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace hyoryu {
+
+/// A straight line from a point; the direction is a unit vector.
+struct Ray {
+    Vec3 origin{0, 0, 0};
+    Vec3 direction{0, 0, -1};
+};
+
+/// The stretch [enter, leave] of a ray within a solid, with the outward normal where it enters.
+struct RayHit {
+    double enter = infinity; // [m]
+    double leave = infinity; // [m]
+    Vec3 normal{0, 0, 1};
+};
+
+/// n . x <= offset.
+struct HalfSpaceOf {
+    Vec3 normal{0, 0, 1};
+    double offset = 0; // [m]
+};
+
+/// A convex solid in its own axes: half-spaces, and a ball or a cylinder about the x axis.
+struct ConvexPiece {
+    enum class Round { none, ball, cylinder };
+    std::vector<HalfSpaceOf> sides;
+    Round round = Round::none;
+    double radius = 0; // of the round part [m]
+};
+
+/// A body or obstacle in its own axes.
+struct RaySolid {
+    std::vector<ConvexPiece> pieces;
+    double reach = 0; // largest distance of a point from the origin [m]
+};
+RaySolid ray_solid(const ContactShape& shape, int dimensions);
+
+/// The faces of a polytope by their corners; in two dimensions the edges of the polygon.
+std::vector<std::vector<int>> faces_of(const Polytope& shape, int dimensions);
+
+/// The plane of a face with its outward normal, as seen from a point inside; none of a face without
+/// an area.
+std::optional<HalfSpaceOf> side_through(const Polytope& shape, const std::vector<int>& face,
+                                        const Vec3& inside);
+
+/// Whether a point lies within a piece, or less than `margin` off.
+bool holds(const ConvexPiece& piece, const Vec3& point, double margin);
+
+/// Where a ray in the axes of the solid first enters it, if it does.
+std::optional<RayHit> enters(const RaySolid& solid, const Ray& ray);
+
+/// A boundary at time 0 in world axes.
+struct RayWall {
+    std::vector<HalfSpaceOf> half_spaces; // solid where n . x <= offset
+    Vec3 low = Vec3::Constant(-infinity); // between these the half-spaces hold [m]
+    Vec3 high = Vec3::Constant(infinity);
+    RaySolid solid;
+    Vec3 position{0, 0, 0}; // of the solid
+    Quat orientation = Quat::Identity();
+    std::vector<std::array<Vec3, 3>> triangles;
+    std::vector<std::array<Vec3, 2>> boxes; // about each triangle
+};
+RayWall ray_wall(const Boundary& boundary, int dimensions);
+
+/// Whether anything of the wall lies within `reach` of a point.
+bool near_wall(const RayWall& wall, const Vec3& point, double reach);
+
+/// The triangles whose boxes meet a box, ascending.
+std::vector<int> triangles_near(const RayWall& wall, const Vec3& low, const Vec3& high);
+
+/// Where the ray first enters the wall, within the triangles named.
+std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const std::vector<int>& near);
+
+} // namespace hyoryu

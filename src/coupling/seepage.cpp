@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/coupling/seepage.hpp"
+
+#include "joint_pressure.hpp"
+
+#include "hyoryu/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double widest = 2; // spacings that a joint may be wide; water fills what is wider
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// Which joints are open, and whose cells carry them.
+class OpenJoints {
+public:
+    OpenJoints(const Seepage& seepage, const JointTables& tables, const Vec3& gravity)
+        : open_(seepage.open), solids_(tables.solids),
+          down_(gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(Vec3::Zero()))
+    {
+    }
+
+    bool operator()(int b, int other, const Vec3& normal) const
+    {
+        if (other < 0) {
+            return open_[at(b)] != 0;
+        }
+        // The smaller body has the finer cells, and its face more likely lies within the other's.
+        const double own = solids_[at(b)].reach;
+        const double its = solids_[at(other)].reach;
+        if (std::pair{own, b} > std::pair{its, other}) {
+            return false;
+        }
+        constexpr double steep = 0.3; // cosine below which neither stands on the other
+        const double downward = normal.dot(down_);
+        if (downward > steep) {
+            return open_[at(b)] != 0;
+        }
+        if (downward < -steep) {
+            return open_[at(other)] != 0;
+        }
+        return open_[at(b)] != 0 && open_[at(other)] != 0;
+    }
+
+private:
+    const std::vector<std::uint8_t>& open_;
+    const std::vector<RaySolid>& solids_;
+    Vec3 down_;
+};
+
+ParticlePressure pressure_of(const Fluid& fluid)
+{
+    const Particles& particles = fluid.particles;
+    return {.x = particles[field::position],
+            .p = particles[field::pressure],
+            .shepard = particles[field::shepard_sum],
+            .spacing = fluid.parameters.spacing,
+            .support = fluid.kernel.support,
+            .weight = fluid.parameters.eos.rho0 * fluid.parameters.gravity,
+            .sums = lattice_sums(fluid),
+            .density = fluid.parameters.eos.rho0};
+}
+
+void make_faces(BodyJoints& body, const Body& rigid, std::span<const Vec3> points,
+                const Fluid& fluid, double particle_mass)
+{
+    const FluidParameters& f = fluid.parameters;
+    const double volume = particle_mass / f.eos.rho0;
+    body.faces = joint_faces(
+        rigid.shape, points,
+        {f.spacing, std::pow(volume, 1.0 / f.dimensions), fluid.kernel.support, f.dimensions});
+    body.joined.assign(body.faces.faces.size(), 0);
+    body.has_faces = true;
+}
+
+// A joint begins where the faces touch: particles that stand in between keep them apart. It lasts
+// while any cell lies opposite something. Whether the body has any.
+bool keep_joined(BodyJoints& body, bool opposite, double spacing)
+{
+    constexpr double touching = 0.25; // spacings
+    if (!opposite) {
+        std::ranges::fill(body.joined, 0);
+        return false;
+    }
+    bool any = false;
+    for (std::size_t f = 0; f < body.joined.size(); ++f) {
+        const JointFace& face = body.faces.faces[f];
+        const std::span nodes =
+            std::span(body.nodes).subspan(at(face.first), at(face.last - face.first));
+        double least = infinity;
+        for (const JointNode& node : nodes) {
+            least = std::min(least, node.other != JointNode::none ? node.gap : infinity);
+        }
+        const bool lasts = body.joined[f] != 0 && least < infinity;
+        body.joined[f] = lasts || least < touching * spacing ? 1 : 0;
+        for (JointNode& node : nodes) {
+            node.other = body.joined[f] != 0 ? node.other : JointNode::none;
+        }
+        any = any || body.joined[f] != 0;
+    }
+    return any;
+}
+
+// How fast the faces part, and what mass does.
+void find_speeds(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses,
+                 std::size_t b, double time)
+{
+    const auto speed = [&](std::size_t k, const Vec3& place) -> Vec3 {
+        const Body& body = rigid.bodies[k];
+        return body.velocity + angular_velocity(body).cross(place - poses[k].position);
+    };
+    for (JointNode& node : joints.nodes) {
+        if (node.other == JointNode::none) {
+            continue;
+        }
+        Vec3 other;
+        node.mass = rigid.bodies[b].mass.mass;
+        if (node.other >= 0) {
+            other = speed(at(node.other), node.place);
+            const double its = rigid.bodies[at(node.other)].mass.mass;
+            node.mass *= its / (node.mass + its);
+        } else {
+            other = velocity(rigid.boundaries[at(-1 - node.other)].motion, time);
+        }
+        node.opening = (other - speed(b, node.place)).dot(node.normal);
+    }
+}
+
+void book_loads(const BodyJoints& body, std::vector<JointLoad>& loads)
+{
+    for (std::size_t c = 0; c < body.nodes.size(); ++c) {
+        const JointNode& node = body.nodes[c];
+        if (node.other != JointNode::none) {
+            const double push = node.carried * body.faces.cells[c].area;
+            loads.push_back({node.other, node.place, -push * node.normal, node.pressure, node.gap});
+        }
+    }
+}
+
+// The particles under a cell leave their films to it.
+void share_films(const BodyJoints& body, Index first, std::span<real> share)
+{
+    for (std::size_t c = 0; c < body.nodes.size(); ++c) {
+        if (body.nodes[c].other == JointNode::none) {
+            continue;
+        }
+        const JointCell& cell = body.faces.cells[c];
+        for (int k = cell.first; k < cell.last; ++k) {
+            real& own = share[at(first + body.faces.particles[at(k)])];
+            own = std::min(own, body.nodes[c].film);
+        }
+    }
+}
+
+} // namespace
+
+Seepage::Seepage() = default;
+Seepage::~Seepage() = default;
+Seepage::Seepage(Seepage&&) noexcept = default;
+Seepage& Seepage::operator=(Seepage&&) noexcept = default;
+
+void restore_joints(Seepage& seepage, std::span<const double> numbers)
+{
+    const auto fits = [&](double number, double end) { return number >= 0 && number < end; };
+    const bool whole = !numbers.empty() &&
+                       numbers[0] == static_cast<double>((numbers.size() - 1) / 2) &&
+                       numbers.size() % 2 == 1;
+    seepage.tables.reset();
+    seepage.joined.clear();
+    for (std::size_t k = 1; whole && k < numbers.size(); k += 2) {
+        if (fits(numbers[k], static_cast<double>(seepage.open.size())) &&
+            fits(numbers[k + 1], std::numeric_limits<int>::max())) {
+            seepage.joined.push_back(
+                {static_cast<int>(numbers[k]), static_cast<int>(numbers[k + 1])});
+        }
+    }
+    if (!whole || static_cast<double>(seepage.joined.size()) != numbers[0]) {
+        throw IoError("the checkpoint has joints of other bodies: it belongs to another case");
+    }
+}
+
+void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>& poses,
+                   const BodyParticles& bodies, const JointTime& step, Fluid& fluid)
+{
+    if (!seepage.tables) {
+        seepage.tables =
+            std::make_unique<JointTables>(joint_tables(rigid, widest * fluid.parameters.spacing));
+        seepage.loads.resize(rigid.bodies.size());
+    }
+    JointTables& tables = *seepage.tables;
+    find_near(tables, rigid, poses, step.time);
+    ParticlePressure pressure = pressure_of(fluid);
+    pressure.dt = step.dt;
+    const Index first = fluid.particles.body().begin;
+    const OpenJoints joins(seepage, tables, fluid.parameters.gravity);
+    parallel_blocks(
+        0, static_cast<Index>(poses.size()),
+        [&](Index b) {
+            BodyJoints& body = tables.bodies[at(b)];
+            seepage.loads[at(b)].clear();
+            if (body.near.empty()) {
+                std::ranges::fill(body.joined, 0);
+                return;
+            }
+            const Rows rows = bodies.of[at(b)];
+            if (!body.has_faces) {
+                make_faces(body, rigid.bodies[at(b)],
+                           std::span(bodies.points).subspan(at(rows.begin), at(rows.size())), fluid,
+                           fluid.body_particle_mass[at(b)]);
+                for (const auto& [of, face] : seepage.joined) {
+                    if (of == b && at(face) < body.joined.size()) {
+                        body.joined[at(face)] = 1;
+                    }
+                }
+            }
+            const bool opposite = find_gaps(tables, poses, static_cast<int>(b), joins);
+            if (keep_joined(body, opposite, fluid.parameters.spacing)) {
+                find_speeds(body, rigid, poses, at(b), step.time);
+                ParticlePressure own = pressure;
+                own.first = at(first + rows.begin);
+                solve_pressure(tables, poses, static_cast<int>(b), own);
+                book_loads(body, seepage.loads[at(b)]);
+            }
+        },
+        2);
+    seepage.joined.clear();
+    for (std::size_t b = 0; b < poses.size(); ++b) {
+        for (std::size_t f = 0; f < tables.bodies[b].joined.size(); ++f) {
+            if (tables.bodies[b].joined[f] != 0) {
+                seepage.joined.push_back({static_cast<int>(b), static_cast<int>(f)});
+            }
+        }
+    }
+    fluid.film_share.clear();
+    for (std::size_t b = 0; b < poses.size(); ++b) {
+        if (!seepage.loads[b].empty()) {
+            fluid.film_share.resize(at(fluid.particles.body().size()), 1);
+            share_films(tables.bodies[b], bodies.of[b].begin, fluid.film_share);
+        }
+    }
+}
+
+void add_joint_loads(const Seepage& seepage, const std::vector<Pose>& poses,
+                     std::vector<Wrench>& bodies, std::span<Vec3> walls)
+{
+    const auto add = [&](int body, const Vec3& force, const Vec3& point) {
+        bodies[at(body)].force += force;
+        bodies[at(body)].torque += (point - poses[at(body)].position).cross(force);
+    };
+    for (std::size_t b = 0; b < seepage.loads.size(); ++b) {
+        for (const JointLoad& load : seepage.loads[b]) {
+            add(static_cast<int>(b), load.force, load.point);
+            if (load.other >= 0) {
+                add(load.other, -load.force, load.point);
+            } else {
+                walls[at(-1 - load.other)] -= load.force;
+            }
+        }
+    }
+}
+
+} // namespace hyoryu
