@@ -128,6 +128,7 @@ void Outputs::update(Simulation& sim)
     if (frame_due(sim.clock, sim.scene)) {
         timer_.begin("frames");
         write_resting(sim);
+        count_in_solids(sim);
         write_frame(sim);
         sim.clock.frame += 1;
         timer_.end();
@@ -197,6 +198,7 @@ void Outputs::write_contact(const Simulation& sim, const Contact& c)
     row.push_back(cell(c.energy_lost));
     row.push_back(cell(c.effective_mass));
     row.push_back(c.kind == Contact::Kind::impact ? "impact" : "resting");
+    row.push_back(c.located ? "1" : "0");
     contacts_->append(row);
 }
 
@@ -225,6 +227,7 @@ void Outputs::log_contacts(const Simulation& sim)
         sum.normal_impulse = impulse.dot(sum.normal);
         sum.tangential_impulse = impulse - sum.normal_impulse * sum.normal;
         sum.energy_lost += rest.sum.energy_lost;
+        sum.located = sum.located && rest.sum.located;
         rest.sum = sum;
     }
 }

@@ -198,10 +198,16 @@ void tell_doubts(Job& job)
         job.progress.line(fmt::format("note: {} fluid particles left the domain and were taken out",
                                       job.sim.fluid->lost.count));
     }
+    if (job.sim.ledger.worst_in_solids > 0) {
+        job.progress.line(fmt::format(
+            "note: up to {} fluid particles were more than a quarter of a spacing inside a wall or "
+            "body at one time, {} at the end",
+            job.sim.ledger.worst_in_solids, particles_in_solids(job.sim)));
+    }
     if (job.sim.rigid.counters.capped_steps > 0) {
         job.progress.line(
-            fmt::format("note: in {} steps the contacts were too many to locate each impact",
-                        job.sim.rigid.counters.capped_steps));
+            fmt::format("note: impacts were resolved by time stepping, not located, in {} of {} steps",
+                        job.sim.rigid.counters.capped_steps, job.sim.clock.step));
     }
 }
 
@@ -223,6 +229,7 @@ int finish(Job& job)
     if (done) {
         job.outputs->close_interval(job.sim);
     }
+    count_in_solids(job.sim);
     keep_good_state(job);
     write_checkpoint(job, job.last_good);
     write_closing(job, reason);

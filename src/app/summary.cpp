@@ -38,13 +38,14 @@ ordered_json seconds_by_stage(const StageTimer& timer)
     return seconds;
 }
 
-ordered_json contact_counters(const RigidCounters& c)
+ordered_json contact_counters(const RigidCounters& c, std::int64_t steps)
 {
     return {{"impacts", c.impacts},
             {"rounds", c.rounds},
             {"events", c.events},
             {"tangential_impacts", c.tangential_impacts},
             {"capped_steps", c.capped_steps},
+            {"steps_located", steps - c.capped_steps},
             {"worst_residual", c.worst_residual},
             {"worst_penetration", c.worst_penetration}};
 }
@@ -101,6 +102,11 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                       {"bodies", n.bodies},
                       {"walls", n.walls}};
     json["particles_lost"] = sim.fluid ? sim.fluid->lost.count : 0;
+    if (sim.fluid) {
+        const Index in_solids = particles_in_solids(sim);
+        json["particles_in_solids"] = in_solids;
+        json["worst_particles_in_solids"] = std::max(in_solids, sim.ledger.worst_in_solids);
+    }
     json["worst_density_error"] = sim.ledger.worst_density_error;
     json["energy"] = {{"start", energies(sim.ledger.start)},
                       {"end", energies(end)},
@@ -111,7 +117,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                         {"gravity_impulse", array(sim.ledger.gravity_impulse)},
                         {"lost", array(sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()))},
                         {"worst_closure_of_a_step", sim.ledger.worst_closure}};
-    json["contact"] = contact_counters(sim.rigid.counters);
+    json["contact"] = contact_counters(sim.rigid.counters, sim.clock.step);
     return json.dump(2) + "\n";
 }
 

@@ -46,6 +46,7 @@ Table contacts_table(int dimensions)
     table.heads.push_back({"energy_lost", per_width("J", dimensions)});
     table.heads.push_back({"effective_mass", per_width("kg", dimensions)});
     table.heads.push_back({"kind", ""});
+    table.heads.push_back({"located", ""});
     return table;
 }
 
@@ -75,7 +76,8 @@ std::vector<double> numbers_of(const Contact& c)
     for (const Vec3* v : {&c.point, &c.normal, &c.tangential_impulse}) {
         n.insert(n.end(), v->begin(), v->end());
     }
-    n.insert(n.end(), {c.approach_speed, c.normal_impulse, c.effective_mass, c.energy_lost});
+    n.insert(n.end(), {c.approach_speed, c.normal_impulse, c.effective_mass, c.energy_lost,
+                       c.located ? 1.0 : 0.0});
     return n;
 }
 
@@ -92,7 +94,8 @@ Contact contact_of(std::span<const double> n)
             .normal_impulse = n[13],
             .tangential_impulse = vector(9),
             .effective_mass = n[14],
-            .energy_lost = n[15]};
+            .energy_lost = n[15],
+            .located = n[16] != 0};
 }
 
 } // namespace hyoryu

@@ -17,7 +17,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr int format_version = 3;
+constexpr int format_version = 4;
 constexpr std::size_t header_size = 512; // the first place after 0 where HDF5 looks for a file
 constexpr std::string_view magic = "hyoryu checkpoint";
 

@@ -14,6 +14,9 @@ namespace {
 
 using Numbers = std::vector<double>;
 
+// The most fluid particles that have been inside solids; left out while there were none.
+constexpr const char* in_solids = "in_solids";
+
 void put(Numbers& out, double value)
 {
     out.push_back(value);
@@ -334,6 +337,8 @@ void restore_ledger(Ledger& ledger, const Snapshot& snapshot)
     ledger.gravity_impulse = n.vector();
     ledger.worst_closure = n.number();
     ledger.worst_density_error = n.number();
+    const bool any = snapshot.arrays.contains(in_solids);
+    ledger.worst_in_solids = any ? static_cast<Index>(Reader(snapshot, in_solids).number()) : 0;
 }
 
 } // namespace
@@ -346,6 +351,9 @@ Snapshot save(const Simulation& sim)
         {c.time, static_cast<double>(c.step), c.dt, static_cast<double>(c.frame),
          static_cast<double>(c.history), c.share});
     add(snapshot, "ledger", numbers_of(sim.ledger));
+    if (sim.ledger.worst_in_solids > 0) {
+        add(snapshot, in_solids, {static_cast<double>(sim.ledger.worst_in_solids)});
+    }
     Numbers loads;
     for (const Wrench& load : sim.loads.bodies) {
         put(loads, load.force);
@@ -356,6 +364,14 @@ Snapshot save(const Simulation& sim)
         Numbers gauges = numbers_of(sim.gauges);
         put(gauges, static_cast<double>(c.gauge));
         add(snapshot, "gauges", std::move(gauges));
+    }
+    if (!sim.seepage.open.empty()) {
+        Numbers joints{static_cast<double>(sim.seepage.joined.size())};
+        for (const auto& [body, face] : sim.seepage.joined) {
+            put(joints, static_cast<double>(body));
+            put(joints, static_cast<double>(face));
+        }
+        add(snapshot, "joints", std::move(joints));
     }
     save_rigid(sim.rigid, snapshot);
     if (sim.fluid) {
@@ -384,6 +400,10 @@ void restore(Simulation& sim, const Snapshot& snapshot)
         const std::span<const double> numbers(gauges.all());
         restore(sim.gauges, numbers.first(std::max<std::size_t>(numbers.size(), 1) - 1));
         sim.clock.gauge = static_cast<std::int64_t>(numbers.back());
+    }
+    if (!sim.seepage.open.empty()) {
+        const Reader joints(snapshot, "joints");
+        restore_joints(sim.seepage, joints.all());
     }
     restore_rigid(sim.rigid, snapshot);
     if (sim.fluid) {

@@ -3,6 +3,7 @@
 // whenever that is: every combination of them that a case allows, each at steps drawn at random.
 #include "runs.hpp"
 
+#include "hyoryu/sim/frames.hpp"
 #include "hyoryu/sim/gauges.hpp"
 
 #include <fmt/format.h>
@@ -127,6 +128,37 @@ TEST(Restart, GoesOnWithTheSameBitsInEveryCombinationAtAnyStep)
         expect_same_bits(save(whole), save(resumed));
     }
     EXPECT_GT(hit, 0) << "some were saved with bodies in contact";
+}
+
+// A gate that the water is pressed against at the start, and that then stands above it: what was
+// wet then and is dry when the run is taken up again must show no pressure, from the first step on.
+TEST(Restart, FramesOfMovingWallsAreTheSame)
+{
+    const Features f{};
+    const std::string text =
+        head_of(f) + walls_of(f) +
+        "[[wall]]\nname = \"gate\"\nshape = \"box\"\nmin = [0.6, 0.0, 0.02]\n"
+        "max = [0.72, 0.0, 0.7]\n"
+        "motion = { times = [0.0, 0.3], places = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.7]] }\n";
+    for (const double before : {0.01, 0.1, 0.2, 0.3, 0.35}) {
+        Simulation whole = make(text);
+        while (whole.clock.time < before) {
+            step_on(whole);
+        }
+        Simulation resumed = make(text);
+        restore(resumed, save(whole));
+        for (int after = 1; after < 6; ++after) {
+            step_on(whole);
+            step_on(resumed);
+            const Cloud a = wall_cloud(whole);
+            const Cloud b = wall_cloud(resumed);
+            EXPECT_EQ(a.points, b.points);
+            for (std::size_t k = 0; k < a.columns.size(); ++k) {
+                EXPECT_EQ(a.columns[k].values, b.columns[k].values)
+                    << a.columns[k].name << ", " << before << " s + " << after << " steps";
+            }
+        }
+    }
 }
 
 } // namespace

@@ -27,6 +27,7 @@ struct Ledger {
     Vec3 gravity_impulse{0, 0, 0};  // [N s]
     double worst_closure = 0;       // largest |dP - impulses| of a step over the momentum scale [1]
     double worst_density_error = 0; // largest |rho/rho0 - 1| of the fluid so far
+    Index worst_in_solids = 0;      // most fluid particles inside solids in any frame so far
 };
 
 Totals totals(const Simulation& sim);

@@ -4,10 +4,12 @@
 
 #include "hyoryu/core/timer.hpp"
 #include "hyoryu/coupling/coupling.hpp"
+#include "hyoryu/coupling/seepage.hpp"
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/sim/clock.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/ledger.hpp"
+#include "hyoryu/sim/wall_barrier.hpp"
 
 #include <map>
 #include <optional>
@@ -24,11 +26,13 @@ struct Simulation {
     Scene scene;
     Plan plan;
     std::optional<Fluid> fluid; // none without `[fluid]`: no particles, grids or lists
+    std::optional<WallBarrier> barrier; // none without fluid or without solids
     Rigid rigid;
     BodyParticles body_particles;
     std::vector<Vec3> wall_start; // of the particles of walls at time 0 [m]; empty if none moves
     std::vector<Pose> poses;      // of the bodies when the loads were taken
     Loads loads;
+    Seepage seepage; // of the joints of bodies that stand
     Clock clock;
     Ledger ledger;
     GaugeMemory gauges;

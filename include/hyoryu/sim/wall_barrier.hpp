@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The last barrier: fluid does not pass the exact surface of a wall or a body.
+//
+// Solid particles keep the fluid out by pressure, which a row that starts too crowded, a plate
+// thinner than a spacing or a violent blow can overcome. After the kick of a step, therefore, the
+// velocity u of a particle along the normal of a surface, relative to the solid there, may not be
+// less than
+//     u*(d) = -(d - dp/8) / dt             at a distance d of dp/4 or more,
+//             0                            nearer than that,
+//             min(-d / (20 dt), 0.02 c0)   inside, where d < 0,
+// and the particle receives the impulse J = m (u* - u) n, the solid -J. What the surface holds has
+// no approach left, as in an inelastic impact; what is inside is led out slowly. Water that keeps
+// its distance never meets it. Ours; the impulse is that of a unilateral constraint (Moreau 1988).
+#pragma once
+
+#include "hyoryu/scene/solid_surface.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyoryu {
+
+struct Simulation;
+
+/// A surface that a particle may not approach faster than it says.
+struct SurfaceHold {
+    int solid = 0;          // wall, or number of walls + body
+    Vec3 normal{0, 0, 1};   // out of the solid
+    Vec3 velocity{0, 0, 0}; // of the solid at the particle [m/s]
+    double least = 0;       // speed along the normal relative to it [m/s]
+    Vec3 impulse{0, 0, 0};  // on the particle [N s]
+};
+
+/// An impulse of the barrier.
+struct BarrierHit {
+    Index row = 0;         // of the fluid particle
+    int order = 0;         // among those of the row
+    int solid = 0;         // wall, or number of walls + body
+    Vec3 place{0, 0, 0};   // of the particle [m]
+    Vec3 impulse{0, 0, 0}; // on the particle [N s]
+};
+
+/// Where a solid is and how it moves.
+struct SolidPlace {
+    Vec3 position{0, 0, 0}; // of its axes [m]
+    Mat3 rotation = Mat3::Identity();
+    Vec3 velocity{0, 0, 0}; // of the origin of its axes [m/s]
+    Vec3 spin{0, 0, 0};     // angular velocity [rad/s]
+};
+
+/// The solids of a scene, and which fluid particles need not be looked at. The latter is kept from
+/// step to step to save work; no result depends on it.
+struct WallBarrier {
+    std::vector<SolidSurface> solids; // walls, then bodies
+    std::size_t walls = 0;            // of them
+    double spacing = 0;               // dp [m]
+    int dimensions = 3;
+
+    std::vector<SolidPlace> places, before; // of the solids in this step and in the one before
+    long long builds = -1;                  // of the neighbour lists for which all below holds
+    double way = 0;                         // bound of how far any solid has come since then [m]
+    /// The solids that particles of a tile may meet, ascending, if they are few.
+    struct Near {
+        std::array<int, 15> solid{};
+        int count = 0; // more than there is room for: any
+    };
+    std::vector<Near> near;        // of each tile
+    std::vector<double> clearance; // of all particles of each tile when the lists were made [m]
+    /// Of a fluid row when it was last looked at: its place relative to the centre of its tile, and
+    /// the distance of the nearest solid plus `way`, at most what is looked at [m].
+    struct Seen {
+        float x, y, z, clearance;
+    };
+    std::vector<Seen> seen;
+    std::vector<std::vector<SurfaceHold>> holds; // of one particle, by thread
+    std::vector<std::vector<BarrierHit>> hits;   // of this step, by thread
+    std::vector<BarrierHit> all;                 // of this step, in the order of rows
+    std::vector<double> yields;                  // m sum K of the hits of each solid [1]
+    std::vector<int> numbers;                    // of all solids
+};
+
+WallBarrier make_wall_barrier(const Scene& scene);
+
+/// Holds the fluid at the surfaces of walls and bodies as they stand in the middle of a step of
+/// length dt, at `time`; adds what they feel to the loads of the step.
+void hold_at_solids(Simulation& sim, double time, double dt);
+
+/// Fluid particles that are deeper than a quarter of a spacing inside a wall or body, now. Looks at
+/// every particle and every solid near it, whatever the barrier has looked at.
+Index particles_in_solids(const Simulation& sim);
+
+/// Counts them for a frame, or for the end of a run, and books the most that there have been.
+Index count_in_solids(Simulation& sim);
+
+} // namespace hyoryu

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+#include "solid_places.hpp"
+
+#include "hyoryu/scene/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace hyoryu {
+
+namespace {
+
+// In spacings: from the surface to where it holds what approaches, to where it lets it come within
+// a step, and to where particles are looked at.
+constexpr double held = 0.25;
+constexpr double approached = 0.125;
+constexpr double looked_at = 2;
+// By which particles and solids may move before other solids may be near [spacings].
+constexpr double slack = 1;
+constexpr double steps_to_surface = 20;
+constexpr double fastest_way_out = 0.02; // of the speed of sound
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+// A bound of how far any point of any solid is from where it was.
+double farthest_way(const WallBarrier& barrier)
+{
+    double way = 0;
+    for (std::size_t k = 0; k < barrier.before.size(); ++k) {
+        const SolidPlace& now = barrier.places[k];
+        const Mat3 turn = now.rotation - barrier.before[k].rotation;
+        const double turned = turn.isZero(0) ? 0 : turn.norm() * barrier.solids[k].reach;
+        way = std::max(way, (now.position - barrier.before[k].position).norm() + turned);
+    }
+    return way;
+}
+
+// A place and a clearance, less by more than what short numbers lose.
+WallBarrier::Seen seen_at(const Vec3& r, double clearance, double spacing)
+{
+    constexpr double lost = 1e-4; // spacings; a tile is ten of them
+    return {static_cast<float>(r.x()), static_cast<float>(r.y()), static_cast<float>(r.z()),
+            static_cast<float>(clearance - lost * spacing)};
+}
+
+void add(WallBarrier::Near& near, int solid)
+{
+    if (near.count < static_cast<int>(near.solid.size())) {
+        near.solid[at(near.count)] = solid;
+    }
+    near.count += 1;
+}
+
+std::span<const int> near_of(const WallBarrier& barrier, Index tile)
+{
+    const WallBarrier::Near& near = barrier.near[at(tile)];
+    return at(near.count) <= near.solid.size() ? std::span(near.solid).first(at(near.count))
+                                               : std::span<const int>(barrier.numbers);
+}
+
+// Takes note of the solids that each tile may meet until the next lists are made, and of how far
+// its particles are from them at least: as far as its centre, less their way from there.
+void find_near(const Fluid& fluid, WallBarrier& barrier)
+{
+    const Tiles& tiles = fluid.neighbours.fluid;
+    const auto x = fluid.particles[field::position];
+    barrier.builds = fluid.neighbours.builds;
+    barrier.way = 0;
+    barrier.near.resize(tiles.tile.size());
+    barrier.clearance.resize(tiles.tile.size());
+    barrier.seen.resize(at(fluid.particles.fluid().size()));
+    const double far = looked_at * barrier.spacing;
+    const double reach = tiles.lattice.edge.norm() / 2 + far + slack * barrier.spacing;
+    const bool repeats = fluid.period != Vec3(0, 0, 0); // images: whatever there is
+    parallel_blocks(0, tiles.tiles(), [&](Index tile) {
+        WallBarrier::Near& near = barrier.near[at(tile)];
+        near.count = 0;
+        const Vec3 centre = tiles.lattice.centre(tiles.tile[at(tile)]);
+        double nearest = repeats ? -infinity : reach;
+        for (std::size_t k = 0; k < barrier.solids.size(); ++k) {
+            const double distance =
+                nearest_of(barrier, barrier.places[k], k, centre, reach).distance;
+            nearest = std::min(nearest, distance);
+            if (repeats || distance <= reach) {
+                add(near, static_cast<int>(k));
+            }
+        }
+        double farthest = 0;
+        for (Index i = tiles.start[at(tile)]; i < tiles.start[at(tile + 1)]; ++i) {
+            const Vec3 r = x[at(i)] - centre;
+            barrier.seen[at(i)] = seen_at(r, std::min(far, nearest - r.norm()), barrier.spacing);
+            farthest = std::max(farthest, r.norm());
+        }
+        // Displacements are known from the moment of the lists on.
+        barrier.clearance[at(tile)] = fluid.neighbours.steps == 0 ? nearest - farthest : -1;
+    });
+}
+
+// One step of the barrier, for one particle after another.
+class BarrierStep {
+public:
+    BarrierStep(const Fluid& fluid, const WallBarrier& barrier, double dt)
+        : fluid_(fluid), barrier_(barrier), dt_(dt), far_(looked_at * barrier.spacing)
+    {
+        for (std::size_t k = 0; k < barrier.solids.size(); ++k) {
+            const SolidPlace& place = barrier.places[k];
+            const double spin = place.spin.norm();
+            const double turning = spin > 0 ? spin * barrier.solids[k].reach : 0;
+            fastest_ = std::max(fastest_, place.velocity.norm() + turning);
+        }
+    }
+
+    // Whether no surface can hold a particle of velocity v that has moved by `moved` since it was
+    // `clearance` away from all.
+    bool is_free(double clearance, const Vec3& moved, const Vec3& v) const
+    {
+        const double left = clearance - held * barrier_.spacing - dt_ * fastest_;
+        return left > 0 && 2 * (moved.squaredNorm() + sq(dt_) * v.squaredNorm()) < sq(left);
+    }
+
+    // The surfaces that may hold a particle; returns the distance of the nearest, at most what is
+    // looked at.
+    double look(const Vec3& x, const Vec3& v, std::span<const int> solids,
+                std::vector<SurfaceHold>& holds) const
+    {
+        holds.clear();
+        double clearance = far_;
+        const double limit = std::max(held * barrier_.spacing,
+                                      approached * barrier_.spacing + dt_ * (v.norm() + fastest_));
+        for_images(fluid_, x, far_, [&](const Vec3& image) {
+            for (const int solid : solids) {
+                const auto k = static_cast<std::size_t>(solid);
+                const SolidPlace& place = barrier_.places[k];
+                const NearestPlace nearest = nearest_of(barrier_, place, k, image, far_);
+                clearance = std::min(clearance, nearest.distance);
+                if (nearest.distance < limit) {
+                    holds.push_back({solid, place.rotation * nearest.normal,
+                                     place.velocity + place.spin.cross(image - place.position),
+                                     least_speed(nearest.distance), Vec3(0, 0, 0)});
+                }
+            }
+        });
+        return clearance;
+    }
+
+private:
+    double least_speed(double distance) const
+    {
+        if (distance < 0) {
+            return std::min(-distance / (steps_to_surface * dt_),
+                            fastest_way_out * fluid_.parameters.eos.c0);
+        }
+        return distance < held * barrier_.spacing
+                   ? 0
+                   : (approached * barrier_.spacing - distance) / dt_;
+    }
+
+    const Fluid& fluid_;
+    const WallBarrier& barrier_;
+    double dt_;
+    double far_;         // [m]
+    double fastest_ = 0; // of the points of solids [m/s]
+};
+
+// Changes a velocity until every surface is content; between solids that close in on it no velocity
+// would do, so only a few times.
+void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
+{
+    constexpr int rounds = 4;
+    bool changed = true;
+    for (int round = 0; round < rounds && changed; ++round) {
+        changed = false;
+        for (SurfaceHold& h : holds) {
+            const double lacking = h.least - (v - h.velocity).dot(h.normal);
+            if (lacking > 0) {
+                v += lacking * h.normal;
+                h.impulse += mass * lacking * h.normal;
+                changed = true;
+            }
+        }
+    }
+}
+
+void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index i,
+              std::span<const int> solids, WallBarrier::Seen& seen, const Vec3& r)
+{
+    const Vec3& x = std::as_const(fluid.particles)[field::position][at(i)];
+    Vec3& v = fluid.particles[field::velocity][at(i)];
+    std::vector<SurfaceHold>& holds = barrier.holds[at(worker())];
+    const double clearance = step.look(x, v, solids, holds);
+    seen = seen_at(r, clearance + barrier.way, barrier.spacing);
+    hold(fluid.parameters.mass, v, holds);
+    int order = 0;
+    for (const SurfaceHold& h : holds) {
+        if (!h.impulse.isZero(0)) {
+            barrier.hits[at(worker())].push_back({i, order++, h.solid, x, h.impulse});
+        }
+    }
+}
+
+// Whether no surface can hold any particle of a tile.
+bool is_far(const BarrierStep& step, const Fluid& fluid, const WallBarrier& barrier, Index tile)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    const double clearance = barrier.clearance[at(tile)] - barrier.way;
+    if (clearance < 0 || n.fluid_motion.box.size() != n.fluid.tile.size()) {
+        return false;
+    }
+    const DisplacementBox& box = n.fluid_motion.box[at(tile)]; // since the lists were made
+    const Vec3 moved = n.steps > 0 ? Vec3(box.high.cwiseMax(-box.low)) : Vec3(0, 0, 0);
+    const auto v = fluid.particles[field::velocity];
+    double fastest = 0;
+    for (Index i = n.fluid.start[at(tile)]; i < n.fluid.start[at(tile + 1)]; ++i) {
+        fastest = std::max(fastest, v[at(i)].squaredNorm());
+    }
+    return step.is_free(clearance, moved, Vec3(std::sqrt(fastest), 0, 0));
+}
+
+void hold_tile(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index tile)
+{
+    const Tiles& tiles = fluid.neighbours.fluid;
+    const Vec3 centre = tiles.lattice.centre(tiles.tile[at(tile)]);
+    const Vec3 roam = tiles.lattice.edge / 2 + Vec3::Constant(slack / 4 * barrier.spacing);
+    const auto x = std::as_const(fluid.particles)[field::position];
+    const auto v = std::as_const(fluid.particles)[field::velocity];
+    if (is_far(step, fluid, barrier, tile)) {
+        return;
+    }
+    const std::span<const int> near = near_of(barrier, tile);
+    for (Index i = tiles.start[at(tile)]; i < tiles.start[at(tile + 1)]; ++i) {
+        WallBarrier::Seen& seen = barrier.seen[at(i)];
+        const Vec3 r = x[at(i)] - centre;
+        const Vec3 moved = r - Vec3(seen.x, seen.y, seen.z);
+        if (step.is_free(seen.clearance - barrier.way, moved, v[at(i)])) {
+            continue;
+        }
+        // Far from home other solids may be near.
+        const bool home = (r.cwiseAbs().array() <= roam.array()).all();
+        hold_row(step, fluid, barrier, i, home ? near : barrier.numbers, seen, r);
+    }
+}
+
+// The speed that a body gives way by, at the place of a hit, for a unit of its impulse [1/kg].
+double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit)
+{
+    const Vec3 n = hit.impulse.normalized();
+    double yield = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        yield += body.locks[at(axis)] ? 0 : sq(n[axis]) / body.mass.mass;
+    }
+    if (body.locks[3] && body.locks[4] && body.locks[5]) {
+        return yield;
+    }
+    // With a locked axis it turns by less than this, which only makes its share smaller.
+    const Vec3 turn = place.rotation.transpose() * (hit.place - place.position).cross(n);
+    return yield + turn.dot(body.mass.inertia.inverse() * turn);
+}
+
+// A light body gives way to what it holds. The hits are found as if solids were as heavy as can be;
+// those of a body are scaled by min(1, 1 / (m sum K)), K by which each makes it give way. The sum
+// bounds their joint effect, so that what they do together never gains energy: the change is
+// m du^2 s (-1 + s (1 + m sum K) / 2) at most, which is not above zero at that scale s.
+void share_with_bodies(Simulation& sim)
+{
+    WallBarrier& barrier = *sim.barrier;
+    const double mass = sim.fluid->parameters.mass;
+    const auto v = sim.fluid->particles[field::velocity];
+    barrier.yields.assign(barrier.solids.size(), 0);
+    const auto body_of = [&](const BarrierHit& hit) {
+        return static_cast<std::size_t>(hit.solid) - barrier.walls;
+    };
+    for (const BarrierHit& hit : barrier.all) {
+        const auto solid = static_cast<std::size_t>(hit.solid);
+        if (solid >= barrier.walls) {
+            barrier.yields[solid] +=
+                mass * yield_of(sim.rigid.bodies[body_of(hit)], barrier.places[solid], hit);
+        }
+    }
+    for (BarrierHit& hit : barrier.all) {
+        const double yield = barrier.yields[static_cast<std::size_t>(hit.solid)];
+        const Vec3 taken = (yield > 1 ? 1 - 1 / yield : 0) * hit.impulse;
+        hit.impulse -= taken;
+        v[at(hit.row)] -= taken / mass;
+    }
+}
+
+// What the solids feel, in the order of the rows.
+void load_solids(Simulation& sim, double dt)
+{
+    WallBarrier& barrier = *sim.barrier;
+    barrier.all.clear();
+    for (std::vector<BarrierHit>& hits : barrier.hits) {
+        barrier.all.insert(barrier.all.end(), hits.begin(), hits.end());
+        hits.clear();
+    }
+    std::ranges::sort(barrier.all, {},
+                      [](const BarrierHit& h) { return std::tie(h.row, h.order); });
+    share_with_bodies(sim);
+    for (const BarrierHit& hit : barrier.all) {
+        const Vec3 force = -hit.impulse / dt; // constant over the step
+        const auto solid = static_cast<std::size_t>(hit.solid);
+        if (solid < barrier.walls) {
+            sim.loads.walls[solid] += force;
+        } else {
+            Wrench& load = sim.loads.bodies[solid - barrier.walls];
+            load.force += force;
+            load.torque += (hit.place - barrier.places[solid].position).cross(force);
+        }
+    }
+}
+
+// Room for what a step of usual flows finds.
+void make_room(WallBarrier& barrier)
+{
+    constexpr std::size_t usual = 1024;
+    const auto threads = static_cast<std::size_t>(thread_count());
+    if (barrier.hits.size() < threads) {
+        barrier.hits.resize(threads);
+        barrier.holds.resize(threads);
+        std::ranges::for_each(barrier.hits, [](auto& hits) { hits.reserve(usual); });
+        std::ranges::for_each(barrier.holds, [](auto& holds) { holds.reserve(usual); });
+        barrier.all.reserve(usual);
+    }
+}
+
+} // namespace
+
+WallBarrier make_wall_barrier(const Scene& scene)
+{
+    WallBarrier barrier;
+    barrier.spacing = scene.spacing;
+    barrier.dimensions = scene.dimensions;
+    barrier.walls = scene.walls.size();
+    const double thickness = wall_layers(scene.fluid->smoothing_ratio) * scene.spacing;
+    for (const Wall& wall : scene.walls) {
+        barrier.solids.push_back(surface_of(wall, thickness, scene.dimensions));
+    }
+    for (const BodySettings& body : scene.bodies) {
+        barrier.solids.push_back(surface_of(body, scene.dimensions));
+    }
+    barrier.numbers.resize(barrier.solids.size());
+    std::iota(barrier.numbers.begin(), barrier.numbers.end(), 0);
+    return barrier;
+}
+
+void hold_at_solids(Simulation& sim, double time, double dt)
+{
+    WallBarrier& barrier = *sim.barrier;
+    Fluid& fluid = *sim.fluid;
+    barrier.before.swap(barrier.places);
+    place_solids(sim, sim.poses, time, barrier.places);
+    barrier.way += farthest_way(barrier);
+    if (barrier.builds != fluid.neighbours.builds || barrier.way > slack / 2 * barrier.spacing) {
+        find_near(fluid, barrier);
+    }
+    make_room(barrier);
+    const BarrierStep step(fluid, barrier, dt);
+    parallel_blocks(0, fluid.neighbours.fluid.tiles(),
+                    [&](Index tile) { hold_tile(step, fluid, barrier, tile); });
+    load_solids(sim, dt);
+}
+
+} // namespace hyoryu
