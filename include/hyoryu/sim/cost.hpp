@@ -55,10 +55,17 @@ double seconds_of_run(const StepCost& cost);
 /// step().
 StepCost measure_cost(Simulation& sim, int steps);
 
+/// Reads a clock [s]; only differences count.
+using Stopwatch = std::function<double()>;
+/// The steady clock of this machine [s].
+double steady_seconds();
+
 /// Runs a simulation of bodies alone until its end, or until `goes_on`, asked before each step,
-/// says no. None where it goes wrong, and where it is stopped while its steps take longer and
-/// longer, as those of a heap on which more bodies fall: then they tell nothing of the later ones.
-std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool()>& goes_on);
+/// says no, and times each step. None where it goes wrong, and where it is stopped
+/// while its steps take longer and longer, as those of a heap on which more bodies fall: then they
+/// tell nothing of the later ones.
+std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool()>& goes_on,
+                                       const Stopwatch& now = steady_seconds);
 
 /// Seconds that the sums of one row of the histories take, besides its text: the energies are added
 /// up for the row, and to see whether a run gains energy [s].
