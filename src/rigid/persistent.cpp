@@ -108,6 +108,38 @@ void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
     }
 }
 
+// Whether the contact at the middle and the end of the planned motion is the one of its start. A
+// line that rocks over a cap goes on at the far end of its chord, a log along an edge by its other
+// end, a corner over a rim: the answer of the bodies is then that of two contacts, may be negative,
+// and no impulse solves it.
+bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& bodies)
+{
+    constexpr double same_way = 0.5; // cosine
+    constexpr double same_arm = 0.5; // of the answer of the masses alone, the least without turns
+    const Vec3& n = p.candidate.touch.normal;
+    Vec3 inverse_mass = bodies[row.a].inverse_mass;
+    inverse_mass += row.b >= 0 ? bodies[row.b].inverse_mass : Vec3::Zero();
+    return n.dot(p.touches.push.normal) > same_way && n.dot(p.touches.see.normal) > same_way &&
+           row.cone.K(0, 0) > same_arm * n.dot(inverse_mass.cwiseProduct(n));
+}
+
+// The row of a contact with its arms at the middle and the end of the planned motion, or, where it
+// does not go on till there, as they are now.
+void complete_row(Row& row, Persistent& p, const ContactMemory& memory, int dimensions)
+{
+    const int a = row.a;
+    const int b = std::max(row.b, 0);
+    const std::vector<SolidPose>& middle = memory.middle;
+    complete(row, p.touches, {middle[a].x, middle[b].x, memory.end[a].x, memory.end[b].x},
+             memory.responses, dimensions);
+    if (!goes_on(p, row, memory.responses)) {
+        const std::vector<SolidPose>& now = memory.poses;
+        p.touches = {p.candidate.touch, p.candidate.touch, p.rub, p.rub};
+        complete(row, p.touches, {now[a].x, now[b].x, now[a].x, now[b].x}, memory.responses,
+                 dimensions);
+    }
+}
+
 void build_rows(const StepContext& context, const SubStep& sub, double ahead)
 {
     ContactMemory& memory = context.memory;
@@ -122,11 +154,10 @@ void build_rows(const StepContext& context, const SubStep& sub, double ahead)
         row.contact = static_cast<int>(k);
         row.cone.mu = law_of(context.rigid, f.a, f.b).friction;
         row.wall_velocity = wall_velocity(memory, f.b, sub.time + sub.h);
-        const int b = std::max(row.b, 0);
-        const Centres centres{memory.middle[f.a].x, memory.middle[b].x, memory.end[f.a].x,
-                              memory.end[b].x};
-        complete(row, p.touches, centres, memory.responses, context.rigid.settings.dimensions);
-        if (row.cone.K(0, 0) > 0) {
+        complete_row(row, p, memory, context.rigid.settings.dimensions);
+        if (row.cone.K(0, 0) <= 0) {
+            p.impulse.setZero(); // between bodies that nothing moves
+        } else {
             p.effective_mass = 1 / row.cone.K(0, 0);
             row.before = velocity(row, memory.responses);
             // A gap that the projection closes is no freedom: v = gap / h of its noise would

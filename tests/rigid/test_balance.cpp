@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Momentum of each body in each step: M dV = impulses of its contacts + its load + M g dt, as the
 // step promises, for boxes and cylinders thrown together under loads that change in every step.
+// HYORYU_BALANCE=300 runs that many scenes.
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <numeric>
 #include <random>
 
 namespace hyoryu {
@@ -31,9 +34,16 @@ Rigid thrown(std::mt19937& numbers)
 
 TEST(Balance, OfMomentumHoldsForEachBodyInEachStep)
 {
-    std::mt19937 numbers(11);
     std::uniform_real_distribution<double> unit(-1, 1);
-    for (int scene = 0; scene < 6; ++scene) {
+    const char* wanted = std::getenv("HYORYU_BALANCE");
+    // Without it those of the first sixty that have found faults, and two more.
+    std::vector<int> scenes{0, 1, 7, 22, 41, 59};
+    if (wanted != nullptr) {
+        scenes.resize(static_cast<std::size_t>(std::atoi(wanted)));
+        std::iota(scenes.begin(), scenes.end(), 0);
+    }
+    for (const int scene : scenes) {
+        std::mt19937 numbers(static_cast<unsigned>(scene));
         Rigid rigid = thrown(numbers);
         const double dt = scene % 2 == 0 ? 1.4e-3 : 4e-3;
         std::vector<Wrench> loads(rigid.bodies.size());
