@@ -233,7 +233,8 @@ std::string contact_text(const ContactSettings& contact)
     std::string text = "\n[contact]\n";
     text += line("method", std::string(contact.penalty ? "penalty" : "impulse"));
     if (!contact.penalty) {
-        text += line("law", std::string(laws[static_cast<std::size_t>(contact.law)]));
+        text += line("law", std::string(laws[static_cast<std::size_t>(contact.law)])) +
+                line("locating_share", contact.locating_share);
     }
     text += line("restitution", contact.restitution) + line("friction", contact.friction);
     if (contact.penalty) {

@@ -168,6 +168,11 @@ std::vector<Parameter> contact_parameters()
                    "approach together, round after round, with the circular Coulomb cone; "
                    "\"paper\": the uncoupled equations (1)-(6) of the Iwate paper, which can gain "
                    "energy; \"simultaneous\": all touching contacts at once (Moreau)."),
+        not_negative("contact.locating_share", "", "0.2",
+                     "Part of the fluid's cost that locating impacts in time may take in a step, "
+                     "by the impulse method, beside a small allowance for each body. Beyond it "
+                     "the bodies with most impacts are advanced without location first; "
+                     "contacts.csv says of each contact whether it was located."),
         fraction(
             "contact.restitution", "0.4",
             "Part of the approach speed that a pair keeps after an impact, unless contact.pair "

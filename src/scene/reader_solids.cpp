@@ -278,6 +278,7 @@ void read_method(TableReader& table, ContactSettings& contact)
 {
     const std::string method = table.choice("method");
     contact.law = law_named(table.choice("law"));
+    contact.locating_share = table.number("locating_share");
     TableReader springs = table.table("penalty");
     const bool has_springs = springs.present();
     const PenaltyParameters penalty = read_penalty(std::move(springs));
@@ -286,6 +287,10 @@ void read_method(TableReader& table, ContactSettings& contact)
         if (table.has("law")) {
             table.error("law", "has no meaning with method = \"penalty\"",
                         "laws are of the impulse method: leave `law` out");
+        }
+        if (table.has("locating_share")) {
+            table.error("locating_share", "has no meaning with method = \"penalty\"",
+                        "the penalty method locates no impacts: leave `locating_share` out");
         }
     } else if (method == "impulse" && has_springs) {
         table.error("penalty", "has no meaning with method = \"impulse\"",

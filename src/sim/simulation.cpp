@@ -204,9 +204,8 @@ void hold_fluid(Simulation& sim, double dt)
     }
 }
 
-// Locating impacts may take a fifth of what the fluid does: an update of a contact costs a tenth of
-// a step of a fluid particle, on one thread.
-constexpr double located_work_of_particle = 2;
+// A step of a fluid particle costs as much as ten updates of a contact, on one thread.
+constexpr double updates_of_particle = 10;
 
 } // namespace
 
@@ -232,7 +231,8 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
             sim.barrier = make_wall_barrier(scene);
         }
         sim.rigid.settings.located_work =
-            located_work_of_particle * static_cast<double>(sim.plan.counts.fluid);
+            scene.contact.locating_share * updates_of_particle *
+            static_cast<double>(sim.plan.counts.fluid);
         if (sim.fluid->moving_walls) {
             sim.wall_start = filling.wall;
         }

@@ -52,6 +52,7 @@ TEST(CaseFile, ReadsEveryKey)
     ASSERT_EQ(scene.bodies.size(), 8u);
     EXPECT_TRUE(scene.bodies[6].fixed);
     EXPECT_EQ(scene.contact.law, ImpactLaw::simultaneous);
+    EXPECT_EQ(scene.contact.locating_share, 0.35);
     EXPECT_FALSE(scene.contact.penalty);
     ASSERT_EQ(scene.contact.pairs.size(), 1u);
     EXPECT_EQ(scene.contact.pairs[0].stiffness, 2.4e6);

@@ -121,6 +121,7 @@ position = [5.5, 0.5, 0.7]
 [contact]
 method = "impulse"
 law = "simultaneous"
+locating_share = 0.35
 restitution = 0.4
 friction = 0.3
 [[contact.pair]]
