@@ -100,13 +100,17 @@ void close_step(Rigid& rigid)
 void plan_located(const StepContext& context, SubStep& sub, double rest)
 {
     if (context.memory.stepped) {
-        set_responses(context, sub.cluster);
         find_contacts_of_tired(context, sub);
     }
     plan_motion(context, sub);
     end_with_part(context, sub, rest);
     end_with_turn(context, sub);
     end_with_slip(context, sub);
+}
+
+bool needs_halving(const StepContext& context, const SubStep& sub)
+{
+    return (context.memory.stepped && ends_deep(context, sub)) || gains_energy(context, sub);
 }
 
 // Advances with impacts located in time until the step is over or the events are too many for the
@@ -125,9 +129,10 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
             std::min(sub_step_length(context, cluster, rest), part_on_contacts(context, rest));
         SubStep sub{cluster, context.start + done, h, slow, most_rounds};
         plan_located(context, sub, rest);
-        for (int k = 0; k < halvings && context.memory.stepped && ends_deep(context, sub); ++k) {
+        for (int k = 0; k < halvings && needs_halving(context, sub); ++k) {
             h = 0.5 * sub.h;
             sub.h = h;
+            set_responses(context, cluster);
             plan_located(context, sub, rest);
         }
         const double s = first_event(context, sub);

@@ -109,6 +109,10 @@ bool ends_deep(const StepContext& context, const SubStep& sub);
 /// Such a sub-step is halved so often at most.
 inline constexpr int halvings = 8;
 
+/// Whether contacts, walls that move left out, give the cluster energy in the planned motion, or
+/// the projection of the gaps at its end would: more than a millionth of what it moves with.
+bool gains_energy(const StepContext& context, const SubStep& sub);
+
 /// Moves the bodies along their paths to s and books the share of the contact impulses.
 void move_to(const StepContext& context, const SubStep& sub, double s);
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The energy that contacts give in a planned sub-step. Contacts that push at the middle of it and
+// are seen at its end are of second order, but what they do then is not bound to take energy: the
+// error is of third order in the length of the sub-step, and of either sign.
+#include "sub_step.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+// Energy from contacts that is left in a sub-step, as a part of what the cluster moves with.
+constexpr double no_gain = 1e-6;
+// Round-off of their work, as a part of the kinetic energy.
+constexpr double round_off = 1e-13;
+
+// The work of the contacts on the bodies: what their kinetic energy gains beyond the work of
+// gravity and loads.
+double work_on(const StepContext& context, int k)
+{
+    const ContactMemory& memory = context.memory;
+    const Path& path = memory.paths[k];
+    const Rotor& rotor = memory.rotors[k];
+    const Vec3 mean = 0.5 * (path.v0 + path.v1);
+    const Vec3 gain = path.v1 - path.v0 - path.h * acceleration(context, k);
+    double work = context.rigid.bodies[k].mass.mass * mean.dot(gain);
+    if (rotor.free_axes > 0) {
+        const SolidPose end = pose_at(path, rotor, path.h);
+        const Vec3 before = inverse_inertia(rotor, path.start.R) * path.L0;
+        const Vec3 after = inverse_inertia(rotor, end.R) * path.L1;
+        work += 0.5 * (path.L1.dot(after) - path.L0.dot(before)) -
+                0.5 * path.h * context.loads[k].torque.dot(before + after);
+    }
+    return work;
+}
+
+// The gain that is left, but for what the contacts exchange: by the kinetic energy at the end of
+// the paths, seen from the centre of mass of the cluster, so that a current that carries all bodies
+// on does not count.
+double gain_left(const StepContext& context, const SubStep& sub)
+{
+    const ContactMemory& memory = context.memory;
+    double mass = 0;
+    double energy = 0;
+    Vec3 momentum = Vec3::Zero();
+    for (const int k : sub.cluster.bodies) {
+        const Path& path = memory.paths[k];
+        const double m = memory.rotors[k].movable ? context.rigid.bodies[k].mass.mass : 0;
+        mass += m;
+        momentum += m * path.v1;
+        energy += 0.5 * (m * path.v1.squaredNorm() + path.L1.dot(memory.responses[k].omega));
+    }
+    const double of_centre = 0.5 * momentum.squaredNorm() / mass;
+    return no_gain * (energy - of_centre) + round_off * energy;
+}
+
+// What the projection will do against gravity and loads where the path changes a gap: it moves the
+// two bodies, whose contact has that acceleration in free flight, until the gap is what it was.
+double work_of_projection(const StepContext& context, const Row& row, double change)
+{
+    const ContactMemory& memory = context.memory;
+    const Vec3 n = row.D.col(0);
+    const auto free = [&](int k, const Mat3& lever) {
+        const Vec3 turn = memory.responses[k].inverse_inertia * context.loads[k].torque;
+        return n.dot(acceleration(context, k)) + lever.col(0).dot(turn);
+    };
+    const double apart = free(row.a, row.lever_a) - (row.b >= 0 ? free(row.b, row.lever_b) : 0.0);
+    return change * apart / row.cone.K(0, 0);
+}
+
+} // namespace
+
+bool gains_energy(const StepContext& context, const SubStep& sub)
+{
+    ContactMemory& memory = context.memory;
+    const auto pushes = [](const Persistent& p) { return p.impulse.squaredNorm() > 0; };
+    if (std::ranges::none_of(memory.persistent, pushes)) {
+        return false;
+    }
+    double work = 0;
+    for (const int k : sub.cluster.bodies) {
+        work += memory.rotors[k].movable ? work_on(context, k) : 0;
+        memory.trial[k] = pose_at(memory.paths[k], memory.rotors[k], sub.h);
+    }
+    const Configuration end = configuration(memory, memory.trial, sub.time + sub.h);
+    double left = gain_left(context, sub);
+    for (const Row& row : memory.rows) {
+        const Persistent& p = memory.persistent[row.contact];
+        work -= p.impulse.dot(wall_velocity(memory, p.candidate.feature.b, sub.time + 0.5 * sub.h));
+        left += 0.5 * no_gain * row.p.dot(row.cone.K * row.p);
+        if (row.p[0] > 0) {
+            const double gap = touch_of(p.candidate.feature, end).gap;
+            work += work_of_projection(context, row, gap - p.candidate.touch.gap);
+        }
+    }
+    return work > left;
+}
+
+} // namespace hyoryu
