@@ -4,6 +4,7 @@
 // lost, none appears, and still water stays still. A placement follows from its seed alone;
 // HYORYU_PLACEMENTS=200 is the nightly size, with meshes in three dimensions, HYORYU_SEED the first
 // seed, HYORYU_SHOW=1 prints the cases.
+#include "../dice.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/solid_surface.hpp"
 #include "runs.hpp"
@@ -19,24 +20,6 @@
 
 namespace hyoryu {
 namespace {
-
-// Numbers from a counter: the hash of Steele, Lea and Flood (2014).
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : state_(seed) {}
-
-    double between(double low, double high)
-    {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-        return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-    int below(int n) { return static_cast<int>(between(0, n)); }
-
-private:
-    std::uint64_t state_;
-};
 
 enum class Ground { bed, plane, slope, step, mesh };
 
@@ -216,12 +199,6 @@ double most_crowded(const Scene& scene, const Filling& filling)
 // From which on a row at the start presses through a wall of particles where nothing else holds it:
 // the least sum of those that did.
 constexpr double presses_through = 1.19;
-
-int number_from(const char* variable, int otherwise)
-{
-    const char* text = std::getenv(variable);
-    return text == nullptr ? otherwise : std::atoi(text);
-}
 
 // Calls f(placement) for the placements of this run.
 void for_placements(int usual, bool still, const auto& f)

@@ -3,6 +3,7 @@
 // basin, solids do not overlap, energy does not grow and momentum closes. A scene follows from its
 // seed alone; HYORYU_SCENES=1000 is the nightly size, HYORYU_SEED the first seed,
 // HYORYU_SHOW=1 prints the cases.
+#include "../dice.hpp"
 #include "hyoryu/core/error.hpp"
 #include "runs.hpp"
 
@@ -19,25 +20,6 @@ constexpr double spacing = 0.04;
 constexpr double length = 2.0;
 constexpr double height = 1.2;
 constexpr double pitch = 0.4; // of the places where bodies start: none overlaps another
-
-// Numbers from a counter: the hash of Steele, Lea and Flood (2014).
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : state_(seed) {}
-
-    double between(double low, double high)
-    {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-        return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-    bool chance(double p) { return between(0, 1) < p; }
-    int below(int n) { return static_cast<int>(between(0, n)); }
-
-private:
-    std::uint64_t state_;
-};
 
 // One draw a statement: the order of arguments is the compiler's.
 std::string fluid_of(Dice& dice, double width)
@@ -156,12 +138,6 @@ void expect_sound(const Simulation& sim)
             EXPECT_LT(sim.ledger.worst_closure, 6e-8) << "half a unit of the last place of a float";
         }
     }
-}
-
-int number_from(const char* variable, int otherwise)
-{
-    const char* text = std::getenv(variable);
-    return text == nullptr ? otherwise : std::atoi(text);
 }
 
 TEST(RandomScenes, StaySound)
