@@ -216,9 +216,11 @@ private:
             const int next = cell(c).next[at(edge)];
             const Way& out = way(c, edge);
             if (joined(next)) {
-                const double g = conductance(edge);
                 const Vec3 step = node(c).place - node(next).place;
-                total += g * (node(next).pressure + fluid_.weight.dot(step));
+                const double its = node(next).pressure;
+                const double there = its + fluid_.weight.dot(step);
+                const double g = its > 0 || there < own ? conductance(edge) : 0; // air gives none
+                total += g * there;
                 weight += g;
             } else {
                 const double g = out.conductance * (out.pressure > own ? out.enters : 1);
