@@ -12,29 +12,12 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// The triangles of a mesh wall that a body may touch; searched anew when it has moved on.
-bool near_mesh(NearTriangles& near, const RayWall& wall, const Vec3& centre, double reach)
-{
-    if (!((centre - near.at).norm() <= near.margin)) {
-        near.at = centre;
-        near.margin = reach / 4;
-        const Vec3 half = Vec3::Constant(reach + near.margin);
-        near.triangles = triangles_near(wall, centre - half, centre + half);
-    }
-    return !near.triangles.empty();
-}
-
 void find_near_walls(JointTables& tables, int b, const Vec3& centre)
 {
     BodyJoints& body = tables.bodies[at(b)];
     const double reach = tables.solids[at(b)].reach + tables.reach;
     for (std::size_t w = 0; w < tables.walls.size(); ++w) {
-        const RayWall& wall = tables.walls[w];
-        const Vec3 from_wall = centre - tables.displaced[w];
-        const bool near = wall.triangles.empty()
-                              ? near_wall(wall, from_wall, reach)
-                              : near_mesh(body.meshes[w], wall, from_wall, reach);
-        if (near) {
+        if (near_wall(tables.walls[w], centre - tables.displaced[w], reach)) {
             body.near.push_back(-1 - static_cast<int>(w));
         }
     }
@@ -77,9 +60,6 @@ JointTables joint_tables(const Rigid& rigid, double reach)
     }
     tables.bodies.resize(rigid.bodies.size());
     tables.along_x.resize(rigid.bodies.size());
-    for (BodyJoints& body : tables.bodies) {
-        body.meshes.resize(tables.walls.size());
-    }
     return tables;
 }
 
@@ -100,7 +80,7 @@ void find_near(JointTables& tables, const Rigid& rigid, const std::vector<Pose>&
 }
 
 OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, int b,
-                     const Ray& ray)
+                     const Ray& ray, const RayPart& part)
 {
     OtherHit first;
     const BodyJoints& body = tables.bodies[at(b)];
@@ -112,8 +92,8 @@ OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, 
     for (const int other : body.near) {
         if (other < 0) {
             const auto w = at(-1 - other);
-            keep(other, enters(tables.walls[w], {ray.origin - tables.displaced[w], ray.direction},
-                               body.meshes[w].triangles));
+            keep(other,
+                 enters(tables.walls[w], {ray.origin - tables.displaced[w], ray.direction}, part));
             continue;
         }
         const Pose& pose = poses[at(other)];
@@ -128,10 +108,15 @@ OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, 
     return first;
 }
 
+double overlap_of(const JointTables& tables)
+{
+    return 0.25 * tables.reach;
+}
+
 bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const Joins& joins)
 {
-    constexpr double facing = -0.8;  // cosine of the two normals, at most
-    constexpr double overlap = 0.25; // by how much surfaces may overlap, over the reach
+    constexpr double facing = -0.8; // cosine of the two normals, at most
+    const RayPart part{-overlap_of(tables), tables.reach};
     BodyJoints& body = tables.bodies[at(b)];
     const Mat3 R = poses[at(b)].orientation.toRotationMatrix();
     bool any = false;
@@ -141,11 +126,10 @@ bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const
         JointNode& node = body.nodes[c];
         node = {.place = poses[at(b)].position + R * cell.centre,
                 .normal = R * body.faces.faces[at(cell.face)].normal};
-        const OtherHit found = first_other(tables, poses, b, {node.place, node.normal});
+        const OtherHit found = first_other(tables, poses, b, {node.place, node.normal}, part);
         const double gap = found.hit.enter;
-        if (found.other != JointNode::none && gap >= -overlap * tables.reach &&
-            gap < tables.reach && found.hit.normal.dot(node.normal) < facing &&
-            joins(b, found.other, node.normal)) {
+        if (found.other != JointNode::none && gap >= part.from && gap < part.to &&
+            found.hit.normal.dot(node.normal) < facing && joins(b, found.other, node.normal)) {
             node.other = found.other;
             node.gap = gap;
             any = true;

@@ -24,21 +24,13 @@ struct JointNode {
     Vec3 normal{0, 0, 1}; // of the face, outward
 };
 
-/// Triangles of a mesh wall near a body, good while the body stays within `margin` of `at`.
-struct NearTriangles {
-    std::vector<int> triangles;
-    Vec3 at = Vec3::Constant(infinity); // seen from the wall [m]
-    double margin = 0;                  // [m]
-};
-
 /// A body with its joints.
 struct BodyJoints {
     bool has_faces = false;
     BodyFaces faces;
-    std::vector<int> near;             // other solids that it may touch, walls first
-    std::vector<NearTriangles> meshes; // by wall
-    std::vector<JointNode> nodes;      // by cell; empty while no cell lies opposite anything
-    std::vector<std::uint8_t> joined;  // by face: it has touched what lies opposite
+    std::vector<int> near;            // other solids that it may touch, walls first
+    std::vector<JointNode> nodes;     // by cell; empty while no cell lies opposite anything
+    std::vector<std::uint8_t> joined; // by face: it has touched what lies opposite
 };
 
 /// All surfaces of the scene.
@@ -55,17 +47,22 @@ struct JointTables {
 /// The tables of a scene whose joints are at most `reach` wide.
 JointTables joint_tables(const Rigid& rigid, double reach);
 
+/// How far behind the origin of a ray the surface of another solid may lie: solids may overlap a
+/// little [m].
+double overlap_of(const JointTables& tables);
+
 /// Moves the walls to a time and lists for every body which solids are near it.
 void find_near(JointTables& tables, const Rigid& rigid, const std::vector<Pose>& poses,
                double time);
 
-/// Where a ray from body b, in world axes, first enters another solid that is near.
+/// Where a ray from body b, in world axes, first enters another solid that is near; of triangles
+/// within a part of the ray.
 struct OtherHit {
     int other = JointNode::none;
     RayHit hit;
 };
 OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, int b,
-                     const Ray& ray);
+                     const Ray& ray, const RayPart& part);
 
 /// Whether the joint of body b and another solid is open to water and belongs to the cells of b;
 /// `normal` is that of the face, outward.

@@ -164,8 +164,9 @@ private:
         const Vec3 outward =
             pose.orientation * ((edge % 2 == 0 ? -1 : 1) * (edge < 2 ? face_.u : face_.v));
         const Ray ray{place - 0.5 * fluid_.spacing * node(c).normal, outward};
-        constexpr double room = 0.9; // spacings that a particle needs
-        if (first_other(tables_, poses_, b_, ray).hit.enter < room * fluid_.spacing) {
+        const double room = 0.9 * fluid_.spacing; // that a particle needs
+        const RayPart part{-overlap_of(tables_), room};
+        if (first_other(tables_, poses_, b_, ray, part).hit.enter < room) {
             return {};
         }
         Way way{2 * conductance(edge), 0, 0};

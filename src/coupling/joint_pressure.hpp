@@ -13,8 +13,8 @@ struct LatticeSums {
     std::array<double, steps + 1> between{};
     double rim = 0; // of half a row that begins a spacing away, beside the particle
 
-    /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1 counts
-    /// as 1.
+    /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1
+    /// counts as 1.
     double row(double width) const;
 };
 LatticeSums lattice_sums(const Fluid& fluid);

@@ -110,7 +110,8 @@ RayWall walls_of(const Basin& basin)
         if (!basin.open[2 * k + 1]) {
             wall.half_spaces.push_back({-unit, -basin.max[axis]});
         }
-        if (basin.open[2 * k] && basin.open[2 * k + 1]) { // both sides open: no wall along this axis
+        if (basin.open[2 * k] &&
+            basin.open[2 * k + 1]) { // both sides open: no wall along this axis
             wall.low[axis] = -infinity;
             wall.high[axis] = infinity;
         }
@@ -121,16 +122,19 @@ RayWall walls_of(const Basin& basin)
 RayWall walls_of(const MeshSurface& mesh)
 {
     RayWall wall;
+    std::vector<AlignedBox> boxes;
     for (const auto& corners : mesh.triangles) {
         std::array<Vec3, 3> triangle;
+        AlignedBox box;
         for (std::size_t k = 0; k < 3; ++k) {
             triangle[k] = mesh.position +
                           mesh.orientation * mesh.corners[static_cast<std::size_t>(corners[k])];
+            box.add(triangle[k]);
         }
-        wall.boxes.push_back({triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]),
-                              triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2])});
+        boxes.push_back(box);
         wall.triangles.push_back(triangle);
     }
+    wall.tree = tree_over(boxes);
     return wall;
 }
 
@@ -153,6 +157,23 @@ std::optional<RayHit> meets(const std::array<Vec3, 3>& t, const Ray& ray)
         return std::nullopt;
     }
     return RayHit{normal.dot(from) / slope, infinity, normal.normalized()};
+}
+
+// Calls f for every triangle whose leaf meets the box, below a node; true as soon as f is.
+bool any_of_near(const BoxTree& tree, std::size_t at, const AlignedBox& box, const auto& f)
+{
+    const BoxTree::Node& node = tree.nodes[at];
+    if (!node.box.meets(box)) {
+        return false;
+    }
+    if (node.right >= 0) {
+        return any_of_near(tree, at + 1, box, f) ||
+               any_of_near(tree, static_cast<std::size_t>(node.right), box, f);
+    }
+    const std::span leaf =
+        std::span(tree.order)
+            .subspan(static_cast<std::size_t>(node.first), static_cast<std::size_t>(node.count));
+    return std::ranges::any_of(leaf, f);
 }
 
 } // namespace
@@ -271,26 +292,11 @@ bool near_wall(const RayWall& wall, const Vec3& point, double reach)
     if (!wall.solid.pieces.empty()) {
         return (point - wall.position).norm() <= reach + wall.solid.reach;
     }
-    const Vec3 low = point - Vec3::Constant(reach);
-    const Vec3 high = point + Vec3::Constant(reach);
-    return std::ranges::any_of(wall.boxes, [&](const std::array<Vec3, 2>& box) {
-        return (box[0].array() <= high.array()).all() && (low.array() <= box[1].array()).all();
-    });
+    const AlignedBox box{point - Vec3::Constant(reach), point + Vec3::Constant(reach)};
+    return !wall.triangles.empty() && any_of_near(wall.tree, 0, box, [](int) { return true; });
 }
 
-std::vector<int> triangles_near(const RayWall& wall, const Vec3& low, const Vec3& high)
-{
-    std::vector<int> near;
-    for (std::size_t k = 0; k < wall.boxes.size(); ++k) {
-        if ((wall.boxes[k][0].array() <= high.array()).all() &&
-            (low.array() <= wall.boxes[k][1].array()).all()) {
-            near.push_back(static_cast<int>(k));
-        }
-    }
-    return near;
-}
-
-std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const std::vector<int>& near)
+std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const RayPart& part)
 {
     std::optional<RayHit> first;
     const auto keep = [&](const std::optional<RayHit>& hit) {
@@ -318,8 +324,17 @@ std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const std::vec
         }
         keep(hit);
     }
-    for (const int k : near) {
-        keep(meets(wall.triangles[static_cast<std::size_t>(k)], ray));
+    if (!wall.triangles.empty()) {
+        AlignedBox along;
+        along.add(ray.origin + part.from * ray.direction);
+        along.add(ray.origin + part.to * ray.direction);
+        any_of_near(wall.tree, 0, along, [&](int k) {
+            const auto hit = meets(wall.triangles[static_cast<std::size_t>(k)], ray);
+            if (hit && hit->enter >= part.from && hit->enter <= part.to) {
+                keep(hit);
+            }
+            return false;
+        });
     }
     return first;
 }

@@ -2,6 +2,7 @@
 // Surfaces of solids as rays meet them: what lies opposite a face, and what closes a rim.
 #pragma once
 
+#include "hyoryu/rigid/box_tree.hpp"
 #include "hyoryu/rigid/rigid.hpp"
 
 #include <optional>
@@ -13,6 +14,12 @@ namespace hyoryu {
 struct Ray {
     Vec3 origin{0, 0, 0};
     Vec3 direction{0, 0, -1};
+};
+
+/// The part of a ray that is looked at, from a distance to a distance [m].
+struct RayPart {
+    double from = -infinity;
+    double to = infinity;
 };
 
 /// The stretch [enter, leave] of a ray within a solid, with the outward normal where it enters.
@@ -66,17 +73,15 @@ struct RayWall {
     Vec3 position{0, 0, 0}; // of the solid
     Quat orientation = Quat::Identity();
     std::vector<std::array<Vec3, 3>> triangles;
-    std::vector<std::array<Vec3, 2>> boxes; // about each triangle
+    BoxTree tree; // of the triangles
 };
 RayWall ray_wall(const Boundary& boundary, int dimensions);
 
 /// Whether anything of the wall lies within `reach` of a point.
 bool near_wall(const RayWall& wall, const Vec3& point, double reach);
 
-/// The triangles whose boxes meet a box, ascending.
-std::vector<int> triangles_near(const RayWall& wall, const Vec3& low, const Vec3& high);
-
-/// Where the ray first enters the wall, within the triangles named.
-std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const std::vector<int>& near);
+/// Where the ray first enters the wall. Triangles count in a part of the ray only, since there is
+/// none that all of a ray lies before: the part bounds their number, too.
+std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const RayPart& part);
 
 } // namespace hyoryu

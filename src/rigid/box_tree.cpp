@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "box_tree.hpp"
+#include "hyoryu/rigid/box_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

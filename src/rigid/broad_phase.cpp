@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "broad_phase.hpp"
 
-#include "box_tree.hpp"
+#include "hyoryu/rigid/box_tree.hpp"
 #include "compound.hpp"
 
 #include "hyoryu/core/parallel.hpp"

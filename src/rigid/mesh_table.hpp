@@ -2,7 +2,7 @@
 // A triangle surface with the tables that contact needs.
 #pragma once
 
-#include "box_tree.hpp"
+#include "hyoryu/rigid/box_tree.hpp"
 
 #include "hyoryu/rigid/body.hpp"
 

@@ -71,18 +71,18 @@ TEST(JointSurface, WallsOfEveryShapeAreMet)
     const Ray down{{0.4, 0.4, 2}, {0, 0, -1}};
     Boundary wall;
     wall.surface = Plane{{0, 0, 0.5}, {0, 0, 1}};
-    EXPECT_NEAR(enters(ray_wall(wall, 3), down, {})->enter, 1.5, 1e-14);
+    EXPECT_NEAR(enters(ray_wall(wall, 3), down, {-1, 3})->enter, 1.5, 1e-14);
     wall.surface = Basin{{0, 0, 0.25}, {1, 1, 3}, {false, false, false, false, false, true}};
-    EXPECT_NEAR(enters(ray_wall(wall, 3), down, {})->enter, 1.75, 1e-14);
-    EXPECT_NEAR(enters(ray_wall(wall, 3), {{0.4, 0.4, 2}, {1, 0, 0}}, {})->enter, 0.6, 1e-14);
-    EXPECT_FALSE(enters(ray_wall(wall, 3), {{0.4, 0.4, 2}, {0, 0, 1}}, {})); // open above
+    EXPECT_NEAR(enters(ray_wall(wall, 3), down, {-1, 3})->enter, 1.75, 1e-14);
+    EXPECT_NEAR(enters(ray_wall(wall, 3), {{0.4, 0.4, 2}, {1, 0, 0}}, {-1, 3})->enter, 0.6, 1e-14);
+    EXPECT_FALSE(enters(ray_wall(wall, 3), {{0.4, 0.4, 2}, {0, 0, 1}}, {-1, 3})); // open above
     wall.surface = Obstacle{box_polytope({1, 1, 1}, 3), {0.5, 0.5, 0}};
-    EXPECT_NEAR(enters(ray_wall(wall, 3), down, {})->enter, 1.5, 1e-14);
+    EXPECT_NEAR(enters(ray_wall(wall, 3), down, {-1, 3})->enter, 1.5, 1e-14);
     MeshSurface mesh;
     mesh.corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 1, 1}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     wall.surface = mesh;
-    const auto hit = enters(ray_wall(wall, 3), down, {0, 1});
+    const auto hit = enters(ray_wall(wall, 3), down, {-1, 3});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->enter, 1.6, 1e-14);
     EXPECT_NEAR(hit->normal.y(), -std::sqrt(0.5), 1e-14);
