@@ -11,17 +11,40 @@ namespace hyoryu {
 
 namespace {
 
-// What of a lattice cell lies inside a shape, and the middle of the rest.
+// What of a lattice cell lies inside some shapes, and the middle of the rest.
 struct Cover {
     double part = 0;
     Vec3 rest{0, 0, 0}; // [m]
 };
 
+// Shapes that may displace parts of the same cells, with boxes about what each may cut.
+struct Cluster {
+    std::vector<Placed> shapes;
+    std::vector<Bounds> boxes;
+};
+
+bool holds(const Bounds& box, const Vec3& p)
+{
+    return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+}
+
+// Signed distance of the nearest shape; infinity outside of all boxes [m].
+double distance_to(const Cluster& cluster, const Vec3& p)
+{
+    double distance = infinity;
+    for (std::size_t k = 0; k < cluster.shapes.size(); ++k) {
+        if (holds(cluster.boxes[k], p)) {
+            distance = std::min(distance, signed_distance(cluster.shapes[k], p));
+        }
+    }
+    return distance;
+}
+
 // That of the cell about p, by sub-cells.
-Cover covered(const Placed& shape, const Vec3& p, double spacing)
+Cover covered(const Cluster& cluster, const Vec3& p, double spacing)
 {
     constexpr int n = 4;
-    const int ny = shape.dimensions == 2 ? 1 : n;
+    const int ny = cluster.shapes[0].dimensions == 2 ? 1 : n;
     int inside = 0;
     Vec3 rest = Vec3::Zero();
     for (int k = 0; k < n; ++k) {
@@ -30,7 +53,7 @@ Cover covered(const Placed& shape, const Vec3& p, double spacing)
                 const Vec3 offset{(i + 0.5) / n - 0.5, ny == 1 ? 0.0 : (j + 0.5) / n - 0.5,
                                   (k + 0.5) / n - 0.5};
                 const Vec3 point = p + spacing * offset;
-                const bool in = signed_distance(shape, point) < 0;
+                const bool in = distance_to(cluster, point) < 0;
                 inside += in ? 1 : 0;
                 rest += in ? Vec3(Vec3::Zero()) : point;
             }
@@ -145,25 +168,53 @@ double height(const Scene& scene, const Vec3& p)
     return g > 0 ? -scene.gravity.dot(p) / g : p.z();
 }
 
-void take_out(const Scene& scene, const BodySettings& body, Filling& filling)
+namespace {
+
+// The bodies that may cut a cell together, all of them in groups.
+std::vector<Cluster> clusters_of(const Scene& scene)
 {
-    const Placed shape{&body.shape, body.position, body.rotation, scene.dimensions};
+    std::vector<Cluster> clusters;
     const double spacing = scene.spacing;
-    Bounds box = bounds(shape);
-    box.min -= Vec3::Constant(spacing);
-    box.max += Vec3::Constant(spacing);
+    const auto meet = [&](const Bounds& a, const Bounds& b) { // both are a spacing too large
+        return (a.min.array() <= b.max.array() - spacing).all() &&
+               (b.min.array() <= a.max.array() - spacing).all();
+    };
+    for (const BodySettings& body : scene.bodies) {
+        Cluster joined{{{&body.shape, body.position, body.rotation, scene.dimensions}}, {}};
+        Bounds box = bounds(joined.shapes[0]);
+        box.min -= Vec3::Constant(spacing);
+        box.max += Vec3::Constant(spacing);
+        joined.boxes.push_back(box);
+        std::erase_if(clusters, [&](const Cluster& other) {
+            const bool near =
+                std::ranges::any_of(other.boxes, [&](const Bounds& its) { return meet(its, box); });
+            if (near) {
+                joined.shapes.insert(joined.shapes.end(), other.shapes.begin(), other.shapes.end());
+                joined.boxes.insert(joined.boxes.end(), other.boxes.begin(), other.boxes.end());
+            }
+            return near;
+        });
+        clusters.push_back(std::move(joined));
+    }
+    return clusters;
+}
+
+void take_out(const Scene& scene, const Cluster& cluster, Filling& filling)
+{
+    const double spacing = scene.spacing;
+    Bounds box;
+    for (const Bounds& one : cluster.boxes) {
+        box.add(one);
+    }
     std::vector<bool> gone(filling.fluid.size(), false);
     std::vector<CutCell> cut;
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
         const Vec3& p = filling.fluid[k];
-        if (((p - box.min).array() < 0).any() || ((box.max - p).array() < 0).any()) {
-            continue;
-        }
-        const double distance = signed_distance(shape, p);
+        const double distance = holds(box, p) ? distance_to(cluster, p) : infinity;
         if (distance >= spacing) {
             continue;
         }
-        const Cover cover = distance < -spacing ? Cover{1, p} : covered(shape, p, spacing);
+        const Cover cover = distance < -spacing ? Cover{1, p} : covered(cluster, p, spacing);
         gone[k] = cover.part == 1;
         if (cover.part > 0 && cover.part < 1) {
             cut.push_back({k, distance, cover, room_at(scene, p), morton((p - box.min) / spacing)});
@@ -172,6 +223,15 @@ void take_out(const Scene& scene, const BodySettings& body, Filling& filling)
     choose(cut, gone);
     move_out(scene, cut, gone, filling);
     drop(gone, filling);
+}
+
+} // namespace
+
+void take_out_bodies(const Scene& scene, Filling& filling)
+{
+    for (const Cluster& cluster : clusters_of(scene)) {
+        take_out(scene, cluster, filling);
+    }
 }
 
 } // namespace hyoryu

@@ -228,11 +228,9 @@ Filling fill(const Scene& scene)
             filled.particle_volume =
                 volume(body.shape, scene.dimensions) / static_cast<double>(filled.points.size());
         }
-        if (scene.fluid) {
-            take_out(scene, body, filling);
-        }
     }
     if (scene.fluid && !scene.bodies.empty()) {
+        take_out_bodies(scene, filling);
         stand_off_bodies(scene, filling);
     }
     return filling;

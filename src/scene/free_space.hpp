@@ -27,6 +27,7 @@ public:
     /// Distance from what is not free [m], negative in it.
     double clearance(const Vec3& point) const { return nearest(point, all_).distance; }
     bool is_in_wall(const Vec3& point) const;
+    int dimensions() const { return dimensions_; }
 
 private:
     void number_obstacles();

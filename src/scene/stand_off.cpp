@@ -93,6 +93,29 @@ Vec3 way_apart(const CellGrid& grid, const std::vector<Vec3>& points, std::size_
     return way;
 }
 
+// The nearest place about a point that has a distance from all surfaces, on spheres of growing
+// radius: where solids touch, the way out of each one leads into the other. None within two
+// distances: the point stays.
+Vec3 step_aside(const FreeSpace& space, std::span<const int> among, double distance,
+                const Vec3& point)
+{
+    constexpr int spheres = 8; // a quarter of the distance apart
+    constexpr int directions = 27;
+    for (int sphere = 1; sphere <= spheres; ++sphere) {
+        for (int k = 0; k < directions; ++k) {
+            const Vec3 way = Vec3(k % 3, k / 3 % 3, k / 9) - Vec3::Constant(1);
+            if (way == Vec3(0, 0, 0) || (space.dimensions() == 2 && way.y() != 0)) {
+                continue;
+            }
+            const Vec3 place = point + 0.25 * sphere * distance * way.normalized();
+            if (space.nearest(place, among).distance >= distance) {
+                return place;
+            }
+        }
+    }
+    return point;
+}
+
 // Moves pairs apart of which at least one is free to, and keeps those off the surfaces.
 void relax(const FreeSpace& space, double spacing, const std::vector<std::uint8_t>& is_free,
            std::vector<Vec3>& points)
@@ -110,8 +133,9 @@ void relax(const FreeSpace& space, double spacing, const std::vector<std::uint8_
             if (is_free[at(k)] != 0) {
                 Vec3& p = moved[at(k)];
                 p += way_apart(grid, points, at(k), apart * spacing);
-                if (space.nearest(p, solids[at(k)]).distance < clearly * spacing) {
-                    step_off(space, solids[at(k)], spacing / 2, p);
+                if (space.nearest(p, solids[at(k)]).distance < clearly * spacing &&
+                    !step_off(space, solids[at(k)], spacing / 2, p)) {
+                    p = step_aside(space, solids[at(k)], spacing / 2, points[at(k)]);
                 }
             }
         });

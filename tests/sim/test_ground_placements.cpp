@@ -280,6 +280,44 @@ TEST(GroundPlacements, FillingKeepsItsDistanceFromBodies)
     }
 }
 
+// Boxes of a stack in a tank that fits its lattice, turned together about a horizontal axis.
+Scene tank_with_stack(std::uint64_t seed)
+{
+    Dice dice(seed);
+    const double angle = dice.below(2) == 0 ? 0 : dice.between(-30, 30);
+    const double turn = angle * std::numbers::pi / 180;
+    const Vec3 up(std::sin(turn), 0, std::cos(turn));
+    const Vec3 along(std::cos(turn), 0, -std::sin(turn));
+    Vec3 foot(dice.between(0.4, 0.8), 0, dice.between(0.1, 0.2));
+    std::string text = "dimensions = 2\n[time]\nend = 10.0\n[particles]\nspacing = 0.04\n[fluid]\n"
+                       "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [1.2, 0, 0.8]\n"
+                       "[[wall]]\nname = \"sides\"\nshape = \"basin\"\nmin = [0, 0, 0]\n"
+                       "max = [1.2, 0, 2.0]\nopen = [\"+z\"]\n";
+    for (int k = 0; k < 3; ++k) {
+        const double width = dice.between(0.15, 0.4);
+        const double height = dice.between(0.1, 0.2);
+        const Vec3 place = foot + height / 2 * up + dice.between(-0.1, 0.1) * along;
+        foot += height * up;
+        text += fmt::format("[[body]]\nname = \"box{}\"\nshape = \"box\"\nsize = [{}, 1, {}]\n"
+                            "density = 600.0\nposition = [{}, 0, {}]\n"
+                            "rotation_deg = {{ axis = [0, 1, 0], angle = {} }}\n",
+                            k, width, height, place.x(), place.z(), angle);
+    }
+    return parse_case(text, "test.toml");
+}
+
+// Each box takes its part out of the cells between two of them: what both left, deep in their
+// joint, pressed them apart with ten times their weight.
+TEST(GroundPlacements, FillingLeavesNoWaterBetweenBodiesThatTouch)
+{
+    const int count = number_from("HYORYU_PLACEMENTS", 60);
+    for (int seed = 1; seed <= count; ++seed) {
+        SCOPED_TRACE(seed);
+        const Scene scene = tank_with_stack(static_cast<std::uint64_t>(seed));
+        EXPECT_GT(least_clearance(scene, fill(scene)), 0.4);
+    }
+}
+
 TEST(GroundPlacements, NoWaterGetsIntoASolidOrIsLost)
 {
     constexpr int look_every = 20; // steps, in which water moves by a spacing at most
