@@ -167,23 +167,46 @@ private:
     double fastest_ = 0; // of the points of solids [m/s]
 };
 
-// Changes a velocity until every surface is content; between solids that close in on it no velocity
-// would do, so only a few times.
-void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
+// Changes a velocity until every surface is content, a few times over. How much the last round had
+// to change, in parts of the first.
+double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 {
     constexpr int rounds = 4;
-    bool changed = true;
-    for (int round = 0; round < rounds && changed; ++round) {
-        changed = false;
+    double first = 0;
+    double last = 0;
+    for (int round = 0; round < rounds; ++round) {
+        last = 0;
         for (SurfaceHold& h : holds) {
             const double lacking = h.least - (v - h.velocity).dot(h.normal);
             if (lacking > 0) {
                 v += lacking * h.normal;
                 h.impulse += mass * lacking * h.normal;
-                changed = true;
+                last = std::max(last, lacking);
             }
         }
+        first = round == 0 ? last : first;
+        if (last == 0) {
+            return 0;
+        }
     }
+    return last / first;
+}
+
+// Between solids that touch or close in on a particle no velocity contents all: each round would
+// press them apart by as much again. There they only stop its approach.
+void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
+{
+    constexpr double hopeless = 0.5; // surfaces at 45 degrees leave less
+    const Vec3 before = v;
+    if (settle(mass, v, holds) <= hopeless) {
+        return;
+    }
+    v = before;
+    for (SurfaceHold& h : holds) {
+        h.impulse.setZero();
+        h.least = std::min(h.least, 0.0);
+    }
+    settle(mass, v, holds);
 }
 
 void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index i,

@@ -210,6 +210,38 @@ TEST(WallBarrier, GivesTheImpulseThatTheSolidFeels)
     EXPECT_LT((load.torque - torque).norm(), 1e-9 * torque.norm());
 }
 
+// In the joint of two solids that stand no velocity leads out: the particle stays, and they are not
+// pressed apart. What flows there is stopped.
+TEST(WallBarrier, DoesNotPressSolidsApart)
+{
+    for (const double gap : {-0.1, 0.0, 0.1, 0.2}) {
+        std::string text = jet(2, 0, 0.5, false);
+        for (const double side : {-1.0, 1.0}) {
+            text += fmt::format("[[wall]]\nshape = \"box\"\nsize = [0.8, 1, 0.4]\n"
+                                "position = [0.5, 0, {}]\n",
+                                side * (0.2 + gap * spacing / 2));
+        }
+        Simulation sim = make(text);
+        Particles& particles = sim.fluid->particles;
+        const auto x = particles[field::position];
+        const auto v = particles[field::velocity];
+        x[0] = {0.5, 0, 0.02 * spacing};
+        v[0] = {1, 0, 0};
+        x[1] = {0.6, 0, 0};
+        v[1] = {1, 0, 2};
+        sim.barrier.reset();
+        sim.barrier = make_wall_barrier(sim.scene);
+        sim.loads.walls.assign(2, Vec3(0, 0, 0));
+        const double dt = 1e-4;
+        hold_at_solids(sim, 0, dt);
+        EXPECT_LT((v[0] - Vec3(1, 0, 0)).norm(), 1e-12) << gap;
+        EXPECT_LT((v[1] - Vec3(1, 0, 0)).norm(), 1e-12) << gap;
+        const double stopped = 2 * sim.fluid->parameters.mass / dt;
+        EXPECT_LT((sim.loads.walls[1] - Vec3(0, 0, stopped)).norm(), 1e-9 * stopped) << gap;
+        EXPECT_LT(sim.loads.walls[0].norm(), 1e-9 * stopped) << gap;
+    }
+}
+
 // What is beyond the edge of a period is its image: a pier at one end holds what is at the other.
 TEST(WallBarrier, HoldsAcrossThePeriod)
 {
