@@ -24,11 +24,13 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// A way for water between a cell and its surroundings.
+// A way for water between a cell and its surroundings, or the next cell.
 struct Way {
     double conductance = 0; // of a uniform gap, relative
     double pressure = 0;    // outside, moved to the centre of the cell [Pa]
     double enters = 0;      // share of the conductance by which water comes in; all lets it out
+    int next = -1;          // cell of the joint across the edge, counted from the first of the face
+    double rise = 0;        // by which a pressure there grows on the way to the centre [Pa]
 };
 
 // Fluid particles between the two faces.
@@ -70,6 +72,7 @@ public:
         const Index cells = face_.last - face_.first;
         inside_.assign(at(cells), Filled{});
         ways_.assign(at(4 * cells), Way{});
+        pressure_.assign(at(cells), 0);
         bool open = false;
         for (int c = face_.first; c < face_.last; ++c) {
             if (joined(c)) {
@@ -110,7 +113,11 @@ private:
         look_inside(c);
         bool open = false;
         for (int edge = 0; edge < edges_; ++edge) {
-            if (!joined(cell(c).next[at(edge)])) {
+            const int next = cell(c).next[at(edge)];
+            if (joined(next)) {
+                const double rise = fluid_.weight.dot(node(c).place - node(next).place);
+                way(c, edge) = {conductance(edge), 0, 0, next - face_.first, rise};
+            } else {
                 way(c, edge) = rim(c, edge);
                 open = open || way(c, edge).enters > 0;
             }
@@ -192,7 +199,7 @@ private:
         double head = 0;
         double weight = 0;
         const auto add = [&](int c, const Way& w) {
-            const double share = w.enters * w.conductance;
+            const double share = w.enters * w.conductance; // none of ways to other cells
             head += share * (w.pressure - fluid_.weight.dot(node(c).place));
             weight += share;
         };
@@ -203,31 +210,29 @@ private:
         }
         for (int c = face_.first; c < face_.last; ++c) {
             const double p = weight > 0 ? head / weight + fluid_.weight.dot(node(c).place) : 0.0;
-            node(c).pressure = joined(c) ? std::max(p, 0.0) : 0;
+            pressure_[at(c - face_.first)] = joined(c) ? std::max(p, 0.0) : 0;
         }
     }
 
-    // The pressure that a cell would have between its neighbours and ways.
-    double balanced(int c)
+    // The pressure that a cell, counted from the first, would have between its neighbours and ways.
+    double balanced(int c) const
     {
-        const double own = node(c).pressure;
+        const double own = pressure_[at(c)];
         double total = 0;
         double weight = 0;
         for (int edge = 0; edge < edges_; ++edge) {
-            const int next = cell(c).next[at(edge)];
-            const Way& out = way(c, edge);
-            if (joined(next)) {
-                const Vec3 step = node(c).place - node(next).place;
-                const double its = node(next).pressure;
-                const double there = its + fluid_.weight.dot(step);
-                const double g = its > 0 || there < own ? conductance(edge) : 0; // air gives none
-                total += g * there;
-                weight += g;
+            const Way& out = ways_[at(4 * c + edge)];
+            double there = out.pressure;
+            double g = out.conductance;
+            if (out.next >= 0) {
+                const double its = pressure_[at(out.next)];
+                there = its + out.rise;
+                g = its > 0 || there < own ? g : 0; // air gives none
             } else {
-                const double g = out.conductance * (out.pressure > own ? out.enters : 1);
-                total += g * out.pressure;
-                weight += g;
+                g *= there > own ? out.enters : 1;
             }
+            total += g * there;
+            weight += g;
         }
         return weight > 0 ? total / weight : own;
     }
@@ -274,7 +279,7 @@ private:
     void hand_over(int c, double drop)
     {
         JointNode& n = node(c);
-        n.pressure = std::max(n.pressure - drop, 0.0);
+        n.pressure = std::max(pressure_[at(c - face_.first)] - drop, 0.0);
         const Filled& in = inside(c);
         const bool trapped = in.trapped * in.pressure > n.pressure && sheltered(c);
         const double taken = trapped ? std::max(in.taken, in.trapped) : in.taken;
@@ -288,19 +293,24 @@ private:
         const double along = std::sqrt(static_cast<double>(face_.last - face_.first));
         const double n = edges_ == 2 ? sq(along) : along;
         const double omega = 2 / (1 + std::sin(std::numbers::pi / (n + 1)));
+        const double settled = edges_ == 2 ? settled_flat : settled_in_space;
+        std::vector<int> cells;
+        for (int c = face_.first; c < face_.last; ++c) {
+            if (joined(c)) {
+                cells.push_back(c - face_.first);
+            }
+        }
         for (int sweep = 0; sweep < most_sweeps; ++sweep) {
             double change = 0;
             double largest = 0;
-            for (int c = face_.first; c < face_.last; ++c) {
-                if (!joined(c)) {
-                    continue;
-                }
-                const double before = node(c).pressure;
-                node(c).pressure = std::max(before + omega * (balanced(c) - before), 0.0);
-                change = std::max(change, std::abs(node(c).pressure - before));
-                largest = std::max(largest, node(c).pressure);
+            for (const int c : cells) {
+                const double before = pressure_[at(c)];
+                const double now = std::max(before + omega * (balanced(c) - before), 0.0);
+                pressure_[at(c)] = now;
+                change = std::max(change, std::abs(now - before));
+                largest = std::max(largest, now);
             }
-            if (change <= (edges_ == 2 ? settled_flat : settled_in_space) * largest) {
+            if (change <= settled * largest) {
                 return;
             }
         }
@@ -313,8 +323,9 @@ private:
     const ParticlePressure& fluid_;
     BodyJoints& body_;
     int edges_;
-    std::vector<Filled> inside_; // by cell
-    std::vector<Way> ways_;      // by cell and edge
+    std::vector<Filled> inside_;   // by cell
+    std::vector<Way> ways_;        // by cell and edge
+    std::vector<double> pressure_; // by cell [Pa]
 };
 
 } // namespace
