@@ -113,7 +113,7 @@ double coupled_round(const StepContext& context, Round& round)
     ContactMemory& memory = context.memory;
     collect(context, round, -round.slow, memory.rows);
     round.closing = std::all_of(memory.rows.begin(), memory.rows.end(),
-                                [&](const Row& row) { return -row.before[0] < round.least; });
+                                [&](const Row& row) { return !(-row.before[0] >= round.least); });
     if (memory.rows.empty()) {
         return 0;
     }

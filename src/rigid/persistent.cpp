@@ -110,8 +110,8 @@ void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
 
 // Whether the contact at the middle and the end of the planned motion is the one of its start. A
 // line that rocks over a cap goes on at the far end of its chord, a log along an edge by its other
-// end, a corner over a rim: the answer of the bodies is then that of two contacts, may be negative,
-// and no impulse solves it.
+// end, a corner over a rim, and a guess of the forces may turn a body too far: the answer of the
+// bodies is then that of two contacts, may be negative, and no impulse solves it.
 bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& bodies)
 {
     constexpr double same_way = 0.5; // cosine
@@ -119,30 +119,19 @@ bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& b
     const Vec3& n = p.candidate.touch.normal;
     Vec3 inverse_mass = bodies[row.a].inverse_mass;
     inverse_mass += row.b >= 0 ? bodies[row.b].inverse_mass : Vec3::Zero();
-    return n.dot(p.touches.push.normal) > same_way && n.dot(p.touches.see.normal) > same_way &&
-           row.cone.K(0, 0) > same_arm * n.dot(inverse_mass.cwiseProduct(n));
-}
-
-// The row of a contact with its arms at the middle and the end of the planned motion, or, where it
-// does not go on till there, as they are now.
-void complete_row(Row& row, Persistent& p, const ContactMemory& memory, int dimensions)
-{
-    const int a = row.a;
-    const int b = std::max(row.b, 0);
-    const std::vector<SolidPose>& middle = memory.middle;
-    complete(row, p.touches, {middle[a].x, middle[b].x, memory.end[a].x, memory.end[b].x},
-             memory.responses, dimensions);
-    if (!goes_on(p, row, memory.responses)) {
-        const std::vector<SolidPose>& now = memory.poses;
-        p.touches = {p.candidate.touch, p.candidate.touch, p.rub, p.rub};
-        complete(row, p.touches, {now[a].x, now[b].x, now[a].x, now[b].x}, memory.responses,
-                 dimensions);
+    bool same = n.dot(p.touches.push.normal) > same_way && n.dot(p.touches.see.normal) > same_way;
+    for (int k = 0; k < row.cone.size; ++k) {
+        const Vec3 axis = row.B.col(k);
+        same = same && row.cone.K(k, k) >= same_arm * axis.dot(inverse_mass.cwiseProduct(axis));
     }
+    return same;
 }
 
-void build_rows(const StepContext& context, const SubStep& sub, double ahead)
+// Returns whether all contacts go on.
+bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
 {
     ContactMemory& memory = context.memory;
+    bool same = true;
     set_touches(sub, ahead, memory);
     memory.rows.clear();
     for (std::size_t k = 0; k < memory.persistent.size(); ++k) {
@@ -154,7 +143,11 @@ void build_rows(const StepContext& context, const SubStep& sub, double ahead)
         row.contact = static_cast<int>(k);
         row.cone.mu = law_of(context.rigid, f.a, f.b).friction;
         row.wall_velocity = wall_velocity(memory, f.b, sub.time + sub.h);
-        complete_row(row, p, memory, context.rigid.settings.dimensions);
+        const int b = std::max(row.b, 0);
+        const Centres centres{memory.middle[f.a].x, memory.middle[b].x, memory.end[f.a].x,
+                              memory.end[b].x};
+        complete(row, p.touches, centres, memory.responses, context.rigid.settings.dimensions);
+        same = same && goes_on(p, row, memory.responses);
         if (row.cone.K(0, 0) <= 0) {
             p.impulse.setZero(); // between bodies that nothing moves
         } else {
@@ -167,14 +160,20 @@ void build_rows(const StepContext& context, const SubStep& sub, double ahead)
             memory.rows.push_back(row);
         }
     }
+    return same;
 }
 
-void solve_pass(const StepContext& context, const SubStep& sub, double ahead)
+// Solves for the impulses with the arms at the middle and the end of the paths as planned so far,
+// up to `ahead`, and plans the paths with them. Plans nothing and returns false where one of the
+// contacts does not go on till there.
+bool solve_pass(const StepContext& context, const SubStep& sub, double ahead)
 {
     ContactMemory& memory = context.memory;
     predict(memory, sub, ahead);
     set_end_responses(context, sub);
-    build_rows(context, sub, ahead);
+    if (!build_rows(context, sub, ahead) && ahead > 0) {
+        return false;
+    }
     for (Row& row : memory.rows) {
         const Vec3& P = memory.persistent[row.contact].impulse;
         Vec3 p = row.B.transpose() * P;
@@ -193,6 +192,7 @@ void solve_pass(const StepContext& context, const SubStep& sub, double ahead)
             add_impulse(memory, row.b, -P, -row.turn_b * row.p);
         }
     }
+    return true;
 }
 
 // The known forces act on the first prediction with the arms of the start.
@@ -261,12 +261,14 @@ void plan_motion(const StepContext& context, const SubStep& sub)
         return;
     }
     set_velocities_before(memory, sub.time);
-    if (sub.arms == Arms::now) {
-        solve_pass(context, sub, 0);
-    } else {
+    bool planned = false;
+    if (sub.arms == Arms::ahead) {
         add_known_impulses(memory);
-        solve_pass(context, sub, sub.h);
-        solve_pass(context, sub, sub.h); // with the impulses of the first
+        planned = solve_pass(context, sub, sub.h) &&
+                  solve_pass(context, sub, sub.h); // with the impulses of the first
+    }
+    if (!planned) { // with the arms as they are
+        solve_pass(context, sub, 0);
     }
     book_dissipation(context);
 }
