@@ -26,6 +26,9 @@ constexpr Effort contact_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60}
 constexpr double no_gap = 1e-9;
 // A sub-step may leave solids deeper in each other by this [units].
 constexpr double deep = 1e-5;
+// Sub-steps of a step that are shortened for it at most: what a moving wall crushes goes deeper
+// however short they are.
+constexpr int most_shortened = 40;
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
 
@@ -193,6 +196,7 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
     ContactMemory& memory = context.memory;
     memory.stepped = true;
     const double change = fastest_change(context, cluster);
+    int shortened = 0;
     while (done < context.dt) {
         set_responses(context, cluster);
         const double rest = context.dt - done;
@@ -202,10 +206,12 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
         SubStep sub{cluster,       context.start + done, h,         slow,  most_rounds,
                     impact_effort, contact_effort,       Arms::now, no_gap};
         plan_jam(context, sub);
-        for (int k = 0; k < halvings && ends_deep(context, sub); ++k) {
+        const int tries = shortened < most_shortened ? halvings : 0;
+        for (int k = 0; k < tries && ends_deep(context, sub); ++k) {
             sub.h *= 0.5;
             plan_jam(context, sub);
         }
+        shortened += sub.h < h ? 1 : 0;
         move_to(context, sub, sub.h);
         remember(memory, sub.h);
         update_gaps(memory, sub.time + sub.h);
