@@ -319,7 +319,8 @@ TEST(JointPlacements, AHeldCrateFeelsTheDepthOfTheWater)
             s.high = {whole(s.high.x()), whole(s.high.y()), s.high.z()};
             s.foot = {s.high.x() / 2, s.high.y() / 2, s.foot.z()};
             s.level = s.foot.z() + whole(s.level - s.foot.z());
-            s.footing = {whole(s.footing.x()), whole(s.footing.y()), s.footing.z()};
+            s.footing = {whole(s.footing.x()), whole(s.footing.y()), whole(s.footing.z())};
+            s.bottom = s.foot.z() - s.footing.z();
             s.turn = 0;
             s.keys = "fixed = true";
             show(s);
