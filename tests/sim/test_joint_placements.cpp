@@ -360,7 +360,7 @@ Standing on_slope(std::uint64_t seed, int dimensions, double spacing)
     s.dimensions = dimensions;
     s.ground = static_cast<Ground>(seed % (dimensions == 3 ? 3 : 2));
     s.spacing = spacing;
-    const double length = dimensions == 3 ? 0.5 : 1.5;
+    const double length = dimensions == 3 ? 0.8 : 1.5;
     s.size = {dice.between(0.7 * length, length), dice.between(0.3, 0.5), dice.between(0.25, 0.45)};
     s.slope = dice.between(8, 20) * std::numbers::pi / 180;
     s.turn = dimensions == 3 ? dice.between(0, std::numbers::pi) : 0;
@@ -403,17 +403,17 @@ TEST(JointPlacements, AJointOnASlopeIsFullToItsWaterLine)
     });
 }
 
-// In space water comes in from the sides, too. Within a quarter of a layer over the whole face.
+// In space water comes in from the sides, too. Within a fifth of a layer over the whole face.
 TEST(JointPlacements, AHalfWetCrateOnASlopeFeelsTheWaterBelowItsLine)
 {
-    for_seeds(4, [](std::uint64_t seed) {
+    for_seeds(2, [](std::uint64_t seed) {
         for (const double spacing : spacings(4)) {
             const Standing s = on_slope(seed, 3, spacing);
             show(s);
             Simulation sim = stand(s);
             const Vec3 exact = pressed(s, level_of(s, *sim.fluid)).below;
             const double layer = water_density * g * spacing * s.area();
-            EXPECT_NEAR((joint_force(sim, 0.02, 0.06) - exact).dot(s.normal()) / layer, 0, 0.25)
+            EXPECT_NEAR((joint_force(sim, 0.02, 0.06) - exact).dot(s.normal()) / layer, 0, 0.2)
                 << "spacing " << spacing;
         }
     });
