@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "broad_phase.hpp"
 
-#include "hyoryu/rigid/box_tree.hpp"
 #include "compound.hpp"
+#include "hyoryu/rigid/box_tree.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 
