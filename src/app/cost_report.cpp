@@ -44,15 +44,6 @@ ordered_json value_at(const ordered_json& json, const std::string& pointer)
     return json.contains(place) ? json.at(place) : ordered_json();
 }
 
-double bytes_in(const std::filesystem::path& folder)
-{
-    double total = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        total += entry.is_regular_file() ? static_cast<double>(entry.file_size()) : 0;
-    }
-    return total;
-}
-
 ordered_json measured_share(const std::optional<StepCost>& measured, const std::string& effect)
 {
     if (measured) {
@@ -93,6 +84,21 @@ std::optional<Development> develop(const CaseSource& source, const Plan& plan, d
 }
 
 } // namespace
+
+double bytes_in(const std::filesystem::path& folder)
+{
+    namespace fs = std::filesystem;
+    double total = 0;
+    std::error_code fault; // what cannot be looked at counts nothing
+    const fs::recursive_directory_iterator end;
+    for (fs::recursive_directory_iterator at(folder, fault); !fault && at != end;
+         at.increment(fault)) {
+        std::error_code not_a_file;
+        const std::uintmax_t size = fs::file_size(at->path(), not_a_file);
+        total += not_a_file ? 0 : static_cast<double>(size);
+    }
+    return total;
+}
 
 void foretell_development(const CaseSource& source, const Plan& plan, int first,
                           double most_seconds, StepCost& cost)

@@ -33,6 +33,9 @@ struct CaseSource {
 void foretell_development(const CaseSource& source, const Plan& plan, int first,
                           double most_seconds, StepCost& cost);
 
+/// Of the files in the folder and below [B]; 0 if there is no such folder.
+double bytes_in(const std::filesystem::path& folder);
+
 /// What this process has spent.
 struct SpentCost {
     double wall_seconds = 0; // until it was done, all included [s]

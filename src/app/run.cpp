@@ -2,6 +2,7 @@
 // The outer loop of a run: step, write what is due, show how far it is, stop when asked.
 #include "build_info.hpp"
 #include "commands.hpp"
+#include "cost_report.hpp"
 #include "forecast.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
@@ -21,6 +22,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 
 namespace hyoryu {
 
@@ -37,15 +40,44 @@ fs::path results_folder(const RunOptions& options)
                                   : options.folder;
 }
 
+// The folder itself, or the one in which it will be made.
+fs::path existing_part_of(const fs::path& folder)
+{
+    std::error_code fault;
+    fs::path place = fs::absolute(folder, fault);
+    while (place.has_relative_path() && !fs::exists(place, fault)) {
+        place = place.parent_path();
+    }
+    return place;
+}
+
+// Before anything is written or replaced. What an earlier run left in the folder makes room.
 void check_disk(const fs::path& folder, const Scene& scene, const Plan& plan)
 {
     const double needed = disk_bytes(scene, plan, {.steps = plan.expected_steps});
     std::error_code error;
-    const auto space = fs::space(folder, error);
-    if (!error && needed > static_cast<double>(space.available)) {
-        throw IoError(fmt::format(
-            "the results need about {}, but only {} are free at {}", readable_bytes(needed),
-            readable_bytes(static_cast<double>(space.available)), folder.string()));
+    const auto space = fs::space(existing_part_of(folder), error);
+    const double room = static_cast<double>(space.available) + bytes_in(folder);
+    if (!error && needed > room) {
+        throw IoError(fmt::format("the results need about {}, but only {} are free at {}",
+                                  readable_bytes(needed), readable_bytes(room), folder.string()));
+    }
+}
+
+// The case itself may lie in the folder and be named as a run names its copy.
+void keep_the_case(const RunOptions& options, const fs::path& folder, const std::string& case_text)
+{
+    std::error_code fault;
+    const fs::path copy = folder / "case.toml";
+    if (!fs::equivalent(copy, options.case_file, fault)) {
+        return;
+    }
+    std::ifstream stream(copy, std::ios::binary);
+    const std::string typed{std::istreambuf_iterator<char>(stream), {}};
+    if (typed != case_text) {
+        throw CaseError(fmt::format("`{}` would replace the case itself, `{}`", folder.string(),
+                                    options.case_file.string()),
+                        "choose another folder with -o");
     }
 }
 
@@ -278,9 +310,10 @@ TimingBudget timing_budget(const RunOptions& options, const Scene& scene, const 
 Job start(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
           const Filling& filling)
 {
-    FolderLock lock = prepare_results(folder, options.force ? Existing::replace : Existing::refuse);
-    check_disk(folder, scene, plan);
     const std::string case_text = to_toml(scene);
+    keep_the_case(options, folder, case_text);
+    check_disk(folder, scene, plan);
+    FolderLock lock = prepare_results(folder, options.force ? Existing::replace : Existing::refuse);
     TimingBudget budget = timing_budget(options, scene, plan);
     budget.file = seconds_to_write(folder / "case.toml", case_text);
     const std::optional<StepCost> timed =

@@ -8,6 +8,7 @@
 #include "study_runs.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
@@ -16,6 +17,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace hyoryu {
 
@@ -135,6 +138,30 @@ void print_tables(const StudyResult& result)
     }
 }
 
+// What a study writes directly into its folder.
+bool is_of_study(const std::string& name)
+{
+    constexpr std::array<std::string_view, 6> names{"study.csv", "study.json", "study.md",
+                                                    "study.html", "runs",      "repeats"};
+    return std::ranges::find(names, name) != names.end() ||
+           (name.starts_with("study_") && name.ends_with(".png"));
+}
+
+// Nothing is removed before it is known that no file of the user's is in the way. With --force
+// what is done is forgotten: each run then replaces its own folder.
+void prepare(const StudyOptions& options, const std::vector<StudyJob>& jobs, const fs::path& folder)
+{
+    claim_folder(folder, {.command = "study", .owns = is_of_study});
+    for (const StudyJob& job : jobs) {
+        if (options.force) {
+            forget(job);
+        }
+        if (!is_done(job)) {
+            expect_replaceable(job.folder);
+        }
+    }
+}
+
 } // namespace
 
 int run_study(const StudyOptions& options)
@@ -145,10 +172,8 @@ int run_study(const StudyOptions& options)
                                 : options.folder;
     const std::vector<StudyRun> runs = runs_of(study);
     const std::vector<StudyJob> jobs = jobs_of(study, runs, options, folder);
-    if (options.force) {
-        fs::remove_all(folder / "runs");
-        fs::remove_all(folder / "repeats");
-    }
+    prepare(options, jobs, folder);
+    const FolderLock lock(folder);
     watch_for_stop();
     const std::vector<std::string> errors =
         run_jobs(study, runs, jobs, {.threads = options.threads, .side_by_side = options.jobs});

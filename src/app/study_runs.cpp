@@ -4,6 +4,7 @@
 #include "stop_request.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
 
@@ -53,11 +54,6 @@ fs::path messages_of(const StudyJob& job)
     return beside(job, "messages");
 }
 
-bool is_done(const StudyJob& job)
-{
-    return fs::exists(job.folder / "summary.json") && read_all(asked_of(job)) == job.asked;
-}
-
 std::vector<std::string> command_of(const Study& study, const StudyRun& run, const StudyJob& job,
                                     int threads)
 {
@@ -105,18 +101,13 @@ struct Running {
     pid_t process = 0;
 };
 
-// Repeats are there for their times: nothing else of them is kept.
+// Repeats are there for their times: nothing else of them is kept, except for the plan, by which
+// the next call knows the folder as that of a run.
 void keep_summary_only(const fs::path& folder)
 {
-    std::vector<fs::path> others;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.path().filename() != "summary.json") {
-            others.push_back(entry.path());
-        }
-    }
-    for (const fs::path& other : others) {
-        fs::remove_all(other);
-    }
+    remove_results_except(folder, [](const std::string& name) {
+        return name == "summary.json" || name == "plan.json";
+    });
 }
 
 // Why the process ended; empty if the run came to its end.
@@ -217,6 +208,17 @@ private:
 };
 
 } // namespace
+
+bool is_done(const StudyJob& job)
+{
+    return fs::exists(job.folder / "summary.json") && read_all(asked_of(job)) == job.asked;
+}
+
+void forget(const StudyJob& job)
+{
+    std::error_code none_there;
+    fs::remove(asked_of(job), none_there);
+}
 
 std::vector<std::string> run_jobs(const Study& study, const std::vector<StudyRun>& runs,
                                   const std::vector<StudyJob>& jobs,

@@ -25,6 +25,12 @@ struct StudyJobSettings {
     int side_by_side = 1;
 };
 
+/// Whether an earlier call has made the results of this very job.
+bool is_done(const StudyJob& job);
+
+/// Makes the job count as not done; its results stay until a run replaces them.
+void forget(const StudyJob& job);
+
 /// Runs what is not done yet, in order, as many side by side as asked for and as memory holds.
 /// Writes a line for each. Returns why each job stopped, empty if it came to its end; fewer than
 /// jobs if the user asked to stop.

@@ -8,6 +8,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 #include "hyoryu/verify/report.hpp"
@@ -69,20 +70,36 @@ Tier tier_asked(const std::string& name)
         did_you_mean(name, tiers));
 }
 
+/// What a verify writes directly into its folder, beside a folder for each benchmark.
+bool is_of_verify(const std::vector<Benchmark>& benchmarks, const std::string& name)
+{
+    const auto has_file = [&](const auto& items) {
+        return std::ranges::any_of(items, [&](const auto& item) { return item.file == name; });
+    };
+    return name == "verify.json" || name == "verify.md" ||
+           std::ranges::any_of(benchmarks, [&](const Benchmark& benchmark) {
+               return has_file(benchmark.figures) || has_file(benchmark.tables);
+           });
+}
+
 /// Runs of an earlier call are replaced one by one with --force; nothing else is removed.
-void prepare(const VerifyOptions& options)
+void prepare(const VerifyOptions& options, const std::vector<Benchmark>& benchmarks)
 {
     std::error_code fault;
-    if (fs::exists(options.folder) &&
-        (!fs::is_directory(options.folder) || !fs::is_empty(options.folder, fault)) &&
+    if (fs::exists(options.folder, fault) &&
+        (!fs::is_directory(options.folder, fault) || !fs::is_empty(options.folder, fault)) &&
         !options.force) {
         throw CaseError(fmt::format("`{}` is not empty", options.folder.string()),
                         "--force replaces what an earlier verify wrote there, -o names another");
     }
-    fs::create_directories(options.folder, fault);
-    if (fault) {
-        throw IoError(fmt::format("cannot make the folder `{}`: {}", options.folder.string(),
-                                  fault.message()));
+    claim_folder(options.folder,
+                 {.command = "verify", .owns = [&](const std::string& name) {
+                      return is_of_verify(benchmarks, name);
+                  }});
+    for (const Benchmark& benchmark : benchmarks) {
+        for (const BenchmarkRun& run : benchmark.runs) {
+            expect_replaceable(options.folder / benchmark.name / run.name);
+        }
     }
 }
 
@@ -170,7 +187,7 @@ int verify(const VerifyOptions& options)
         return exit_code::done;
     }
     const std::vector<Benchmark> benchmarks = select(all, options.names, tier);
-    prepare(options);
+    prepare(options, benchmarks);
     const auto start = std::chrono::steady_clock::now();
     const TableWidths widths = widths_of(benchmarks);
     fmt::print("{}", terminal_header(widths));

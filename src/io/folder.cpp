@@ -2,6 +2,7 @@
 // Makes a results folder ready, and refuses to remove anything that a run did not write.
 #include "atomic_file.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 
 #include <fmt/format.h>
@@ -76,7 +77,8 @@ Inventory inventory(const fs::path& folder)
     return result;
 }
 
-void remove_our_files(const fs::path& folder)
+/// What a run wrote, of a folder that holds nothing else. Throws CaseError otherwise.
+Inventory inventory_of_results(const fs::path& folder)
 {
     if (!fs::is_directory(folder / "frames") && !fs::exists(folder / "plan.json")) {
         throw CaseError(fmt::format("`{}` is not empty and no results folder: it holds neither "
@@ -95,7 +97,12 @@ void remove_our_files(const fs::path& folder)
                                     count > named_at_most ? ", ..." : ""),
                         "move them away, or choose another folder with -o");
     }
-    for (const fs::path& path : found.ours) {
+    return found;
+}
+
+void remove_our_files(const fs::path& folder)
+{
+    for (const fs::path& path : inventory_of_results(folder).ours) {
         fs::remove(path);
     }
 }
@@ -161,6 +168,29 @@ FolderLock::~FolderLock()
 FolderLock::FolderLock(FolderLock&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1))
 {
+}
+
+void expect_replaceable(const fs::path& folder)
+{
+    std::error_code fault;
+    if (fs::exists(folder, fault) && !fs::is_directory(folder, fault)) {
+        throw CaseError(fmt::format("`{}` is a file, not a folder", folder.string()),
+                        "choose another folder with -o");
+    }
+    if (fs::is_directory(folder, fault) && !fs::is_empty(folder, fault)) {
+        inventory_of_results(folder);
+    }
+}
+
+void remove_results_except(const fs::path& folder,
+                           const std::function<bool(const std::string&)>& kept)
+{
+    for (const fs::path& path : inventory(folder).ours) {
+        std::error_code not_empty; // a folder of ours that holds something foreign stays
+        if (!kept(path.lexically_relative(folder).generic_string())) {
+            fs::remove(path, not_empty);
+        }
+    }
 }
 
 FolderLock prepare_results(const fs::path& folder, Existing existing)

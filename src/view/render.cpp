@@ -12,13 +12,22 @@
 
 #include <fmt/format.h>
 
+#include <regex>
+
 namespace hyoryu {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// An empty folder for the pictures: those of an earlier call would slip into the animation.
+/// `frame_000000.png` or the animation; a user may keep other pictures beside them.
+bool is_picture_of_ours(const std::string& name)
+{
+    static const std::regex pattern(R"(frame_[0-9]{6,}\.png|animation\.mp4)");
+    return std::regex_match(name, pattern);
+}
+
+/// A folder without pictures of ours: those of an earlier call would slip into the animation.
 fs::path emptied_pictures(const fs::path& results)
 {
     const fs::path pictures = results / "pictures";
@@ -27,7 +36,7 @@ fs::path emptied_pictures(const fs::path& results)
         std::vector<fs::path> old;
         for (const auto& entry : fs::directory_iterator(pictures)) {
             const std::string name = entry.path().filename().string();
-            if ((name.starts_with("frame_") && name.ends_with(".png")) || name == "animation.mp4") {
+            if (is_picture_of_ours(name)) {
                 old.push_back(entry.path());
             }
         }

@@ -213,6 +213,19 @@ class Runs(ProgramTest):
         self.assertEqual(self.call("run", "case.toml", "-o", "out").returncode, 2)
         self.run_flood("out", "--force")
 
+    def test_force_does_not_replace_the_case_that_is_run(self):
+        # Beside its plan the folder of the case looks like that of a run.
+        case = self.write(FLOOD)
+        (self.dir / "plan.json").write_text(self.call("check", case, "--json").stdout)
+        done = self.call("run", case, "-o", ".", "--force")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("case.toml", done.stderr)
+        self.assertEqual((self.dir / case).read_text(), FLOOD)
+        # Its copy among its results is equal to what would take its place.
+        self.run_flood("out", "--until", "0.1")
+        done = self.call("run", "out/case.toml", "-o", "out", "--force", "--until", "0.1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_numbers_that_go_wrong_are_told_and_the_last_good_state_kept(self):
         # A sound speed far below the flow's own speed: the fluid collapses into itself.
         text = FLOOD.replace("[fluid]", "[fluid]\nsound_speed = 0.6")

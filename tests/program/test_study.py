@@ -132,6 +132,42 @@ every = 0.3
         report = json.loads(self.read("slide-results", "study.json"))
         self.assertEqual(len(report["runs"][0]["wall_seconds"]), 2)
 
+    def test_no_file_of_the_users_is_lost(self):
+        # E1: folders named as those of a study, and a file named as its page, but not made by one.
+        self.write("my own notes", "study.md")
+        done = self.study("-o", ".")
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertIn("study.md", done.stderr)
+        self.assertEqual(self.files(), ["brick.toml", "slide.toml", "study.md"])
+        for place in ("runs/thesis", "repeats/thesis", "runs/step=0.01"):
+            folder = self.dir / place.replace("/", "-") / place
+            folder.mkdir(parents=True)
+            (folder / "thesis.tex").write_text("mine")
+            for force in ((), ("--force",)):
+                done = self.study("-o", place.replace("/", "-"), *force)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                self.assertEqual((folder / "thesis.tex").read_text(), "mine")
+        # In a study's own folder, too: what it did not make stays, whatever --force says.
+        self.assertEqual(self.study().returncode, 0)
+        runs = self.dir / "slide-results" / "runs"
+        for place in ("mine", "step=0.01"):
+            (runs / place).mkdir(exist_ok=True)
+            (runs / place / "thesis.tex").write_text("mine")
+        done = self.study("--force")
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertIn("thesis.tex", done.stderr)
+        (runs / "step=0.01" / "thesis.tex").unlink()
+        self.assertEqual(self.study("--force").returncode, 0)
+        self.assertEqual((runs / "mine" / "thesis.tex").read_text(), "mine")
+
+    def test_repeats_of_a_changed_case_replace_those_before(self):
+        text = self.STUDY.replace("[[sweep]]", "repeats = 2\n[[sweep]]", 1)
+        self.assertEqual(self.study(text=text).returncode, 0)
+        changed = text.replace("[[sweep]]", 'set = ["contact.friction=0.4"]\n[[sweep]]', 1)
+        done = self.study(text=changed)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertNotIn("done before", done.stdout)
+
     def test_mistakes_are_all_told_and_nothing_is_written(self):
         done = self.study(text=self.STUDY.replace("values", "value").replace("last", "lst"))
         self.assertEqual(done.returncode, 2)

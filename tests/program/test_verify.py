@@ -81,6 +81,22 @@ because = "round-off of a parabola"
         self.assertRegex(done.stderr, r"verify.toml:8:1.*mesure")
         self.assertFalse((self.dir / "out").exists(), "something was written")
 
+    def test_no_file_of_the_users_is_lost(self):
+        self.benchmark()
+        (self.dir / "out").mkdir()
+        (self.dir / "out" / "verify.md").write_text("mine")
+        self.assertEqual(self.verify("--force").returncode, 2)
+        self.assertEqual((self.dir / "out" / "verify.md").read_text(), "mine")
+        (self.dir / "out" / "verify.md").unlink()
+        (self.dir / "out" / "free_fall" / "run").mkdir(parents=True)
+        thesis = self.dir / "out" / "free_fall" / "run" / "thesis.tex"
+        thesis.write_text("mine")
+        self.assertEqual(self.verify("--force").returncode, 2)
+        self.assertEqual(thesis.read_text(), "mine")
+        thesis.unlink()
+        self.assertEqual(self.verify("--force").returncode, 0)
+        self.assertEqual(self.verify("--force").returncode, 0)
+
     def test_the_shipped_benchmarks_are_found_and_one_passes(self):
         listed = self.call("verify", "--list")
         self.assertEqual(listed.returncode, 0, listed.stderr)

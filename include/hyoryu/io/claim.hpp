@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Folders that a command shares with files of the user: what it writes there is known by a mark.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace hyoryu {
+
+/// What a command writes directly into a folder.
+struct Claim {
+    std::string command;                          // "study": names the mark, `.hyoryu-study`
+    std::function<bool(const std::string&)> owns; // whether it writes an entry of that name
+};
+
+/// Makes the folder, with its parents, and puts the mark of the command into it. A folder that has
+/// the mark already was made by an earlier call: what is named as the command names its files is
+/// its own. Without the mark such files belong to the user: throws CaseError that names them, and
+/// writes nothing. Other files do not matter. Throws IoError if the folder cannot be written.
+void claim_folder(const std::filesystem::path& folder, const Claim& claim);
+
+/// Throws CaseError if a run could not replace the folder (see `prepare_results`): it is not empty
+/// and either no results folder or holds files that no run wrote. Changes nothing.
+void expect_replaceable(const std::filesystem::path& folder);
+
+/// Removes what a run wrote into the folder, except for the files of these names; nothing else.
+void remove_results_except(const std::filesystem::path& folder,
+                           const std::function<bool(const std::string&)>& kept);
+
+} // namespace hyoryu

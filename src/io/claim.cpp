@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/io/claim.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_owned(const fs::path& folder, const Claim& claim)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (claim.owns(name)) {
+            names.push_back(name);
+        }
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+void claim_unguarded(const fs::path& folder, const Claim& claim)
+{
+    if (fs::exists(folder) && !fs::is_directory(folder)) {
+        throw CaseError(fmt::format("`{}` is a file, not a folder", folder.string()),
+                        "choose another folder with -o");
+    }
+    const fs::path mark = folder / fmt::format(".hyoryu-{}", claim.command);
+    if (fs::exists(mark)) {
+        return;
+    }
+    if (fs::exists(folder)) {
+        const std::vector<std::string> names = names_owned(folder, claim);
+        if (!names.empty()) {
+            throw CaseError(fmt::format("`{}` holds files that no {} wrote and that this one would "
+                                        "replace: {}",
+                                        folder.string(), claim.command, fmt::join(names, ", ")),
+                            "move them away, or choose another folder with -o");
+        }
+    }
+    fs::create_directories(folder);
+    write_text(mark, fmt::format("Results of `hyoryu {}`, which may replace them.\n",
+                                 claim.command));
+}
+
+} // namespace
+
+void claim_folder(const fs::path& folder, const Claim& claim)
+{
+    try {
+        claim_unguarded(folder, claim);
+    } catch (const fs::filesystem_error& error) {
+        throw IoError(fmt::format("cannot prepare the folder `{}`: {}", folder.string(),
+                                  error.code().message()));
+    }
+}
+
+} // namespace hyoryu
