@@ -20,6 +20,7 @@ struct RunOptions {
     bool resume = false;
     bool force = false;
     bool quiet = false;
+    std::string program = "hyoryu"; // as it was called, for lines that a user may paste
 };
 int run_case(const RunOptions& options);
 

@@ -85,7 +85,6 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     const int d = sim.scene.dimensions;
     const double now = sim.clock.time;
     const std::vector<std::int64_t>& rows = rows_in(resumed);
-    frames_->forget_after(now);
     if (!sim.scene.bodies.empty()) {
         bodies_.emplace(folder_, bodies_table(d), now, rows[0]);
     }
@@ -96,6 +95,7 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     if (!sim.scene.gauges.empty()) {
         gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now, rows[3]);
     }
+    frames_->forget_after(now); // behind the histories, which may refuse
     const auto found = resumed.arrays.find(resting_array);
     if (found != resumed.arrays.end()) {
         if (!std::holds_alternative<std::vector<double>>(found->second.values)) {

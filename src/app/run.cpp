@@ -8,8 +8,10 @@
 #include "outputs.hpp"
 #include "plan_report.hpp"
 #include "progress.hpp"
+#include "resume.hpp"
 #include "stop_request.hpp"
 #include "summary.hpp"
+#include "tables.hpp"
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
@@ -17,6 +19,7 @@
 #include "hyoryu/scene/disk.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
+#include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/watch.hpp"
 
 #include <fmt/format.h>
@@ -91,21 +94,6 @@ void check_memory(const Plan& plan)
     }
 }
 
-// A checkpoint belongs to its case; only the end of the run may have moved.
-void check_same_case(const Scene& scene, const Snapshot& snapshot)
-{
-    const auto stored = snapshot.texts.find("case");
-    Scene now = scene;
-    if (stored != snapshot.texts.end()) {
-        now.time.end = parse_case(stored->second, "checkpoint").time.end;
-    }
-    if (stored == snapshot.texts.end() || to_toml(now) != stored->second) {
-        throw CaseError(
-            "the checkpoint was written by another case",
-            "run with the case that is in the results folder, or start anew with --force");
-    }
-}
-
 struct Job {
     FolderLock lock;
     fs::path folder;
@@ -118,6 +106,7 @@ struct Job {
     std::int64_t good_step = 0;  // of `last_good`
     std::int64_t saved_step = 0; // of the last checkpoint
     double until = infinity;
+    std::string command_to_go_on; // for the user, where the run stops before its end
 };
 
 void write_closing(Job& job, const std::string& reason)
@@ -268,14 +257,15 @@ int finish(Job& job)
     job.progress.end(job.sim);
     tell_doubts(job);
     if (stopped) {
-        job.progress.line(fmt::format("interrupted; checkpoint written. Go on with: hyoryu run "
-                                      "{} -o {} --resume",
-                                      job.sim.scene.file.string(), job.folder.string()));
+        job.progress.line("interrupted; checkpoint written. Go on with: " + job.command_to_go_on);
         return exit_code::interrupted;
     }
     job.progress.line(fmt::format("{} after {}; results in {}", done ? "done" : "stopped as asked",
                                   readable_seconds(job.progress.wall_seconds()),
                                   job.folder.string()));
+    if (!done) {
+        job.progress.line("go on with: " + job.command_to_go_on);
+    }
     tell_cost(job);
     return exit_code::done;
 }
@@ -330,24 +320,45 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     return job;
 }
 
-Job resume(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
+// What the folder says of the case, where the case is another now or the file is gone.
+void write_case(const fs::path& folder, const Scene& scene, const Plan& plan)
+{
+    write_text(folder / "case.toml", to_toml(scene));
+    write_text(folder / "plan.json", plan_json(scene, plan, {}));
+}
+
+Job resume(const RunOptions& options, const fs::path& folder, Resumption from, const Plan& plan,
            const Filling& filling)
 {
-    const auto [snapshot, passed_over] = read_newest_checkpoint(folder);
-    check_same_case(scene, snapshot);
+    const Scene& scene = from.scene;
     FolderLock lock = prepare_results(folder, Existing::extend);
     Simulation sim = make_simulation(scene, plan, filling);
-    restore(sim, snapshot);
+    restore(sim, from.state);
     const std::int64_t first_step = sim.clock.step;
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, sim.clock.time);
     progress.line(fmt::format("going on from t = {} s, step {}", sim.clock.time, sim.clock.step));
-    if (!passed_over.empty()) {
+    if (!from.passed_over.empty()) {
         take_previous_checkpoint(folder);
-        progress.line(fmt::format("note: {}; this is the one before it", passed_over));
+        progress.line(fmt::format("note: {}; this is the one before it", from.passed_over));
     }
-    Outputs outputs(folder, sim, snapshot);
-    return {std::move(lock),    folder,   to_toml(scene), std::move(sim), std::move(progress),
-            std::move(outputs), snapshot, first_step,     first_step,     first_step};
+    if (scene.gauges.empty()) {
+        set_aside(folder, "gauges");
+    } else {
+        change_columns(folder, gauges_table(gauge_heads(scene)));
+    }
+    Outputs outputs(folder, sim, from.state);
+    if (from.changed || !fs::exists(folder / "plan.json")) {
+        write_case(folder, scene, plan);
+    }
+    const bool changed = from.changed;
+    Job job{std::move(lock),    folder,           to_toml(scene), std::move(sim),
+            std::move(progress), std::move(outputs), std::move(from.state), first_step,
+            first_step,         first_step};
+    if (changed) { // or a kill would leave a checkpoint of the case before
+        keep_good_state(job);
+        write_checkpoint(job, job.last_good);
+    }
+    return job;
 }
 
 } // namespace
@@ -355,7 +366,13 @@ Job resume(const RunOptions& options, const fs::path& folder, const Scene& scene
 int run_case(const RunOptions& options)
 {
     set_threads(options.threads);
-    const Scene scene = read_case(options.case_file, options.overrides);
+    const fs::path folder = results_folder(options);
+    Scene scene = read_case(options.case_file, options.overrides);
+    std::optional<Resumption> from;
+    if (options.resume) {
+        from = resumption_of(folder, scene);
+        scene = from->scene;
+    }
     Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
     watch_for_stop();
@@ -365,11 +382,12 @@ int run_case(const RunOptions& options)
         }
     }
     check_memory(plan);
-    const fs::path folder = results_folder(options);
-    Job job = options.resume ? resume(options, folder, scene, plan, filling)
-                             : start(options, folder, scene, plan, filling);
+    Job job = from ? resume(options, folder, std::move(*from), plan, filling)
+                   : start(options, folder, scene, plan, filling);
     filling = {}; // as large as the state of the fluid, and no more needed
+    from.reset();
     job.until = options.until.value_or(infinity);
+    job.command_to_go_on = command_to_go_on(options, folder);
     return carry_out(job);
 }
 

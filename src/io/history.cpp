@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
+#include <optional>
 #include <span>
 #include <unistd.h>
 #include <utility>
@@ -42,14 +44,25 @@ struct Kept {
     std::int64_t rows = 0;
 };
 
+/// Going on with fewer rows would leave a hole that nobody sees.
+void expect_rows(const std::filesystem::path& file, std::int64_t rows, std::int64_t expected)
+{
+    if (expected != History::all_rows && rows < expected) {
+        throw IoError(fmt::format("cannot go on with `{}`: it holds {} rows of the run before the "
+                                  "checkpoint, which was written after {}: it was cut short",
+                                  file.string(), rows, expected));
+    }
+}
+
 Kept kept_of(const std::filesystem::path& file, const Table& table, double keep_until,
              std::int64_t keep_rows)
 {
     std::string kept = csv_header(table);
+    std::int64_t rows = 0;
     if (!std::filesystem::exists(file)) {
+        expect_rows(file, rows, keep_rows);
         return {kept};
     }
-    std::int64_t rows = 0;
     const std::string text = file_text(file);
     if (!text.starts_with(kept) && !kept.starts_with(text)) { // the latter: torn within the header
         throw IoError(fmt::format(
@@ -63,10 +76,87 @@ Kept kept_of(const std::filesystem::path& file, const Table& table, double keep_
             ++rows;
         }
     }
+    expect_rows(file, rows, keep_rows);
     return {kept, rows};
 }
 
+/// Of each new column, the place of the one of that name before; none: it is new.
+std::vector<std::optional<std::size_t>> origins(const std::vector<std::string>& before,
+                                                const Table& table)
+{
+    std::vector<std::optional<std::size_t>> from;
+    for (const Table::Head& head : table.heads) {
+        const auto at = std::ranges::find(before, head.name);
+        from.push_back(at == before.end() ? std::nullopt
+                                          : std::optional<std::size_t>(at - before.begin()));
+    }
+    return from;
+}
+
+std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& name)
+{
+    for (int number = 1;; ++number) {
+        auto file = folder / fmt::format("{}_{}.csv", name, number);
+        if (!std::filesystem::exists(file)) {
+            return file;
+        }
+    }
+}
+
+std::string with_columns(std::span<const std::string_view> rows,
+                         const std::vector<std::optional<std::size_t>>& from)
+{
+    std::string text;
+    std::vector<std::string> cells(from.size());
+    for (const std::string_view row : rows) {
+        const std::vector<std::string> before = csv_cells(row);
+        for (std::size_t k = 0; k < from.size(); ++k) {
+            const bool known = from[k] && *from[k] < before.size();
+            cells[k] = known ? cell(std::string_view(before[*from[k]])) : "nan";
+        }
+        text += csv_line(cells);
+    }
+    return text;
+}
+
 } // namespace
+
+void change_columns(const std::filesystem::path& folder, const Table& table)
+{
+    const std::filesystem::path file = history_file(folder, table);
+    const std::string header = csv_header(table);
+    if (!std::filesystem::exists(file)) {
+        return;
+    }
+    const std::string text = file_text(file);
+    const std::vector<std::string_view> lines = whole_lines(text);
+    if (text.starts_with(header) || lines.size() < 2) {
+        return;
+    }
+    const std::vector<std::string> before = csv_cells(lines[1]);
+    const auto from = origins(before, table);
+    if (before.front() != table.heads.front().name) {
+        throw IoError(fmt::format("cannot go on with `{}`: it is damaged", file.string()));
+    }
+    const auto kept = std::ranges::count_if(from, [](const auto& at) { return at.has_value(); });
+    if (static_cast<std::size_t>(kept) < before.size()) {
+        write_text(free_name(folder, table.name), text);
+    }
+    write_text(file, header + with_columns(std::span(lines).subspan(2), from));
+}
+
+void set_aside(const std::filesystem::path& folder, const std::string& name)
+{
+    const std::filesystem::path file = folder / (name + ".csv");
+    std::error_code fault;
+    if (!std::filesystem::exists(file)) {
+        return;
+    }
+    std::filesystem::rename(file, free_name(folder, name), fault);
+    if (fault) {
+        throw IoError(fmt::format("cannot rename `{}`: {}", file.string(), fault.message()));
+    }
+}
 
 struct History::State {
     std::filesystem::path file;

@@ -347,9 +347,12 @@ Snapshot save(const Simulation& sim)
 {
     Snapshot snapshot;
     const Clock& c = sim.clock;
-    add(snapshot, "clock",
+    add(snapshot, clock_array,
         {c.time, static_cast<double>(c.step), c.dt, static_cast<double>(c.frame),
          static_cast<double>(c.history), c.share});
+    if (c.frame_offset != 0) {
+        add(snapshot, frame_offset_array, {static_cast<double>(c.frame_offset)});
+    }
     add(snapshot, "ledger", numbers_of(sim.ledger));
     if (sim.ledger.worst_in_solids > 0) {
         add(snapshot, in_solids, {static_cast<double>(sim.ledger.worst_in_solids)});
@@ -363,7 +366,7 @@ Snapshot save(const Simulation& sim)
     if (!sim.scene.gauges.empty()) {
         Numbers gauges = numbers_of(sim.gauges);
         put(gauges, static_cast<double>(c.gauge));
-        add(snapshot, "gauges", std::move(gauges));
+        add(snapshot, gauges_array, std::move(gauges));
     }
     if (!sim.seepage.open.empty()) {
         Numbers joints{static_cast<double>(sim.seepage.joined.size())};
@@ -382,13 +385,16 @@ Snapshot save(const Simulation& sim)
 
 void restore(Simulation& sim, const Snapshot& snapshot)
 {
-    Reader clock(snapshot, "clock");
+    Reader clock(snapshot, clock_array);
     sim.clock.time = clock.number();
     sim.clock.step = static_cast<std::int64_t>(clock.number());
     sim.clock.dt = clock.number();
     sim.clock.frame = static_cast<std::int64_t>(clock.number());
     sim.clock.history = static_cast<std::int64_t>(clock.number());
     sim.clock.share = clock.number();
+    const bool shifted = snapshot.arrays.contains(frame_offset_array);
+    sim.clock.frame_offset =
+        shifted ? static_cast<std::int64_t>(Reader(snapshot, frame_offset_array).number()) : 0;
     restore_ledger(sim.ledger, snapshot);
     Reader loads(snapshot, "loads");
     for (Wrench& load : sim.loads.bodies) {
@@ -396,7 +402,7 @@ void restore(Simulation& sim, const Snapshot& snapshot)
         load.torque = loads.vector();
     }
     if (!sim.scene.gauges.empty()) {
-        const Reader gauges(snapshot, "gauges");
+        const Reader gauges(snapshot, gauges_array);
         const std::span<const double> numbers(gauges.all());
         restore(sim.gauges, numbers.first(std::max<std::size_t>(numbers.size(), 1) - 1));
         sim.clock.gauge = static_cast<std::int64_t>(numbers.back());

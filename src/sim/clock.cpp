@@ -13,7 +13,7 @@ constexpr double rounding = 1e-9;
 
 double frame_time(const Clock& clock, const Scene& scene)
 {
-    return static_cast<double>(clock.frame) * scene.output.every;
+    return static_cast<double>(clock.frame - clock.frame_offset) * scene.output.every;
 }
 
 // Rows that are not spaced in time are due after every step.
@@ -54,7 +54,8 @@ NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limi
     }
     // A frame that is due now has been or will be written at this time; the next one is the goal.
     const auto due = frame_due(clock, scene) ? clock.frame + 1 : clock.frame;
-    const double goal = std::min(static_cast<double>(due) * scene.output.every, scene.time.end);
+    const double frame = static_cast<double>(due - clock.frame_offset) * scene.output.every;
+    const double goal = std::min(frame, scene.time.end);
     const double rest = goal - clock.time;
     const double dt = clock.share * limit.dt;
     if (dt >= rest) {

@@ -100,6 +100,42 @@ TEST_F(Histories, OfOtherColumnsAreNotContinued)
     EXPECT_EQ(text_of(folder / "bodies.csv"), "# s\ntime\n0\n");
 }
 
+TEST_F(Histories, ThatWereCutShortAreNotContinued)
+{
+    const std::string text = "# s,-,m\ntime,body,x\n0,a,1\n1,a,2\n2,a,3\n";
+    put_text_into(folder / "bodies.csv", text);
+    EXPECT_THROW(History(folder, table, 2.0, 4), IoError);
+    EXPECT_THROW(History(folder, table, 1.0, 3), IoError); // the third is of later than the state
+    EXPECT_EQ(text_of(folder / "bodies.csv"), text);
+    EXPECT_EQ(History(folder, table, 2.0, 3).rows(), 3);
+    std::filesystem::remove(folder / "bodies.csv");
+    EXPECT_THROW(History(folder, table, 2.0, 1), IoError);
+    EXPECT_EQ(History(folder, table, 2.0, 0).rows(), 0);
+}
+
+TEST_F(Histories, ChangeTheirColumnsAndLoseNone)
+{
+    const std::string text = "# s,-,m\ntime,body,x\n0,\"a, b\",1\n1,c,2\n";
+    const Table wider{"bodies", {{"time", "s"}, {"y", "Pa"}, {"x", "m"}, {"body", ""}}};
+    put_text_into(folder / "bodies.csv", text);
+    change_columns(folder, wider);
+    EXPECT_EQ(text_of(folder / "bodies.csv"),
+              "# s,Pa,m,-\ntime,y,x,body\n0,nan,1,\"a, b\"\n1,nan,2,c\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "bodies_1.csv"));
+    const std::string wide = text_of(folder / "bodies.csv");
+    change_columns(folder, {"bodies", {{"time", "s"}, {"x", "m"}}});
+    EXPECT_EQ(text_of(folder / "bodies.csv"), "# s,m\ntime,x\n0,1\n1,2\n");
+    EXPECT_EQ(text_of(folder / "bodies_1.csv"), wide);
+    change_columns(folder, {"bodies", {{"time", "s"}, {"x", "m"}}});
+    EXPECT_FALSE(std::filesystem::exists(folder / "bodies_2.csv"));
+    set_aside(folder, "bodies");
+    EXPECT_TRUE(std::filesystem::exists(folder / "bodies_2.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "bodies.csv"));
+    EXPECT_NO_THROW(change_columns(folder, wider));
+    put_text_into(folder / "bodies.csv", "garbage\nmore,garbage\n1,2\n");
+    EXPECT_THROW(change_columns(folder, wider), IoError);
+}
+
 TEST_F(Histories, OfAMissingFolderAreErrors)
 {
     EXPECT_THROW(History(folder / "none", table), IoError);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Runs: results, restart, interruption, recovery."""
 import json
+import re
 import resource
 import signal
 import subprocess
@@ -187,6 +188,159 @@ class Runs(ProgramTest):
         self.run_flood("out", "--until", "0.1")
         done = self.call("run", self.write(FLOOD.replace("400.0", "500.0")), "-o", "out", "--resume")
         self.assertEqual(done.returncode, 2, done.stderr)
+
+    SMALL = """
+dimensions = 2
+[time]
+end = 0.2
+[particles]
+spacing = 0.05
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.4, 0.0, 0.6]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.4, 0.0, 1.0]
+open = ["+z"]
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 400.0
+position = [0.7, 0.0, 0.1]
+"""
+    PROBE = '[[gauge]]\nname = "probe"\ntype = "pressure"\nat = [0.2, 0.0, 0.1]\n' \
+            'filter = "mean"\nwindow = 0.02\n'
+    CRATE = '[[gauge]]\nname = "crate"\ntype = "force"\non = "crate"\n'
+
+    def go_on(self, text, out, *arguments):
+        done = self.call("run", self.write(text), "-o", out, "--resume", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_finished_run_is_extended_with_the_bits_of_a_long_one(self):
+        # Where output.every is left to its default, a later end moves no frame of the run.
+        longer = self.SMALL.replace("end = 0.2", "end = 0.3")
+        self.run_flood("out", text=self.SMALL)
+        self.go_on(longer, "out")
+        self.run_flood("whole", text=longer + "[output]\nevery = 0.002\n")
+        self.expect_equal("whole", "out")
+        self.assertIn(b"end = 0.3", self.read("out", "case.toml"))
+        # And once more, with other settings of what is written.
+        self.go_on(longer.replace("0.3", "0.4"), "out", "--threads", "1",
+                   "--set", "output.checkpoint_every=5", "--set", "title=longer")
+
+    def test_intervals_of_output_change_on_the_way(self):
+        # A row or frame is due at multiples of the new interval, numbered on.
+        text = self.SMALL + "[output]\nevery = 0.05\nhistory_every = 0.05\n"
+        self.run_flood("out", "--until", "0.12", text=text)
+        other = text.replace("every = 0.05\nh", "every = 0.04\nh").replace("_every = 0.05",
+                                                                         "_every = 0.02")
+        self.go_on(other, "out", "--until", "0.17")
+        self.go_on(other, "out")
+        series = json.loads(self.read("out", "fluid.hdf.series"))["files"]
+        for entry, time_of_it in zip(series, (0, 0.05, 0.1, 0.16, 0.2), strict=True):
+            self.assertAlmostEqual(entry["time"], time_of_it, 9)
+        self.assertEqual([f["name"][-8:-4] for f in series], ["0000", "0001", "0002", "0003", "0004"])
+        rows = [float(line.split(b",")[0])
+                for line in self.read("out", "energy.csv").splitlines()[2:]]
+        due = (0, 0.05, 0.1, 0.14, 0.16, 0.18, 0.2)
+        for row, time_of_it in zip(rows, due, strict=True):
+            self.assertTrue(time_of_it - 1e-9 <= row < time_of_it + 0.01, (rows, due))
+
+    def gauges(self, out, name="gauges.csv"):
+        lines = self.read(out, name).decode().splitlines()
+        return [line.split(",") for line in lines[1:]]
+
+    def test_gauges_come_and_go_on_the_way(self):
+        text = self.SMALL + "[output]\nevery = 0.1\n"
+        self.run_flood("whole", text=text + self.PROBE)
+        self.run_flood("out", "--until", "0.1", text=text + self.PROBE)
+        before = self.gauges("out")
+        self.go_on(text + self.CRATE + self.PROBE, "out", "--until", "0.15")
+        rows = self.gauges("out")
+        head = rows[0]
+        self.assertEqual(head[0], "time")
+        self.assertEqual(rows[1][head.index("crate_x")], "nan")
+        self.assertNotEqual(rows[-1][head.index("crate_x")], "nan")
+        # The one that goes on has the readings, and the mean, of the run that was not touched.
+        for row, alone in zip(rows, self.gauges("whole")):
+            self.assertEqual([row[head.index(name)] for name in ("time", "probe", "probe_mean")],
+                             alone)
+        self.assertEqual(before, [[row[head.index(n)] for n in before[0]]
+                                  for row in rows[:len(before)]])
+        # What goes stays on disk.
+        self.go_on(text + self.PROBE, "out", "--until", "0.17")
+        self.assertEqual(self.gauges("out", "gauges_1.csv"), rows)
+        self.assertEqual(self.gauges("out"), self.gauges("whole")[:len(self.gauges("out"))])
+        self.go_on(text, "out")
+        self.assertGreater(len(self.gauges("out", "gauges_2.csv")), len(rows))
+        self.assertFalse((self.dir / "out" / "gauges.csv").exists())
+        done = self.call("report", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.run_flood("out", "--force", "--until", "0.01", text=text)
+
+    def test_a_refusal_names_each_key_with_both_values(self):
+        self.run_flood("out", "--until", "0.05", text=self.SMALL)
+        before = self.snapshot("out")
+        other = self.SMALL.replace("400.0", "500.0").replace("spacing = 0.05", "spacing = 0.04")
+        done = self.call("run", self.write(other), "-o", "out", "--resume")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        for key, old, new in (("body[0].density", 400, 500), ("particles.spacing", 0.05, 0.04)):
+            self.assertRegex(done.stderr, rf"`{re.escape(key)}`: [^\n]*{old}[^\n]*{new}")
+        self.assertNotIn("gauge", done.stderr)
+        added = self.SMALL + '[[wall]]\nname = "plate"\nshape = "plane"\nnormal = [1, 0, 0]\n'
+        done = self.call("run", self.write(added), "-o", "out", "--resume")
+        self.assertRegex(done.stderr, r"`wall\[1\]\.name`: [^\n]*no such key[^\n]*\"plate\"")
+        done = self.call("run", self.write(self.SMALL), "-o", "out", "--resume", "--set",
+                         "time.end=0.01")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, r"`time.end`: 0.01 s is before the checkpoint")
+        self.assertEqual(self.snapshot("out"), before)
+
+    def snapshot(self, folder):
+        return {p: p.read_bytes() for p in (self.dir / folder).rglob("*") if p.is_file()}
+
+    def test_the_line_to_go_on_with_works_as_it_stands(self):
+        (self.dir / "my case").mkdir()
+        case = self.write(self.SMALL, "my case/it's.toml")
+        arguments = ("--set", "body[0].density=450", "--set", 'title="a b"')
+        done = self.call("run", case, "-o", "my case/out", "--until", "0.05", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        line = done.stderr.split("go on with: ")[1].splitlines()[0]
+        done = subprocess.run(line, shell=True, cwd=self.dir, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads(self.read("my case/out", "summary.json"))
+        self.assertEqual(summary["exit_reason"], "done")
+
+    def test_a_history_that_was_cut_short_is_refused(self):
+        for name in ("bodies.csv", "contacts.csv", "energy.csv", "gauges.csv"):
+            text = self.SMALL + self.PROBE
+            self.run_flood("out", "--force", "--until", "0.1", text=text)
+            file = self.dir / "out" / name
+            lines = file.read_bytes().splitlines(keepends=True)
+            for left in (lines[:-1], lines[:4] + lines[5:], lines[:2], None):
+                if left is None:
+                    file.unlink()
+                else:
+                    file.write_bytes(b"".join(left))
+                before = self.snapshot("out")
+                done = self.call("run", "case.toml", "-o", "out", "--resume")
+                self.assertEqual(done.returncode, 4, done.stderr)
+                self.assertIn(name, done.stderr)
+                after = self.snapshot("out")
+                for path in (self.dir / "out" / "frames").iterdir():
+                    self.assertEqual(before[path], after[path])
+                self.assertEqual(before.get(file), after.get(file))
+
+    def test_a_plan_that_is_gone_is_made_again(self):
+        self.run_flood("out", "--until", "0.05", text=self.SMALL)
+        (self.dir / "out" / "plan.json").unlink()
+        self.go_on(self.SMALL, "out")
+        json.loads(self.read("out", "plan.json"))
 
     def test_resuming_nothing_or_garbage_is_told(self):
         (self.dir / "out").mkdir()

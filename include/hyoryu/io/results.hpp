@@ -82,14 +82,18 @@ private:
 /// A CSV history: a `#` line of units, a header row, then rows with full double precision.
 class History {
 public:
+    /// Keeps however many rows there are.
+    static constexpr std::int64_t all_rows = std::numeric_limits<std::int64_t>::max();
+
     /// Opens a new `folder/<table.name>.csv`, replacing what stands there.
     History(const std::filesystem::path& folder, Table table);
     /// Goes on with the file, keeping the rows whose first cell is at most `keep_until` [s], and no
     /// more than the first `keep_rows`: a row may be written later than the time it tells of. A
-    /// last row that was torn by a kill is dropped. Starts a new file if there is none. Throws
-    /// IoError if the file has other columns.
+    /// last row that was torn by a kill is dropped. Throws IoError, and leaves the file as it is, if
+    /// it has other columns or fewer such rows than `keep_rows`: rows that the state knows of are
+    /// gone. Starts a new file if there is none and no row is to be kept.
     History(const std::filesystem::path& folder, Table table, double keep_until,
-            std::int64_t keep_rows = std::numeric_limits<std::int64_t>::max());
+            std::int64_t keep_rows = all_rows);
     ~History();
     History(History&&) noexcept;
     History& operator=(History&&) noexcept;
@@ -104,6 +108,16 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// Gives the history of a folder other columns: rows keep the cells of columns that go on and have
+/// "nan" in those that are new. Where a column ends, the file so far is kept beside it as
+/// `NAME_1.csv`, `NAME_2.csv` ... A history that has the columns, or that is not there, stays as it
+/// is. Throws IoError.
+void change_columns(const std::filesystem::path& folder, const Table& table);
+
+/// Keeps a history that no longer grows as `NAME_1.csv`, `NAME_2.csv` ..., if it is there. Throws
+/// IoError.
+void set_aside(const std::filesystem::path& folder, const std::string& name);
 
 /// The shortest text that reads back as the same double.
 std::string cell(double value);

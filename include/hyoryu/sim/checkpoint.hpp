@@ -7,6 +7,11 @@
 
 namespace hyoryu {
 
+// Names of arrays that a run with other output changes (see carry_over.hpp).
+inline constexpr const char* clock_array = "clock";
+inline constexpr const char* frame_offset_array = "frame_offset";
+inline constexpr const char* gauges_array = "gauges";
+
 /// The whole mutable state between two steps.
 Snapshot save(const Simulation& sim);
 

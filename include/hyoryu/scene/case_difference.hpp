@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// How two cases differ, key by key: what a restart may change, and what it refuses.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hyoryu {
+
+/// A key whose value differs. Values as TOML; empty where the case does not have the key.
+struct KeyDifference {
+    std::string key; // full path: "body[2].density"
+    std::string before;
+    std::string after;
+};
+
+/// The differences of two cases as `to_toml` writes them, in the order of their keys. Throws
+/// CaseError if one is no TOML.
+std::vector<KeyDifference> case_differences(const std::string& before, const std::string& after);
+
+/// Whether a run may go on with another value of the key: title, end, what is written and when,
+/// gauges, and recovery. Geometry, physics and the time step are in the state already.
+bool may_change_on_resume(std::string_view key);
+
+} // namespace hyoryu

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "resume.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/case_difference.hpp"
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/sim/carry_over.hpp"
+#include "hyoryu/sim/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of the differences that a refusal lists.
+constexpr std::size_t most_listed = 20;
+
+[[noreturn]] void refuse(const Scene& scene, const std::vector<KeyDifference>& differences)
+{
+    std::vector<Diagnostic> mistakes;
+    for (const KeyDifference& d : differences) {
+        if (mistakes.size() == most_listed) {
+            mistakes.push_back(
+                {.file = scene.file.string(),
+                 .what = fmt::format("and {} more keys", differences.size() - most_listed)});
+            break;
+        }
+        const auto value = [](const std::string& text) { return text.empty() ? "no such key" : text; };
+        mistakes.push_back({.file = scene.file.string(),
+                            .key = d.key,
+                            .what = fmt::format("the checkpoint was written with {}, the case has "
+                                                "{}: geometry and physics cannot change on the way",
+                                                value(d.before), value(d.after))});
+    }
+    mistakes.back().hint = "run with the case.toml in the results folder, or start anew with --force";
+    throw CaseError(mistakes);
+}
+
+Scene case_of(const Snapshot& state)
+{
+    const auto stored = state.texts.find("case");
+    if (stored == state.texts.end()) {
+        throw IoError("the checkpoint does not hold its case: it is damaged");
+    }
+    try {
+        return parse_case(stored->second, "checkpoint");
+    } catch (const CaseError& error) {
+        throw IoError(fmt::format("the case of the checkpoint cannot be read: another version "
+                                  "wrote it, or a file that it names has changed\n{}",
+                                  error.what()));
+    }
+}
+
+double time_of(const Snapshot& state)
+{
+    const auto clock = state.arrays.find(clock_array);
+    const auto* numbers = clock == state.arrays.end()
+                              ? nullptr
+                              : std::get_if<std::vector<double>>(&clock->second.values);
+    if (numbers == nullptr || numbers->empty()) {
+        throw IoError("the checkpoint has no clock: it is damaged");
+    }
+    return numbers->front();
+}
+
+bool leaves_frames_to_default(const Scene& scene)
+{
+    return scene.output.every == scene.time.end / 100;
+}
+
+// For a shell: a single quote ends the quotes, stands for itself, and begins them again.
+std::string quoted(const std::string& word)
+{
+    constexpr std::string_view harmless =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,+@%=";
+    if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) {
+        return word;
+    }
+    std::string text = "'";
+    for (const char c : word) {
+        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return text + "'";
+}
+
+} // namespace
+
+Resumption resumption_of(const fs::path& folder, const Scene& scene)
+{
+    auto [state, passed_over] = read_newest_checkpoint(folder);
+    const Scene before = case_of(state);
+    Resumption found{.state = {}, .scene = scene, .passed_over = passed_over};
+    if (leaves_frames_to_default(before) && leaves_frames_to_default(scene)) {
+        found.scene.output.every = before.output.every;
+    }
+    std::vector<KeyDifference> differences =
+        case_differences(state.texts.at("case"), to_toml(found.scene));
+    found.changed = !differences.empty();
+    std::erase_if(differences,
+                  [](const KeyDifference& d) { return may_change_on_resume(d.key); });
+    if (!differences.empty()) {
+        refuse(scene, differences);
+    }
+    const double time = time_of(state);
+    if (scene.time.end < time * (1 - 1e-9)) {
+        throw CaseError({Diagnostic{
+            .file = scene.file.string(),
+            .key = "time.end",
+            .what = fmt::format("{} s is before the checkpoint, which is at {} s", scene.time.end,
+                                time),
+            .hint = "a later end, or start anew with --force"}});
+    }
+    if (found.changed) {
+        carry_over(state, before, found.scene);
+    }
+    found.state = std::move(state);
+    return found;
+}
+
+std::string command_to_go_on(const RunOptions& options, const fs::path& folder)
+{
+    std::string line = fmt::format("{} run {} -o {}", quoted(options.program),
+                                   quoted(options.case_file.string()), quoted(folder.string()));
+    for (const std::string& set : options.overrides) {
+        line += " --set " + quoted(set);
+    }
+    if (options.threads > 0) {
+        line += fmt::format(" --threads {}", options.threads);
+    }
+    return line + (options.quiet ? " --quiet --resume" : " --resume");
+}
+
+} // namespace hyoryu

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Going on from a checkpoint with a case that may have changed.
+#pragma once
+
+#include "commands.hpp"
+
+#include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/scene/scene.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace hyoryu {
+
+/// What a checkpoint is taken up with.
+struct Resumption {
+    Snapshot state;          // for the case as it is now
+    Scene scene;             // the case, with what it leaves to the run before
+    std::string passed_over; // why `checkpoint.h5` was not read; empty if it was
+    bool changed = false;    // whether the case is not the one that wrote the checkpoint
+};
+
+/// Reads the newest checkpoint of the folder and fits it to the case. Where `output.every` is left
+/// to its default, end / 100, in both cases, it stays as it was: a later end moves no frame. Throws
+/// CaseError that names every key that may not change, with both values, and IoError if there is no
+/// checkpoint that can be read.
+Resumption resumption_of(const std::filesystem::path& folder, const Scene& scene);
+
+/// The command line that goes on with the run, for a shell.
+std::string command_to_go_on(const RunOptions& options, const std::filesystem::path& folder);
+
+} // namespace hyoryu
