@@ -3,25 +3,48 @@
 
 #include "commands.hpp"
 
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace hyoryu {
 
 namespace {
 
+// A name that a shell made of a variable that is not set.
+const CLI::Validator a_name([](std::string& text) {
+    return text.empty() ? std::string("is empty, expected a name") : std::string();
+}, "");
+
+// CLI takes "nan" and "inf" for numbers.
+const CLI::Validator finite([](std::string& text) {
+    double value = 0;
+    const bool number = CLI::detail::lexical_cast(text, value);
+    return number && std::isfinite(value)
+               ? std::string()
+               : fmt::format("\"{}\" is no finite number", text);
+}, "");
+
 void add_run(CLI::App& app, RunOptions& options)
 {
     auto* run = app.add_subcommand("run", "run a case");
-    run->add_option("CASE", options.case_file, "case file (TOML)")->required();
+    run->add_option("CASE", options.case_file, "case file (TOML)")->required()->check(a_name);
     run->add_option("-o,--output", options.folder,
-                    "results folder (default: the case's name + -results, here)");
+                    "results folder (default: the case's name + -results, here)")
+        ->check(a_name);
     run->add_option("--set", options.overrides,
                     "change a key of the case: key.path=VALUE; repeatable")
         ->allow_extra_args(false);
     run->add_option("--threads", options.threads, "threads to use (default: all)")
         ->check(CLI::Range(1, 4096));
-    run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint");
+    run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
+        ->check(finite & CLI::NonNegativeNumber);
     run->add_flag("--resume", options.resume, "go on from the checkpoint in the results folder");
     run->add_flag("--force", options.force, "replace an existing results folder");
     run->add_flag("--quiet", options.quiet, "no progress");
@@ -30,7 +53,7 @@ void add_run(CLI::App& app, RunOptions& options)
 void add_check(CLI::App& app, CheckOptions& options)
 {
     auto* check = app.add_subcommand("check", "find every mistake of a case and show its plan");
-    check->add_option("CASE", options.case_file, "case file (TOML)")->required();
+    check->add_option("CASE", options.case_file, "case file (TOML)")->required()->check(a_name);
     check
         ->add_option("--set", options.overrides,
                      "change a key of the case: key.path=VALUE; repeatable")
@@ -54,15 +77,18 @@ void add_describe(CLI::App& app, DescribeOptions& options)
 void add_render(CLI::App& app, RenderOptions& options)
 {
     auto* render_ = app.add_subcommand("render", "pictures and an animation of a run, off-screen");
-    render_->add_option("RESULTS", options.folder, "results folder")->required();
+    render_->add_option("RESULTS", options.folder, "results folder")->required()->check(a_name);
     render_
         ->add_option("--times", options.settings.times,
                      "only the frames nearest to these times [s]")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(finite);
     render_->add_option("--width", options.settings.width, "pixels")->check(CLI::Range(64, 7680));
     render_->add_option("--height", options.settings.height, "pixels")->check(CLI::Range(64, 4320));
-    render_->add_option("--azimuth", options.settings.azimuth_deg, "camera direction [deg]");
-    render_->add_option("--elevation", options.settings.elevation_deg, "camera height [deg]");
+    render_->add_option("--azimuth", options.settings.azimuth_deg, "camera direction [deg]")
+        ->check(finite);
+    render_->add_option("--elevation", options.settings.elevation_deg, "camera height [deg]")
+        ->check(finite);
     render_->add_option("--fps", options.settings.fps, "frames a second of the animation")
         ->check(CLI::Range(1, 120));
 }
@@ -70,11 +96,13 @@ void add_render(CLI::App& app, RenderOptions& options)
 void add_report(CLI::App& app, ReportOptions& options)
 {
     auto* report = app.add_subcommand("report", "one self-contained HTML page about a run");
-    report->add_option("RESULTS", options.folder, "results folder")->required();
-    report->add_option("-o,--output", options.file, "the page (default: RESULTS/report.html)");
+    report->add_option("RESULTS", options.folder, "results folder")->required()->check(a_name);
+    report->add_option("-o,--output", options.file, "the page (default: RESULTS/report.html)")
+        ->check(a_name);
     report->add_option("--stiffness", options.stiffness,
                        "contact stiffness k [N/m] of every impact, for peak forces u sqrt(k m) "
-                       "(default: as the case declares for pairs of materials)");
+                       "(default: as the case declares for pairs of materials)")
+        ->check(finite & CLI::PositiveNumber);
 }
 
 void add_verify(CLI::App& app, VerifyOptions& options)
@@ -82,10 +110,12 @@ void add_verify(CLI::App& app, VerifyOptions& options)
     auto* verify_ = app.add_subcommand("verify", "run benchmarks against their references");
     verify_->add_option("NAME", options.names, "benchmarks or groups of them (default: all)");
     verify_->add_option("--tier", options.tier, "quick (default), nightly or release");
-    verify_->add_option("--cases", options.cases, "folder of the benchmark folders");
+    verify_->add_option("--cases", options.cases, "folder of the benchmark folders")->check(a_name);
     verify_->add_option("-o,--output", options.folder,
-                        "folder for results, tables and figures (default: verify-results)");
-    verify_->add_option("--json", options.json, "write verify.json to this file as well");
+                        "folder for results, tables and figures (default: verify-results)")
+        ->check(a_name);
+    verify_->add_option("--json", options.json, "write verify.json to this file as well")
+        ->check(a_name);
     verify_->add_option("--threads", options.threads, "threads to use (default: all)")
         ->check(CLI::Range(1, 4096));
     verify_->add_flag("--list", options.list, "only list the benchmarks");
@@ -95,9 +125,10 @@ void add_verify(CLI::App& app, VerifyOptions& options)
 void add_study(CLI::App& app, StudyOptions& options)
 {
     auto* study = app.add_subcommand("study", "accuracy against cost over values of case keys");
-    study->add_option("STUDY", options.file, "study file (TOML)")->required();
+    study->add_option("STUDY", options.file, "study file (TOML)")->required()->check(a_name);
     study->add_option("-o,--output", options.folder,
-                      "results folder (default: the study's name + -results, here)");
+                      "results folder (default: the study's name + -results, here)")
+        ->check(a_name);
     study->add_option("--threads", options.threads, "threads of each run (default: 1)")
         ->check(CLI::Range(1, 4096));
     study
@@ -121,9 +152,69 @@ void add_bench(CLI::App& app, BenchOptions& options)
         ->check(CLI::Range(1e2, 1e8));
     bench->add_option("--threads", options.threads, "threads to use (default: all)")
         ->check(CLI::Range(1, 4096));
-    bench->add_option("--json", options.json, "write the results to this file as well");
+    bench->add_option("--json", options.json, "write the results to this file as well")
+        ->check(a_name);
     bench->add_option("--state", options.state,
-                      "keep the developed flow in this folder, and take it from there");
+                      "keep the developed flow in this folder, and take it from there")
+        ->check(a_name);
+}
+
+// The names of options, or of commands, that a word may have meant.
+std::string nearest(const std::string& word, const std::vector<std::string>& known)
+{
+    const std::vector<std::string_view> views(known.begin(), known.end());
+    const std::string hint = did_you_mean(word, views);
+    return hint.empty() ? "there are: " + fmt::format("{}", fmt::join(known, ", ")) : hint;
+}
+
+std::vector<std::string> commands_of(const CLI::App& app)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) {
+        names.push_back(command->get_name());
+    }
+    return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& command)
+{
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back("--" + name);
+        }
+    }
+    return names;
+}
+
+// A word that no command knows, and the one that was meant.
+void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv)
+{
+    const std::vector<std::string> known = commands_of(app);
+    const std::string word = argc > 1 ? argv[1] : "";
+    if (!word.starts_with('-') && argc > 1 && std::ranges::find(known, word) == known.end()) {
+        throw CaseError(fmt::format("there is no command \"{}\"", word), nearest(word, known));
+    }
+}
+
+CaseError mistake_of(const CLI::App& app, const CLI::ParseError& error, int argc,
+                     const char* const* argv)
+{
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    const std::vector<std::string> known = options_of(command);
+    for (int k = 1; k < argc; ++k) {
+        std::string word = argv[k];
+        word.resize(std::min(word.find('='), word.size()));
+        if (word.starts_with("--") && word.size() > 2 &&
+            std::ranges::find(known, word) == known.end()) {
+            return CaseError(fmt::format("`hyoryu {}` has no option {}", command.get_name(), word),
+                             nearest(word, known));
+        }
+    }
+    return CaseError(error.what(), fmt::format("see `{} --help`",
+                                               chosen.empty() ? "hyoryu"
+                                                              : "hyoryu " + command.get_name()));
 }
 
 } // namespace
@@ -154,15 +245,22 @@ int run_command_line(int argc, const char* const* argv)
     add_bench(app, bench);
     app.add_subcommand("info", "what a results folder holds")
         ->add_option("RESULTS", info.folder, "results folder")
-        ->required();
+        ->required()
+        ->check(a_name);
 
+    refuse_unknown_command(app, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         // Help and version are no mistakes; everything else is the user's input.
-        return app.exit(error) == 0 ? exit_code::done : exit_code::input;
+        if (error.get_exit_code() == 0) {
+            app.exit(error);
+            return exit_code::done;
+        }
+        throw mistake_of(app, error, argc, argv);
     }
     if (app.got_subcommand("run")) {
+        run.program = argv[0];
         return run_case(run);
     }
     if (app.got_subcommand("check")) {
