@@ -4,6 +4,7 @@
 #include "stop_request.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_file.hpp"
 
@@ -29,8 +30,9 @@ constexpr double shortest_run = 100;
 
 ordered_json read(const std::filesystem::path& file)
 {
-    std::ifstream stream(file);
-    ordered_json value = ordered_json::parse(stream, nullptr, false);
+    ordered_json value = why_unreadable(file).empty()
+                             ? ordered_json::parse(bytes_of_file(file), nullptr, false)
+                             : ordered_json();
     if (!value.is_object()) {
         throw IoError(fmt::format("{} is missing or damaged, so the cost of the run cannot be told",
                                   file.string()));

@@ -7,6 +7,7 @@
 #include "plan_report.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_file.hpp"
@@ -36,9 +37,14 @@ constexpr double most_for_development = 60;
 
 json read_json(const fs::path& file)
 {
-    std::ifstream stream(file);
-    json value = json::parse(stream, nullptr, false);
-    return value.is_object() ? value : json::object();
+    if (!fs::exists(file)) {
+        return json::object();
+    }
+    json value = json::parse(bytes_of_file(file), nullptr, false);
+    if (!value.is_object()) {
+        throw IoError(fmt::format("`{}` is damaged: it is no JSON object", file.string()));
+    }
+    return value;
 }
 
 std::string series_line(const fs::path& folder, const std::string& name)

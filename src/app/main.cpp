@@ -3,6 +3,7 @@
 #include "options.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/name.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ namespace {
 // The exit code must come out even where the message cannot: fmt::print would throw.
 int fail(const std::string& message, int code)
 {
-    std::fputs((message + "\n").c_str(), stderr);
+    std::fputs((hyoryu::printable(message) + "\n").c_str(), stderr);
     return code;
 }
 

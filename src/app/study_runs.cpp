@@ -4,6 +4,7 @@
 #include "stop_request.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
@@ -13,8 +14,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -32,10 +31,7 @@ constexpr double usable_memory = 0.8;
 
 std::string read_all(const fs::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
+    return why_unreadable(file).empty() ? bytes_of_file(file) : std::string();
 }
 
 // Beside the folder of the run, in which a run tolerates no files but its own.

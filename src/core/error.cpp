@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/core/error.hpp"
 
+#include "hyoryu/core/name.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +37,9 @@ std::string joined(const std::vector<Diagnostic>& diagnostics)
 
 } // namespace
 
-std::string to_string(const Diagnostic& d)
+namespace {
+
+std::string unguarded_text(const Diagnostic& d)
 {
     std::string text;
     if (!d.file.empty()) {
@@ -60,6 +64,14 @@ std::string to_string(const Diagnostic& d)
         text += "\n  hint: " + d.hint;
     }
     return text;
+}
+
+} // namespace
+
+// What a user typed is quoted in messages and must not steer a terminal.
+std::string to_string(const Diagnostic& diagnostic)
+{
+    return printable(unguarded_text(diagnostic));
 }
 
 CaseError::CaseError(std::vector<Diagnostic> diagnostics)

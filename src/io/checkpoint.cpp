@@ -5,6 +5,7 @@
 #include "atomic_file.hpp"
 #include "hdf5.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
 #include "packed_array.hpp"
 
@@ -150,10 +151,11 @@ void keep_as_previous(const std::filesystem::path& folder)
 /// Reads the whole file once and compares length and checksum with the header.
 void verify(const std::filesystem::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) {
-        throw_system_error("read", file);
+    const std::string why = why_unreadable(file);
+    if (!why.empty()) {
+        throw IoError(fmt::format("`{}` {}", file.string(), why));
     }
+    std::ifstream stream(file, std::ios::binary);
     std::string stored(header_size, '\0');
     stream.read(stored.data(), header_size);
     if (!stored.starts_with(magic)) {

@@ -4,13 +4,12 @@
 
 #include "atomic_file.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
 
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <span>
-#include <sstream>
 #include <utility>
 
 namespace hyoryu {
@@ -79,13 +78,7 @@ std::optional<double> csv_number(std::string_view text)
 
 std::string file_text(const std::filesystem::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) {
-        throw_system_error("read", file);
-    }
-    return std::move(text).str();
+    return bytes_of_file(file);
 }
 
 std::vector<std::string_view> whole_lines(std::string_view text)

@@ -3,6 +3,7 @@
 #include "hdf5.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 
 #include <fmt/format.h>
 
@@ -134,6 +135,10 @@ std::span<const std::byte> FileImage::bytes()
 
 Handle open_file(const std::filesystem::path& file)
 {
+    const std::string why = why_unreadable(file);
+    if (!why.empty()) {
+        throw IoError(fmt::format("`{}` {}", file.string(), why));
+    }
     return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
             fmt::format("read `{}`", file.string())};
 }

@@ -3,12 +3,12 @@
 #include "series.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 
 namespace hyoryu {
 
@@ -24,12 +24,9 @@ void write_series(const std::filesystem::path& series, const std::vector<SeriesE
 
 std::vector<SeriesEntry> read_series(const std::filesystem::path& series)
 {
-    std::ifstream stream(series);
-    if (!stream) {
-        throw IoError(fmt::format("cannot read `{}`", series.string()));
-    }
+    const std::string text = bytes_of_file(series);
     try {
-        const nlohmann::json json = nlohmann::json::parse(stream);
+        const nlohmann::json json = nlohmann::json::parse(text);
         std::vector<SeriesEntry> entries;
         for (const nlohmann::json& file : json.at("files")) {
             entries.push_back({file.at("name").get<std::string>(), file.at("time").get<double>()});

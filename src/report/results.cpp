@@ -2,14 +2,13 @@
 #include "results.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/toml_document.hpp"
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace hyoryu {
 
@@ -20,13 +19,7 @@ using nlohmann::ordered_json;
 
 std::string read_text(const fs::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) {
-        throw IoError(fmt::format("cannot read `{}`", file.string()));
-    }
-    return text.str();
+    return bytes_of_file(file);
 }
 
 ordered_json read_json(const fs::path& file)

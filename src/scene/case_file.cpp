@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/case_file.hpp"
 
+#include "hyoryu/core/input_file.hpp"
+
 #include "reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <tuple>
 
@@ -14,7 +15,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr std::uintmax_t largest_file = 64u << 20;
 constexpr std::size_t most_diagnostics = 100;
 
 /// The lines of a text as messages show them: without tabs, which would shift the caret, and not
@@ -112,40 +112,22 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
 
 Scene read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides)
 {
-    std::error_code fault;
-    const auto status = std::filesystem::status(file, fault);
-    const auto refuse = [&file](std::string what, std::string hint) {
-        throw CaseError(
-            {Diagnostic{.file = file.string(), .what = std::move(what), .hint = std::move(hint)}});
-    };
-    if (!std::filesystem::exists(status)) {
-        refuse("there is no such file", "`hyoryu new` writes a case to start from");
+    const std::string why = why_unreadable(file, largest_text);
+    if (!why.empty()) {
+        const bool folder = why.starts_with("is a folder");
+        throw CaseError({Diagnostic{.file = file.string(),
+                                    .what = "the case file " + why,
+                                    .hint = folder ? "name the .toml file in it" : ""}});
     }
-    if (std::filesystem::is_directory(status)) {
-        refuse("is a folder, expected a case file", "name the .toml file in it");
-    }
-    if (std::filesystem::is_regular_file(status) &&
-        std::filesystem::file_size(file, fault) > largest_file) {
-        refuse(fmt::format("is larger than {} MiB, which no case file is", largest_file >> 20), "");
-    }
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) {
-        refuse("cannot be read", "");
-    }
-    return parse_case(text.str(), file, overrides);
+    return parse_case(bytes_of_file(file), file, overrides);
 }
 
 Diagnostic diagnostic_at(const Scene& scene, const Place& place, std::string key, std::string what,
                          std::string hint)
 {
     Reading reading{.file = scene.file};
-    if (place.line > 0) {
-        std::ifstream stream(scene.file, std::ios::binary);
-        std::ostringstream text;
-        text << stream.rdbuf();
-        reading.lines = lines_of(text.str());
+    if (place.line > 0 && why_unreadable(scene.file, largest_text).empty()) {
+        reading.lines = lines_of(bytes_of_file(scene.file));
     }
     reading.error(place, -1, std::move(key), std::move(what), std::move(hint));
     return reading.diagnostics.front();

@@ -4,6 +4,7 @@
 #include "hyoryu/core/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hyoryu {
@@ -108,20 +109,34 @@ HistorySize energy(const Scene& scene, const Plan& plan, const Course& course)
     return {history_rows(scene, course), text, active + 1, columns - active, 0, 0};
 }
 
+// How the bodies of a scene may move: asked once for all of them.
+struct Freedom {
+    std::array<bool, 3> moves{}; // along x, y, z
+    bool turns = false;
+};
+
+Freedom freedom_of(const Scene& scene, const Plan& plan)
+{
+    Freedom freedom{.turns = turns(scene, plan)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        freedom.moves[axis] = moves_along(scene, plan, static_cast<Eigen::Index>(axis));
+    }
+    return freedom;
+}
+
 // Numbers of a body that change: position, orientation, both velocities, and loads of a fluid.
-double active_of_body(const Scene& scene, const Plan& plan, const BodySettings& body)
+double active_of_body(const Scene& scene, const Plan& plan, const Freedom& freedom,
+                      const BodySettings& body)
 {
     const bool flat = scene.dimensions == 2;
     double active = plan.fluid ? (flat ? 3 : 6) : 0;
     if (body.fixed) {
         return active;
     }
-    const bool rolls = turns(scene, plan);
     double rotations = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const bool free = moves_along(scene, plan, static_cast<Eigen::Index>(axis));
-        active += free && !body.locks[axis] ? 2 : 0;
-        rotations += (flat && axis != 1) || body.locks[3 + axis] || !rolls ? 0 : 1;
+        active += freedom.moves[axis] && !body.locks[axis] ? 2 : 0;
+        rotations += (flat && axis != 1) || body.locks[3 + axis] || !freedom.turns ? 0 : 1;
     }
     const double orientation = rotations > 1 ? 4 : 2 * rotations;
     return active + rotations + orientation;
@@ -133,8 +148,9 @@ HistorySize bodies(const Scene& scene, const Plan& plan, const Course& course)
     double active = 0;
     double letters = 0;
     double longest = 0;
+    const Freedom freedom = freedom_of(scene, plan);
     for (const BodySettings& body : scene.bodies) {
-        active += active_of_body(scene, plan, body);
+        active += active_of_body(scene, plan, freedom, body);
         letters += static_cast<double>(body.name.size());
         longest = std::max(longest, static_cast<double>(body.name.size()));
     }

@@ -8,6 +8,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
 #include "stand_off.hpp"
+#include "units.hpp"
 #include "walls.hpp"
 
 #include <fmt/format.h>
@@ -122,6 +123,26 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
     filling.warnings.push_back(note);
 }
 
+// Fields are the user's formulas: a division by zero must not reach the first step.
+void check_start(const Scene& scene, std::size_t block, const Filling& filling)
+{
+    const Vec3& p = filling.fluid.back();
+    const Vec3& v = filling.fluid_velocity.back();
+    const double pressure = filling.fluid_pressure.back();
+    const bool speed_fits = v.norm() <= largest_value("m/s"); // false where it is no number
+    if (speed_fits && std::isfinite(pressure)) {
+        return;
+    }
+    const std::string value = speed_fits ? fmt::format("{} Pa", pressure)
+                                         : fmt::format("({}, {}, {}) m/s", v.x(), v.y(), v.z());
+    throw CaseError({diagnostic_at(
+        scene, scene.fluid->blocks[block].place,
+        fmt::format("fluid.block[{}].{}", block, speed_fits ? "pressure_field" : "velocity_field"),
+        fmt::format("is {} at ({:.6g}, {:.6g}, {:.6g}) m, where there is fluid", value, p.x(),
+                    p.y(), p.z()),
+        "the formula must give a finite number at every particle of the block")});
+}
+
 void fill_fluid(const Scene& scene, Filling& filling)
 {
     std::vector<BlockPoints> blocks;
@@ -135,6 +156,7 @@ void fill_fluid(const Scene& scene, Filling& filling)
             filling.fluid.push_back(p);
             filling.fluid_velocity.push_back(start.velocity(p));
             filling.fluid_pressure.push_back(start.pressure(p));
+            check_start(scene, b, filling);
             filling.fluid_depth.push_back(scene.gravity.norm() > 0 ? surface - height(scene, p)
                                                                    : 0);
         }

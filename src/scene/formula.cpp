@@ -70,7 +70,11 @@ double Formula::value(const std::vector<double>& numbers) const
 {
     expects(numbers.size() == state_->values.size());
     std::copy(numbers.begin(), numbers.end(), state_->values.begin());
-    return state_->parser.Eval();
+    try {
+        return state_->parser.Eval();
+    } catch (const mu::Parser::exception_type& fault) {
+        throw FormulaError(fault.GetMsg());
+    }
 }
 
 } // namespace hyoryu

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "number_table.hpp"
 
+#include "hyoryu/core/input_file.hpp"
+#include "units.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -14,6 +19,7 @@ namespace {
 
 constexpr std::size_t most_faults = 5;
 constexpr std::string_view separators = " \t\r,;";
+constexpr std::string_view quotes = "\"'";
 
 std::vector<std::string_view> words_of(std::string_view line)
 {
@@ -39,33 +45,122 @@ std::optional<double> number_of(std::string_view word)
     return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+using Order = std::vector<std::size_t>; // of each number of a line, the column that it belongs to
+
+std::string names_of(std::span<const NumberColumn> columns)
+{
+    std::string names;
+    for (const NumberColumn& column : columns) {
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", column.name);
+    }
+    return names;
+}
+
+// A word of a header: in small letters, without the quotes that programs of tables write.
+std::string plain(std::string_view word)
+{
+    std::string text;
+    for (const char c : word) {
+        if (quotes.find(c) == std::string_view::npos) {
+            text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        }
+    }
+    return text;
+}
+
+// Parts "z[m]" into name and unit; a unit may be a word of its own.
+std::vector<std::string> names_and_units(const std::vector<std::string_view>& words)
+{
+    std::vector<std::string> parts;
+    for (const std::string_view word : words) {
+        const std::string text = plain(word);
+        const auto bracket = text.find_first_of("[(");
+        if (bracket != 0) {
+            parts.push_back(text.substr(0, bracket));
+        }
+        if (bracket != std::string::npos) {
+            parts.push_back(fmt::format("[{}", text.substr(bracket + 1, text.size() - bracket - 2)));
+        }
+    }
+    return parts;
+}
+
+// What is wrong with the header; empty if it names every column once.
+std::string read_header(const std::vector<std::string_view>& words,
+                        std::span<const NumberColumn> columns, Order& order)
+{
+    order.clear();
+    for (const std::string& part : names_and_units(words)) {
+        if (part.starts_with('[')) {
+            const std::string_view unit = order.empty() ? "" : columns[order.back()].unit;
+            if (part.substr(1) != unit) {
+                return fmt::format("the header gives the unit \"{}\", expected {}", part.substr(1),
+                                   unit);
+            }
+            continue;
+        }
+        const auto at = std::ranges::find(columns, part == "t" ? "time" : part, &NumberColumn::name);
+        const auto column = static_cast<std::size_t>(at - columns.begin());
+        if (at == columns.end() || std::ranges::find(order, column) != order.end()) {
+            return fmt::format("the header has {} \"{}\", expected the columns {}",
+                               at == columns.end() ? "an unknown column" : "twice the column", part,
+                               names_of(columns));
+        }
+        order.push_back(column);
+    }
+    return order.size() == columns.size()
+               ? std::string()
+               : fmt::format("the header names {} columns, expected {}", order.size(),
+                             names_of(columns));
+}
+
 // The numbers of a line, or what is wrong with it.
-std::string parse_row(const std::vector<std::string_view>& words, std::size_t columns,
+std::string parse_row(const std::vector<std::string_view>& words,
+                      std::span<const NumberColumn> columns, const Order& order,
                       std::vector<double>& row)
 {
-    for (const std::string_view word : words) {
-        const auto value = number_of(word);
-        if (!value) {
-            return fmt::format("expected a number, found \"{}\"", word);
-        }
-        row.push_back(*value);
+    if (words.size() != order.size()) {
+        return fmt::format("expected {} numbers, found {}", order.size(), words.size());
     }
-    return row.size() == columns
-               ? std::string()
-               : fmt::format("expected {} numbers, found {}", columns, row.size());
+    row.resize(order.size());
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const auto value = number_of(words[k]);
+        if (!value) {
+            return fmt::format("expected a number, found \"{}\"", words[k]);
+        }
+        const std::string_view unit = columns[order[k]].unit;
+        if (std::abs(*value) > largest_value(unit)) {
+            return fmt::format("{} {} is out of range, expected at most {} {}", *value, unit,
+                               largest_value(unit), unit);
+        }
+        row[order[k]] = *value;
+    }
+    return {};
+}
+
+Order as_asked(std::size_t columns)
+{
+    Order order(columns);
+    for (std::size_t k = 0; k < columns; ++k) {
+        order[k] = k;
+    }
+    return order;
 }
 
 } // namespace
 
-NumberTable read_number_table(const std::filesystem::path& file, std::size_t columns)
+NumberTable read_number_table(const std::filesystem::path& file,
+                              std::span<const NumberColumn> columns)
 {
     NumberTable table;
-    std::ifstream stream(file);
-    if (!stream || std::filesystem::is_directory(file)) {
-        table.faults.push_back(fmt::format("{}: cannot be read", file.string()));
+    const std::string why = why_unreadable(file, largest_text);
+    if (!why.empty()) {
+        table.faults.push_back(fmt::format("{}: {}", file.string(), why));
         return table;
     }
+    std::ifstream stream(file);
     std::string line;
+    Order order = as_asked(columns.size());
     bool header_allowed = true;
     for (int number = 1; std::getline(stream, line); ++number) {
         const std::vector<std::string_view> words = words_of(line);
@@ -74,16 +169,18 @@ NumberTable read_number_table(const std::filesystem::path& file, std::size_t col
         }
         const bool header = header_allowed && !number_of(words.front());
         header_allowed = false;
-        if (header) {
-            continue;
-        }
         std::vector<double> row;
-        const std::string fault = parse_row(words, columns, row);
-        if (fault.empty()) {
+        const std::string fault =
+            header ? read_header(words, columns, order) : parse_row(words, columns, order, row);
+        if (!fault.empty() && table.faults.size() < most_faults) {
+            table.faults.push_back(fmt::format("{}:{}: {}", file.string(), number, fault));
+        }
+        if (header && !fault.empty()) {
+            return table; // which number is which is not known
+        }
+        if (!header && fault.empty()) {
             table.rows.push_back(std::move(row));
             table.lines.push_back(number);
-        } else if (table.faults.size() < most_faults) {
-            table.faults.push_back(fmt::format("{}:{}: {}", file.string(), number, fault));
         }
     }
     return table;

@@ -39,6 +39,43 @@ double depth_in_mesh(const BodySettings& body, const Wall& wall, int dimensions)
                             body.position);
 }
 
+// Pairs a < b whose bounding balls meet, by a sweep along the axis on which the bodies are spread
+// the most: of so many copies all pairs cannot be looked at.
+std::vector<std::pair<int, int>> pairs_that_may_meet(const Rigid& rigid, int dimensions)
+{
+    struct Ball {
+        Vec3 centre;
+        double radius = 0;
+        int body = 0;
+    };
+    std::vector<Ball> balls;
+    Bounds box;
+    for (const Body& body : rigid.bodies) {
+        balls.push_back({body.position, bounding_radius(body, dimensions),
+                         static_cast<int>(balls.size())});
+        box.add(body.position);
+    }
+    Index axis = 0;
+    if (!balls.empty()) {
+        (box.max - box.min).maxCoeff(&axis);
+    }
+    const auto begin = [axis](const Ball& ball) { return ball.centre[axis] - ball.radius; };
+    std::ranges::sort(balls, {}, begin);
+    std::vector<std::pair<int, int>> pairs;
+    for (std::size_t k = 0; k < balls.size(); ++k) {
+        const Ball& one = balls[k];
+        for (std::size_t m = k + 1;
+             m < balls.size() && begin(balls[m]) <= one.centre[axis] + one.radius; ++m) {
+            const Ball& other = balls[m];
+            if ((one.centre - other.centre).squaredNorm() <= sq(one.radius + other.radius)) {
+                pairs.emplace_back(std::minmax(one.body, other.body));
+            }
+        }
+    }
+    std::ranges::sort(pairs); // messages in the order of the case
+    return pairs;
+}
+
 void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
 {
     const Rigid rigid = make_rigid(scene);
@@ -51,32 +88,22 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
             fmt::format("body \"{}\" overlaps {} by {:.3g} m", body.name, other, depth),
             "move it apart, or make it smaller; touching is allowed"));
     };
-    std::vector<double> radius;
-    for (const Body& body : rigid.bodies) {
-        radius.push_back(bounding_radius(body, scene.dimensions));
-    }
-    const auto far_apart = [&](int a, int b) {
-        const Vec3 between = rigid.bodies[a].position - rigid.bodies[b].position;
-        return between.norm() > radius[a] + radius[b];
-    };
-    for (int a = 0; a < bodies; ++a) {
+    for (const auto& [a, b] : pairs_that_may_meet(rigid, scene.dimensions)) {
         const double allowed = allowed_overlap * scene.bodies[static_cast<std::size_t>(a)].spacing;
-        for (int b = a + 1; b < bodies; ++b) {
-            const double depth = far_apart(a, b) ? 0 : overlap(rigid, a, b, 0);
-            if (depth > allowed) {
-                report(b,
-                       fmt::format("body \"{}\"", scene.bodies[static_cast<std::size_t>(a)].name),
-                       depth);
-            }
+        const double depth = overlap(rigid, a, b, 0);
+        if (depth > allowed) {
+            report(b, fmt::format("body \"{}\"", scene.bodies[static_cast<std::size_t>(a)].name),
+                   depth);
         }
+    }
+    for (int a = 0; a < bodies; ++a) {
+        const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
         for (int w = 0; w < walls; ++w) {
-            const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
             const Wall& wall = scene.walls[static_cast<std::size_t>(w)];
             const double depth =
                 std::max(overlap(rigid, a, -1 - w, 0), depth_in_mesh(body, wall, scene.dimensions));
-            if (depth > allowed) {
-                report(a, fmt::format("wall \"{}\"", scene.walls[static_cast<std::size_t>(w)].name),
-                       depth);
+            if (depth > allowed_overlap * body.spacing) {
+                report(a, fmt::format("wall \"{}\"", wall.name), depth);
             }
         }
     }

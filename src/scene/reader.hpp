@@ -13,6 +13,13 @@ struct PlacedShape {
     Quat rotation = Quat::Identity();
 };
 
+/// The file that a text key of the table names, beside the case file; nothing, and a mistake noted,
+/// if the key is missing, empty, or names what cannot be read.
+std::optional<std::filesystem::path> read_file_path(TableReader& table, std::string_view key);
+
+/// Notes a mistake if the text of a key is no name (see `name_fault`).
+void check_name(TableReader& table, std::string_view key, const std::string& name);
+
 /// The shape of a fluid block or solid wall, in space; `kind` is the value of its key `shape`.
 PlacedShape read_placed_shape(TableReader& table, const std::string& kind);
 

@@ -2,6 +2,7 @@
 // The whole case and its fluid.
 #include "reader.hpp"
 
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/scene/formula.hpp"
 
 #include <fmt/format.h>
@@ -206,6 +207,9 @@ void read_domain(TableReader table, Scene& scene)
 void read_general(TableReader& root, Scene& scene)
 {
     scene.title = root.text("title");
+    if (const std::string fault = label_fault(scene.title); !fault.empty()) {
+        root.error("title", "cannot be shown: " + fault, "one line of plain text");
+    }
     scene.gravity = root.planar("gravity");
     scene.seed = static_cast<std::uint64_t>(root.integer("seed"));
     read_time(root.table("time"), scene);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace hyoryu {
 
@@ -26,8 +27,13 @@ void flatten(Motion& motion, int dimensions)
 Motion read_table(TableReader& table)
 {
     Motion motion;
-    const auto path = table.reading().file.parent_path() / table.text("table");
-    const NumberTable numbers = read_number_table(path, 4);
+    const auto path = read_file_path(table, "table");
+    if (!path) {
+        return {};
+    }
+    constexpr std::array<NumberColumn, 4> columns{
+        {{"time", "s"}, {"x", "m"}, {"y", "m"}, {"z", "m"}}};
+    const NumberTable numbers = read_number_table(*path, columns);
     for (const std::string& fault : numbers.faults) {
         table.error("table", fault, "columns are time, x, y, z in s and m");
     }
@@ -35,7 +41,7 @@ Motion read_table(TableReader& table)
         const std::vector<double>& row = numbers.rows[k];
         if (k > 0 && row[0] <= motion.times.back()) {
             table.error("table",
-                        fmt::format("{}:{}: time {} does not follow {}", path.string(),
+                        fmt::format("{}:{}: time {} does not follow {}", path->string(),
                                     numbers.lines[k], row[0], motion.times.back()),
                         "times must ascend");
             break;
@@ -45,7 +51,7 @@ Motion read_table(TableReader& table)
     }
     if (numbers.faults.empty() && numbers.rows.size() < 2) {
         table.error("table", fmt::format("{}: has {} rows of numbers, a path needs two",
-                                         path.string(), numbers.rows.size()));
+                                         path->string(), numbers.rows.size()));
     }
     flatten(motion, table.reading().dimensions);
     if (motion.times.size() < 2) {

@@ -115,19 +115,19 @@ Gauge read_gauge(TableReader& table, const Scene& scene, std::size_t number)
 void read_gauges(TableReader& root, Scene& scene)
 {
     std::size_t number = 0;
-    std::map<std::string, int> columns;
+    std::map<std::string, int> columns{{"time", 0}};
     for (TableReader& table : root.tables("gauge")) {
         scene.gauges.push_back(read_gauge(table, scene, ++number));
         const Gauge& gauge = scene.gauges.back();
-        if (gauge.name.find_first_of(",;\"\n\r#") != std::string::npos || gauge.name.empty()) {
-            table.error("name", "is no name of a column", "use letters, digits, `_`, `-` and `.`");
-        }
+        check_name(table, "name", gauge.name);
         for (const Table::Head& head : gauge_columns(gauge, scene.dimensions)) {
             const auto [earlier, is_new] = columns.emplace(head.name, gauge.place.line);
             if (!is_new) {
-                table.error("name", fmt::format("the column \"{}\" stands twice, first of the "
-                                                "gauge in line {}",
-                                                head.name, earlier->second));
+                table.error("name", head.name == "time"
+                                        ? "is taken: \"time\" is the first column of gauges.csv"
+                                        : fmt::format("the column \"{}\" stands twice, first of "
+                                                      "the gauge in line {}",
+                                                      head.name, earlier->second));
                 break;
             }
         }

@@ -2,12 +2,15 @@
 // Shapes of fluid blocks, walls and bodies, their rotation, and the meshes they name.
 #include "number_table.hpp"
 #include "reader.hpp"
+#include "units.hpp"
 
 #include "hyoryu/geometry/mesh.hpp"
 #include "hyoryu/scene/voxels.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -60,25 +63,31 @@ PlacedShape read_box(TableReader& table)
 MeshShape read_mesh_shape(TableReader& table)
 {
     MeshShape shape;
-    table.require("file");
-    const std::string name = table.text("file");
+    const auto path = read_file_path(table, "file");
     shape.scale = table.find_number("scale").value_or(1);
     if (table.reading().dimensions == 2) {
         table.error("shape", "this version has meshes in three dimensions only");
         return shape;
     }
-    if (name.empty()) {
+    if (!path) {
         return shape;
     }
-    const auto folder = table.reading().file.parent_path();
-    const auto path = std::filesystem::absolute(folder / name).lexically_normal();
-    shape.file = path.string();
+    shape.file = path->string();
     try {
-        Mesh mesh = read_mesh(path, shape.scale);
+        Mesh mesh = read_mesh(*path, shape.scale);
         const std::string fault = closure_fault(mesh);
         if (!fault.empty()) {
             table.error("file", fmt::format("the mesh does not enclose a volume: {}", fault),
                         "close and repair it, for instance with MeshLab or Blender");
+        }
+        const auto far = std::ranges::find_if(mesh.corners, [](const Vec3& corner) {
+            return corner.cwiseAbs().maxCoeff() > largest_value("m");
+        });
+        if (far != mesh.corners.end()) {
+            table.error("file", fmt::format("has a corner at ({:.3g}, {:.3g}, {:.3g}) m, expected "
+                                            "at most {} m",
+                                            far->x(), far->y(), far->z(), largest_value("m")),
+                        "is `scale` right? it takes the numbers of the file to metres");
         }
         shape.corners = std::move(mesh.corners);
         shape.triangles = std::move(mesh.triangles);
@@ -161,25 +170,23 @@ ParticleShape read_particle_shape(TableReader& table, double spacing)
 {
     ParticleShape shape;
     shape.spacing = spacing;
-    table.require("file");
-    const std::string name = table.text("file");
+    const auto path = read_file_path(table, "file");
     if (table.reading().dimensions == 2) {
         table.error("shape", "this version has bodies of particles in three dimensions only");
         return shape;
     }
-    if (name.empty()) {
+    if (!path) {
         return shape;
     }
-    const auto folder = table.reading().file.parent_path();
-    const auto path = std::filesystem::absolute(folder / name).lexically_normal();
-    shape.file = path.string();
-    const NumberTable numbers = read_number_table(path, 3);
+    shape.file = path->string();
+    constexpr std::array<NumberColumn, 3> columns{{{"x", "m"}, {"y", "m"}, {"z", "m"}}};
+    const NumberTable numbers = read_number_table(*path, columns);
     for (const std::string& fault : numbers.faults) {
         table.error("file", fault, "one particle a line: x, y, z in m");
     }
     if (numbers.rows.empty()) {
         if (numbers.faults.empty()) {
-            table.error("file", fmt::format("{}: has no particle", path.string()));
+            table.error("file", fmt::format("{}: has no particle", path->string()));
         }
         return shape;
     }

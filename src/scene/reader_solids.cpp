@@ -58,14 +58,18 @@ std::string read_name(TableReader& table, std::string_view kind, std::size_t num
     if (!table.has("name")) {
         return fmt::format("{}.{}", kind, number);
     }
-    const bool bad = std::any_of(name.begin(), name.end(), [](char c) {
-        return static_cast<unsigned char>(c) < ' ' ||
-               std::string_view("\",;#/\\").find(c) != std::string::npos;
-    });
-    if (name.empty() || bad || name.front() == ' ' || name.back() == ' ') {
-        table.error("name", "is no name", "use letters, digits, blanks within, `_`, `-` and `.`");
-    }
+    check_name(table, "name", name);
     return name;
+}
+
+/// The material named, or none.
+std::string read_material(TableReader& table)
+{
+    const std::string material = table.text("material");
+    if (!material.empty()) {
+        check_name(table, "material", material);
+    }
+    return material;
 }
 
 /// Notes a mistake if a wall or body of that name stands in the case already.
@@ -103,7 +107,7 @@ Wall read_wall(TableReader& table, std::size_t number, double gravity)
         PlacedShape placed = read_placed_shape(table, kind);
         wall.geometry = SolidWall{std::move(placed.shape), placed.centre, placed.rotation};
     }
-    wall.material = table.text("material");
+    wall.material = read_material(table);
     wall.motion = read_motion(table.table("motion"), gravity);
     table.finish();
     return wall;
@@ -212,7 +216,7 @@ void read_body(TableReader& table, std::size_t number, Scene& scene)
     body.position = table.planar("position");
     body.rotation = read_rotation(table);
     read_state(table, body);
-    body.material = table.text("material");
+    body.material = read_material(table);
     const std::size_t before = scene.bodies.size();
     append_copies(table.table("copies"), body, scene.bodies);
     for (std::size_t k = before; k < scene.bodies.size(); ++k) {

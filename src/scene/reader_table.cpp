@@ -112,6 +112,12 @@ std::optional<double> TableReader::to_number(const TomlNode& node, const Paramet
         reading_.error(node, key, fmt::format("{} is no finite number", value));
         return std::nullopt;
     }
+    if (const double largest = largest_value(rule.unit); std::abs(value) > largest) {
+        reading_.error(node, key,
+                       fmt::format("{}{} is out of range, expected at most {}{}", value,
+                                   spaced_unit(rule), largest, spaced_unit(rule)));
+        return std::nullopt;
+    }
     if (!within(value, rule)) {
         reading_.error(node, key,
                        fmt::format("{}{} is out of range, expected {}{}", value, spaced_unit(rule),

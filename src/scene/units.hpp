@@ -20,6 +20,10 @@ struct Unit {
 /// The unit of a text such as "kg/m3", "kg/m^3", "m s^-2", "deg"; none if it is not understood.
 std::optional<Unit> parse_unit(std::string_view text);
 
+/// Largest magnitude that a scene may have in the unit: farther, faster or heavier than anything on
+/// Earth, and small enough for squares and sums. Infinity for units that are bounded elsewhere.
+double largest_value(std::string_view unit);
+
 /// A number typed as a text with a unit.
 struct ParsedQuantity {
     double value = 0;  // in the expected unit

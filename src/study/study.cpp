@@ -2,6 +2,8 @@
 // Reading a study and listing its runs.
 #include "hyoryu/study/study.hpp"
 
+#include "hyoryu/core/input_file.hpp"
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 #include "hyoryu/verify/read.hpp"
@@ -19,6 +21,9 @@ namespace hyoryu {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Each is planned before the first one starts, and is a process: more would take weeks.
+constexpr int most_runs = 10000;
 
 constexpr std::array<std::string_view, 2> modes{"one_at_a_time", "grid"};
 constexpr std::array<std::string_view, 3> ends{"smallest", "largest", "none"};
@@ -44,10 +49,22 @@ bool is_count(const RunParameter& value)
     return number != nullptr && *number >= 1 && *number <= 4096 && std::floor(*number) == *number;
 }
 
+void check_label(Section& section, std::string_view key, const Place& place,
+                 const std::string& text)
+{
+    const std::string fault = label_fault(text);
+    if (!fault.empty()) {
+        section.file().error(place, section.full(key), "cannot be shown: " + fault);
+    }
+}
+
 void read_values(Section& section, StudySweep& sweep)
 {
     for (const TomlNode* node : section.items("values")) {
         if (const auto value = parameter_of(*node)) {
+            if (const auto* text = std::get_if<std::string>(&*value)) {
+                check_label(section, "values", node->place, *text);
+            }
             sweep.values.push_back(*value);
         } else {
             section.file().error(
@@ -64,6 +81,7 @@ void read_values(Section& section, StudySweep& sweep)
 void read_choices(Section& section, StudySweep& sweep)
 {
     for (const TomlEntry* entry : section.entries("choices")) {
+        check_label(section, "choices", entry->place, entry->key);
         sweep.values.emplace_back(entry->key);
         sweep.choices.emplace_back();
         const TomlArray* items = entry->node.array();
@@ -166,8 +184,11 @@ StudyQuantity read_study_quantity(Section& section)
 {
     StudyQuantity quantity;
     section.require("name");
-    quantity.name = section.text("name");
-    quantity.unit = section.text("unit");
+    quantity.name = section.label("name");
+    quantity.unit = section.label("unit");
+    if (section.has("name") && quantity.name.empty()) {
+        section.error("name", "is empty");
+    }
     quantity.quantity = read_quantity(section);
     read_expectation(section, quantity);
     quantity.scale = section.expression("scale");
@@ -195,7 +216,7 @@ Study read_root(Section& root, const fs::path& folder)
     for (const char* key : {"title", "case"}) {
         root.require(key);
     }
-    study.title = root.text("title");
+    study.title = root.label("title");
     study.case_file = (folder / root.text("case")).lexically_normal();
     study.mode = static_cast<Study::Mode>(read_choice(root, "mode", modes));
     study.set = root.texts("set");
@@ -286,6 +307,28 @@ StudyRun run_with(const Study& study, const std::vector<int>& value_of)
     return run;
 }
 
+// How many processes the study would start. Counted before they are listed.
+double count_runs(const Study& study)
+{
+    const bool grid = study.mode == Study::Mode::grid;
+    double count = grid ? 1 : 0;
+    for (const StudySweep& sweep : study.sweeps) {
+        const auto values = static_cast<double>(sweep.values.size());
+        count = grid ? count * values : count + values;
+    }
+    return count * study.repeats;
+}
+
+void check_count(Section& root, const Study& study)
+{
+    const double count = count_runs(study);
+    if (count > most_runs) {
+        root.error("sweep",
+                   fmt::format("asks for {:.10g} runs, at most {} are made", count, most_runs),
+                   "fewer values or repeats, or mode = \"one_at_a_time\"");
+    }
+}
+
 // Overrides that cannot be evaluated, and values whose runs would share a folder.
 void check_runs(Section& root, const Study& study)
 {
@@ -315,9 +358,13 @@ Study read_study(const fs::path& file)
     OpenedFile opened = open_toml(file);
     Section root(opened.file, opened.document, "");
     Study study = read_root(root, file.parent_path());
-    if (!study.case_file.empty() && !fs::exists(study.case_file)) {
-        root.error("case", fmt::format("there is no file `{}`", study.case_file.string()),
+    const std::string why = why_unreadable(study.case_file, largest_text);
+    if (root.has("case") && !why.empty()) {
+        root.error("case", fmt::format("the file `{}` {}", study.case_file.string(), why),
                    "the path is relative to the study");
+    }
+    if (opened.file.mistakes.empty()) {
+        check_count(root, study);
     }
     if (opened.file.mistakes.empty()) {
         check_runs(root, study);

@@ -2,6 +2,7 @@
 // Finding, reading and selecting benchmarks.
 #include "hyoryu/verify/benchmark.hpp"
 
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 #include "reader.hpp"
 
@@ -28,8 +29,8 @@ Benchmark read_root(Section& root)
     for (const char* key : {"title", "group", "source"}) {
         root.require(key);
     }
-    benchmark.title = root.text("title");
-    benchmark.group = root.text("group");
+    benchmark.title = root.label("title");
+    benchmark.group = root.label("group");
     benchmark.also = root.texts("also");
     benchmark.source = root.text("source");
     benchmark.uncertainty = root.text("uncertainty");
@@ -73,20 +74,19 @@ void keep_runs_of(Tier tier, Benchmark& benchmark)
 
 OpenedFile open_toml(const fs::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream whole;
-    whole << stream.rdbuf();
     OpenedFile opened{{.file = file, .lines = {}, .mistakes = {}}, {}};
-    if (!stream) {
-        opened.file.error({}, "", "cannot be read");
+    const std::string why = why_unreadable(file, largest_text);
+    if (!why.empty()) {
+        opened.file.error({}, "", "the file " + why);
         throw CaseError(opened.file.mistakes);
     }
-    std::istringstream lines(whole.str());
+    const std::string whole = bytes_of_file(file);
+    std::istringstream lines(whole);
     for (std::string line; std::getline(lines, line);) {
         opened.file.lines.push_back(line);
     }
     try {
-        opened.document = parse_toml(whole.str());
+        opened.document = parse_toml(whole);
     } catch (const TomlFault& fault) {
         opened.file.error(fault.place, "", fault.what);
         throw CaseError(opened.file.mistakes);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `[[check]]`: what is measured, what it must be, and how far it may be off.
+#include "hyoryu/core/input_file.hpp"
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 #include "reader.hpp"
 
@@ -140,7 +142,7 @@ Check read_check(Section& section, const Benchmark& benchmark)
     const std::vector<BenchmarkRun>& runs = benchmark.runs;
     Check check;
     section.require("name");
-    check.name = section.text("name");
+    check.name = section.label("name");
     check.place = section.place();
     check.runs =
         section.has("runs") ? read_patterns(section, "runs", runs) : std::vector<std::string>{"*"};
@@ -204,11 +206,36 @@ bool is_error_measure(Measure measure)
     return measure == Measure::rms_error || measure == Measure::largest_error;
 }
 
+namespace {
+
+// A table beside the file is looked for now and not after hours of runs; one whose name depends on
+// the run cannot be.
+void check_file(Section& section, const std::string& name)
+{
+    const bool bad = has_control_characters(name);
+    if (name.empty() || bad) {
+        section.error("file", name.empty() ? "is empty" : "holds control characters",
+                      "a history of the run, or a CSV file beside this one");
+    } else if (name.ends_with(".csv") && name.find("${") == std::string::npos) {
+        const auto path = section.file().file.parent_path() / name;
+        const std::string why = why_unreadable(path);
+        if (!why.empty()) {
+            section.error("file", fmt::format("the file {} {}", path.string(), why),
+                          "the path is relative to this file");
+        }
+    }
+}
+
+} // namespace
+
 Series read_series(Section& section, std::string_view key)
 {
     Series series;
     section.require(key);
     series.file = section.text("file", series.file);
+    if (section.has("file")) {
+        check_file(section, series.file);
+    }
     series.frame = section.expression("frame");
     if (!series.frame.empty() && series.file != "fluid") {
         section.error("frame", "has a meaning for `file = \"fluid\"` only");

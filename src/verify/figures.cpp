@@ -65,7 +65,7 @@ Curve read_curve(Section& section, const std::vector<BenchmarkRun>& runs)
 Panel read_panel(Section& section, const std::vector<BenchmarkRun>& runs)
 {
     Panel panel;
-    panel.title = section.text("title");
+    panel.title = section.label("title");
     panel.x_axis = section.text("x_axis");
     panel.y_axis = section.text("y_axis");
     panel.x_range = read_range(section, "x_range");
@@ -109,7 +109,7 @@ std::vector<Figure> read_figures(Section& root, const std::vector<BenchmarkRun>&
     for (Section& section : root.tables("figure")) {
         Figure figure;
         figure.file = read_file_name(section, ".png");
-        figure.title = section.text("title");
+        figure.title = section.label("title");
         for (Section& panel : section.tables("panel")) {
             figure.panels.push_back(read_panel(panel, runs));
         }
@@ -129,7 +129,7 @@ std::vector<SummaryTable> read_summary_tables(Section& root, const Benchmark& be
         SummaryTable table;
         table.file = read_file_name(section, ".md");
         table.preface = section.text("preface");
-        table.title = section.text("title");
+        table.title = section.label("title");
         table.text = section.text("text");
         table.by = section.texts("by");
         for (Section& item : section.tables("column")) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows and columns of what a run wrote.
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/csv_table.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/verify/measure.hpp"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace hyoryu {
@@ -33,8 +33,7 @@ void append_numbers(const nlohmann::json& value, const std::string& name, CsvTab
 
 CsvTable read_summary(const fs::path& file)
 {
-    std::ifstream stream(file);
-    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    const auto json = nlohmann::json::parse(bytes_of_file(file), nullptr, false);
     if (json.is_discarded()) {
         throw IoError(fmt::format("cannot read `{}`", file.string()));
     }

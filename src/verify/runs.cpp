@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `[[run]]`: runs and grids of runs.
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 #include "reader.hpp"
@@ -13,6 +14,9 @@ namespace hyoryu {
 namespace {
 
 using Parameters = std::vector<std::pair<std::string, RunParameter>>;
+
+// Of one grid; days, if each takes a minute.
+constexpr int most_runs = 1000;
 
 /// One parameter of a grid with its values.
 struct Axis {
@@ -36,6 +40,14 @@ std::vector<Axis> read_grid(Section& run)
             }
         }
         axes.push_back(std::move(axis));
+    }
+    double count = 1;
+    for (const Axis& axis : axes) {
+        count *= static_cast<double>(axis.values.size());
+    }
+    if (count > most_runs) {
+        run.error("grid", fmt::format("asks for {:.0f} runs, at most {} are made", count, most_runs));
+        return {};
     }
     return axes;
 }
@@ -102,6 +114,13 @@ Scope with_parameters(const Constants& constants, const Parameters& parameters)
     return scope;
 }
 
+// The results of a run lie in a folder of its name.
+bool is_folder_name(const std::string& name)
+{
+    return !name.empty() && label_fault(name).empty() && name != "." && name != ".." &&
+           name.find_first_of("/\\") == std::string::npos;
+}
+
 void append_run(Section& section, const Constants& constants, Tier tier,
                 const std::vector<std::string>& common, std::vector<BenchmarkRun>& runs)
 {
@@ -110,8 +129,12 @@ void append_run(Section& section, const Constants& constants, Tier tier,
     const std::vector<std::string> set = section.texts("set");
     const Tier own_tier = read_tier(section, tier);
     const std::string stops = section.text("stops");
+    const std::size_t mistakes = section.file().mistakes.size();
     const std::vector<Axis> axes = read_grid(section);
     section.finish();
+    if (section.file().mistakes.size() > mistakes) {
+        return;
+    }
     for (const Parameters& parameters : combinations(axes)) {
         BenchmarkRun run{.name = name,
                          .set = common,
@@ -132,6 +155,12 @@ void append_run(Section& section, const Constants& constants, Tier tier,
         if (std::any_of(runs.begin(), runs.end(), same)) {
             section.error("name", fmt::format("the run \"{}\" stands twice", run.name),
                           axes.empty() ? "" : "put every parameter of the grid into the name");
+            return;
+        }
+        if (!is_folder_name(run.name)) {
+            section.error("name",
+                          fmt::format("the run \"{}\" cannot give its name to a folder", run.name),
+                          "leave `/`, `\\` and control characters out");
             return;
         }
         runs.push_back(std::move(run));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/verify/section.hpp"
 
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 #include "hyoryu/verify/formula.hpp"
@@ -107,6 +108,16 @@ std::string Section::text(std::string_view key, std::string fallback)
         return fallback;
     }
     return *value;
+}
+
+std::string Section::label(std::string_view key, std::string fallback)
+{
+    std::string label = text(key, std::move(fallback));
+    const std::string fault = label_fault(label);
+    if (!fault.empty()) {
+        error(key, "cannot be shown: " + fault);
+    }
+    return label;
 }
 
 double Section::number(std::string_view key, double fallback)

@@ -7,6 +7,7 @@
 #include "scratch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -14,10 +15,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace hyoryu;
     static const testing::Scratch scratch;
     const auto file = scratch.put("table.csv", data, size);
-    for (const std::size_t columns : {std::size_t(3), std::size_t(4)}) {
+    constexpr std::array<NumberColumn, 4> all{{{"time", "s"}, {"x", "m"}, {"y", "m"}, {"z", "m"}}};
+    for (const std::span<const NumberColumn> columns : {std::span(all), std::span(all).last<3>()}) {
         const NumberTable table = read_number_table(file, columns);
-        const bool whole = std::all_of(table.rows.begin(), table.rows.end(),
-                                       [&](const auto& row) { return row.size() == columns; });
+        const bool whole =
+            std::all_of(table.rows.begin(), table.rows.end(),
+                        [&](const auto& row) { return row.size() == columns.size(); });
         if (table.lines.size() != table.rows.size() || (table.faults.empty() && !whole)) {
             std::abort();
         }

@@ -6,8 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <set>
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace hyoryu {
 
@@ -98,7 +103,7 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
         {"[[wall]]\nshape = \"terrain\"\n", 2, 9, 9, "wall[0].shape",
          "does not have \"terrain\" yet", ""},
         {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = \"x.csv\"\n", 4, 9, 7,
-         "wall[0].motion.table", "x.csv: cannot be read", "time, x, y, z"},
+         "wall[0].motion.table", "x.csv does not exist", "relative to the case file"},
         {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntimes = [0, 1, 1]\n"
          "places = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\n",
          4, 16, 1, "wall[0].motion.times[2]", "must ascend", ""},
@@ -154,7 +159,7 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
         {"[[body]]\nshape = \"cilinder\"\n", 2, 9, 10, "body[0].shape", "unknown \"cilinder\"",
          "did you mean \"cylinder\"?"},
         {"[[body]]\nshape = \"particles\"\nfile = \"none.csv\"\ndensity = 1\nposition = [0,0,0]\n",
-         3, 8, 10, "body[0].file", "none.csv: cannot be read", "x, y, z"},
+         3, 8, 10, "body[0].file", "none.csv does not exist", "relative to the case file"},
         {"[[body]]\nshape = \"box\"\nsize=[1,0,1]\nmass=1\nposition=[0,0,0]\n", 3, 6, 7,
          "body[0].size", "must be > 0", ""},
         {"[[contact.pair]]\nmaterials = [\"pin\", \"oak\"]\n" + sphere +
@@ -361,6 +366,95 @@ TEST(CaseFileErrors, FilesThatCannotBeReadAreNamed)
         EXPECT_EQ(error.diagnostics()[0].file, large.string());
     }
     std::filesystem::remove(large);
+}
+
+// E2: every key that names a file, with what is none. A device has no end, a pipe may have no
+// writer: neither may be opened.
+TEST(CaseFileErrors, NoReaderTakesWhatIsNoFile)
+{
+    const std::string pipe = testing::TempDir() + "/hyoryu_pipe_" + std::to_string(getpid());
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const std::string body = "[[body]]\ndensity = 500\nposition = [0, 0, 5]\n";
+    const std::string mesh = "shape = \"mesh\"\nposition = [0, 0, 5]\nfile = ";
+    const std::vector<std::array<std::string, 2>> keys = {
+        {"body[0].file", body + "shape = \"mesh\"\nfile = "},
+        {"body[0].file", body + "shape = \"particles\"\nfile = "},
+        {"wall[0].file", "[[wall]]\n" + mesh},
+        {"fluid.block[1].file", "[[fluid.block]]\n" + mesh},
+        {"wall[0].motion.table", "[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = "}};
+    const std::vector<std::array<std::string, 2>> files = {
+        {"", "is empty"},           {".", "is a folder"},       {"/", "is a folder"},
+        {"/dev/zero", "is a device"}, {pipe, "is a pipe"},      {"none.stl", "does not exist"},
+        {"a\\u0000b", "control"},  {"a\\u001bb", "control"}, {"none/none.stl", "does not exist"}};
+    for (const auto& [key, head] : keys) {
+        for (const auto& [file, what] : files) {
+            SCOPED_TRACE(key + " = " + file);
+            const auto all = mistakes(short_case + head + "\"" + file + "\"\n");
+            const Diagnostic d = mistake_at(all, key);
+            EXPECT_NE(d.what.find(what), std::string::npos) << to_string(d);
+        }
+    }
+    std::filesystem::remove(pipe);
+}
+
+// E3, E9: one rule wherever a name enters.
+TEST(CaseFileErrors, NamesOfEverythingFollowOneRule)
+{
+    const std::string gauge = "[[gauge]]\ntype = \"front\"\nname = ";
+    const std::vector<std::array<std::string, 2>> keys = {
+        {"body[0].name", sphere + "radius = 1\nmass = 1\nname = "},
+        {"body[0].material", sphere + "radius = 1\nmass = 1\nmaterial = "},
+        {"wall[0].name", "[[wall]]\nshape = \"plane\"\nname = "},
+        {"wall[0].material", "[[wall]]\nshape = \"plane\"\nmaterial = "},
+        {"gauge[0].name", gauge}};
+    const std::vector<std::string> bad = {"x/L=0.5", ".",        "..",         "=1+1",
+                                          "+a",      "-a",       "@a",         " a",
+                                          "a ",      "a,b",      "a;b",        "a#b",
+                                          "a\\\\b",  "a\\\"b",  "a\\tb",      "a\\u001b[31m",
+                                          "a\\u007f", "a\\u009bm", std::string(101, 'a')};
+    const std::vector<std::string> good = {"a", "a b", "a.b-c_d", "Übergang", "x=1",
+                                           std::string(100, 'a')};
+    for (const auto& [key, head] : keys) {
+        for (const std::string& name : bad) {
+            SCOPED_TRACE(key + " = " + name);
+            const Diagnostic d =
+                mistake_at(mistakes(short_case + head + "\"" + name + "\"\n"), key);
+            EXPECT_NE(d.what.find("is no name"), std::string::npos) << to_string(d);
+        }
+        for (const std::string& name : good) {
+            SCOPED_TRACE(key + " = " + name);
+            const std::string text = short_case + head + "\"" + name + "\"\n";
+            EXPECT_TRUE(std::ranges::none_of(mistakes(text),
+                                             [&](const Diagnostic& d) { return d.key == key; }));
+        }
+    }
+    const Diagnostic time = mistake_at(mistakes(short_case + gauge + "\"time\"\n"), "gauge[0].name");
+    EXPECT_NE(time.what.find("first column"), std::string::npos) << to_string(time);
+    for (const std::string& title : {std::string("a\\u001b[31m"), std::string("=1+1")}) {
+        mistake_at(mistakes("title = \"" + title + "\"\n" + short_case), "title");
+    }
+}
+
+// E8: coordinates and speeds that are no place on Earth.
+TEST(CaseFileErrors, MagnitudesAreBoundedByTheirUnit)
+{
+    const std::string ball = "[[body]]\nshape = \"sphere\"\nradius = 1\ndensity = 500\n";
+    const std::vector<std::array<std::string, 3>> all = {
+        {ball + "position = [", "0, 0, 5]", "body[0].position[0]"},
+        {ball + "position = [0, 0, 5]\nvelocity = [", "0, 0, 0]", "body[0].velocity[0]"},
+        {"[[wall]]\nshape = \"plane\"\npoint = [", "0, 0, 0]", "wall[0].point[0]"},
+        {"[[wall]]\nshape = \"sphere\"\nposition = [0, 0, 0]\nradius = ", "1", "wall[0].radius"},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\nvelocity = [", "0, 0, 0]",
+         "wall[0].motion.velocity[0]"}};
+    for (const auto& [head, good, key] : all) {
+        for (const std::string& value : {std::string("1e300"), std::string("1e12")}) {
+            const std::string rest = good.substr(std::min(good.find(','), good.size()));
+            const Diagnostic d = mistake_at(mistakes(short_case + head + value + rest + "\n"), key);
+            EXPECT_NE(d.what.find("is out of range, expected at most"), std::string::npos)
+                << key << to_string(d);
+        }
+        EXPECT_EQ(mistake_at(mistakes(short_case + head + good + "\n"), key).key, "");
+    }
 }
 
 } // namespace hyoryu

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <numbers>
 
 namespace hyoryu {
@@ -330,6 +331,55 @@ position = [{}, 0.0, 0.304]
                 << p.transpose();
             EXPECT_NEAR(filling.fluid_depth[k], 0.4 - p.z(), 1e-12);
         }
+    }
+}
+
+// E5: a formula that gives no number somewhere in the block is told before the run, with the place;
+// one that does so only outside of it is not.
+TEST(Fill, FieldsMustGiveANumberWhereThereIsFluid)
+{
+    const std::vector<std::pair<std::string, std::string>> bad = {
+        {"velocity_field = [\"1/0\", \"0\", \"0\"]", "velocity_field"},
+        {"velocity_field = [\"0\", \"0\", \"sqrt(-1 - x)\"]", "velocity_field"},
+        {"velocity_field = [\"0\", \"1/(x - 0.35)\", \"0\"]", "velocity_field"},
+        {"velocity_field = [\"exp(900*x)\", \"0\", \"0\"]", "velocity_field"},
+        {"velocity_field = [\"1e7\", \"0\", \"0\"]", "velocity_field"},
+        {"pressure_field = \"1/0\"", "pressure_field"},
+        {"pressure_field = \"ln(-z)\"", "pressure_field"}};
+    const std::string block = "max = [1.0, 1.0, 0.5]\n";
+    const auto with = [&](const std::string& field) {
+        std::string text = tank;
+        return parse_case(text.insert(text.find(block) + block.size(), field + "\n"), "t.toml");
+    };
+    for (const auto& [field, key] : bad) {
+        SCOPED_TRACE(field);
+        try {
+            fill(with(field));
+            ADD_FAILURE() << "nothing was told";
+        } catch (const CaseError& error) {
+            const Diagnostic& d = error.diagnostics().front();
+            EXPECT_EQ(d.key, "fluid.block[0]." + key);
+            EXPECT_NE(d.what.find(" at ("), std::string::npos) << d.what;
+            EXPECT_EQ(d.line, 7);
+        }
+    }
+    EXPECT_NO_THROW(fill(with("velocity_field = [\"1/(x - 2)\", \"0\", \"sqrt(x)\"]")));
+}
+
+// E8: 100,000 bodies in a lattice, and all along one line: pairs are found without looking at all.
+TEST(Plan, ManyBodiesAreCheckedQuickly)
+{
+    for (const char* count : {"[46, 46, 47]", "[100000, 1, 1]", "[1, 316, 316]"}) {
+        const Scene scene = parse_case(
+            std::string("[time]\nend = 1.0\n[particles]\nspacing = 0.1\n[[body]]\nname = \"b\"\n"
+                        "shape = \"sphere\"\nradius = 0.05\ndensity = 500\n"
+                        "position = [0, 0, 0.05]\n[body.copies]\npitch = [0.1, 0.1, 0.1]\ncount = ") +
+                count + "\n",
+            "t.toml");
+        const auto start = std::chrono::steady_clock::now();
+        make_plan(scene, fill(scene));
+        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+        EXPECT_LT(wall.count(), 20) << count; // 100 s when all pairs were looked at; now 2
     }
 }
 

@@ -4,12 +4,16 @@
 
 #include "hyoryu/scene/piston.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 namespace hyoryu {
 namespace {
@@ -78,6 +82,53 @@ TEST_F(WallMotion, TellsMistakesOfTheFileByLine)
     says("0,0,0,0\n", "has 1 rows of numbers, a path needs two");
     says("0,0,0,0\n1,nan,0,0\n", "paddle.csv:2: expected a number");
     EXPECT_EQ(wrong("0,0,a,0\n1,b,0,0\n").size(), 2U); // all of them at once
+}
+
+// E7: columns are taken by name, in every order, with and without units.
+TEST_F(WallMotion, ColumnsAreTakenByTheNamesOfTheHeader)
+{
+    std::array<std::string, 4> names{"time", "x", "y", "z"};
+    const std::map<std::string, std::array<const char*, 2>> values{
+        {"time", {"0", "1"}}, {"x", {"2", "2.5"}}, {"y", {"3", "3.25"}}, {"z", {"4", "4.125"}}};
+    const std::map<std::string, std::string> units{
+        {"time", " [s]"}, {"x", "[m]"}, {"y", " (m)"}, {"z", " [M]"}};
+    std::sort(names.begin(), names.end());
+    do {
+        for (const bool with_units : {false, true}) {
+            std::string table;
+            std::array<std::string, 2> rows;
+            for (const std::string& name : names) {
+                table += fmt::format("{}{},", name, with_units ? units.at(name) : "");
+                for (const std::size_t row : {0u, 1u}) {
+                    rows[row] += fmt::format("{},", values.at(name)[row]);
+                }
+            }
+            table = fmt::format("{}\n{}\n{}\n", table, rows[0], rows[1]);
+            SCOPED_TRACE(table);
+            const Motion motion = read(with(table)).walls[0].motion;
+            EXPECT_EQ(motion.times, (std::vector<double>{0, 1}));
+            EXPECT_EQ(motion.places[1], Vec3(0.5, 0.25, 0.125));
+        }
+    } while (std::next_permutation(names.begin(), names.end()));
+    EXPECT_EQ(read(with("\"T\";X;Y;Z\n0;0;0;0\n1;2;0;0\n")).walls[0].motion.places[1].x(), 2);
+}
+
+TEST_F(WallMotion, AHeaderThatIsNotUnderstoodIsRefused)
+{
+    const std::vector<std::array<std::string, 2>> headers = {
+        {"time,x,y", "names 3 columns, expected time, x, y, z"},
+        {"time,x,y,w", "unknown column \"w\""},
+        {"time,x,y,y", "twice the column \"y\""},
+        {"time,x,y,z,q", "unknown column \"q\""},
+        {"time [ms],x,y,z", "unit \"ms\", expected s"},
+        {"time,x [mm],y,z", "unit \"mm\", expected m"},
+        {"piston stroke", "unknown column \"piston\""}};
+    for (const auto& [header, what] : headers) {
+        const auto all = wrong(header + "\n0,0,0,0\n1,1,1,1\n");
+        ASSERT_FALSE(all.empty()) << header;
+        EXPECT_NE(all.front().what.find("paddle.csv:1: the header"), std::string::npos) << header;
+        EXPECT_NE(all.front().what.find(what), std::string::npos) << all.front().what;
+    }
 }
 
 TEST(Piston, MakesTheWaterMoveAsTheSolitaryWave)

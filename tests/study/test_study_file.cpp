@@ -122,6 +122,7 @@ TEST_F(StudyFiles, AQuantityIsHeldAgainstOneThing)
     const std::string quantity = "[[quantity]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\n";
     EXPECT_EQ(read(head + step + quantity + "against = \"finest\"\n").quantities[0].against,
               StudyQuantity::Against::finest);
+    put_text_into(folder / "a.csv", "x\n1\n");
     const auto with_reference =
         read(head + step + quantity + "reference = { file = \"a.csv\", value = \"x\" }\n");
     EXPECT_EQ(with_reference.quantities[0].against, StudyQuantity::Against::reference);
@@ -190,7 +191,59 @@ TEST_F(StudyFiles, WhatIsMissingIsTold)
         EXPECT_NE(told.find(part), std::string::npos) << part << " is not in\n" << told;
     }
     EXPECT_NE(mistake("title = \"t\"\ncase = \"other.toml\"\n" + step + place)
-                  .find("2:8: case: there is no file"),
+                  .find("other.toml` does not exist"),
+              std::string::npos);
+}
+
+// E2, E8: names of files, and how many runs there may be.
+TEST_F(StudyFiles, FilesThatCannotBeReadAreToldBeforeAnyRun)
+{
+    const auto with_case = [&](const std::string& file) {
+        return mistake("title = \"t\"\ncase = \"" + file + "\"\n" + step + place);
+    };
+    EXPECT_NE(with_case("").find("case: the file"), std::string::npos);
+    EXPECT_NE(with_case("").find("is a folder"), std::string::npos);
+    EXPECT_NE(with_case("/dev/zero").find("is a device"), std::string::npos);
+    const auto with_reference = [&](const std::string& file) {
+        return mistake(head + step + "[[quantity]]\nname = \"x\"\nvalue = \"x\"\n" +
+                       "measure = \"rms_error\"\n[quantity.reference]\nvalue = \"x\"\nfile = \"" +
+                       file + "\"\n");
+    };
+    EXPECT_NE(with_reference("").find("is empty"), std::string::npos);
+    EXPECT_NE(with_reference("none.csv").find("does not exist"), std::string::npos);
+    EXPECT_THROW(read_study("/dev/zero"), CaseError);
+    EXPECT_THROW(read_study(folder), CaseError);
+}
+
+TEST_F(StudyFiles, RunsAreCountedBeforeTheyAreListed)
+{
+    std::string sweeps = "mode = \"grid\"\n";
+    for (const char* key : {"time.step", "time.end", "particles.spacing"}) {
+        sweeps += std::string("[[sweep]]\nkey = \"") + key + "\"\nvalues = [";
+        for (int k = 1; k <= 1000; ++k) {
+            sweeps += std::to_string(k) + ",";
+        }
+        sweeps += "]\n";
+    }
+    EXPECT_NE(mistake(head + sweeps + place).find("asks for 1000000000 runs, at most 10000"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + "repeats = 1000\n" + step + step.substr(0, 10) +
+                      "key = \"time.end\"\nvalues = [1,2,3,4,5,6,7,8,9]\n" + place)
+                  .find("asks for 11000 runs"),
+              std::string::npos);
+}
+
+TEST_F(StudyFiles, WhatIsShownHoldsNoControlCharacters)
+{
+    const std::string bad = "a\\u001b[31m";
+    EXPECT_NE(mistake("title = \"" + bad + "\"\ncase = \"case.toml\"\n" + step + place)
+                  .find("title: cannot be shown"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + step + "[[quantity]]\nname = \"=1\"\n" + place.substr(24))
+                  .find("name: cannot be shown"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + "[[sweep]]\nkey = \"title\"\nvalues = [\"" + bad + "\"]\n" + place)
+                  .find("values: cannot be shown"),
               std::string::npos);
 }
 

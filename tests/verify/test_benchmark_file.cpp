@@ -172,5 +172,28 @@ TEST_F(Selection, RefusesWhatItDoesNotKnowOrWhatTheTierLeavesOut)
     EXPECT_NE(fault("heap").find("--tier nightly"), std::string::npos);
 }
 
+// The name of a run is that of its folder.
+TEST_F(BenchmarkFiles, RunsCannotLeaveTheirFolder)
+{
+    for (const char* name : {"../x", "a/b", ".", "..", "", "a\\\\b", "a\\u0000"}) {
+        EXPECT_NE(mistake(head + check + "[[run]]\nname = \"" + name + "\"\n")
+                      .find("cannot give its name to a folder"),
+                  std::string::npos)
+            << name;
+    }
+}
+
+TEST_F(BenchmarkFiles, AGridIsCountedBeforeItIsMade)
+{
+    std::string list = "[";
+    for (int k = 0; k < 1000; ++k) {
+        list += std::to_string(k) + ",";
+    }
+    EXPECT_NE(mistake(head + check + "[[run]]\nname = \"${a}-${b}-${c}\"\ngrid = { a = " + list +
+                      "], b = " + list + "], c = " + list + "] }\n")
+                  .find("asks for 1000000000 runs"),
+              std::string::npos);
+}
+
 } // namespace
 } // namespace hyoryu

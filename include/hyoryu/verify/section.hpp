@@ -33,6 +33,8 @@ public:
     Place place_of(std::string_view key) const;
 
     std::string text(std::string_view key, std::string fallback = {});
+    /// A text that tables, pictures and the terminal show (see `label_fault`).
+    std::string label(std::string_view key, std::string fallback = {});
     double number(std::string_view key, double fallback);
     std::int64_t integer(std::string_view key, std::int64_t fallback);
     std::vector<std::string> texts(std::string_view key);
