@@ -4,17 +4,23 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/name.hpp"
+#include "hyoryu/scene/formula.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <new>
 #include <string>
 #include <system_error>
 
 namespace {
+
+constexpr const char* out_of_memory =
+    "error: out of memory; `hyoryu check` tells what a case needs";
 
 // The exit code must come out even where the message cannot: fmt::print would throw.
 int fail(const std::string& message, int code)
@@ -23,11 +29,30 @@ int fail(const std::string& message, int code)
     return code;
 }
 
+// An exception in a thread of a loop cannot be caught outside of it. Of those only the one for
+// memory is no mistake of this program; what is on disk stays readable.
+[[noreturn]] void end_without_memory()
+{
+    try {
+        if (std::current_exception()) {
+            std::rethrow_exception(std::current_exception());
+        }
+    } catch (const std::bad_alloc&) {
+        std::fputs(out_of_memory, stderr);
+        std::fputs("\n", stderr);
+        std::_Exit(hyoryu::exit_code::io);
+    } catch (...) {
+        std::abort();
+    }
+    std::abort();
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
     using namespace hyoryu;
+    std::set_terminate(end_without_memory);
     try {
         const int code = run_command_line(argc, argv);
         if (std::fflush(stdout) != 0) {
@@ -45,6 +70,8 @@ int main(int argc, char** argv)
     } catch (const std::system_error& error) { // files and streams of the standard library
         return fail(fmt::format("error: {}", error.what()), exit_code::io);
     } catch (const std::bad_alloc&) {
-        return fail("error: out of memory; `hyoryu check` tells what a case needs", exit_code::io);
+        return fail(out_of_memory, exit_code::io);
+    } catch (const FormulaError& error) {
+        return fail(fmt::format("error: {}", error.what()), exit_code::input);
     }
 }

@@ -41,7 +41,7 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("--set", options.overrides,
                     "change a key of the case: key.path=VALUE; repeatable")
         ->allow_extra_args(false);
-    run->add_option("--threads", options.threads, "threads to use (default: all)")
+    run->add_option("--threads", options.threads, "threads to use (default: OMP_NUM_THREADS, else all)")
         ->check(CLI::Range(1, 4096));
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
         ->check(finite & CLI::NonNegativeNumber);
@@ -116,7 +116,7 @@ void add_verify(CLI::App& app, VerifyOptions& options)
         ->check(a_name);
     verify_->add_option("--json", options.json, "write verify.json to this file as well")
         ->check(a_name);
-    verify_->add_option("--threads", options.threads, "threads to use (default: all)")
+    verify_->add_option("--threads", options.threads, "threads to use (default: OMP_NUM_THREADS, else all)")
         ->check(CLI::Range(1, 4096));
     verify_->add_flag("--list", options.list, "only list the benchmarks");
     verify_->add_flag("--force", options.force, "replace the results of an earlier verify");
@@ -150,7 +150,7 @@ void add_bench(CLI::App& app, BenchOptions& options)
                      "numbers of fluid particles for the cost against size")
         ->delimiter(',')
         ->check(CLI::Range(1e2, 1e8));
-    bench->add_option("--threads", options.threads, "threads to use (default: all)")
+    bench->add_option("--threads", options.threads, "threads to use (default: OMP_NUM_THREADS, else all)")
         ->check(CLI::Range(1, 4096));
     bench->add_option("--json", options.json, "write the results to this file as well")
         ->check(a_name);

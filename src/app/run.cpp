@@ -365,6 +365,7 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
 
 int run_case(const RunOptions& options)
 {
+    watch_for_batch_signal();
     set_threads(options.threads);
     const fs::path folder = results_folder(options);
     Scene scene = read_case(options.case_file, options.overrides);

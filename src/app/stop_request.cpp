@@ -27,6 +27,15 @@ void watch_for_stop()
         sigaction(signal, &action, nullptr);
     }
     std::signal(SIGPIPE, SIG_IGN);
+    watch_for_batch_signal();
+}
+
+void watch_for_batch_signal()
+{
+    struct sigaction action = {};
+    action.sa_handler = request;
+    action.sa_flags = SA_RESTART; // a scheduler may send it more than once
+    sigaction(SIGUSR1, &action, nullptr);
 }
 
 bool stop_requested()

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C and SIGTERM ask a run to stop after the step it is in.
+// Ctrl-C, SIGTERM and SIGUSR1 ask a run to stop after the step it is in.
 #pragma once
 
 namespace hyoryu {
 
 /// From now on the first SIGINT, SIGTERM or SIGHUP is taken as a request, and the second one ends
 /// the process at once. A pipe that nobody reads any more (SIGPIPE) loses the progress, not the
-/// run.
+/// run. SIGUSR1, which schedulers of clusters send before they end a job, is a request whenever and
+/// however often it comes.
 void watch_for_stop();
+/// The part of this for SIGUSR1: while a case is read and filled, the other signals end the process
+/// at once, for nothing is written yet.
+void watch_for_batch_signal();
 bool stop_requested();
 
 } // namespace hyoryu

@@ -166,6 +166,7 @@ void prepare(const StudyOptions& options, const std::vector<StudyJob>& jobs, con
 
 int run_study(const StudyOptions& options)
 {
+    watch_for_batch_signal();
     const Study study = read_study(options.file);
     const fs::path folder = options.folder.empty()
                                 ? fs::path(options.file.stem().string() + "-results")

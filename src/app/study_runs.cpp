@@ -3,6 +3,7 @@
 
 #include "stop_request.hpp"
 
+#include "hyoryu/core/child_process.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/claim.hpp"
@@ -12,13 +13,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <thread>
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace hyoryu {
 
@@ -53,7 +55,7 @@ fs::path messages_of(const StudyJob& job)
 std::vector<std::string> command_of(const Study& study, const StudyRun& run, const StudyJob& job,
                                     int threads)
 {
-    std::vector<std::string> command{"hyoryu",
+    std::vector<std::string> command{"/proc/self/exe",
                                      "run",
                                      study.case_file.string(),
                                      "-o",
@@ -71,23 +73,9 @@ std::vector<std::string> command_of(const Study& study, const StudyRun& run, con
 // Starts this program with other words; its messages go to a file beside the folder.
 pid_t start(std::vector<std::string> command, const fs::path& messages)
 {
-    std::vector<char*> words;
-    for (std::string& word : command) {
-        words.push_back(word.data());
-    }
-    words.push_back(nullptr);
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
-        posix_spawn_file_actions_addopen(&files, stream, messages.c_str(),
-                                         O_WRONLY | O_CREAT | O_APPEND, 0644);
-    }
-    pid_t process = 0;
-    const int fault =
-        posix_spawn(&process, "/proc/self/exe", &files, nullptr, words.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    if (fault != 0) {
-        throw IoError(fmt::format("cannot start a run: {}", std::strerror(fault)));
+    const pid_t process = start_child(std::move(command), {.messages = messages});
+    if (process < 0) {
+        throw IoError(fmt::format("cannot start a run: {}", std::strerror(errno)));
     }
     return process;
 }
@@ -146,6 +134,9 @@ public:
             while (!fits(jobs_[k])) {
                 wait_for_one(errors);
             }
+            if (stop_requested()) {
+                break;
+            }
             fs::create_directories(jobs_[k].folder.parent_path());
             fs::remove(asked_of(jobs_[k])); // what stands there is about to be replaced
             running_.push_back(
@@ -169,10 +160,27 @@ private:
                                     memory <= usable_memory * machine_memory());
     }
 
+    // A signal that reaches this process alone is handed on, once: a terminal sends Ctrl-C to all,
+    // and a run takes the first one of each kind for a request.
+    void hand_on_a_request()
+    {
+        for (const Running& run : running_) {
+            if (stop_requested() && !handed_on_) {
+                ::kill(run.process, SIGTERM);
+            }
+        }
+        handed_on_ = handed_on_ || stop_requested();
+    }
+
     void wait_for_one(std::vector<std::string>& errors)
     {
+        constexpr std::chrono::milliseconds pause(5); // a signal between look and wait is not lost
         int status = 0;
-        const pid_t ended = waitpid(-1, &status, 0);
+        pid_t ended = 0;
+        while ((ended = waitpid(-1, &status, WNOHANG)) == 0) {
+            hand_on_a_request();
+            std::this_thread::sleep_for(pause);
+        }
         const auto at = std::ranges::find(running_, ended, &Running::process);
         if (at == running_.end()) {
             return;
@@ -201,6 +209,7 @@ private:
     const std::vector<StudyJob>& jobs_;
     const StudyJobSettings& settings_;
     std::vector<Running> running_;
+    bool handed_on_ = false; // the user's request to stop
 };
 
 } // namespace

@@ -7,7 +7,9 @@ namespace hyoryu {
 
 void set_threads(int threads)
 {
-    omp_set_num_threads(threads > 0 ? threads : omp_get_num_procs());
+    // Before it is first set, this is what OMP_NUM_THREADS says, else the number of processors.
+    static const int offered = omp_get_max_threads();
+    omp_set_num_threads(threads > 0 ? threads : offered);
 }
 
 int thread_count()

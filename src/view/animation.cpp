@@ -2,14 +2,13 @@
 // Runs ffmpeg, if there is one, without a shell: names of folders may hold any letter.
 #include "animation.hpp"
 
+#include "hyoryu/core/child_process.hpp"
+
 #include <fmt/format.h>
 
-#include <array>
+#include <cerrno>
 #include <cstring>
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 #include <vector>
 
 namespace hyoryu {
@@ -20,23 +19,8 @@ namespace {
 /// and the reason in `errno` if it could not be started.
 int run_silently(std::vector<std::string> words, const std::filesystem::path& folder)
 {
-    std::vector<char*> arguments;
-    for (std::string& word : words) {
-        arguments.push_back(word.data());
-    }
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    pid_t child = 0;
-    const int refused =
-        posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (refused != 0) {
-        errno = refused;
+    const pid_t child = start_child(std::move(words), {.folder = folder});
+    if (child < 0) {
         return -1;
     }
     int status = 0;
@@ -61,7 +45,7 @@ std::string animate(const std::filesystem::path& pictures, int fps)
                                    "-pattern_type",
                                    "glob",
                                    "-i",
-                                   "frame_*.png",
+                                   "frame_[0-9][0-9][0-9][0-9][0-9][0-9]*.png",
                                    "-vf",
                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2",
                                    "-c:v",

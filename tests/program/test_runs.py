@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Runs: results, restart, interruption, recovery."""
 import json
+import os
 import re
 import resource
 import signal
@@ -183,6 +184,34 @@ class Runs(ProgramTest):
         self.run_flood("out", "--resume", text=text)
         self.run_flood("whole", text=text)
         self.expect_equal("whole", "out")
+
+    def test_a_batch_signal_writes_a_checkpoint_and_ends(self):
+        # E10. It may come at any time: while the case is filled, in a step, and twice.
+        case = self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.03"))
+        for begun in (False, True):
+            process = subprocess.Popen([HYORYU, "run", case, "-o", "out", "--force"], cwd=self.dir,
+                                       stderr=subprocess.DEVNULL)
+            # From its first line on the program takes the signal; before, the system ends it.
+            time.sleep(0.3)
+            while begun and not (self.dir / "out" / "frames" / "fluid_000001.hdf").exists():
+                time.sleep(0.01)
+                self.assertIsNone(process.poll(), "ended before it was asked to")
+            process.send_signal(signal.SIGUSR1)
+            process.send_signal(signal.SIGUSR1)
+            self.assertEqual(process.wait(120), 130)
+            summary = json.loads(self.read("out", "summary.json"))
+            self.assertEqual(summary["exit_reason"], "interrupted")
+            self.assertTrue((self.dir / "out" / "checkpoint.h5").exists())
+        done = self.call("run", case, "-o", "out", "--resume", "--until",
+                         str(summary["simulated_seconds"] + 0.01))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_threads_are_those_of_the_environment(self):
+        for environment, arguments, threads in (("1", (), 1), ("2", (), 2), ("1", ("--threads", "2"), 2)):
+            done = self.call("run", self.write(self.SMALL), "-o", "out", "--force", "--until", "0.01",
+                             *arguments, env={**os.environ, "OMP_NUM_THREADS": environment})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(json.loads(self.read("out", "summary.json"))["threads"], threads)
 
     def test_resuming_another_case_is_refused(self):
         self.run_flood("out", "--until", "0.1")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Studies: a case over values of its keys."""
 import json
+import pathlib
 import signal
 import subprocess
 import time
@@ -118,6 +119,41 @@ every = 0.3
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("done before", done.stdout)
         self.assertEqual(self.rows("parts"), self.rows("whole"))
+
+    def children_of(self, process):
+        listed = subprocess.run(["ps", "--ppid", str(process.pid), "-o", "pid="],
+                                capture_output=True, text=True).stdout
+        return [int(pid) for pid in listed.split()]
+
+    def is_running(self, pid):
+        try:
+            state = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+        except FileNotFoundError:
+            return False
+        return state != "Z"
+
+    def test_a_signal_to_a_study_alone_leaves_no_run_behind(self):
+        # E10. A flood takes long enough to be in the midst of a run.
+        self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.03"), "flood.toml")
+        text = self.STUDY.replace("brick", "flood").replace("time.step", "fluid.sound_speed")
+        text = text.replace("[0.02, 0.01, 0.005]", "[30, 40]").replace("1/(2*0.5*9.81)", "0.8")
+        self.write(text, "slide.toml")
+        for number, code in ((signal.SIGTERM, 130), (signal.SIGUSR1, 130), (signal.SIGKILL, -9)):
+            process = subprocess.Popen([HYORYU, "study", "slide.toml", "-o", "out", "--jobs", "2"],
+                                       cwd=self.dir, stdout=subprocess.DEVNULL)
+            while not (self.dir / "out/runs/sound_speed=40/frames/fluid_000000.hdf").exists():
+                self.assertIsNone(process.poll(), "ended before it was asked to")
+                time.sleep(0.01)
+            children = self.children_of(process)
+            self.assertEqual(len(children), 2)
+            process.send_signal(number)
+            self.assertEqual(process.wait(60), code)
+            for _ in range(200):
+                if not any(self.is_running(pid) for pid in children):
+                    break
+                time.sleep(0.01)
+            self.assertEqual([pid for pid in children if self.is_running(pid)], [], number)
+            (self.dir / "out/runs/sound_speed=40/frames/fluid_000000.hdf").unlink()
 
     def test_runs_side_by_side_give_the_same_table(self):
         self.assertEqual(self.study("-o", "one").returncode, 0)

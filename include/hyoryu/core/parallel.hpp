@@ -10,7 +10,8 @@
 
 namespace hyoryu {
 
-/// Threads that parallel loops use from now on; 0 or less: all that the machine offers.
+/// Threads that parallel loops use from now on; 0 or less: as many as OMP_NUM_THREADS
+/// says, or else all that the machine offers.
 void set_threads(int threads);
 int thread_count();
 /// Number of the calling thread within a parallel loop, below thread_count().
