@@ -67,7 +67,12 @@ int main(int argc, char** argv)
                     exit_code::numbers);
     } catch (const IoError& error) {
         return fail(fmt::format("error: {}", error.what()), exit_code::io);
-    } catch (const std::system_error& error) { // files and streams of the standard library
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::resource_unavailable_try_again) {
+            return fail("error: a thread cannot be started: the limit on memory or processes is "
+                        "reached",
+                        exit_code::io);
+        } // else files and streams of the standard library
         return fail(fmt::format("error: {}", error.what()), exit_code::io);
     } catch (const std::bad_alloc&) {
         return fail(out_of_memory, exit_code::io);

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <utility>
+
+#include <sys/mman.h>
 
 namespace hyoryu::hdf5 {
 
@@ -79,9 +82,31 @@ Handle open_attribute(hid_t object, const std::string& name)
             fmt::format("read the attribute `{}`", name)};
 }
 
+// HDF5 1.10 crashes, or waits for ever, where it cannot get memory for its own tables. Asked for
+// and given back before it is called, memory that is not there is an exception instead. Its tables
+// take some 6 MB.
+void expect_memory(std::size_t bytes)
+{
+    constexpr std::size_t tables = std::size_t{24} << 20;
+    const std::size_t asked = bytes + tables;
+    void* const block =
+        ::mmap(nullptr, asked, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (block == MAP_FAILED) {
+        throw std::bad_alloc();
+    }
+    ::munmap(block, asked);
+}
+
+// The lock, taken when there is memory.
+std::mutex& lock_with_memory()
+{
+    expect_memory(0);
+    return process_lock();
+}
+
 } // namespace
 
-Session::Session() : lock_(process_lock())
+Session::Session() : lock_(lock_with_memory())
 {
     H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -116,7 +141,7 @@ void check(herr_t status, std::string_view action)
 }
 
 FileImage::FileImage(std::size_t content)
-    : access_(in_memory_access(content)),
+    : access_((expect_memory(content), in_memory_access(content))),
       file_(H5Fcreate("image", H5F_ACC_TRUNC, H5P_DEFAULT, access_), H5Fclose,
             "build an HDF5 file in memory")
 {

@@ -78,6 +78,24 @@ class Mistakes(ProgramTest):
             self.refused(FLOOD.replace("spacing = 0.05", f"spacing = {spacing}"), expected, "2.",
                          preexec_fn=limit)
 
+    def test_memory_that_ends_on_the_way_is_a_message(self):
+        # E10: from limits in which the program hardly starts to those in which the run fits.
+        if "ShadowMemory" in self.call("--version", preexec_fn=self.limit_to(64 << 20)).stderr:
+            self.skipTest("a program with the address sanitizer does not start in so little memory")
+        name = self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.025"))
+        codes = set()
+        for megabytes in range(44, 140, 8):
+            done = self.call("run", name, "-o", "out", "--force", "--until", "0.002", "--threads", "1",
+                             preexec_fn=self.limit_to(megabytes << 20))
+            self.assertIn(done.returncode, (0, 2, 4), (megabytes, done.stderr))
+            if done.returncode != 0:
+                self.assertRegex(done.stderr, "memory|thread", megabytes)
+            codes.add(done.returncode)
+        self.assertTrue({0, 4} <= codes, codes)
+
+    def limit_to(self, size):
+        return lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size))
+
     def test_a_wall_far_beyond_the_domain_is_counted(self):
         domain = "[domain]\nmin = [0.0, 0.0, 0.0]\nmax = [1.6, 0.5, 1.0]\n[fluid]"
         self.refused(FLOOD.replace("[fluid]", domain).replace("max = [1.6, 0.5, 1.0]\nopen",
