@@ -63,7 +63,7 @@ TomlNode parse_document(const std::string& text, Reading& reading)
     try {
         root = parse_toml(text);
     } catch (const TomlFault& fault) {
-        reading.error(fault.place, -1, "", fault.what);
+        reading.error(fault.place, -1, "", fault.what, fault.hint);
         throw_if_any(reading);
     }
     for (std::size_t k = 0; k < reading.overrides.size(); ++k) {

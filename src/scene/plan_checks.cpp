@@ -5,6 +5,7 @@
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
+#include "plan_slips.hpp"
 
 #include <fmt/format.h>
 
@@ -330,6 +331,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     if (!errors.empty()) {
         throw CaseError(errors);
     }
+    warn_about_slips(scene, plan);
     warn_about_bodies(scene, plan);
     warn_about_round_walls(scene, plan);
     if (scene.fluid) {

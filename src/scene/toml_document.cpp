@@ -2,6 +2,8 @@
 // Parsing with toml++; the only file that includes it.
 #include "hyoryu/scene/toml_document.hpp"
 
+#include "toml_message.hpp"
+
 #define TOML_HEADER_ONLY 0
 #include <toml++/toml.h>
 
@@ -110,7 +112,8 @@ TomlNode parse_toml(std::string_view text)
     try {
         return convert(toml::parse(text));
     } catch (const toml::parse_error& error) {
-        throw TomlFault{place_of(error.source()), lower_first(std::string(error.description()))};
+        throw plain_fault(text, place_of(error.source()),
+                          lower_first(std::string(error.description())));
     }
 }
 

@@ -88,7 +88,7 @@ OpenedFile open_toml(const fs::path& file)
     try {
         opened.document = parse_toml(whole);
     } catch (const TomlFault& fault) {
-        opened.file.error(fault.place, "", fault.what);
+        opened.file.error(fault.place, "", fault.what, fault.hint);
         throw CaseError(opened.file.mistakes);
     }
     return opened;

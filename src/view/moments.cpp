@@ -241,7 +241,8 @@ std::vector<Moment> moments_of(const fs::path& results, const std::vector<double
         moments.push_back(moment);
     }
     if (moments.empty()) {
-        throw IoError(fmt::format("`{}` holds no frames to render", results.string()));
+        throw CaseError(fmt::format("`{}` holds no frames to render", results.string()),
+                        "give the folder that `hyoryu run` wrote");
     }
     return times.empty() ? moments : nearest(moments, times);
 }

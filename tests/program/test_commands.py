@@ -26,6 +26,43 @@ class Commands(ProgramTest):
         for arguments in ([], ["fly"], ["run"], ["run", "x.toml", "--threads", "0"]):
             self.assertEqual(self.call(*arguments).returncode, 2, arguments)
 
+    def test_unknown_words_get_a_suggestion(self):
+        for arguments, expected in ((("chek", "a.toml"), 'did you mean "check"?'),
+                                    (("fly",), "there are: run, check"),
+                                    (("run", "a.toml", "--resum"), 'did you mean "--resume"?'),
+                                    (("run", "a.toml", "--treads=2"), 'did you mean "--threads"?'),
+                                    (("study", "a.toml", "--jbos", "2"), 'did you mean "--jobs"?')):
+            done = self.call(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(expected, done.stderr)
+
+    def test_numbers_and_names_that_are_none_are_refused(self):
+        case = self.write(FLOOD)
+        for arguments in (("--until", "nan"), ("--until", "inf"), ("--until", "-1"), ("-o", ""),
+                          ("--threads", "1e9")):
+            self.assertEqual(self.call("run", case, *arguments).returncode, 2, arguments)
+        for command in ("run", "check", "study", "render", "report", "info"):
+            self.assertEqual(self.call(command, "").returncode, 2, command)
+        for arguments in (("--azimuth", "nan"), ("--times", "0,nan"), ("--elevation", "inf")):
+            self.assertEqual(self.call("render", "out", *arguments).returncode, 2, arguments)
+        self.assertEqual(self.files(), [case])
+
+    def test_a_folder_without_results_is_the_users_mistake(self):
+        (self.dir / "empty").mkdir()
+        for folder in ("empty", "none"):
+            for command in ("render", "report", "info"):
+                done = self.call(command, folder)
+                if done.returncode == 4 and "VTK" in done.stderr:
+                    continue  # built without it
+                self.assertEqual(done.returncode, 2, (command, folder, done.stderr))
+
+    def test_control_characters_do_not_reach_the_terminal(self):
+        for arguments in (("run", "a\x1b[31m.toml"), ("info", "a\x1b[31m"), ("describe", "a\x1b"),
+                          ("\x1b[31m",), ("run", "a.toml", "--\x1b[31m")):
+            done = self.call(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertNotIn("\x1b", done.stdout + done.stderr)
+
     def test_describe(self):
         done = self.call("describe", "fluid.density")
         self.assertEqual(done.returncode, 0)

@@ -324,7 +324,7 @@ TEST(CaseFileErrors, SyntaxIsToldWithItsPlace)
     const auto twice = mistakes("seed = 1\nseed = 2\n");
     ASSERT_EQ(twice.size(), 1u);
     EXPECT_EQ(twice[0].line, 2);
-    EXPECT_NE(twice[0].what.find("cannot redefine"), std::string::npos);
+    EXPECT_NE(twice[0].what.find("stands twice"), std::string::npos);
     EXPECT_EQ(mistakes("a = [1,\n").size(), 1u);
     EXPECT_EQ(mistakes("a = 1e999\n").size(), 1u);
     EXPECT_EQ(mistakes("a = 99999999999999999999\n").size(), 1u);
@@ -454,6 +454,44 @@ TEST(CaseFileErrors, MagnitudesAreBoundedByTheirUnit)
                 << key << to_string(d);
         }
         EXPECT_EQ(mistake_at(mistakes(short_case + head + good + "\n"), key).key, "");
+    }
+}
+
+// E11: mistakes of syntax in words of ours, at the line, with what to write.
+TEST(CaseFileErrors, SyntaxIsToldInPlainWordsAtItsLine)
+{
+    const std::vector<std::array<std::string, 3>> all = {
+        {"end = 0,25", "decimal point, not a comma", "write end = 0.25"},
+        {"end = 1.0 s", "must stand in quotes", "write end = \"1.0 s\""},
+        {"end = 5min", "must stand in quotes", "write end = \"5 min\""},
+        {"end = .5", "needs a digit", "write end = 0.5"},
+        {"end = 5.", "needs a digit", "write end = 5.0"},
+        {"end = soon", "a text must stand in quotes", "write end = \"soon\""},
+        {"end = True", "small letters", "write end = true"},
+        {"end = “1”", "typographic", "\""},
+        {"end 1.0", "expected `=`", "key = value"},
+        {"end =", "has no value", "key = value"},
+        {"end = [1, 2", "list is not closed", "]"},
+        {"end = \"abc", "text is not closed", "quote"},
+        {"end = 'abc", "text is not closed", "quote"},
+        {"end = \"a\\q\"", "backslash", "two"},
+        {"end = 1.2.3", "number is not understood", "0.25"},
+        {"end = 01", "begin with a zero", ""},
+        {"end = {a = 1", "in braces", "{ key = value"},
+        {"[tim", "header of a table", "[name]"},
+        {"[time]", "\"time\" stands twice", "one of them"},
+        {"end = 1\nend = 2", "\"end\" stands twice", "one of them"},
+        {"= 3", "expected a key", "quotes"}};
+    for (const auto& [line, what, hint] : all) {
+        SCOPED_TRACE(line);
+        const auto found = mistakes("[time]\n" + line + "\n");
+        ASSERT_EQ(found.size(), 1U);
+        const Diagnostic& d = found.front();
+        EXPECT_NE(d.what.find(what), std::string::npos) << to_string(d);
+        EXPECT_NE(d.hint.find(hint), std::string::npos) << to_string(d);
+        EXPECT_EQ(d.what.find("parsing"), std::string::npos) << to_string(d);
+        EXPECT_TRUE(d.line == 2 || d.line == 3) << to_string(d);
+        EXPECT_NE(to_string(d).find('^'), std::string::npos);
     }
 }
 

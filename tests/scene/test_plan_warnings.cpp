@@ -69,5 +69,47 @@ TEST(PlanWarnings, OfAGapThroughWhichAPaddleLeaks)
     EXPECT_FALSE(warns(paddle(0.05, ""), words)) << "it stands still";
 }
 
+// E11: a tank with a crate, and one slip at a time.
+TEST(PlanWarnings, OfWhatIsProbablyASlip)
+{
+    const std::string tank = "gravity = [0.0, 0.0, -9.81]\n[time]\nend = 1.0\n[particles]\n"
+                             "spacing = 0.1\n[domain]\nmin = [-0.3, -0.3, -0.3]\n"
+                             "max = [2.3, 1.3, 2.3]\n[fluid]\ndensity = 1000\n"
+                             "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
+                             "max = [1, 1, 0.5]\n[[wall]]\nname = \"tank\"\nshape = \"basin\"\n"
+                             "min = [0, 0, 0]\nmax = [2, 1, 2]\nopen = [\"+z\"]\n[[wall]]\n"
+                             "name = \"gate\"\nshape = \"box\"\nmin = [1.0, 0, 0]\n"
+                             "max = [1.2, 1, 1]\n[[body]]\nname = \"crate\"\nshape = \"box\"\n"
+                             "size = [0.3, 0.3, 0.3]\ndensity = 500\nposition = [1.6, 0.5, 0.2]\n";
+    struct Slip {
+        std::string from, to, words;
+    };
+    const std::vector<Slip> slips = {
+        {"density = 500", "density = 0.5", "0.5 kg/m3 is lighter"},
+        {"density = 1000", "density = 1.0", "1 kg/m3 is lighter"},
+        {"-9.81", "9.81", "points upward"},
+        {"[domain]\nmin = [-0.3, -0.3, -0.3]\nmax = [2.3, 1.3, 2.3]\n", "", ""},
+        {"[1.0, 0, 0]\nmax = [1.2", "[1.1, 0, 0]\nmax = [1.15", "\"gate\" is 0.05 m thin"},
+        {"max = [2.3, 1.3, 2.3]", "max = [1.5, 1.3, 2.3]", "a closed side of wall \"tank\""},
+        {"max = [2.3, 1.3, 2.3]", "max = [0.6, 1.3, 2.3]", "fluid block 1 reaches beyond"},
+        {"max = [2.3, 1.3, 2.3]", "max = [2.3, 1.3, 0.2]", "the domain ends within"},
+        {"position = [1.6, 0.5, 0.2]", "position = [1.6, 0.5, 220]", "from everything else"}};
+    const auto count = [](const std::string& text) {
+        const Scene scene = parse_case(text, "case.toml");
+        return make_plan(scene, fill(scene)).warnings.size();
+    };
+    const std::size_t before = count(tank);
+    for (const Slip& slip : slips) {
+        std::string text = tank;
+        text.replace(text.find(slip.from), slip.from.size(), slip.to);
+        if (slip.words.empty()) {
+            EXPECT_EQ(count(text), before) << "nothing is wrong without " << slip.from;
+        } else {
+            EXPECT_FALSE(warns(tank, slip.words)) << slip.words;
+            EXPECT_TRUE(warns(text, slip.words)) << slip.words;
+        }
+    }
+}
+
 } // namespace
 } // namespace hyoryu

@@ -231,8 +231,8 @@ TEST_F(Render, FramesAreWhatVtkReads)
 
 TEST_F(Render, OfNothingIsAnError)
 {
-    EXPECT_THROW(render(folder, small()), IoError);
-    EXPECT_THROW(render(folder / "none", small()), IoError);
+    EXPECT_THROW(render(folder, small()), CaseError);
+    EXPECT_THROW(render(folder / "none", small()), CaseError);
 }
 
 } // namespace

@@ -41,6 +41,7 @@ struct TomlEntry {
 struct TomlFault {
     Place place;
     std::string what;
+    std::string hint = {}; // how to mend it; may be empty
 };
 
 /// The entry with that key, or none.

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "plan_slips.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// Foam has 10 kg/m3; less than half of that is a ratio.
+constexpr double least_density = 5;
+// Sizes of the scene from which on a body is not near it, and what is as large is in other units.
+constexpr double far_away = 3;
+constexpr double very_far_away = 30; // together with others, too
+constexpr double out_of_scale = 100;
+
+class Slips {
+public:
+    Slips(const Scene& scene, Plan& plan) : scene_(scene), plan_(plan) {}
+
+    void add(const Place& place, std::string key, std::string what, std::string hint)
+    {
+        Diagnostic note =
+            diagnostic_at(scene_, place, std::move(key), std::move(what), std::move(hint));
+        note.severity = Diagnostic::Severity::warning;
+        plan_.warnings.push_back(std::move(note));
+    }
+
+private:
+    const Scene& scene_;
+    Plan& plan_;
+};
+
+Bounds box_of(const Scene& scene, const BodySettings& body)
+{
+    return bounds({&body.shape, body.position, body.rotation, scene.dimensions});
+}
+
+Bounds box_of(const Scene& scene, const FluidBlock& block)
+{
+    return bounds({&block.shape, block.centre, block.rotation, scene.dimensions});
+}
+
+// Empty for a plane.
+Bounds box_of(const Scene& scene, const Wall& wall)
+{
+    if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
+        return {basin->min, basin->max};
+    }
+    if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+        return {round->centre - Vec3::Constant(round->radius),
+                round->centre + Vec3::Constant(round->radius)};
+    }
+    if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
+        return bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions});
+    }
+    return {};
+}
+
+double across(const Bounds& box, int dimensions)
+{
+    Vec3 size = box.max - box.min;
+    size.y() = dimensions == 2 ? 0 : size.y();
+    return box.empty() ? 0 : size.norm();
+}
+
+// Everything that has a size, but for one wall and one body.
+Bounds rest_of(const Scene& scene, const Wall* wall, const BodySettings* body)
+{
+    Bounds rest;
+    const auto add = [&](const Bounds& box) {
+        if (!box.empty()) {
+            rest.add(box);
+        }
+    };
+    for (const FluidBlock& block : scene.fluid ? scene.fluid->blocks : std::vector<FluidBlock>{}) {
+        add(box_of(scene, block));
+    }
+    for (const Wall& other : scene.walls) {
+        if (&other != wall) {
+            add(box_of(scene, other));
+        }
+    }
+    // Of bodies alone the first one stands for all: thousands of copies are not gone through.
+    if (rest.empty() && !scene.bodies.empty() && &scene.bodies.front() != body) {
+        add(box_of(scene, scene.bodies.front()));
+    }
+    return rest;
+}
+
+void look_at_density(const Scene& scene, Slips& slips)
+{
+    const auto judge = [&](double density, const Place& place, const std::string& key) {
+        if (density < least_density) {
+            slips.add(place, key,
+                      fmt::format("{} kg/m3 is lighter than any solid or liquid", density),
+                      fmt::format("a ratio to water? then write {}", density * 1000));
+        }
+    };
+    if (scene.fluid) {
+        judge(scene.fluid->density, {}, "fluid.density");
+    }
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
+            judge(body.density, body.place, fmt::format("body[{}].density", b));
+        }
+    }
+}
+
+void look_at_gravity(const Scene& scene, Slips& slips)
+{
+    if (scene.gravity.z() > 0 && scene.gravity.z() >= 0.5 * scene.gravity.norm()) {
+        slips.add({}, "gravity", "points upward: z is up, and things fall to the sky",
+                  fmt::format("write gravity = [{}, {}, {}]", scene.gravity.x(), scene.gravity.y(),
+                              -scene.gravity.z()));
+    }
+}
+
+double distance(const Bounds& box, const Vec3& point)
+{
+    return (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();
+}
+
+double distance_to_others(const Scene& scene, std::size_t body)
+{
+    double nearest = infinity;
+    for (std::size_t other = 0; other < scene.bodies.size(); ++other) {
+        const double away = (scene.bodies[other].position - scene.bodies[body].position).norm();
+        nearest = other == body ? nearest : std::min(nearest, away);
+    }
+    return nearest;
+}
+
+// Copies of one entry stand together: the first one speaks for them.
+bool is_first_of_entry(const Scene& scene, std::size_t b)
+{
+    return b == 0 || scene.bodies[b].place.line == 0 ||
+           scene.bodies[b].place.line != scene.bodies[b - 1].place.line;
+}
+
+void look_for_bodies_far_away(const Scene& scene, Slips& slips)
+{
+    const Bounds rest = rest_of(scene, nullptr, nullptr);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        const double away = rest.empty() ? 0 : distance(rest, body.position);
+        const double size = std::max(across(rest, scene.dimensions),
+                                     across(box_of(scene, body), scene.dimensions));
+        if (away > far_away * size && is_first_of_entry(scene, b) &&
+            (away > very_far_away * size || distance_to_others(scene, b) > far_away * size)) {
+            return slips.add(body.place, fmt::format("body[{}].position", b),
+                             fmt::format("body \"{}\" is {:.3g} m from everything else, which is "
+                                         "{:.3g} m across",
+                                         body.name, away, size),
+                             "is its place in metres, and in the axes of the scene?");
+        }
+    }
+}
+
+void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, const Place& place,
+                   const std::string& key, const Scene& scene, Slips& slips)
+{
+    const double size = across(box, scene.dimensions);
+    const double others = across(rest, scene.dimensions);
+    if (!std::holds_alternative<MeshShape>(shape)) {
+        return;
+    }
+    const std::string hint = "is `scale` right? it takes the numbers of the file to metres: 0.001 "
+                             "for millimetres";
+    if (size < scene.spacing) {
+        slips.add(place, key + ".scale",
+                  fmt::format("the mesh is {:.3g} m across, less than the spacing of {:.3g} m",
+                              size, scene.spacing),
+                  hint);
+    } else if (others > 0 && size > out_of_scale * others) {
+        slips.add(place, key + ".scale",
+                  fmt::format("the mesh is {:.3g} m across, all else {:.3g} m", size, others), hint);
+    }
+}
+
+void look_at_meshes(const Scene& scene, Slips& slips)
+{
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        const Wall& wall = scene.walls[w];
+        if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
+            look_at_scale(solid->shape, box_of(scene, wall), rest_of(scene, &wall, nullptr),
+                          wall.place, fmt::format("wall[{}]", w), scene, slips);
+        }
+    }
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
+            look_at_scale(body.shape, box_of(scene, body), rest_of(scene, nullptr, &body),
+                          body.place, fmt::format("body[{}]", b), scene, slips);
+        }
+    }
+}
+
+void look_for_thin_walls(const Scene& scene, Slips& slips)
+{
+    for (std::size_t w = 0; scene.fluid && w < scene.walls.size(); ++w) {
+        const Wall& wall = scene.walls[w];
+        const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+        const auto* box = solid != nullptr ? std::get_if<BoxShape>(&solid->shape) : nullptr;
+        if (box == nullptr) {
+            continue;
+        }
+        const double thin = scene.dimensions == 2 ? std::min(box->size.x(), box->size.z())
+                                                  : box->size.minCoeff();
+        if (thin < scene.spacing * (1 - 1e-9)) {
+            slips.add(wall.place, fmt::format("wall[{}]", w),
+                      fmt::format("wall \"{}\" is {:.3g} m thin, less than the spacing of {:.3g} m: "
+                                  "the water on its two sides is not kept apart well",
+                                  wall.name, thin, scene.spacing),
+                      "a thicker wall, or a smaller `particles.spacing`");
+        }
+    }
+}
+
+bool inside(const Bounds& box, const Scene& scene, double slack)
+{
+    const DomainSettings& domain = *scene.domain;
+    for (Index axis = 0; axis < 3; ++axis) {
+        const bool flat = scene.dimensions == 2 && axis == 1;
+        const bool periodic = domain.periodic[static_cast<std::size_t>(axis)];
+        if (!flat && !periodic &&
+            (box.min[axis] < domain.min[axis] - slack || box.max[axis] > domain.max[axis] + slack)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// A closed side of a basin beyond the domain holds no water: there are no particles of it.
+bool loses_a_side(const BasinWall& basin, const Scene& scene, double slack)
+{
+    const DomainSettings& domain = *scene.domain;
+    for (std::size_t side = 0; side < basin.open.size(); ++side) {
+        const auto axis = static_cast<Index>(side / 2);
+        const bool flat = scene.dimensions == 2 && axis == 1;
+        const bool beyond = side % 2 == 0 ? basin.min[axis] < domain.min[axis] - slack
+                                          : basin.max[axis] > domain.max[axis] + slack;
+        if (!basin.open[side] && !flat && !domain.periodic[side / 2] && beyond) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+std::string cut_by_domain(const Scene& scene)
+{
+    const double slack = scene.spacing * (1 + 1e-9);
+    if (!scene.domain || !scene.fluid) {
+        return {};
+    }
+    for (std::size_t b = 0; b < scene.fluid->blocks.size(); ++b) {
+        if (!inside(box_of(scene, scene.fluid->blocks[b]), scene, slack)) {
+            return fmt::format("fluid block {}", b + 1);
+        }
+    }
+    for (const Wall& wall : scene.walls) {
+        const auto* basin = std::get_if<BasinWall>(&wall.geometry);
+        if (basin != nullptr && loses_a_side(*basin, scene, slack)) {
+            return fmt::format("a closed side of wall \"{}\"", wall.name);
+        }
+    }
+    for (const BodySettings& body : scene.bodies) {
+        if (!inside(box_of(scene, body), scene, slack)) {
+            return fmt::format("body \"{}\"", body.name);
+        }
+    }
+    return {};
+}
+
+void warn_about_slips(const Scene& scene, Plan& plan)
+{
+    Slips slips(scene, plan);
+    look_at_density(scene, slips);
+    look_at_gravity(scene, slips);
+    look_for_bodies_far_away(scene, slips);
+    look_at_meshes(scene, slips);
+    look_for_thin_walls(scene, slips);
+    const std::string cut = cut_by_domain(scene);
+    if (!cut.empty()) {
+        slips.add({}, "domain",
+                  fmt::format("the domain ends within the scene: {} reaches beyond it, and water "
+                              "that does leaves the run",
+                              cut),
+                  "leave [domain] out, or let it hold the scene");
+    }
+}
+
+} // namespace hyoryu

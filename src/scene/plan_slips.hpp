@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What is no mistake but probably a slip.
+#pragma once
+
+#include "hyoryu/scene/plan.hpp"
+
+namespace hyoryu {
+
+/// Warns of densities that look like ratios, gravity that points upward, bodies far from all else,
+/// meshes in other units, walls thinner than a spacing, and domains that cut the scene.
+void warn_about_slips(const Scene& scene, Plan& plan);
+
+/// The fluid block, wall or body that `domain` cuts, as messages name it; empty if it cuts none.
+std::string cut_by_domain(const Scene& scene);
+
+} // namespace hyoryu

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "toml_message.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <regex>
+
+namespace hyoryu {
+
+namespace {
+
+std::string line_at(std::string_view text, int number)
+{
+    for (int k = 1; k < number; ++k) {
+        const auto end = text.find('\n');
+        if (end == std::string_view::npos) {
+            return {};
+        }
+        text.remove_prefix(end + 1);
+    }
+    constexpr std::size_t longest = 500; // of what patterns are looked for in
+    return std::string(text.substr(0, std::min(text.find_first_of("\r\n"), longest)));
+}
+
+struct Words {
+    std::string what;
+    std::string hint;
+};
+
+// Slips that a line shows by itself.
+std::optional<Words> slip_in(const std::string& line)
+{
+    static const std::regex comma(R"(^\s*([\w.-]+)\s*=\s*([-+]?\d+),(\d+)\s*(#.*)?$)");
+    static const std::regex unit(
+        R"(^\s*([\w.-]+)\s*=\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([A-Za-z][\w/^-]*(?: [\w/^-]+)*)\s*(#.*)?$)");
+    static const std::regex word(R"(^\s*([\w.-]+)\s*=\s*([A-Za-z_][\w .-]*?)\s*(#.*)?$)");
+    static const std::regex point(R"(^\s*([\w.-]+)\s*=\s*([-+]?)(\d*)\.(\d*)([eE][-+]?\d+)?\s*(#.*)?$)");
+    std::smatch m;
+    if (std::regex_match(line, m, comma)) {
+        return Words{"a number has a decimal point, not a comma",
+                     fmt::format("write {} = {}.{}", m.str(1), m.str(2), m.str(3))};
+    }
+    if (std::regex_match(line, m, unit)) {
+        return Words{"a number with a unit must stand in quotes",
+                     fmt::format("write {} = \"{} {}\"", m.str(1), m.str(2), m.str(3))};
+    }
+    if (std::regex_match(line, m, point) && (m.length(3) == 0 || m.length(4) == 0)) {
+        const auto digits = [](const std::string& part) { return part.empty() ? "0" : part; };
+        return Words{"a decimal point needs a digit before and behind it",
+                     fmt::format("write {} = {}{}.{}{}", m.str(1), m.str(2), digits(m.str(3)),
+                                 digits(m.str(4)), m.str(5))};
+    }
+    if (line.find("\xe2\x80\x9c") != std::string::npos ||
+        line.find("\xe2\x80\x9d") != std::string::npos) {
+        return Words{"typographic quotes do not begin a text", "write straight ones: \""};
+    }
+    if (std::regex_match(line, m, word)) {
+        const std::string value = m.str(2);
+        if (value == "True" || value == "TRUE" || value == "False" || value == "FALSE") {
+            return Words{"true and false are written in small letters",
+                         fmt::format("write {} = {}", m.str(1), value[0] == 'T' ? "true" : "false")};
+        }
+        if (value != "true" && value != "false" && value != "inf" && value != "nan") {
+            return Words{"a text must stand in quotes",
+                         fmt::format("write {} = \"{}\"", m.str(1), value)};
+        }
+    }
+    return std::nullopt;
+}
+
+bool ends_the_line(const std::string& line, int column)
+{
+    return static_cast<std::size_t>(std::max(column, 1)) > line.size();
+}
+
+// What the library means, by parts of its description.
+Words meaning_of(const std::string& description, bool at_end)
+{
+    const auto says = [&](std::string_view part) {
+        return description.find(part) != std::string::npos;
+    };
+    static const std::regex twice("cannot redefine existing ([a-z -]+) '([^']*)'");
+    std::smatch m;
+    if (std::regex_search(description, m, twice)) {
+        return {fmt::format("\"{}\" stands twice", m.str(2)),
+                "one of them must go; a list of tables is written [[name]] every time"};
+    }
+    const bool text = says("parsing string") || says("parsing literal string");
+    if (text && (at_end || says("end-of-file"))) {
+        return {"the text is not closed", "its closing quote is missing"};
+    }
+    if (says("escape")) {
+        return {"a backslash begins no escape that is known", "write two of them, or the text in "
+                                                              "single quotes"};
+    }
+    if (text || says("parsing comment")) {
+        return {"a control character cannot stand here", "take it out"};
+    }
+    if (says("array") && (at_end || says("end-of-file"))) {
+        return {"the list is not closed", "`]` is missing"};
+    }
+    if (says("inline table")) {
+        return {"the table in braces is not understood or not closed",
+                "it stands in one line: { key = value, key = value }"};
+    }
+    if (says("table header")) {
+        return {"the header of a table is not understood or not closed", "write [name] or [[name]]"};
+    }
+    if (says("expected '='")) {
+        return {"expected `=` behind the key", "write key = value"};
+    }
+    if (says("expected value")) {
+        return {"the key has no value", "write key = value"};
+    }
+    if (says("leading zeroes")) {
+        return {"a number does not begin with a zero", ""};
+    }
+    if (says("floating-point") || says("integer")) {
+        return {"the number is not understood", "for instance 12, 0.25 or 1e-3"};
+    }
+    if (says("value type")) {
+        return {"the value is not understood", "a number, a text in quotes, true, false or a list"};
+    }
+    if (says("root table") || says("expected keys")) {
+        return {"expected a key or the header of a table",
+                "keys have letters a-z, digits, `_` and `-`; others stand in quotes"};
+    }
+    return {};
+}
+
+} // namespace
+
+TomlFault plain_fault(std::string_view text, const Place& place, const std::string& description)
+{
+    const std::string line = line_at(text, place.line);
+    const bool doubled = description.find("redefine") != std::string::npos;
+    if (const auto slip = doubled ? std::nullopt : slip_in(line)) {
+        return {place, slip->what, slip->hint};
+    }
+    Words words = meaning_of(description, ends_the_line(line, place.column));
+    if (words.what.empty()) {
+        constexpr std::string_view lead = "error while parsing ";
+        const auto colon = description.find(": ");
+        const bool known = description.starts_with(lead) && colon != std::string::npos;
+        words.what = "is not understood: " + (known ? description.substr(colon + 2) : description);
+    }
+    return {place, words.what, words.hint};
+}
+
+} // namespace hyoryu
