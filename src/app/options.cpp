@@ -18,18 +18,21 @@ namespace hyoryu {
 namespace {
 
 // A name that a shell made of a variable that is not set.
-const CLI::Validator a_name([](std::string& text) {
-    return text.empty() ? std::string("is empty, expected a name") : std::string();
-}, "");
+const CLI::Validator a_name(
+    [](std::string& text) {
+        return text.empty() ? std::string("is empty, expected a name") : std::string();
+    },
+    "");
 
 // CLI takes "nan" and "inf" for numbers.
-const CLI::Validator finite([](std::string& text) {
-    double value = 0;
-    const bool number = CLI::detail::lexical_cast(text, value);
-    return number && std::isfinite(value)
-               ? std::string()
-               : fmt::format("\"{}\" is no finite number", text);
-}, "");
+const CLI::Validator finite(
+    [](std::string& text) {
+        double value = 0;
+        const bool number = CLI::detail::lexical_cast(text, value);
+        return number && std::isfinite(value) ? std::string()
+                                              : fmt::format("\"{}\" is no finite number", text);
+    },
+    "");
 
 void add_run(CLI::App& app, RunOptions& options)
 {
@@ -41,7 +44,8 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("--set", options.overrides,
                     "change a key of the case: key.path=VALUE; repeatable")
         ->allow_extra_args(false);
-    run->add_option("--threads", options.threads, "threads to use (default: OMP_NUM_THREADS, else all)")
+    run->add_option("--threads", options.threads,
+                    "threads to use (default: OMP_NUM_THREADS, else all)")
         ->check(CLI::Range(1, 4096));
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
         ->check(finite & CLI::NonNegativeNumber);
@@ -99,9 +103,10 @@ void add_report(CLI::App& app, ReportOptions& options)
     report->add_option("RESULTS", options.folder, "results folder")->required()->check(a_name);
     report->add_option("-o,--output", options.file, "the page (default: RESULTS/report.html)")
         ->check(a_name);
-    report->add_option("--stiffness", options.stiffness,
-                       "contact stiffness k [N/m] of every impact, for peak forces u sqrt(k m) "
-                       "(default: as the case declares for pairs of materials)")
+    report
+        ->add_option("--stiffness", options.stiffness,
+                     "contact stiffness k [N/m] of every impact, for peak forces u sqrt(k m) "
+                     "(default: as the case declares for pairs of materials)")
         ->check(finite & CLI::PositiveNumber);
 }
 
@@ -111,12 +116,15 @@ void add_verify(CLI::App& app, VerifyOptions& options)
     verify_->add_option("NAME", options.names, "benchmarks or groups of them (default: all)");
     verify_->add_option("--tier", options.tier, "quick (default), nightly or release");
     verify_->add_option("--cases", options.cases, "folder of the benchmark folders")->check(a_name);
-    verify_->add_option("-o,--output", options.folder,
-                        "folder for results, tables and figures (default: verify-results)")
+    verify_
+        ->add_option("-o,--output", options.folder,
+                     "folder for results, tables and figures (default: verify-results)")
         ->check(a_name);
     verify_->add_option("--json", options.json, "write verify.json to this file as well")
         ->check(a_name);
-    verify_->add_option("--threads", options.threads, "threads to use (default: OMP_NUM_THREADS, else all)")
+    verify_
+        ->add_option("--threads", options.threads,
+                     "threads to use (default: OMP_NUM_THREADS, else all)")
         ->check(CLI::Range(1, 4096));
     verify_->add_flag("--list", options.list, "only list the benchmarks");
     verify_->add_flag("--force", options.force, "replace the results of an earlier verify");
@@ -126,8 +134,9 @@ void add_study(CLI::App& app, StudyOptions& options)
 {
     auto* study = app.add_subcommand("study", "accuracy against cost over values of case keys");
     study->add_option("STUDY", options.file, "study file (TOML)")->required()->check(a_name);
-    study->add_option("-o,--output", options.folder,
-                      "results folder (default: the study's name + -results, here)")
+    study
+        ->add_option("-o,--output", options.folder,
+                     "results folder (default: the study's name + -results, here)")
         ->check(a_name);
     study->add_option("--threads", options.threads, "threads of each run (default: 1)")
         ->check(CLI::Range(1, 4096));
@@ -150,12 +159,15 @@ void add_bench(CLI::App& app, BenchOptions& options)
                      "numbers of fluid particles for the cost against size")
         ->delimiter(',')
         ->check(CLI::Range(1e2, 1e8));
-    bench->add_option("--threads", options.threads, "threads to use (default: OMP_NUM_THREADS, else all)")
+    bench
+        ->add_option("--threads", options.threads,
+                     "threads to use (default: OMP_NUM_THREADS, else all)")
         ->check(CLI::Range(1, 4096));
     bench->add_option("--json", options.json, "write the results to this file as well")
         ->check(a_name);
-    bench->add_option("--state", options.state,
-                      "keep the developed flow in this folder, and take it from there")
+    bench
+        ->add_option("--state", options.state,
+                     "keep the developed flow in this folder, and take it from there")
         ->check(a_name);
 }
 
@@ -212,9 +224,9 @@ CaseError mistake_of(const CLI::App& app, const CLI::ParseError& error, int argc
                              nearest(word, known));
         }
     }
-    return CaseError(error.what(), fmt::format("see `{} --help`",
-                                               chosen.empty() ? "hyoryu"
-                                                              : "hyoryu " + command.get_name()));
+    return CaseError(
+        error.what(),
+        fmt::format("see `{} --help`", chosen.empty() ? "hyoryu" : "hyoryu " + command.get_name()));
 }
 
 } // namespace

@@ -31,14 +31,17 @@ constexpr std::size_t most_listed = 20;
                  .what = fmt::format("and {} more keys", differences.size() - most_listed)});
             break;
         }
-        const auto value = [](const std::string& text) { return text.empty() ? "no such key" : text; };
+        const auto value = [](const std::string& text) {
+            return text.empty() ? "no such key" : text;
+        };
         mistakes.push_back({.file = scene.file.string(),
                             .key = d.key,
                             .what = fmt::format("the checkpoint was written with {}, the case has "
                                                 "{}: geometry and physics cannot change on the way",
                                                 value(d.before), value(d.after))});
     }
-    mistakes.back().hint = "run with the case.toml in the results folder, or start anew with --force";
+    mistakes.back().hint =
+        "run with the case.toml in the results folder, or start anew with --force";
     throw CaseError(mistakes);
 }
 
@@ -102,19 +105,18 @@ Resumption resumption_of(const fs::path& folder, const Scene& scene)
     std::vector<KeyDifference> differences =
         case_differences(state.texts.at("case"), to_toml(found.scene));
     found.changed = !differences.empty();
-    std::erase_if(differences,
-                  [](const KeyDifference& d) { return may_change_on_resume(d.key); });
+    std::erase_if(differences, [](const KeyDifference& d) { return may_change_on_resume(d.key); });
     if (!differences.empty()) {
         refuse(scene, differences);
     }
     const double time = time_of(state);
     if (scene.time.end < time * (1 - 1e-9)) {
-        throw CaseError({Diagnostic{
-            .file = scene.file.string(),
-            .key = "time.end",
-            .what = fmt::format("{} s is before the checkpoint, which is at {} s", scene.time.end,
-                                time),
-            .hint = "a later end, or start anew with --force"}});
+        throw CaseError(
+            {Diagnostic{.file = scene.file.string(),
+                        .key = "time.end",
+                        .what = fmt::format("{} s is before the checkpoint, which is at {} s",
+                                            scene.time.end, time),
+                        .hint = "a later end, or start anew with --force"}});
     }
     if (found.changed) {
         carry_over(state, before, found.scene);

@@ -226,9 +226,9 @@ void tell_doubts(Job& job)
             job.sim.ledger.worst_in_solids, particles_in_solids(job.sim)));
     }
     if (job.sim.rigid.counters.capped_steps > 0) {
-        job.progress.line(
-            fmt::format("note: impacts were resolved by time stepping, not located, in {} of {} steps",
-                        job.sim.rigid.counters.capped_steps, job.sim.clock.step));
+        job.progress.line(fmt::format(
+            "note: impacts were resolved by time stepping, not located, in {} of {} steps",
+            job.sim.rigid.counters.capped_steps, job.sim.clock.step));
     }
 }
 
@@ -351,9 +351,16 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
         write_case(folder, scene, plan);
     }
     const bool changed = from.changed;
-    Job job{std::move(lock),    folder,           to_toml(scene), std::move(sim),
-            std::move(progress), std::move(outputs), std::move(from.state), first_step,
-            first_step,         first_step};
+    Job job{std::move(lock),
+            folder,
+            to_toml(scene),
+            std::move(sim),
+            std::move(progress),
+            std::move(outputs),
+            std::move(from.state),
+            first_step,
+            first_step,
+            first_step};
     if (changed) { // or a kill would leave a checkpoint of the case before
         keep_good_state(job);
         write_checkpoint(job, job.last_good);

@@ -141,8 +141,8 @@ void print_tables(const StudyResult& result)
 // What a study writes directly into its folder.
 bool is_of_study(const std::string& name)
 {
-    constexpr std::array<std::string_view, 6> names{"study.csv", "study.json", "study.md",
-                                                    "study.html", "runs",      "repeats"};
+    constexpr std::array<std::string_view, 6> names{"study.csv",  "study.json", "study.md",
+                                                    "study.html", "runs",       "repeats"};
     return std::ranges::find(names, name) != names.end() ||
            (name.starts_with("study_") && name.ends_with(".png"));
 }

@@ -92,10 +92,9 @@ void prepare(const VerifyOptions& options, const std::vector<Benchmark>& benchma
         throw CaseError(fmt::format("`{}` is not empty", options.folder.string()),
                         "--force replaces what an earlier verify wrote there, -o names another");
     }
-    claim_folder(options.folder,
-                 {.command = "verify", .owns = [&](const std::string& name) {
-                      return is_of_verify(benchmarks, name);
-                  }});
+    claim_folder(options.folder, {.command = "verify", .owns = [&](const std::string& name) {
+                                      return is_of_verify(benchmarks, name);
+                                  }});
     for (const Benchmark& benchmark : benchmarks) {
         for (const BenchmarkRun& run : benchmark.runs) {
             expect_replaceable(options.folder / benchmark.name / run.name);

@@ -40,7 +40,8 @@ bool prepare_child(const ChildSettings& settings, pid_t parent)
            (settings.folder.empty() || ::chdir(settings.folder.c_str()) == 0);
 }
 
-[[noreturn]] void become(char* const* words, const ChildSettings& settings, pid_t parent, int report)
+[[noreturn]] void become(char* const* words, const ChildSettings& settings, pid_t parent,
+                         int report)
 {
     if (prepare_child(settings, parent)) {
         ::execvp(words[0], words);

@@ -66,8 +66,7 @@ std::string name_fault(std::string_view name)
         return "it is that of a folder";
     }
     const auto at = name.find_first_of(of_formats);
-    return at == std::string_view::npos ? std::string()
-                                        : fmt::format("it holds `{}`", name[at]);
+    return at == std::string_view::npos ? std::string() : fmt::format("it holds `{}`", name[at]);
 }
 
 std::string printable(std::string_view text)

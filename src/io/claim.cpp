@@ -49,8 +49,8 @@ void claim_unguarded(const fs::path& folder, const Claim& claim)
         }
     }
     fs::create_directories(folder);
-    write_text(mark, fmt::format("Results of `hyoryu {}`, which may replace them.\n",
-                                 claim.command));
+    write_text(mark,
+               fmt::format("Results of `hyoryu {}`, which may replace them.\n", claim.command));
 }
 
 } // namespace

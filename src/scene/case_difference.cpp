@@ -87,8 +87,8 @@ public:
         if (before != nullptr && after != nullptr && equal(*before, *after)) {
             return;
         }
-        const bool alike = before == nullptr || after == nullptr ||
-                           before->value.index() == after->value.index();
+        const bool alike =
+            before == nullptr || after == nullptr || before->value.index() == after->value.index();
         if (alike && one.table() != nullptr) {
             return compare_tables(path, before, after);
         }

@@ -79,7 +79,8 @@ std::vector<std::string> names_and_units(const std::vector<std::string_view>& wo
             parts.push_back(text.substr(0, bracket));
         }
         if (bracket != std::string::npos) {
-            parts.push_back(fmt::format("[{}", text.substr(bracket + 1, text.size() - bracket - 2)));
+            parts.push_back(
+                fmt::format("[{}", text.substr(bracket + 1, text.size() - bracket - 2)));
         }
     }
     return parts;
@@ -99,7 +100,8 @@ std::string read_header(const std::vector<std::string_view>& words,
             }
             continue;
         }
-        const auto at = std::ranges::find(columns, part == "t" ? "time" : part, &NumberColumn::name);
+        const auto at =
+            std::ranges::find(columns, part == "t" ? "time" : part, &NumberColumn::name);
         const auto column = static_cast<std::size_t>(at - columns.begin());
         if (at == columns.end() || std::ranges::find(order, column) != order.end()) {
             return fmt::format("the header has {} \"{}\", expected the columns {}",
@@ -108,10 +110,9 @@ std::string read_header(const std::vector<std::string_view>& words,
         }
         order.push_back(column);
     }
-    return order.size() == columns.size()
-               ? std::string()
-               : fmt::format("the header names {} columns, expected {}", order.size(),
-                             names_of(columns));
+    return order.size() == columns.size() ? std::string()
+                                          : fmt::format("the header names {} columns, expected {}",
+                                                        order.size(), names_of(columns));
 }
 
 // The numbers of a line, or what is wrong with it.

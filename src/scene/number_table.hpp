@@ -25,9 +25,9 @@ struct NumberTable {
     std::vector<std::string> faults;
 };
 
-/// Reads rows of numbers separated by commas, semicolons or blanks. Empty lines and lines that begin
-/// with # are passed over. A first line of words is the header: it names every column once, in any
-/// order, with or without its unit; without it the columns are as asked for.
+/// Reads rows of numbers separated by commas, semicolons or blanks. Empty lines and lines that
+/// begin with # are passed over. A first line of words is the header: it names every column once,
+/// in any order, with or without its unit; without it the columns are as asked for.
 NumberTable read_number_table(const std::filesystem::path& file,
                               std::span<const NumberColumn> columns);
 

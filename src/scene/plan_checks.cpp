@@ -2,10 +2,10 @@
 #include "plan_checks.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/plan_slips.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
-#include "plan_slips.hpp"
 
 #include <fmt/format.h>
 
@@ -52,8 +52,8 @@ std::vector<std::pair<int, int>> pairs_that_may_meet(const Rigid& rigid, int dim
     std::vector<Ball> balls;
     Bounds box;
     for (const Body& body : rigid.bodies) {
-        balls.push_back({body.position, bounding_radius(body, dimensions),
-                         static_cast<int>(balls.size())});
+        balls.push_back(
+            {body.position, bounding_radius(body, dimensions), static_cast<int>(balls.size())});
         box.add(body.position);
     }
     Index axis = 0;

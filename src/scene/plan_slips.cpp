@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plan_slips.hpp"
+#include "hyoryu/scene/plan_slips.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/shapes.hpp"
@@ -152,8 +152,8 @@ void look_for_bodies_far_away(const Scene& scene, Slips& slips)
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const double away = rest.empty() ? 0 : distance(rest, body.position);
-        const double size = std::max(across(rest, scene.dimensions),
-                                     across(box_of(scene, body), scene.dimensions));
+        const double size =
+            std::max(across(rest, scene.dimensions), across(box_of(scene, body), scene.dimensions));
         if (away > far_away * size && is_first_of_entry(scene, b) &&
             (away > very_far_away * size || distance_to_others(scene, b) > far_away * size)) {
             return slips.add(body.place, fmt::format("body[{}].position", b),
@@ -182,7 +182,8 @@ void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, co
                   hint);
     } else if (others > 0 && size > out_of_scale * others) {
         slips.add(place, key + ".scale",
-                  fmt::format("the mesh is {:.3g} m across, all else {:.3g} m", size, others), hint);
+                  fmt::format("the mesh is {:.3g} m across, all else {:.3g} m", size, others),
+                  hint);
     }
 }
 
@@ -213,14 +214,15 @@ void look_for_thin_walls(const Scene& scene, Slips& slips)
         if (box == nullptr) {
             continue;
         }
-        const double thin = scene.dimensions == 2 ? std::min(box->size.x(), box->size.z())
-                                                  : box->size.minCoeff();
+        const double thin =
+            scene.dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
         if (thin < scene.spacing * (1 - 1e-9)) {
-            slips.add(wall.place, fmt::format("wall[{}]", w),
-                      fmt::format("wall \"{}\" is {:.3g} m thin, less than the spacing of {:.3g} m: "
-                                  "the water on its two sides is not kept apart well",
-                                  wall.name, thin, scene.spacing),
-                      "a thicker wall, or a smaller `particles.spacing`");
+            slips.add(
+                wall.place, fmt::format("wall[{}]", w),
+                fmt::format("wall \"{}\" is {:.3g} m thin, less than the spacing of {:.3g} m: "
+                            "the water on its two sides is not kept apart well",
+                            wall.name, thin, scene.spacing),
+                "a thicker wall, or a smaller `particles.spacing`");
         }
     }
 }
@@ -232,7 +234,8 @@ bool inside(const Bounds& box, const Scene& scene, double slack)
         const bool flat = scene.dimensions == 2 && axis == 1;
         const bool periodic = domain.periodic[static_cast<std::size_t>(axis)];
         if (!flat && !periodic &&
-            (box.min[axis] < domain.min[axis] - slack || box.max[axis] > domain.max[axis] + slack)) {
+            (box.min[axis] < domain.min[axis] - slack ||
+             box.max[axis] > domain.max[axis] + slack)) {
             return false;
         }
     }

@@ -19,8 +19,9 @@ std::optional<std::filesystem::path> read_file_path(TableReader& table, std::str
     }
     const bool bad = has_control_characters(name);
     if (name.empty() || bad) {
-        table.error(key, name.empty() ? "is empty, expected the name of a file"
-                                      : "holds control characters, expected the name of a file",
+        table.error(key,
+                    name.empty() ? "is empty, expected the name of a file"
+                                 : "holds control characters, expected the name of a file",
                     "a path relative to the case file");
         return std::nullopt;
     }

@@ -84,9 +84,10 @@ MeshShape read_mesh_shape(TableReader& table)
             return corner.cwiseAbs().maxCoeff() > largest_value("m");
         });
         if (far != mesh.corners.end()) {
-            table.error("file", fmt::format("has a corner at ({:.3g}, {:.3g}, {:.3g}) m, expected "
-                                            "at most {} m",
-                                            far->x(), far->y(), far->z(), largest_value("m")),
+            table.error("file",
+                        fmt::format("has a corner at ({:.3g}, {:.3g}, {:.3g}) m, expected "
+                                    "at most {} m",
+                                    far->x(), far->y(), far->z(), largest_value("m")),
                         "is `scale` right? it takes the numbers of the file to metres");
         }
         shape.corners = std::move(mesh.corners);

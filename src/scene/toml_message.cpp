@@ -35,7 +35,8 @@ std::optional<Words> slip_in(const std::string& line)
     static const std::regex unit(
         R"(^\s*([\w.-]+)\s*=\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([A-Za-z][\w/^-]*(?: [\w/^-]+)*)\s*(#.*)?$)");
     static const std::regex word(R"(^\s*([\w.-]+)\s*=\s*([A-Za-z_][\w .-]*?)\s*(#.*)?$)");
-    static const std::regex point(R"(^\s*([\w.-]+)\s*=\s*([-+]?)(\d*)\.(\d*)([eE][-+]?\d+)?\s*(#.*)?$)");
+    static const std::regex point(
+        R"(^\s*([\w.-]+)\s*=\s*([-+]?)(\d*)\.(\d*)([eE][-+]?\d+)?\s*(#.*)?$)");
     std::smatch m;
     if (std::regex_match(line, m, comma)) {
         return Words{"a number has a decimal point, not a comma",
@@ -58,8 +59,9 @@ std::optional<Words> slip_in(const std::string& line)
     if (std::regex_match(line, m, word)) {
         const std::string value = m.str(2);
         if (value == "True" || value == "TRUE" || value == "False" || value == "FALSE") {
-            return Words{"true and false are written in small letters",
-                         fmt::format("write {} = {}", m.str(1), value[0] == 'T' ? "true" : "false")};
+            return Words{
+                "true and false are written in small letters",
+                fmt::format("write {} = {}", m.str(1), value[0] == 'T' ? "true" : "false")};
         }
         if (value != "true" && value != "false" && value != "inf" && value != "nan") {
             return Words{"a text must stand in quotes",
@@ -105,7 +107,8 @@ Words meaning_of(const std::string& description, bool at_end)
                 "it stands in one line: { key = value, key = value }"};
     }
     if (says("table header")) {
-        return {"the header of a table is not understood or not closed", "write [name] or [[name]]"};
+        return {"the header of a table is not understood or not closed",
+                "write [name] or [[name]]"};
     }
     if (says("expected '='")) {
         return {"expected `=` behind the key", "write key = value"};

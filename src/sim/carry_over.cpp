@@ -21,7 +21,8 @@ constexpr double rounding = 1e-9;
 Numbers& numbers_at(Snapshot& state, const std::string& name)
 {
     const auto found = state.arrays.find(name);
-    auto* numbers = found == state.arrays.end() ? nullptr : std::get_if<Numbers>(&found->second.values);
+    auto* numbers =
+        found == state.arrays.end() ? nullptr : std::get_if<Numbers>(&found->second.values);
     if (numbers == nullptr) {
         throw IoError("the checkpoint has no `" + name + "`: it is damaged");
     }

@@ -6,6 +6,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/moving_walls.hpp"
+#include "hyoryu/scene/plan_slips.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <fmt/format.h>
@@ -36,6 +37,14 @@ std::string probable_cause(const Simulation& sim)
     if (sim.scene.time.cfl > 0.6) {
         return fmt::format("probably `time.cfl` = {} is too large; 0.6 is the default",
                            sim.scene.time.cfl);
+    }
+    if (const std::string cut = cut_by_domain(sim.scene); !cut.empty()) {
+        return fmt::format("probably [domain], which ends within the scene: {} reaches beyond it, "
+                           "so that water has no wall there",
+                           cut);
+    }
+    if (sim.scene.fluid && sim.scene.fluid->viscosity == ViscosityModel::none) {
+        return "probably nothing damps the fluid: `fluid.viscosity.model` is \"none\"";
     }
     if (sim.plan.fluid && sim.plan.expected_speed > 0.2 * sim.plan.fluid->eos.c0) {
         return "probably `fluid.sound_speed` is too low for the speeds of this flow";

@@ -46,7 +46,8 @@ std::vector<Axis> read_grid(Section& run)
         count *= static_cast<double>(axis.values.size());
     }
     if (count > most_runs) {
-        run.error("grid", fmt::format("asks for {:.0f} runs, at most {} are made", count, most_runs));
+        run.error("grid",
+                  fmt::format("asks for {:.0f} runs, at most {} are made", count, most_runs));
         return {};
     }
     return axes;

@@ -19,7 +19,8 @@ TEST(Names, EveryControlCharacterIsRefusedAndShownAsItsCode)
         const std::string one(1, static_cast<char>(code));
         const bool control = code < 0x20 || code == 0x7f;
         EXPECT_EQ(has_control_characters("a" + one + "b"), control) << code;
-        EXPECT_EQ(name_fault("a" + one + "b").find("control") != std::string::npos, control) << code;
+        EXPECT_EQ(name_fault("a" + one + "b").find("control") != std::string::npos, control)
+            << code;
         EXPECT_EQ(printable(one) == one, !control || one == "\n") << code;
     }
     for (int code = 0x80; code < 0x100; ++code) { // in UTF-8: C1 below U+00A0, letters above
@@ -33,9 +34,13 @@ TEST(Names, EveryControlCharacterIsRefusedAndShownAsItsCode)
 
 TEST(Names, AMessageDoesNotSteerTheTerminal)
 {
-    const std::string text = to_string(
-        Diagnostic{.file = "a\x1b.toml", .line = 1, .column = 1, .key = "b\x07", .what = "c\x9b",
-                   .hint = "\x1b]0;d", .source = "e\r"});
+    const std::string text = to_string(Diagnostic{.file = "a\x1b.toml",
+                                                  .line = 1,
+                                                  .column = 1,
+                                                  .key = "b\x07",
+                                                  .what = "c\x9b",
+                                                  .hint = "\x1b]0;d",
+                                                  .source = "e\r"});
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
     EXPECT_EQ(text.find('\x07'), std::string::npos);
     EXPECT_EQ(text.find('\r'), std::string::npos);

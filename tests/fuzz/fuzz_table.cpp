@@ -18,9 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     constexpr std::array<NumberColumn, 4> all{{{"time", "s"}, {"x", "m"}, {"y", "m"}, {"z", "m"}}};
     for (const std::span<const NumberColumn> columns : {std::span(all), std::span(all).last<3>()}) {
         const NumberTable table = read_number_table(file, columns);
-        const bool whole =
-            std::all_of(table.rows.begin(), table.rows.end(),
-                        [&](const auto& row) { return row.size() == columns.size(); });
+        const bool whole = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+            return row.size() == columns.size();
+        });
         if (table.lines.size() != table.rows.size() || (table.faults.empty() && !whole)) {
             std::abort();
         }

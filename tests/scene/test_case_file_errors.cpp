@@ -382,10 +382,15 @@ TEST(CaseFileErrors, NoReaderTakesWhatIsNoFile)
         {"wall[0].file", "[[wall]]\n" + mesh},
         {"fluid.block[1].file", "[[fluid.block]]\n" + mesh},
         {"wall[0].motion.table", "[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = "}};
-    const std::vector<std::array<std::string, 2>> files = {
-        {"", "is empty"},           {".", "is a folder"},       {"/", "is a folder"},
-        {"/dev/zero", "is a device"}, {pipe, "is a pipe"},      {"none.stl", "does not exist"},
-        {"a\\u0000b", "control"},  {"a\\u001bb", "control"}, {"none/none.stl", "does not exist"}};
+    const std::vector<std::array<std::string, 2>> files = {{"", "is empty"},
+                                                           {".", "is a folder"},
+                                                           {"/", "is a folder"},
+                                                           {"/dev/zero", "is a device"},
+                                                           {pipe, "is a pipe"},
+                                                           {"none.stl", "does not exist"},
+                                                           {"a\\u0000b", "control"},
+                                                           {"a\\u001bb", "control"},
+                                                           {"none/none.stl", "does not exist"}};
     for (const auto& [key, head] : keys) {
         for (const auto& [file, what] : files) {
             SCOPED_TRACE(key + " = " + file);
@@ -407,13 +412,27 @@ TEST(CaseFileErrors, NamesOfEverythingFollowOneRule)
         {"wall[0].name", "[[wall]]\nshape = \"plane\"\nname = "},
         {"wall[0].material", "[[wall]]\nshape = \"plane\"\nmaterial = "},
         {"gauge[0].name", gauge}};
-    const std::vector<std::string> bad = {"x/L=0.5", ".",        "..",         "=1+1",
-                                          "+a",      "-a",       "@a",         " a",
-                                          "a ",      "a,b",      "a;b",        "a#b",
-                                          "a\\\\b",  "a\\\"b",  "a\\tb",      "a\\u001b[31m",
-                                          "a\\u007f", "a\\u009bm", std::string(101, 'a')};
-    const std::vector<std::string> good = {"a", "a b", "a.b-c_d", "Übergang", "x=1",
-                                           std::string(100, 'a')};
+    const std::vector<std::string> bad = {"x/L=0.5",
+                                          ".",
+                                          "..",
+                                          "=1+1",
+                                          "+a",
+                                          "-a",
+                                          "@a",
+                                          " a",
+                                          "a ",
+                                          "a,b",
+                                          "a;b",
+                                          "a#b",
+                                          "a\\\\b",
+                                          "a\\\"b",
+                                          "a\\tb",
+                                          "a\\u001b[31m",
+                                          "a\\u007f",
+                                          "a\\u009bm",
+                                          std::string(101, 'a')};
+    const std::vector<std::string> good = {"a",        "a b", "a.b-c_d",
+                                           "Übergang", "x=1", std::string(100, 'a')};
     for (const auto& [key, head] : keys) {
         for (const std::string& name : bad) {
             SCOPED_TRACE(key + " = " + name);
@@ -428,7 +447,8 @@ TEST(CaseFileErrors, NamesOfEverythingFollowOneRule)
                                              [&](const Diagnostic& d) { return d.key == key; }));
         }
     }
-    const Diagnostic time = mistake_at(mistakes(short_case + gauge + "\"time\"\n"), "gauge[0].name");
+    const Diagnostic time =
+        mistake_at(mistakes(short_case + gauge + "\"time\"\n"), "gauge[0].name");
     EXPECT_NE(time.what.find("first column"), std::string::npos) << to_string(time);
     for (const std::string& title : {std::string("a\\u001b[31m"), std::string("=1+1")}) {
         mistake_at(mistakes("title = \"" + title + "\"\n" + short_case), "title");

@@ -371,9 +371,10 @@ TEST(Plan, ManyBodiesAreCheckedQuickly)
 {
     for (const char* count : {"[46, 46, 47]", "[100000, 1, 1]", "[1, 316, 316]"}) {
         const Scene scene = parse_case(
-            std::string("[time]\nend = 1.0\n[particles]\nspacing = 0.1\n[[body]]\nname = \"b\"\n"
-                        "shape = \"sphere\"\nradius = 0.05\ndensity = 500\n"
-                        "position = [0, 0, 0.05]\n[body.copies]\npitch = [0.1, 0.1, 0.1]\ncount = ") +
+            std::string(
+                "[time]\nend = 1.0\n[particles]\nspacing = 0.1\n[[body]]\nname = \"b\"\n"
+                "shape = \"sphere\"\nradius = 0.05\ndensity = 500\n"
+                "position = [0, 0, 0.05]\n[body.copies]\npitch = [0.1, 0.1, 0.1]\ncount = ") +
                 count + "\n",
             "t.toml");
         const auto start = std::chrono::steady_clock::now();

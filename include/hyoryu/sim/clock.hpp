@@ -12,12 +12,12 @@ namespace hyoryu {
 struct Clock {
     double time = 0; // [s]
     std::int64_t step = 0;
-    double dt = 0;            // of the last step [s]
-    std::int64_t frame = 0;   // number of the next frame
+    double dt = 0;                 // of the last step [s]
+    std::int64_t frame = 0;        // number of the next frame
     std::int64_t frame_offset = 0; // it is due at (frame - frame_offset) output.every
-    std::int64_t history = 0; // number of the next history row, if they are spaced in time
-    std::int64_t gauge = 0;   // likewise of the gauges
-    double share = 1;         // of the limits that steps take: halved by every recovery
+    std::int64_t history = 0;      // number of the next history row, if they are spaced in time
+    std::int64_t gauge = 0;        // likewise of the gauges
+    double share = 1;              // of the limits that steps take: halved by every recovery
 };
 
 /// What the next step is to be.
