@@ -15,9 +15,10 @@ namespace {
 
 // Contacts below which waking the other threads costs more than they save.
 constexpr std::size_t worth_sharing_contacts = 64;
-// What locating may cost: ten times a step of a stack of ten, and what keeps a rattling heap within
-// a fifth of what its steps cost without [updates of rows].
-constexpr double work_of_cluster = 5000;
+// What locating may cost: sixteen times a step of a stack of ten, so that a box whose faces slide
+// as it rattles has its passes, and what keeps a rattling heap within a fifth of what its steps
+// cost without [updates of rows].
+constexpr double work_of_cluster = 8000;
 constexpr double work_of_body = 100;
 
 int root_of(std::vector<int>& parents, int k)

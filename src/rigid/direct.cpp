@@ -28,9 +28,6 @@ constexpr double settled_direction = 3e-8;
 constexpr double on_cone = 1e-9;
 // Relative rank tolerance of the redundant, symmetric problem (round-off times condition).
 constexpr double rank_tolerance = 1e-11;
-// Shift of the diagonal that makes the problem regular, as a part of its largest entry; the
-// round-off in how redundant contacts share their load is that of the numbers over this.
-constexpr double shift = 1e-8;
 constexpr int corrections = 6;
 // What the corrections may leave of the right-hand side.
 constexpr double corrected = 1e-13;
@@ -202,7 +199,7 @@ bool solve_shifted(SolverWork& work)
 {
     const Index n = work.W.rows();
     const double most = work.W.diagonal().maxCoeff();
-    work.factor.compute(work.W + shift * most * Eigen::MatrixXd::Identity(n, n));
+    work.factor.compute(work.W + work.shift * most * Eigen::MatrixXd::Identity(n, n));
     work.solution.setZero(n);
     work.left_over = work.rhs;
     const double enough = corrected * work.rhs.lpNorm<Eigen::Infinity>();
@@ -335,6 +332,18 @@ void guess_states(std::span<const Row> rows, const std::vector<Response>& bodies
         work.states.push_back(unknown ? static_cast<int>(sticks)
                                       : state_of(row, u, p_n, work.directions[k]));
         work.held.push_back(part_held(row, u));
+    }
+}
+
+void load_all_that_slide(std::span<const Row> rows, const std::vector<Response>& bodies,
+                         SolverWork& work)
+{
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Vec3 y = sliding_point(rows[k], velocity(rows[k], bodies));
+        if (work.states[k] == open && y.norm() > 0) {
+            work.states[k] = slides;
+            work.directions[k] = y.normalized();
+        }
     }
 }
 

@@ -14,6 +14,9 @@ constexpr double closed = -1e-10;
 // Two polytopes in contact may describe one contact by other features a moment later; only a gap
 // deeper than that play of the description is a new contact [units].
 constexpr double closed_in_contact = -1e-6;
+// What stays closed all through, as where a contact has just been let go, is an event when it is
+// deeper by this [units].
+constexpr double closed_again = -1e-7;
 constexpr double located = 1e-11; // gap at the time found [units]
 constexpr int root_steps = 60;
 // Halvings of the time at which a contact that has just bounced off is found open.
@@ -145,7 +148,7 @@ private:
     }
 
     // The time in between at which an open pair closes. One that stays closed, as where a contact
-    // has just been let go, is caught when it is deeper by the play of the description.
+    // has just been let go, is caught when it is deeper.
     double closing_time(const BodyPair& pair, double low, double high)
     {
         const double zero = located * unit_;
@@ -161,7 +164,7 @@ private:
                 return root(pair, {s, high, f, f_high}, 0);
             }
         }
-        const double deeper = f_low + closed_in_contact * unit_;
+        const double deeper = f_low + closed_again * unit_;
         return f_high < deeper ? root(pair, {low, high, f_low, f_high}, deeper) : high;
     }
 

@@ -31,9 +31,22 @@ std::vector<int> take_plane(const ContactMemory& memory, std::vector<int>& left)
     return taken;
 }
 
-// The contacts that bound the patch, in the order in which they stood.
-std::vector<int> bounding(const ContactMemory& memory, const std::vector<int>& contacts)
+// The lowest point of a rim that lies flat may be anywhere on it: the points that are fixed to the
+// rim carry the load.
+void leave_out_lowest(const ContactMemory& memory, std::vector<int>& contacts)
 {
+    if (contacts.size() > most_contacts) {
+        std::erase_if(contacts, [&](int k) {
+            const FeatureKind kind = memory.persistent[k].candidate.feature.kind;
+            return kind == FeatureKind::rim_low;
+        });
+    }
+}
+
+// The contacts that bound the patch, in the order in which they stood.
+std::vector<int> bounding(const ContactMemory& memory, std::vector<int> contacts)
+{
+    leave_out_lowest(memory, contacts);
     if (contacts.size() < 3) {
         return contacts;
     }
@@ -41,9 +54,15 @@ std::vector<int> bounding(const ContactMemory& memory, const std::vector<int>& c
     for (const int k : contacts) {
         points.push_back(memory.persistent[k].candidate.touch.point);
     }
-    const Vec3& n = memory.persistent[contacts[0]].candidate.touch.normal;
+    const Candidate& c = memory.persistent[contacts[0]].candidate;
+    const Vec3& n = c.touch.normal;
+    // turns with a body, so that the choice is the same as long as the face rests
+    const bool a_moves = c.feature.b < 0 || memory.rotors[c.feature.a].movable;
+    const Mat3& R = memory.poses[a_moves ? c.feature.a : c.feature.b].R;
+    int across = 0;
+    (R.transpose() * n).cwiseAbs().minCoeff(&across);
     std::vector<int> kept;
-    for (const int corner : outermost(points, n, most_contacts)) {
+    for (const int corner : outermost(points, n, R.col(across), most_contacts)) {
         kept.push_back(contacts[corner]);
     }
     std::ranges::sort(kept);

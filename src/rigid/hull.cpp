@@ -55,7 +55,8 @@ std::vector<Face> first_tetrahedron(const std::vector<Vec3>& p)
 }
 
 // Corners of one face are off its plane by the rounding of a mesh in single precision, 6e-8, and
-// more where three that are near each other span it; a point that sticks out by less is left out of the hull [sizes].
+// more where three that are near each other span it; a point that sticks out by less is left out of
+// the hull [sizes].
 constexpr double plane_enough = 1e-6;
 // One less the cosine of the angle between two triangles of one face, 1e-5, at most.
 constexpr double flat = 5e-11;

@@ -43,6 +43,7 @@ void prepare(Rigid& rigid)
     memory.poses.resize(n);
     memory.paths.resize(n);
     memory.responses.resize(n);
+    memory.starts.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         Body& body = rigid.bodies[k];
         memory.poses[k] = pose_of(body.position, body.orientation);

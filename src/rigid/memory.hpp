@@ -79,6 +79,7 @@ struct ContactMemory {
     std::vector<SolidPose> poses, trial, middle, end;
     std::vector<Path> paths;
     std::vector<Response> responses;
+    std::vector<Twist> starts;          // velocities at the start of the sub-step
     std::vector<int> events;            // located events of this step
     std::vector<Deviation> deviations;  // while a cluster is advanced in groups
     std::vector<int> parents_of_groups; // of the bodies of that cluster

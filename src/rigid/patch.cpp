@@ -130,13 +130,15 @@ PatchRule line_rule(std::span<const Vec3> p)
 
 } // namespace
 
-std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, std::size_t most)
+std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Vec3& along,
+                           std::size_t most)
 {
     std::vector<int> hull = hull_of(points, n);
     if (hull.size() <= most) {
         return hull;
     }
-    const auto [u, w] = tangents(n);
+    const Vec3 u = (along - along.dot(n) * n).normalized();
+    const Vec3 w = n.cross(u);
     std::vector<int> kept;
     for (const auto& [x, y] :
          {std::pair(1, 0), {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {

@@ -29,8 +29,10 @@ struct PatchRule {
 };
 
 /// The points at the corners of the hull of points in one plane with the unit normal `n`, by their
-/// indices; those on its sides are left out. More than `most`: those outermost in eight directions.
-std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, std::size_t most);
+/// indices; those on its sides are left out. More than `most`: those outermost in eight directions,
+/// the first of which is that of `along`, square to n.
+std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Vec3& along,
+                           std::size_t most);
 
 /// The area that the contacts of a patch bound: their hull, or the disc on whose rim they lie.
 enum class PatchForm { hull, disc };

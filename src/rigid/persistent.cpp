@@ -10,6 +10,10 @@ namespace hyoryu {
 
 namespace {
 
+// Passes of a patch that slides, and the change of where it rubs that needs no other [units].
+constexpr int most_passes = 4;
+constexpr double settled_rub = 1e-8;
+
 // Touching contacts that do not fly apart; everything that the event search must not look for is
 // held.
 void choose_persistent(const StepContext& context, const SubStep& sub)
@@ -108,6 +112,18 @@ void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
     }
 }
 
+// Whether friction opposes the mean slip of the contact over the sub-step.
+bool slides_through(const ContactMemory& memory, const SubStep& sub, const Row& row, double ahead)
+{
+    const Persistent& p = memory.persistent[row.contact];
+    const Vec3& n = p.candidate.touch.normal;
+    const bool few = memory.persistent.size() <= contacts_of_a_pile;
+    const double slow = no_slip * std::sqrt(memory.geometry.unit);
+    // in a plane a slide has one direction until it ends
+    return sub.slip == Slip::mean && ahead > 0 && few && row.cone.size == 3 &&
+           (p.before - n * n.dot(p.before)).norm() > slow;
+}
+
 // Whether the contact at the middle and the end of the planned motion is the one of its start. A
 // line that rocks over a cap goes on at the far end of its chord, a log along an edge by its other
 // end, a corner over a rim, and a guess of the forces may turn a body too far: the answer of the
@@ -152,6 +168,11 @@ bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
             p.impulse.setZero(); // between bodies that nothing moves
         } else {
             p.effective_mass = 1 / row.cone.K(0, 0);
+            if (slides_through(memory, sub, row, ahead)) {
+                const Twist still;
+                see_mean_slip(row, memory.starts[f.a], f.b >= 0 ? memory.starts[f.b] : still,
+                              wall_velocity(memory, f.b, sub.time), memory.responses);
+            }
             row.before = velocity(row, memory.responses);
             // A gap that the projection closes is no freedom: v = gap / h of its noise would
             // rattle.
@@ -218,19 +239,24 @@ void book_dissipation(const StepContext& context)
     ContactMemory& memory = context.memory;
     for (const Row& row : memory.rows) {
         Persistent& p = memory.persistent[row.contact];
-        const Vec3 after = row.D * velocity(row, memory.responses);
-        p.dissipated = std::max(0.0, -0.5 * p.impulse.dot(p.before + after));
+        const Vec3 after = row.D * (velocity(row, memory.responses) - row.slip);
         const auto tangential = [](const Vec3& u, const Vec3& n) { return Vec3(u - n * n.dot(u)); };
-        p.slip_before = tangential(p.before, p.candidate.touch.normal);
+        const Vec3& n = p.candidate.touch.normal;
+        p.slip_before = row.slip.isZero(0) ? tangential(p.before, n) : Vec3(row.D * row.slip);
+        p.before = n * n.dot(p.before) + p.slip_before;
+        p.dissipated = std::max(0.0, -0.5 * p.impulse.dot(p.before + after));
         p.slip_after = tangential(after, p.touches.see.normal);
         context.rigid.counters.tangential_impacts += row.tangential ? 1 : 0;
     }
 }
 
-// Relative velocities of the persistent contacts at the start, in world axes: along the normal at
-// the contact point, along the tangents where friction acts.
-void set_velocities_before(ContactMemory& memory, double time)
+// Velocities of the bodies at the start, and the relative ones of the persistent contacts, in world
+// axes: along the normal at the contact point, along the tangents where friction acts.
+void set_velocities_before(ContactMemory& memory, const SubStep& sub)
 {
+    for (const int k : sub.cluster.bodies) {
+        memory.starts[k] = {memory.responses[k].v, memory.responses[k].omega};
+    }
     for (Persistent& p : memory.persistent) {
         const Feature& f = p.candidate.feature;
         const Vec3& n = p.candidate.touch.normal;
@@ -240,8 +266,26 @@ void set_velocities_before(ContactMemory& memory, double time)
             return Vec3(body.v + body.omega.cross(p.candidate.touch.point - memory.poses[k].x) +
                         turn - n * n.dot(turn));
         };
-        p.before = at_point(f.a) - (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b, time));
+        p.before =
+            at_point(f.a) - (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b, sub.time));
     }
+}
+
+// Whether a contact of a patch slides and rubs elsewhere than in the last pass by more than its
+// round-off: where it rubs follows from the loads, which follow from where it rubs.
+bool rubs_elsewhere(const ContactMemory& memory)
+{
+    const auto slides = [](const Row& row) { return !row.slip.isZero(0); };
+    if (memory.patches.empty() || std::ranges::none_of(memory.rows, slides)) {
+        return false;
+    }
+    const auto point = [](const Persistent& p) { return p.touches.push.point; };
+    return std::ranges::any_of(memory.patches, [&](const FrictionPatch& patch) {
+        const Persistent& p = memory.persistent[patch.contacts[0]];
+        const Vec3 rub =
+            (1 - patch.rule.scale) * (centre_of(memory.persistent, patch, point) - point(p));
+        return (rub - p.touches.push_rub).norm() > settled_rub * memory.geometry.unit;
+    });
 }
 
 } // namespace
@@ -260,12 +304,15 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     if (memory.persistent.empty()) {
         return;
     }
-    set_velocities_before(memory, sub.time);
+    set_velocities_before(memory, sub);
     bool planned = false;
     if (sub.arms == Arms::ahead) {
         add_known_impulses(memory);
         planned = solve_pass(context, sub, sub.h) &&
                   solve_pass(context, sub, sub.h); // with the impulses of the first
+        for (int pass = 2; planned && pass < most_passes && rubs_elsewhere(memory); ++pass) {
+            planned = solve_pass(context, sub, sub.h);
+        }
     }
     if (!planned) { // with the arms as they are
         solve_pass(context, sub, 0);

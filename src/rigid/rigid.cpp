@@ -102,6 +102,7 @@ void plan_located(const StepContext& context, SubStep& sub, double rest)
     if (context.memory.stepped) {
         find_contacts_of_tired(context, sub);
     }
+    sub.slip = Slip::mean;
     plan_motion(context, sub);
     end_with_part(context, sub, rest);
     end_with_turn(context, sub);

@@ -45,16 +45,23 @@ Mat3 inverse_mass(const Row& row, const Response& body, const Mat3& turn, const 
            lever.transpose() * (body.inverse_inertia * turn);
 }
 
+void set_answer(Row& row, const std::vector<Response>& bodies)
+{
+    row.cone.K = inverse_mass(row, bodies[row.a], row.turn_a, row.lever_a);
+    if (row.b >= 0) {
+        row.cone.K += inverse_mass(row, bodies[row.b], row.turn_b, row.lever_b);
+    }
+}
+
 void fill(Row& row, const TwoTouches& at, const Centres& c, const std::vector<Response>& bodies)
 {
     row.turn_a = moments(at.push.point - c.push_a, at.push_rub, row.B);
     row.lever_a = moments(at.see.point - c.see_a, at.see_rub, row.D);
-    row.cone.K = inverse_mass(row, bodies[row.a], row.turn_a, row.lever_a);
     if (row.b >= 0) {
         row.turn_b = moments(at.push.point - c.push_b, at.push_rub, row.B);
         row.lever_b = moments(at.see.point - c.see_b, at.see_rub, row.D);
-        row.cone.K += inverse_mass(row, bodies[row.b], row.turn_b, row.lever_b);
     }
+    set_answer(row, bodies);
 }
 
 // Turns the tangents into the axes of the tangential block; returns how many of them can move.
@@ -97,6 +104,19 @@ void complete(Row& row, const TwoTouches& at, const Centres& centres,
     invert(row.cone);
 }
 
+void see_mean_slip(Row& row, const Twist& a, const Twist& b, const Vec3& wall,
+                   const std::vector<Response>& bodies)
+{
+    row.D.rightCols<2>() = row.B.rightCols<2>();
+    row.lever_a.rightCols<2>() = row.turn_a.rightCols<2>();
+    row.lever_b.rightCols<2>() = row.turn_b.rightCols<2>();
+    set_answer(row, bodies);
+    invert(row.cone);
+    row.slip = row.D.transpose() * (a.v - b.v - wall) + row.lever_a.transpose() * a.omega -
+               row.lever_b.transpose() * b.omega;
+    row.slip[0] = 0;
+}
+
 Vec3 velocity(const Row& row, const std::vector<Response>& bodies)
 {
     const Response& a = bodies[row.a];
@@ -107,7 +127,7 @@ Vec3 velocity(const Row& row, const std::vector<Response>& bodies)
         v -= b.v;
         u -= row.lever_b.transpose() * b.omega;
     }
-    return u + row.D.transpose() * v;
+    return u + row.D.transpose() * v + row.slip;
 }
 
 void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)

@@ -19,6 +19,12 @@ struct Response {
     Vec3 omega{0, 0, 0};
 };
 
+/// Velocity of the centre of mass and spin of a body.
+struct Twist {
+    Vec3 v{0, 0, 0};     // [m/s]
+    Vec3 omega{0, 0, 0}; // [rad/s]
+};
+
 /// A contact at two configurations: the impulse acts at `push`, the velocity is asked for at `see`.
 /// They are the same in an impact; in a smooth step they are its middle and its end. Friction may
 /// act beside the contact point, in its tangent plane.
@@ -40,6 +46,7 @@ struct Row {
     Mat3 turn_a = Mat3::Zero(), turn_b = Mat3::Zero();   // T, moments of unit impulses [m]
     Mat3 lever_a = Mat3::Zero(), lever_b = Mat3::Zero(); // S, velocities of unit spins [m]
     Vec3 wall_velocity{0, 0, 0};
+    Vec3 slip{0, 0, 0};   // added to the velocity that is seen, in the axes of D [m/s]
     double target = 0;    // wanted normal velocity [m/s]
     Vec3 before{0, 0, 0}; // velocity at the start of the solve, in the axes of D [m/s]
     Vec3 p{0, 0, 0};      // impulse in the axes of B [N s]
@@ -56,6 +63,11 @@ struct Centres {
 /// Completes a row whose a, b, wall_velocity and cone.mu are set.
 void complete(Row& row, const TwoTouches& at, const Centres& centres,
               const std::vector<Response>& bodies, int dimensions);
+
+/// Lets friction oppose the mean of the slip before the solve, by those velocities, and after it,
+/// where it acts: the rule of the midpoint. What is seen is their sum.
+void see_mean_slip(Row& row, const Twist& a, const Twist& b, const Vec3& wall,
+                   const std::vector<Response>& bodies);
 
 /// The velocity of the contact in the axes (n, t1, t2).
 Vec3 velocity(const Row& row, const std::vector<Response>& bodies);

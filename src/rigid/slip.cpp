@@ -10,8 +10,6 @@ namespace hyoryu {
 
 namespace {
 
-// Sliding slower than this has no direction that is worth following [m/s, with a unit of 1 m].
-constexpr double no_slip = 1e-4;
 // The sub-step ends this part before the slip does, so that the direction of sliding holds in it;
 // more if that turns out to be too near.
 constexpr double short_of = 1e-6;
@@ -82,6 +80,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
             return;
         }
     }
+    sub.slip = Slip::end;
     sub.h = whole; // it stops at once, by an impulse: there is no time before it
     plan_again(context, sub);
 }

@@ -31,7 +31,7 @@ double change_asked(std::span<const Row> rows)
 {
     double most = 0;
     for (const Row& row : rows) {
-        most = std::max(most, (row.before - Vec3(row.target, 0, 0)).norm());
+        most = std::max(most, (row.before - row.slip - Vec3(row.target, 0, 0)).norm());
     }
     return most;
 }
@@ -42,14 +42,19 @@ struct Turns {
     double enough = 0; // may be left [m/s]
 };
 
-// Tries the direct solution; goes back if it is worse than what there was.
-double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
-                    double left)
+void keep_impulses(std::span<const Row> rows, SolverWork& work)
 {
     work.start.clear();
     for (const Row& row : rows) {
         work.start.push_back(row.p);
     }
+}
+
+// Tries the direct solution; goes back if it is worse than what there was.
+double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                    double left)
+{
+    keep_impulses(rows, work);
     guess_states(rows, bodies, work);
     solve_directly(rows, bodies, work);
     const double left_directly = residual(rows, bodies);
@@ -58,6 +63,31 @@ double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     }
     set_impulses(rows, work.start, bodies);
     return left;
+}
+
+// Whether the contacts share their load in many ways, of which sweeps take the one nearest to where
+// they began, and slide, so that the motion depends on it: the direct solution shares it evenly,
+// and depends on nothing else.
+bool slide_together(std::span<const Row> rows)
+{
+    constexpr std::size_t determined = 3; // contacts of one body in a plane
+    return rows.size() > determined &&
+           std::ranges::any_of(rows, [](const Row& row) { return !row.slip.isZero(0); });
+}
+
+bool share_evenly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
+{
+    keep_impulses(rows, work);
+    guess_states(rows, bodies, work);
+    load_all_that_slide(rows, bodies, work);
+    work.shift = large_shift;
+    solve_directly(rows, bodies, work);
+    work.shift = small_shift;
+    if (residual(rows, bodies) <= solved_speed * work.unit) {
+        return true;
+    }
+    set_impulses(rows, work.start, bodies);
+    return false;
 }
 
 // Direct solutions and sweeps take turns: the sweeps find which contacts stick, slide and open,
@@ -112,6 +142,27 @@ Turns turns_for(std::span<const Row> rows, const Effort& effort, double enough)
     return {effort.direct_tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
 }
 
+// `part`: that may be left of the largest change of speed that is asked for.
+double solve_rows(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                  const Effort& effort, double part)
+{
+    const double asked = change_asked(rows);
+    drop_bad_guess(rows, bodies, work);
+    const double enough = std::max(part * asked, solved_speed * work.unit);
+    if (cold(rows)) {
+        gauss_seidel(rows, bodies, {sweeps_at_once, enough});
+    }
+    return solve_in_turns(rows, bodies, work, turns_for(rows, effort, enough));
+}
+
+// The contacts of one body.
+double solve_alone(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                   const Effort& effort)
+{
+    const double change = gauss_seidel(rows, bodies, {few_sweeps, settled_speed * work.unit});
+    return change <= solved_speed * work.unit ? change : solve_rows(rows, bodies, work, effort, 0);
+}
+
 } // namespace
 
 double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
@@ -121,21 +172,17 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
         gauss_seidel(rows, bodies, {1, 0});
         return 0;
     }
-    const double solved = solved_speed * work.unit;
-    const bool alone = rows.size() <= few_contacts && one_body(rows, bodies);
-    if (alone) {
-        const double change = gauss_seidel(rows, bodies, {few_sweeps, settled_speed * work.unit});
-        if (change <= solved) {
-            return change;
-        }
+    if (rows.size() > few_contacts || !one_body(rows, bodies)) {
+        return solve_rows(rows, bodies, work, effort, effort.enough);
     }
-    const double asked = change_asked(rows);
-    drop_bad_guess(rows, bodies, work);
-    const double enough = alone ? solved : std::max(effort.enough * asked, solved);
-    if (cold(rows)) {
-        gauss_seidel(rows, bodies, {sweeps_at_once, enough});
+    if (!slide_together(rows)) {
+        return solve_alone(rows, bodies, work, effort);
     }
-    return solve_in_turns(rows, bodies, work, turns_for(rows, effort, enough));
+    if (share_evenly(rows, bodies, work)) {
+        return residual(rows, bodies);
+    }
+    const double left = solve_alone(rows, bodies, work, effort);
+    return share_evenly(rows, bodies, work) ? residual(rows, bodies) : left;
 }
 
 } // namespace hyoryu

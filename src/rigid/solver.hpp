@@ -11,12 +11,6 @@
 
 namespace hyoryu {
 
-/// Velocity of the centre of mass and spin of a body.
-struct Twist {
-    Vec3 v{0, 0, 0};     // [m/s]
-    Vec3 omega{0, 0, 0}; // [rad/s]
-};
-
 /// An unknown impulse of the direct solution: the velocities (v, omega) that a unit of it gives to
 /// the two bodies of its contact, and what its equation sees of theirs.
 struct Unknown {
@@ -33,6 +27,11 @@ struct BlockWork {
     std::vector<Vec6> velocities;           // by place
     BlockMatrix matrix;
 };
+
+/// Shifts of piles, whose matrices are far from regular, and of the few contacts of one face, where
+/// the load is shared to eleven digits.
+inline constexpr double small_shift = 1e-8;
+inline constexpr double large_shift = 1e-5;
 
 /// Scratch of the solvers, kept between calls.
 struct SolverWork {
@@ -56,6 +55,9 @@ struct SolverWork {
     std::vector<int> moved;        // bodies that are not held, sorted
     std::vector<Twist> velocities; // theirs after the last sweep
     double unit = 1;               // of the speeds that pass for solved [m/s]
+    // Shift of the diagonal that makes the direct problem regular, as a part of its largest entry;
+    // the round-off in how redundant contacts share their load is that of the numbers over this.
+    double shift = small_shift;
     double updates = 0; // of rows, since this was set to zero: what solves cost, on any machine
 };
 
@@ -95,6 +97,9 @@ double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sw
 bool cold(std::span<const Row> rows);
 /// The states that impulses and velocities show; all stick if there are no impulses yet.
 void guess_states(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
+/// Lets open contacts slide at first, so that they may take a share of the load.
+void load_all_that_slide(std::span<const Row> rows, const std::vector<Response>& bodies,
+                         SolverWork& work);
 /// From the states in `work`; false if they did not settle.
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
 /// Prepares `solve_by_bodies` for the rows, whatever their states.

@@ -24,6 +24,14 @@ inline bool is_worth_locating(const ContactMemory& memory)
 /// energy.
 enum class Arms { ahead, now };
 
+/// The slip that friction opposes: that at the end of the sub-step, which holds wherever a contact
+/// may stick; or, where contacts slide all through it, the mean of that at its start and its end,
+/// which is of second order where the direction turns.
+enum class Slip { mean, end };
+
+/// Sliding slower than this has no direction that is worth following [m/s, with a unit of 1 m].
+inline constexpr double no_slip = 1e-4;
+
 /// How a sub-step treats a cluster.
 struct SubStep {
     const Cluster& cluster;
@@ -35,6 +43,7 @@ struct SubStep {
     Effort contact_effort{};
     Arms arms = Arms::ahead;
     double no_gap = 1e-12; // left alone by the projection: the noise of positions [units]
+    Slip slip = Slip::mean;
 };
 
 /// Short enough that no body of the cluster turns too far for the scheme, and not longer than
