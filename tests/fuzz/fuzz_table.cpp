@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const testing::Scratch scratch;
     const auto file = scratch.put("table.csv", data, size);
     constexpr std::array<NumberColumn, 4> all{{{"time", "s"}, {"x", "m"}, {"y", "m"}, {"z", "m"}}};
-    for (const std::span<const NumberColumn> columns : {std::span(all), std::span(all).last<3>()}) {
+    using Columns = std::span<const NumberColumn>;
+    for (const Columns columns : {Columns(all), Columns(all).last(3)}) {
         const NumberTable table = read_number_table(file, columns);
         const bool whole = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
             return row.size() == columns.size();
