@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// What is checked where a case enters, whatever it describes: its syntax, its files, its names and
+// the magnitude of its numbers.
+#include "test_case_file_support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace hyoryu {
+
+TEST(CaseFileEntry, SyntaxIsToldWithItsPlace)
+{
+    const auto twice = mistakes("seed = 1\nseed = 2\n");
+    ASSERT_EQ(twice.size(), 1u);
+    EXPECT_EQ(twice[0].line, 2);
+    EXPECT_NE(twice[0].what.find("stands twice"), std::string::npos);
+    EXPECT_EQ(mistakes("a = [1,\n").size(), 1u);
+    EXPECT_EQ(mistakes("a = 1e999\n").size(), 1u);
+    EXPECT_EQ(mistakes("a = 99999999999999999999\n").size(), 1u);
+}
+
+TEST(CaseFileEntry, HostileFilesAreRefused)
+{
+    std::string dots = "a";
+    for (int n = 0; n < 200000; ++n) {
+        dots += ".a";
+    }
+    EXPECT_EQ(mistakes(dots + " = 1\n").size(), 1u);
+    EXPECT_EQ(mistakes("[" + dots + "]\n").size(), 1u);
+    EXPECT_EQ(mistakes("a = " + std::string(100000, '[')).size(), 1u);
+    EXPECT_EQ(mistakes(std::string("\x7f"
+                                   "ELF\x02\0\x01\xff\xfe",
+                                   9))
+                  .size(),
+              1u);
+    EXPECT_EQ(mistakes(std::string(1000, '\0')).size(), 1u);
+    std::string many;
+    for (int n = 0; n < 500; ++n) {
+        many += "key" + std::to_string(n) + " = 1\n";
+    }
+    EXPECT_EQ(mistakes(many).size(), 101u);
+}
+
+TEST(CaseFileEntry, FilesThatCannotBeReadAreNamed)
+{
+    EXPECT_THROW(read_case("no_such_case.toml"), CaseError);
+    EXPECT_THROW(read_case(testing::TempDir()), CaseError);
+    const auto large = std::filesystem::path(testing::TempDir()) / "hyoryu_large.toml";
+    std::ofstream(large) << "a";
+    std::filesystem::resize_file(large, std::uintmax_t{100} << 20);
+    try {
+        read_case(large);
+        FAIL();
+    } catch (const CaseError& error) {
+        EXPECT_EQ(error.diagnostics()[0].file, large.string());
+    }
+    std::filesystem::remove(large);
+}
+
+// E2: every key that names a file, with what is none. A device has no end, a pipe may have no
+// writer: neither may be opened.
+TEST(CaseFileEntry, NoReaderTakesWhatIsNoFile)
+{
+    const std::string pipe = testing::TempDir() + "/hyoryu_pipe_" + std::to_string(getpid());
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const std::string body = "[[body]]\ndensity = 500\nposition = [0, 0, 5]\n";
+    const std::string mesh = "shape = \"mesh\"\nposition = [0, 0, 5]\nfile = ";
+    const std::vector<std::array<std::string, 2>> keys = {
+        {"body[0].file", body + "shape = \"mesh\"\nfile = "},
+        {"body[0].file", body + "shape = \"particles\"\nfile = "},
+        {"wall[0].file", "[[wall]]\n" + mesh},
+        {"fluid.block[1].file", "[[fluid.block]]\n" + mesh},
+        {"wall[0].motion.table", "[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = "}};
+    const std::vector<std::array<std::string, 2>> files = {{"", "is empty"},
+                                                           {".", "is a folder"},
+                                                           {"/", "is a folder"},
+                                                           {"/dev/zero", "is a device"},
+                                                           {pipe, "is a pipe"},
+                                                           {"none.stl", "does not exist"},
+                                                           {"a\\u0000b", "control"},
+                                                           {"a\\u001bb", "control"},
+                                                           {"none/none.stl", "does not exist"}};
+    for (const auto& [key, head] : keys) {
+        for (const auto& [file, what] : files) {
+            SCOPED_TRACE(key + " = " + file);
+            const auto all = mistakes(short_case + head + "\"" + file + "\"\n");
+            const Diagnostic d = mistake_at(all, key);
+            EXPECT_NE(d.what.find(what), std::string::npos) << to_string(d);
+        }
+    }
+    std::filesystem::remove(pipe);
+}
+
+// E3, E9: one rule wherever a name enters.
+TEST(CaseFileEntry, NamesOfEverythingFollowOneRule)
+{
+    const std::string sphere = "[[body]]\nshape = \"sphere\"\nposition = [0, 0, 5]\n";
+    const std::string gauge = "[[gauge]]\ntype = \"front\"\nname = ";
+    const std::vector<std::array<std::string, 2>> keys = {
+        {"body[0].name", sphere + "radius = 1\nmass = 1\nname = "},
+        {"body[0].material", sphere + "radius = 1\nmass = 1\nmaterial = "},
+        {"wall[0].name", "[[wall]]\nshape = \"plane\"\nname = "},
+        {"wall[0].material", "[[wall]]\nshape = \"plane\"\nmaterial = "},
+        {"gauge[0].name", gauge}};
+    const std::vector<std::string> bad = {"x/L=0.5",
+                                          ".",
+                                          "..",
+                                          "=1+1",
+                                          "+a",
+                                          "-a",
+                                          "@a",
+                                          " a",
+                                          "a ",
+                                          "a,b",
+                                          "a;b",
+                                          "a#b",
+                                          "a\\\\b",
+                                          "a\\\"b",
+                                          "a\\tb",
+                                          "a\\u001b[31m",
+                                          "a\\u007f",
+                                          "a\\u009bm",
+                                          std::string(101, 'a')};
+    const std::vector<std::string> good = {"a",        "a b", "a.b-c_d",
+                                           "Übergang", "x=1", std::string(100, 'a')};
+    for (const auto& [key, head] : keys) {
+        for (const std::string& name : bad) {
+            SCOPED_TRACE(key + " = " + name);
+            const Diagnostic d =
+                mistake_at(mistakes(short_case + head + "\"" + name + "\"\n"), key);
+            EXPECT_NE(d.what.find("is no name"), std::string::npos) << to_string(d);
+        }
+        for (const std::string& name : good) {
+            SCOPED_TRACE(key + " = " + name);
+            const std::string text = short_case + head + "\"" + name + "\"\n";
+            EXPECT_TRUE(std::ranges::none_of(mistakes(text),
+                                             [&](const Diagnostic& d) { return d.key == key; }));
+        }
+    }
+    const Diagnostic time =
+        mistake_at(mistakes(short_case + gauge + "\"time\"\n"), "gauge[0].name");
+    EXPECT_NE(time.what.find("first column"), std::string::npos) << to_string(time);
+    for (const std::string& title : {std::string("a\\u001b[31m"), std::string("=1+1")}) {
+        mistake_at(mistakes("title = \"" + title + "\"\n" + short_case), "title");
+    }
+}
+
+// E8: coordinates and speeds that are no place on Earth.
+TEST(CaseFileEntry, MagnitudesAreBoundedByTheirUnit)
+{
+    const std::string ball = "[[body]]\nshape = \"sphere\"\nradius = 1\ndensity = 500\n";
+    const std::vector<std::array<std::string, 3>> all = {
+        {ball + "position = [", "0, 0, 5]", "body[0].position[0]"},
+        {ball + "position = [0, 0, 5]\nvelocity = [", "0, 0, 0]", "body[0].velocity[0]"},
+        {"[[wall]]\nshape = \"plane\"\npoint = [", "0, 0, 0]", "wall[0].point[0]"},
+        {"[[wall]]\nshape = \"sphere\"\nposition = [0, 0, 0]\nradius = ", "1", "wall[0].radius"},
+        {"[[wall]]\nshape = \"plane\"\n[wall.motion]\nvelocity = [", "0, 0, 0]",
+         "wall[0].motion.velocity[0]"}};
+    for (const auto& [head, good, key] : all) {
+        for (const std::string& value : {std::string("1e300"), std::string("1e12")}) {
+            const std::string rest = good.substr(std::min(good.find(','), good.size()));
+            const Diagnostic d = mistake_at(mistakes(short_case + head + value + rest + "\n"), key);
+            EXPECT_NE(d.what.find("is out of range, expected at most"), std::string::npos)
+                << key << to_string(d);
+        }
+        EXPECT_EQ(mistake_at(mistakes(short_case + head + good + "\n"), key).key, "");
+    }
+}
+
+// E11: mistakes of syntax in words of ours, at the line, with what to write.
+TEST(CaseFileEntry, SyntaxIsToldInPlainWordsAtItsLine)
+{
+    const std::vector<std::array<std::string, 3>> all = {
+        {"end = 0,25", "decimal point, not a comma", "write end = 0.25"},
+        {"end = 1.0 s", "must stand in quotes", "write end = \"1.0 s\""},
+        {"end = 5min", "must stand in quotes", "write end = \"5 min\""},
+        {"end = .5", "needs a digit", "write end = 0.5"},
+        {"end = 5.", "needs a digit", "write end = 5.0"},
+        {"end = soon", "a text must stand in quotes", "write end = \"soon\""},
+        {"end = True", "small letters", "write end = true"},
+        {"end = “1”", "typographic", "\""},
+        {"end 1.0", "expected `=`", "key = value"},
+        {"end =", "has no value", "key = value"},
+        {"end = [1, 2", "list is not closed", "]"},
+        {"end = \"abc", "text is not closed", "quote"},
+        {"end = 'abc", "text is not closed", "quote"},
+        {"end = \"a\\q\"", "backslash", "two"},
+        {"end = 1.2.3", "number is not understood", "0.25"},
+        {"end = 01", "begin with a zero", ""},
+        {"end = {a = 1", "in braces", "{ key = value"},
+        {"[tim", "header of a table", "[name]"},
+        {"[time]", "\"time\" stands twice", "one of them"},
+        {"end = 1\nend = 2", "\"end\" stands twice", "one of them"},
+        {"= 3", "expected a key", "quotes"}};
+    for (const auto& [line, what, hint] : all) {
+        SCOPED_TRACE(line);
+        const auto found = mistakes("[time]\n" + line + "\n");
+        ASSERT_EQ(found.size(), 1U);
+        const Diagnostic& d = found.front();
+        EXPECT_NE(d.what.find(what), std::string::npos) << to_string(d);
+        EXPECT_NE(d.hint.find(hint), std::string::npos) << to_string(d);
+        EXPECT_EQ(d.what.find("parsing"), std::string::npos) << to_string(d);
+        EXPECT_TRUE(d.line == 2 || d.line == 3) << to_string(d);
+        EXPECT_NE(to_string(d).find('^'), std::string::npos);
+    }
+}
+
+} // namespace hyoryu
