@@ -42,7 +42,7 @@ json read_json(const fs::path& file)
     }
     json value = json::parse(bytes_of_file(file), nullptr, false);
     if (!value.is_object()) {
-        throw IoError(fmt::format("`{}` is damaged: it is no JSON object", file.string()));
+        throw IoError(fmt::format("`{}` is damaged: it is not a JSON object", file.string()));
     }
     return value;
 }

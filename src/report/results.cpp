@@ -26,7 +26,7 @@ ordered_json read_json(const fs::path& file)
 {
     ordered_json value = ordered_json::parse(read_text(file), nullptr, false);
     if (!value.is_object()) {
-        throw IoError(fmt::format("`{}` is damaged: it is no JSON object", file.string()));
+        throw IoError(fmt::format("`{}` is damaged: it is not a JSON object", file.string()));
     }
     return value;
 }

@@ -16,7 +16,7 @@ struct KeyDifference {
 };
 
 /// The differences of two cases as `to_toml` writes them, in the order of their keys. Throws
-/// CaseError if one is no TOML.
+/// CaseError if one is not valid TOML.
 std::vector<KeyDifference> case_differences(const std::string& before, const std::string& after);
 
 /// Whether a run may go on with another value of the key: title, end, what is written and when,
