@@ -44,6 +44,9 @@ constexpr std::array measures{
     MeasureName{"largest_error", Measure::largest_error},
 };
 
+constexpr std::array<std::string_view, 5> against_names{"experiment", "analytic", "program",
+                                                        "conservation", "itself"};
+
 Measure read_measure(Section& check)
 {
     check.require("measure");
@@ -137,7 +140,42 @@ void find_same(Section& section, const Check& check, const Benchmark& benchmark)
     }
 }
 
-Check read_check(Section& section, const Benchmark& benchmark)
+/// What the expected number comes from.
+std::optional<Against> read_against(Section& section, std::optional<Against> fallback)
+{
+    const std::string name = section.text("against");
+    if (!section.has("against")) {
+        return fallback;
+    }
+    const auto against = against_of(name);
+    if (!against) {
+        const std::string near = did_you_mean(name, against_names);
+        section.error("against", fmt::format("unknown \"{}\"", name),
+                      near.empty() ? "there are: " + quoted_list(against_names) : near);
+    }
+    return against;
+}
+
+/// Why it is known to fail, where, and how far it may be off there.
+void read_known_failure(Section& section, const std::vector<BenchmarkRun>& runs, Check& check)
+{
+    check.xfail = section.text("xfail");
+    check.xfail_runs = section.has("xfail_runs") ? read_patterns(section, "xfail_runs", runs)
+                                                 : std::vector<std::string>{"*"};
+    check.xfail_within = section.expression("xfail_within");
+    for (const char* key : {"xfail_runs", "xfail_within"}) {
+        if (section.has(key) && check.xfail.empty()) {
+            section.error(key, "has no meaning without `xfail`");
+        }
+    }
+    if (!check.xfail.empty() && !section.has("xfail_within")) {
+        section.error("xfail_within",
+                      "is missing: how far may it be off what is expected before it fails?",
+                      "give a distance in the unit of the value");
+    }
+}
+
+Check read_check(Section& section, const Benchmark& benchmark, std::optional<Against> against)
 {
     const std::vector<BenchmarkRun>& runs = benchmark.runs;
     Check check;
@@ -151,12 +189,8 @@ Check read_check(Section& section, const Benchmark& benchmark)
     check.quantity = read_quantity(section);
     read_expectation(section, check);
     read_tolerance(section, check);
-    check.xfail = section.text("xfail");
-    check.xfail_runs = section.has("xfail_runs") ? read_patterns(section, "xfail_runs", runs)
-                                                 : std::vector<std::string>{"*"};
-    if (section.has("xfail_runs") && check.xfail.empty()) {
-        section.error("xfail_runs", "has no meaning without `xfail`");
-    }
+    read_known_failure(section, runs, check);
+    check.against = read_against(section, check.same_as.empty() ? against : Against::itself);
     try {
         if (!check.same_as.empty()) {
             find_same(section, check, benchmark);
@@ -199,6 +233,19 @@ Quantity read_quantity(Section& check)
         check.error("level", "is missing: the measure \"crossing\" needs it");
     }
     return quantity;
+}
+
+std::string to_string(Against against)
+{
+    return std::string(against_names[static_cast<std::size_t>(against)]);
+}
+
+std::optional<Against> against_of(const std::string& name)
+{
+    const auto* at = std::ranges::find(against_names, name);
+    return at == against_names.end()
+               ? std::nullopt
+               : std::optional(static_cast<Against>(at - against_names.begin()));
 }
 
 bool is_error_measure(Measure measure)
@@ -257,8 +304,9 @@ Series read_series(Section& section, std::string_view key)
 std::vector<Check> read_checks(Section& root, const Benchmark& benchmark)
 {
     std::vector<Check> checks;
+    const std::optional<Against> against = read_against(root, std::nullopt);
     for (Section& section : root.tables("check")) {
-        checks.push_back(read_check(section, benchmark));
+        checks.push_back(read_check(section, benchmark, against));
         const auto same = [&](const Check& other) { return other.name == checks.back().name; };
         if (std::find_if(checks.begin(), checks.end() - 1, same) != checks.end() - 1) {
             section.error("name", fmt::format("the check \"{}\" stands twice", checks.back().name));

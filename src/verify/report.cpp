@@ -61,6 +61,8 @@ ordered_json json_of(const CheckResult& check)
             {"expected", check.expected},
             {"got", check.got},
             {"allowed", check.allowed},
+            {"known_within", check.known_within},
+            {"against", check.against ? ordered_json(to_string(*check.against)) : ordered_json()},
             {"because", check.because},
             {"note", check.note}};
 }
@@ -228,6 +230,25 @@ std::string summary_line(const Tally& tally)
     return line;
 }
 
+std::string against_line(const Tally& tally)
+{
+    constexpr std::array<const char*, 5> words{"an experiment", "an analytic solution",
+                                               "another program", "a conservation law",
+                                               "the program itself"};
+    std::string line = "Checks held against";
+    const auto add = [&](const char* what, const Held& held) {
+        line += fmt::format("{} {}: {} ({} pass)", line.ends_with("against") ? "" : ",", what,
+                            held.judged, held.pass);
+    };
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        add(words[k], tally.against[k]);
+    }
+    if (tally.unstated.judged > 0) {
+        add("what their file does not say", tally.unstated);
+    }
+    return line;
+}
+
 std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info)
 {
     const Tally count = tally(results);
@@ -241,6 +262,10 @@ std::string verify_json(const std::vector<BenchmarkResult>& results, const Verif
     json["failed"] = count.fail + count.xpass;
     json["known_to_fail"] = count.xfail;
     json["measured"] = count.measured;
+    for (std::size_t k = 0; k < count.against.size(); ++k) {
+        json["against"][to_string(static_cast<Against>(k))] = {
+            {"judged", count.against[k].judged}, {"passed", count.against[k].pass}};
+    }
     json["cases"] = ordered_json::array();
     for (const BenchmarkResult& result : results) {
         ordered_json runs = ordered_json::array();
@@ -261,9 +286,9 @@ std::string verify_markdown(const std::vector<BenchmarkResult>& results, const V
                             const std::map<std::string, std::vector<std::string>>& figures)
 {
     std::string text = fmt::format(
-        "# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: **{}**.\n\n",
+        "# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: **{}**. {}.\n\n",
         info.version, info.commit, info.build, to_string(info.tier), info.threads,
-        info.wall_seconds, summary_line(tally(results)));
+        info.wall_seconds, summary_line(tally(results)), against_line(tally(results)));
     text += markdown_overview(results);
     for (const BenchmarkResult& result : results) {
         text += markdown_section(result);

@@ -77,26 +77,72 @@ void take(const Check& check, MadeRun& made, MadeRun* other, CheckResult& result
                                              : evaluate(check.tolerance, made.scope);
 }
 
-bool is_good(const CheckResult& result)
+/// How far it is off, in the unit of the value; not positive within a bound. NaN if nothing could
+/// be measured.
+double distance_off(const CheckResult& result)
 {
-    // A NaN is never good: each comparison with it is false.
     switch (result.comparison) {
     case Comparison::at_most:
-        return result.got <= result.expected;
+        return result.got - result.expected;
     case Comparison::at_least:
-        return result.got >= result.expected;
+        return result.expected - result.got;
     case Comparison::equal:
         break;
     }
-    return std::abs(result.got - result.expected) <= result.allowed;
+    return std::abs(result.got - result.expected);
 }
 
-Verdict verdict_of(bool good, bool known_to_fail)
+bool is_good(const CheckResult& result)
 {
-    if (known_to_fail) {
-        return good ? Verdict::xpass : Verdict::xfail;
+    // A NaN is never good: each comparison with it is false.
+    return distance_off(result) <=
+           (result.comparison == Comparison::equal ? result.allowed : 0.0);
+}
+
+/// "off by 0.021 (4.1 %)", by the numbers of this run.
+std::string distance_text(const CheckResult& result)
+{
+    const double off = distance_off(result);
+    std::string text = fmt::format("off by {:.3g}", off);
+    if (result.expected != 0) {
+        text += fmt::format(" ({:.2g} %)", 100 * off / std::abs(result.expected));
     }
-    return good ? Verdict::pass : Verdict::fail;
+    return text;
+}
+
+/// The verdict of a check that is known to fail, and the note that says by how much it does.
+void judge_known_failure(const Check& check, const Scope& scope, CheckResult& result)
+{
+    result.known_within = evaluate(check.xfail_within, scope);
+    if (is_good(result)) {
+        result.verdict = Verdict::xpass;
+        result.note = fmt::format("passes now, take away its xfail: {}", check.xfail);
+        return;
+    }
+    const bool within = distance_off(result) <= result.known_within;
+    result.verdict = within ? Verdict::xfail : Verdict::fail;
+    if (result.note.empty()) {
+        result.note = fmt::format("{}, {} {:.3g}: {}", distance_text(result),
+                                  within ? "known up to" : "MORE THAN THE KNOWN",
+                                  result.known_within, check.xfail);
+    }
+}
+
+/// What was measured, with its verdict in that run.
+CheckResult verdict_on(const Check& check, const MadeRun& made, const MadeRun* other,
+                       CheckResult result)
+{
+    const bool is_other = other != nullptr && other->run.name == made.run.name;
+    if (is_other || !matches(check.judged, made.run.name)) {
+        result.verdict = Verdict::measured;
+        return result;
+    }
+    if (!check.xfail.empty() && matches(check.xfail_runs, made.run.name)) {
+        judge_known_failure(check, made.scope, result);
+    } else {
+        result.verdict = is_good(result) ? Verdict::pass : Verdict::fail;
+    }
+    return result;
 }
 
 } // namespace
@@ -142,30 +188,19 @@ bool counts_as_failure(Verdict verdict)
 
 CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
 {
-    CheckResult result{
-        .check = check.name, .comparison = check.comparison, .got = none, .because = check.because};
+    CheckResult result{.check = check.name,
+                       .comparison = check.comparison,
+                       .got = none,
+                       .because = check.because,
+                       .against = check.against};
     // A check that cannot be made as it is written is no known failure.
     try {
         take(check, made, other, result);
+        return verdict_on(check, made, other, result);
     } catch (const FormulaError& fault) {
         result.note = fault.what();
-        return result;
     } catch (const IoError& fault) { // the run did not write the file that the check asks for
         result.note = fault.what();
-        return result;
-    }
-    const bool is_other = other != nullptr && other->run.name == made.run.name;
-    if (is_other || !matches(check.judged, made.run.name)) {
-        result.verdict = Verdict::measured;
-        return result;
-    }
-    const bool known_to_fail = !check.xfail.empty() && matches(check.xfail_runs, made.run.name);
-    result.verdict = verdict_of(is_good(result), known_to_fail);
-    if (result.verdict == Verdict::xfail && result.note.empty()) {
-        result.note = check.xfail;
-    }
-    if (result.verdict == Verdict::xpass) {
-        result.note = fmt::format("passes now, take away its xfail: {}", check.xfail);
     }
     return result;
 }
@@ -181,7 +216,8 @@ CheckResult unmade(const Check& check, const std::string& error)
             .got = none,
             .allowed = none,
             .note = error.empty() ? "the run did not stop" : "the run stopped: " + error,
-            .because = check.because};
+            .because = check.because,
+            .against = check.against};
 }
 
 // The run that the check names, opened once; null where it names none.
@@ -209,7 +245,9 @@ CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
                        .allowed = none,
                        .note = error.empty() ? "it came to its end" : error,
                        .because = fmt::format("\"{}\"", run.stops)};
-    result.verdict = verdict_of(error.find(run.stops) != std::string::npos, false);
+    result.against = Against::itself;
+    result.verdict =
+        error.find(run.stops) != std::string::npos ? Verdict::pass : Verdict::fail;
     return result;
 }
 
@@ -251,6 +289,13 @@ Tally tally(const std::vector<BenchmarkResult>& results)
             // A run without checks still fails if it stopped.
             count.fail += run.checks.empty() && !run.error.empty() ? 1 : 0;
             for (const CheckResult& check : run.checks) {
+                if (check.verdict != Verdict::measured) {
+                    Held& held = check.against
+                                     ? count.against[static_cast<std::size_t>(*check.against)]
+                                     : count.unstated;
+                    held.judged += 1;
+                    held.pass += check.verdict == Verdict::pass ? 1 : 0;
+                }
                 count.pass += check.verdict == Verdict::pass ? 1 : 0;
                 count.fail += check.verdict == Verdict::fail ? 1 : 0;
                 count.xfail += check.verdict == Verdict::xfail ? 1 : 0;

@@ -51,6 +51,37 @@ TEST_F(BenchmarkFiles, AGridMakesEveryCombinationInTheOrderOfTheFile)
     EXPECT_EQ(scope_of(benchmark, benchmark.runs[3]).numbers.at("n"), 2);
 }
 
+TEST_F(BenchmarkFiles, ACheckSaysWhatItIsHeldAgainst)
+{
+    const std::string other = "[[check]]\nname = \"y\"\nvalue = \"x\"\nmeasure = \"last\"\n"
+                              "at_most = 1\nbecause = \"a test\"\nagainst = \"conservation\"\n";
+    const Benchmark stated = read(head + "against = \"experiment\"\n" + check + other);
+    EXPECT_EQ(stated.checks[0].against, Against::experiment);
+    EXPECT_EQ(stated.checks[1].against, Against::conservation);
+    EXPECT_EQ(read(head + check).checks[0].against, std::nullopt);
+    EXPECT_EQ(mistake(head + check + "against = \"experimnt\"\n"),
+              "11:check[0].against: unknown \"experimnt\" (did you mean \"experiment\"?)");
+}
+
+TEST_F(BenchmarkFiles, AKnownFailureNeedsABound)
+{
+    EXPECT_EQ(mistake(head + check + "xfail = \"why\"\n"),
+              "4:check[0].xfail_within: is missing: how far may it be off what is expected before "
+              "it fails? (give a distance in the unit of the value)");
+    EXPECT_EQ(mistake(head + check + "xfail_within = 2\n"),
+              "11:check[0].xfail_within: has no meaning without `xfail` ()");
+    EXPECT_EQ(read(head + check + "xfail = \"why\"\nxfail_within = 2\n").checks[0].xfail_within, "2");
+}
+
+TEST_F(BenchmarkFiles, EachCheckOfTheShippedCasesSaysWhatItIsHeldAgainst)
+{
+    for (const Benchmark& benchmark : read_benchmarks(std::string(HYORYU_SOURCE_DIR) + "/cases")) {
+        for (const Check& shipped : benchmark.checks) {
+            EXPECT_TRUE(shipped.against) << benchmark.name << ": " << shipped.name;
+        }
+    }
+}
+
 TEST_F(BenchmarkFiles, AParameterReplacesAConstantAndWhatFollowsFromIt)
 {
     const Benchmark benchmark = read(head + "[constants]\nh = 1\ndouble = \"2*h\"\n[[run]]\n"

@@ -42,6 +42,13 @@ protected:
         return judge(check, made);
     }
 
+    /// The same with the parameters of the run as numbers.
+    CheckResult judged_with_numbers(const Check& check) const
+    {
+        MadeRun made{run, scope_of({}, run), {folder, folder}};
+        return judge(check, made);
+    }
+
     const BenchmarkRun run{.name = "a", .set = {}, .tier = Tier::quick, .parameters = {{"n", 2.0}}};
 };
 
@@ -69,15 +76,62 @@ TEST_F(Verdicts, AKnownFailureIsToldAndAStaleOneCountsAsFailure)
 {
     Check known = check("0", "1");
     known.xfail = "not solved yet";
-    EXPECT_EQ(judged(known).verdict, Verdict::xfail);
-    EXPECT_EQ(judged(known).note, "not solved yet");
+    known.xfail_within = "5*n";
+    EXPECT_EQ(judged_with_numbers(known).verdict, Verdict::xfail);
+    EXPECT_EQ(judged_with_numbers(known).note, "off by 10, known up to 10: not solved yet");
     EXPECT_FALSE(counts_as_failure(Verdict::xfail));
     known = check("10", "1");
     known.xfail = "not solved yet";
+    known.xfail_within = "1";
     EXPECT_EQ(judged(known).verdict, Verdict::xpass);
     EXPECT_TRUE(counts_as_failure(Verdict::xpass));
     known.xfail_runs = {"b"};
     EXPECT_EQ(judged(known).verdict, Verdict::pass);
+}
+
+TEST_F(Verdicts, AKnownFailureHasABound)
+{
+    Check known = check("8", "1"); // 10 is measured
+    known.xfail = "not solved yet";
+    known.xfail_within = "1.99";
+    EXPECT_EQ(judged(known).verdict, Verdict::fail);
+    EXPECT_EQ(judged(known).note, "off by 2 (25 %), MORE THAN THE KNOWN 1.99: not solved yet");
+    known.xfail_within = "2";
+    EXPECT_EQ(judged(known).verdict, Verdict::xfail);
+    // Of a bound the distance beyond it counts.
+    for (const auto& [comparison, expected] :
+         {std::pair(Comparison::at_most, "8"), {Comparison::at_least, "12"}}) {
+        Check bound = check(expected, "");
+        bound.comparison = comparison;
+        bound.xfail = "not solved yet";
+        bound.xfail_within = "2";
+        EXPECT_EQ(judged(bound).verdict, Verdict::xfail);
+        bound.xfail_within = "1.99";
+        EXPECT_EQ(judged(bound).verdict, Verdict::fail);
+    }
+    // What cannot be measured, and what is not a number, is beyond every bound.
+    known.xfail_within = "1e9";
+    known.quantity.series.value = "x/0 - x/0";
+    EXPECT_EQ(judged(known).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, AreCountedByWhatTheyAreHeldAgainst)
+{
+    RunResult made{.run = run, .cost = {}, .error = "", .checks = {}};
+    const auto add = [&](std::optional<Against> against, Verdict verdict) {
+        made.checks.push_back({.check = "x", .verdict = verdict, .against = against});
+    };
+    add(Against::experiment, Verdict::pass);
+    add(Against::experiment, Verdict::xfail);
+    add(Against::conservation, Verdict::pass);
+    add(Against::itself, Verdict::measured); // not judged
+    EXPECT_EQ(against_line(tally({{.benchmark = {}, .runs = {made}}})),
+              "Checks held against an experiment: 2 (1 pass), an analytic solution: 0 (0 pass), "
+              "another program: 0 (0 pass), a conservation law: 1 (1 pass), "
+              "the program itself: 0 (0 pass)");
+    add(std::nullopt, Verdict::fail);
+    EXPECT_TRUE(against_line(tally({{.benchmark = {}, .runs = {made}}}))
+                    .ends_with(", what their file does not say: 1 (0 pass)"));
 }
 
 TEST_F(Verdicts, NothingMeasuredIsAFailureAndABrokenCheckIsNoKnownOne)

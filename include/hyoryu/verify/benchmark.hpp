@@ -95,6 +95,18 @@ struct Quantity {
 /// How a measured number is judged against the expected one.
 enum class Comparison { equal, at_most, at_least };
 
+/// Where the expected number of a check comes from.
+enum class Against {
+    experiment,   // measured in a laboratory
+    analytic,     // a closed form, or an ordinary differential equation integrated to round-off
+    program,      // computed by another program
+    conservation, // mass, momentum and energy, which any flow has to keep
+    itself,       // another run of this program, or bounds on its own diagnostics
+};
+/// As `against` of verify.toml names it.
+std::string to_string(Against against);
+std::optional<Against> against_of(const std::string& name);
+
 struct Check {
     std::string name;
     Place place;
@@ -112,6 +124,9 @@ struct Check {
     std::string because;   // where the tolerance comes from
     std::string xfail;     // why it is known to fail; empty: it must pass
     std::vector<std::string> xfail_runs; // patterns
+    /// Expression: how far a known failure may be off what is expected, in the unit of the value.
+    std::string xfail_within;
+    std::optional<Against> against; // nothing: the file does not say
 };
 
 struct Curve {

@@ -32,6 +32,9 @@ std::string terminal_rows(const TableWidths& widths, const std::string& benchmar
 /// "47 passed, 0 failed, 2 known to fail": what counts.
 std::string summary_line(const Tally& tally);
 
+/// "Checks held against an experiment: 12 (8 pass), ...": what the judged numbers come from.
+std::string against_line(const Tally& tally);
+
 std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info);
 /// `figures`: pictures in the same folder, by benchmark.
 std::string verify_markdown(const std::vector<BenchmarkResult>& results, const VerifyInfo& info,

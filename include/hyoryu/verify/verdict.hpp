@@ -4,6 +4,9 @@
 
 #include "hyoryu/verify/measure.hpp"
 
+#include <array>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +15,7 @@ namespace hyoryu {
 enum class Verdict {
     pass,
     fail,  // also a run that stopped with an error
-    xfail, // failed as known
+    xfail, // failed as known, and not by more than the bound of that
     xpass, // passed although it is marked as known to fail: the mark is stale, so it counts as FAIL
     measured, // not judged in this run
 };
@@ -26,8 +29,11 @@ struct CheckResult {
     double expected = 0;
     double got = 0;     // NaN if nothing could be measured
     double allowed = 0; // absolute difference; of no meaning for a bound
+    /// How far a known failure may be off [unit of the value]; NaN where none is known.
+    double known_within = std::numeric_limits<double>::quiet_NaN();
     std::string note;   // why nothing could be measured, or why it is known to fail
     std::string because;
+    std::optional<Against> against;
 };
 
 /// What a run cost.
@@ -71,9 +77,16 @@ CheckResult judge(const Check& check, MadeRun& made, MadeRun* other = nullptr);
 RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
                     const std::filesystem::path& results, const std::string& error);
 
+/// Judged checks by what their expected numbers come from.
+struct Held {
+    int judged = 0, pass = 0;
+};
+
 /// Checks by their verdicts.
 struct Tally {
     int pass = 0, fail = 0, xfail = 0, xpass = 0, measured = 0;
+    std::array<Held, 5> against; // by `Against`
+    Held unstated;               // the file does not say what they are held against
 };
 Tally tally(const std::vector<BenchmarkResult>& results);
 
