@@ -230,9 +230,8 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         if (plan.runs(SurfaceBarrier::name)) {
             sim.barrier = make_wall_barrier(scene);
         }
-        sim.rigid.settings.located_work =
-            scene.contact.locating_share * updates_of_particle *
-            static_cast<double>(sim.plan.counts.fluid);
+        sim.rigid.settings.located_work = scene.contact.locating_share * updates_of_particle *
+                                          static_cast<double>(sim.plan.counts.fluid);
         if (sim.fluid->moving_walls) {
             sim.wall_start = filling.wall;
         }

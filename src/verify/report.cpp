@@ -263,8 +263,8 @@ std::string verify_json(const std::vector<BenchmarkResult>& results, const Verif
     json["known_to_fail"] = count.xfail;
     json["measured"] = count.measured;
     for (std::size_t k = 0; k < count.against.size(); ++k) {
-        json["against"][to_string(static_cast<Against>(k))] = {
-            {"judged", count.against[k].judged}, {"passed", count.against[k].pass}};
+        json["against"][to_string(static_cast<Against>(k))] = {{"judged", count.against[k].judged},
+                                                               {"passed", count.against[k].pass}};
     }
     json["cases"] = ordered_json::array();
     for (const BenchmarkResult& result : results) {
@@ -285,10 +285,11 @@ std::string verify_json(const std::vector<BenchmarkResult>& results, const Verif
 std::string verify_markdown(const std::vector<BenchmarkResult>& results, const VerifyInfo& info,
                             const std::map<std::string, std::vector<std::string>>& figures)
 {
-    std::string text = fmt::format(
-        "# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: **{}**. {}.\n\n",
-        info.version, info.commit, info.build, to_string(info.tier), info.threads,
-        info.wall_seconds, summary_line(tally(results)), against_line(tally(results)));
+    std::string text =
+        fmt::format("# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: "
+                    "**{}**. {}.\n\n",
+                    info.version, info.commit, info.build, to_string(info.tier), info.threads,
+                    info.wall_seconds, summary_line(tally(results)), against_line(tally(results)));
     text += markdown_overview(results);
     for (const BenchmarkResult& result : results) {
         text += markdown_section(result);

@@ -95,8 +95,7 @@ double distance_off(const CheckResult& result)
 bool is_good(const CheckResult& result)
 {
     // A NaN is never good: each comparison with it is false.
-    return distance_off(result) <=
-           (result.comparison == Comparison::equal ? result.allowed : 0.0);
+    return distance_off(result) <= (result.comparison == Comparison::equal ? result.allowed : 0.0);
 }
 
 /// "off by 0.021 (4.1 %)", by the numbers of this run.
@@ -246,8 +245,7 @@ CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
                        .note = error.empty() ? "it came to its end" : error,
                        .because = fmt::format("\"{}\"", run.stops)};
     result.against = Against::itself;
-    result.verdict =
-        error.find(run.stops) != std::string::npos ? Verdict::pass : Verdict::fail;
+    result.verdict = error.find(run.stops) != std::string::npos ? Verdict::pass : Verdict::fail;
     return result;
 }
 

@@ -70,7 +70,8 @@ TEST_F(BenchmarkFiles, AKnownFailureNeedsABound)
               "it fails? (give a distance in the unit of the value)");
     EXPECT_EQ(mistake(head + check + "xfail_within = 2\n"),
               "11:check[0].xfail_within: has no meaning without `xfail` ()");
-    EXPECT_EQ(read(head + check + "xfail = \"why\"\nxfail_within = 2\n").checks[0].xfail_within, "2");
+    EXPECT_EQ(read(head + check + "xfail = \"why\"\nxfail_within = 2\n").checks[0].xfail_within,
+              "2");
 }
 
 TEST_F(BenchmarkFiles, EachCheckOfTheShippedCasesSaysWhatItIsHeldAgainst)

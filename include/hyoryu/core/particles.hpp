@@ -16,9 +16,9 @@ namespace hyoryu {
 
 /// Every field that a column can be made of. A new field is one line here and one in fields.hpp.
 using AllFields = Fields<Position, Velocity, Density, Pressure, Volume, DensityRate, DiffusionRate,
-                         SolidRate, Gap, Cavity, Force, ViscousForce, ShepardSum,
-                         PressureGradient, CrowdingGradient, Moments, MixedMoments, ShiftGradient,
-                         VelocitySum, OffsetSum, Depth, Strain, MixedStrain, TurbulentViscosity>;
+                         SolidRate, Gap, Cavity, Force, ViscousForce, ShepardSum, PressureGradient,
+                         CrowdingGradient, Moments, MixedMoments, ShiftGradient, VelocitySum,
+                         OffsetSum, Depth, Strain, MixedStrain, TurbulentViscosity>;
 
 /// Consecutive rows [begin, end).
 struct Rows {
@@ -146,8 +146,8 @@ public:
     std::span<const std::int32_t> owner() const { return owner_; }
 
     /// Reorders the fluid rows: row k becomes what row `order[k]` was. Rows that `order` leaves out
-    /// are gone, and everything behind moves up. `room` is memory that nobody needs meanwhile, 24 B a
-    /// row; where it is too small, memory is taken.
+    /// are gone, and everything behind moves up. `room` is memory that nobody needs meanwhile, 24 B
+    /// a row; where it is too small, memory is taken.
     void permute_fluid(std::span<const std::int32_t> order, std::span<std::byte> room = {});
 
     std::vector<ColumnInfo> active_columns() const;

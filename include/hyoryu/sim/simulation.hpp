@@ -25,7 +25,7 @@ struct Loads {
 struct Simulation {
     Scene scene;
     Plan plan;
-    std::optional<Fluid> fluid; // none without `[fluid]`: no particles, grids or lists
+    std::optional<Fluid> fluid;         // none without `[fluid]`: no particles, grids or lists
     std::optional<WallBarrier> barrier; // none without fluid or without solids
     Rigid rigid;
     BodyParticles body_particles;

@@ -10,9 +10,9 @@ struct Simulation;
 
 /// Keeps the largest compression of the fluid in the ledger and throws NumericalError that names
 /// the particle or body, what lies around it and the probable cause when the state is not finite, a
-/// density or speed is beyond what a weakly compressible flow can have, a moving wall crushes a body
-/// against something that stands, or solids overlap by more than the inner radius of the thinnest
-/// body.
+/// density or speed is beyond what a weakly compressible flow can have, a moving wall crushes a
+/// body against something that stands, or solids overlap by more than the inner radius of the
+/// thinnest body.
 void watch(Simulation& sim);
 
 /// Throws NumericalError when a run that nothing drives (no moving wall, no acceleration, impulses

@@ -31,7 +31,7 @@ struct CheckResult {
     double allowed = 0; // absolute difference; of no meaning for a bound
     /// How far a known failure may be off [unit of the value]; NaN where none is known.
     double known_within = std::numeric_limits<double>::quiet_NaN();
-    std::string note;   // why nothing could be measured, or why it is known to fail
+    std::string note; // why nothing could be measured, or why it is known to fail
     std::string because;
     std::optional<Against> against;
 };
