@@ -71,7 +71,15 @@ TEST(Coupling, ParticlesMoveWithTheirBody)
 
 // Pair forces are equal and opposite bit for bit. What is left is the rounding of their sums over
 // the neighbours of a particle, a hundred terms, which over a thousand particles is at random.
-class Reaction : public testing::TestWithParam<std::pair<Precision, double>> {};
+struct Closure {
+    Precision precision;
+    double bound; // of the sums over the scale of the forces
+};
+void PrintTo(const Closure& closure, std::ostream* to)
+{
+    *to << name(closure.precision);
+}
+class Reaction : public testing::TestWithParam<Closure> {};
 
 TEST_P(Reaction, TheLoadIsTheReactionOfTheFluid)
 {
@@ -96,8 +104,8 @@ TEST_P(Reaction, TheLoadIsTheReactionOfTheFluid)
 }
 
 INSTANTIATE_TEST_SUITE_P(Coupling, Reaction,
-                         testing::Values(std::pair{Precision::single_precision, 1e-8},
-                                         std::pair{Precision::double_precision, 1e-14}));
+                         testing::Values(Closure{Precision::single_precision, 1e-8},
+                                         Closure{Precision::double_precision, 1e-14}));
 
 TEST(Coupling, FreeFlightTurnsAboutTheCentre)
 {

@@ -4,6 +4,7 @@
 
 #include "hyoryu/fluid/fluid.hpp"
 
+#include <ostream>
 #include <random>
 
 namespace hyoryu {
@@ -22,6 +23,14 @@ struct Choice {
     bool viscosity;
     FormulationKind formulation = FormulationKind::sph;
 };
+
+// How GoogleTest names it.
+inline void PrintTo(const Choice& choice, std::ostream* to)
+{
+    *to << name(choice.set) << ' ' << name(choice.precision)
+        << (choice.formulation == FormulationKind::mps ? " mps" : "")
+        << (choice.diffusion ? " diffusion" : "") << (choice.viscosity ? " viscosity" : "");
+}
 
 // A jittered lattice: wall below z = 0.3, in the middle two bodies that touch, fluid elsewhere.
 inline Fluid make_mixture(const Choice& choice)

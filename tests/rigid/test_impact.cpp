@@ -17,6 +17,10 @@ struct TiltedDrop {
     Vec3 velocity;           // after the first impact
     double omega;            // counter-clockwise in x-z
 };
+void PrintTo(const TiltedDrop& drop, std::ostream* to)
+{
+    *to << "tilt " << drop.tilt << " deg, mu = " << drop.mu;
+}
 
 class Tilted : public testing::TestWithParam<TiltedDrop> {};
 

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <ostream>
 
 namespace hyoryu {
 namespace {
@@ -42,6 +44,11 @@ struct TimberRow {
     double peak;     // of the right end [m]
     double final_x;  // of the right end [m]
 };
+void PrintTo(const TimberRow& row, std::ostream* to)
+{
+    constexpr std::array names{"coupled", "paper", "simultaneous"};
+    *to << names.at(static_cast<std::size_t>(row.law)) << " law, mu = " << row.mu;
+}
 
 class TimberLaw : public testing::TestWithParam<std::tuple<TimberRow, int>> {};
 

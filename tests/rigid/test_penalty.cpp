@@ -55,6 +55,10 @@ struct Reference {
     Vec3 v, omega; // in flight after the first hit, at 0.174 s
     double x, z;   // then
 };
+void PrintTo(const Reference& reference, std::ostream* to)
+{
+    *to << "shifted by " << reference.shift.transpose() << " spacings";
+}
 
 class Lattice : public testing::TestWithParam<Reference> {};
 

@@ -35,6 +35,10 @@ Vec3 right(const Body& body)
 struct Reference {
     double mu, t_d, x_c, omega, peak, final_x;
 };
+void PrintTo(const Reference& exact, std::ostream* to)
+{
+    *to << "mu = " << exact.mu;
+}
 
 class Timber : public testing::TestWithParam<Reference> {};
 
