@@ -29,15 +29,16 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
 {
     const ContactWall& wall = at.geometry.walls[-1 - feature.b];
     const Plane plane = plane_of(wall, feature.f);
-    const PlacedSolid body{at.geometry.solids[feature.a], at.poses[feature.a]};
+    const Solid& solid = at.geometry.solids[feature.a];
+    const SolidPose& pose = at.poses[feature.a];
     Touch touch;
     touch.normal = plane.normal;
     if (feature.kind == FeatureKind::corner_plane) {
-        touch.point = body.pose.x + body.pose.R * body.solid.corners[feature.i];
+        touch.point = pose.x + pose.R * solid.corners[feature.i];
     } else if (feature.kind == FeatureKind::ball_plane) {
-        touch.point = body.pose.x - body.solid.radius * plane.normal;
+        touch.point = pose.x - solid.radius * plane.normal;
     } else {
-        touch.point = low_point(body, feature.i, plane.normal);
+        touch.point = low_point({solid, pose}, feature.i, plane.normal);
     }
     touch.gap = plane.normal.dot(touch.point - plane.point - displacement(wall.motion, at.time));
     return touch;

@@ -39,8 +39,10 @@ Mat3 restricted_inverse(Mat3 inertia, const std::array<bool, 3>& turns)
 // Rotation by `angle` about principal axis k of q, with the body-frame momentum l carried along.
 void turn_about(Quat& q, Vec3& l, int k, double angle)
 {
-    const double c2 = std::cos(angle / 2);
-    const double s2 = std::sin(angle / 2);
+    const double half = angle / 2;
+    const bool small = std::abs(half) < small_turn; // the series to round-off
+    const double c2 = small ? 1 - 0.5 * half * half : std::cos(half);
+    const double s2 = small ? half * (1 - half * half / 6) : std::sin(half);
     Vec3 axis = Vec3::Zero();
     axis[k] = s2;
     q = q * Quat(c2, axis.x(), axis.y(), axis.z());
