@@ -26,9 +26,8 @@ double work_on(const StepContext& context, int k)
     const Vec3 gain = path.v1 - path.v0 - path.h * acceleration(context, k);
     double work = context.rigid.bodies[k].mass.mass * mean.dot(gain);
     if (rotor.free_axes > 0) {
-        const SolidPose end = pose_at(path, rotor, path.h);
         const Vec3 before = inverse_inertia(rotor, path.start.R) * path.L0;
-        const Vec3 after = inverse_inertia(rotor, end.R) * path.L1;
+        const Vec3 after = inverse_inertia(rotor, memory.end[k].R) * path.L1;
         work += 0.5 * (path.L1.dot(after) - path.L0.dot(before)) -
                 0.5 * path.h * context.loads[k].torque.dot(before + after);
     }
@@ -81,9 +80,8 @@ bool gains_energy(const StepContext& context, const SubStep& sub)
     double work = 0;
     for (const int k : sub.cluster.bodies) {
         work += memory.rotors[k].movable ? work_on(context, k) : 0;
-        memory.trial[k] = pose_at(memory.paths[k], memory.rotors[k], sub.h);
     }
-    const Configuration end = configuration(memory, memory.trial, sub.time + sub.h);
+    const Configuration end = configuration(memory, memory.end, sub.time + sub.h);
     double left = gain_left(context, sub);
     for (const Row& row : memory.rows) {
         const Persistent& p = memory.persistent[row.contact];

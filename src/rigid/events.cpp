@@ -62,7 +62,9 @@ private:
     void place(int body, double s)
     {
         if (body >= 0 && memory_.rotors[body].movable) {
-            memory_.trial[body] = pose_at(memory_.paths[body], memory_.rotors[body], s);
+            memory_.trial[body] =
+                s < sub_.h ? pose_at(memory_.paths[body], memory_.rotors[body], s)
+                           : memory_.end[body];
         }
     }
 

@@ -183,10 +183,7 @@ void find_contacts_of_tired(const StepContext& context, const SubStep& sub)
 bool ends_deep(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
-    for (const int k : sub.cluster.bodies) {
-        memory.trial[k] = pose_at(memory.paths[k], memory.rotors[k], sub.h);
-    }
-    const double after = deepest(context, sub, memory.trial, sub.time + sub.h);
+    const double after = deepest(context, sub, memory.end, sub.time + sub.h);
     return after > deep * context.rigid.settings.unit &&
            after > deepest(context, sub, memory.poses, sub.time);
 }

@@ -44,6 +44,7 @@ void prepare(Rigid& rigid)
     memory.paths.resize(n);
     memory.responses.resize(n);
     memory.starts.resize(n);
+    memory.guesses.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         Body& body = rigid.bodies[k];
         memory.poses[k] = pose_of(body.position, body.orientation);

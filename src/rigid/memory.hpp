@@ -41,6 +41,12 @@ struct Deviation {
     double turn = 0;                  // bound on the angle from the start [rad]
 };
 
+/// The velocity and the angular momentum at the end of a path.
+struct PathEnd {
+    Vec3 velocity{0, 0, 0};         // [m/s]
+    Vec3 angular_momentum{0, 0, 0}; // [kg m2/s]
+};
+
 /// A persistent contact of the current sub-step.
 struct Persistent {
     Candidate candidate;
@@ -80,6 +86,7 @@ struct ContactMemory {
     std::vector<Path> paths;
     std::vector<Response> responses;
     std::vector<Twist> starts;          // velocities at the start of the sub-step
+    std::vector<PathEnd> guesses;       // of the planned paths, with the known impulses
     std::vector<int> events;            // located events of this step
     std::vector<Deviation> deviations;  // while a cluster is advanced in groups
     std::vector<int> parents_of_groups; // of the bodies of that cluster

@@ -13,6 +13,8 @@ namespace {
 // Passes of a patch that slides, and the change of where it rubs that needs no other [units].
 constexpr int most_passes = 4;
 constexpr double settled_rub = 1e-8;
+// An end of a path that is guessed as well as this is known: the noise of positions [units].
+constexpr double settled_end = 1e-12;
 
 // Touching contacts that do not fly apart; everything that the event search must not look for is
 // held.
@@ -271,14 +273,10 @@ void set_velocities_before(ContactMemory& memory, const SubStep& sub)
     }
 }
 
-// Whether a contact of a patch slides and rubs elsewhere than in the last pass by more than its
-// round-off: where it rubs follows from the loads, which follow from where it rubs.
+// Whether the contacts of a patch rub elsewhere than in the last pass by more than its round-off:
+// where they rub follows from the loads, which follow from where they rub.
 bool rubs_elsewhere(const ContactMemory& memory)
 {
-    const auto slides = [](const Row& row) { return !row.slip.isZero(0); };
-    if (memory.patches.empty() || std::ranges::none_of(memory.rows, slides)) {
-        return false;
-    }
     const auto point = [](const Persistent& p) { return p.touches.push.point; };
     return std::ranges::any_of(memory.patches, [&](const FrictionPatch& patch) {
         const Persistent& p = memory.persistent[patch.contacts[0]];
@@ -286,6 +284,49 @@ bool rubs_elsewhere(const ContactMemory& memory)
             (1 - patch.rule.scale) * (centre_of(memory.persistent, patch, point) - point(p));
         return (rub - p.touches.push_rub).norm() > settled_rub * memory.geometry.unit;
     });
+}
+
+void guess_ends(ContactMemory& memory, const SubStep& sub)
+{
+    for (const int k : sub.cluster.bodies) {
+        memory.guesses[k] = {memory.paths[k].v1, memory.paths[k].L1};
+    }
+}
+
+// Whether the pass found the ends of the paths where they were guessed, so that another with the
+// arms that it foresees would find the same: what rests or slides steadily needs one pass.
+bool ends_as_guessed(const ContactMemory& memory, const SubStep& sub)
+{
+    const double most = settled_end * memory.geometry.unit;
+    return std::ranges::all_of(sub.cluster.bodies, [&](int k) {
+        const Path& path = memory.paths[k];
+        const Vec3 turn =
+            memory.responses[k].inverse_inertia * (path.L1 - memory.guesses[k].angular_momentum);
+        const double off = (path.v1 - memory.guesses[k].velocity).norm() +
+                           memory.geometry.solids[k].reach * turn.norm();
+        return 0.5 * sub.h * off <= most;
+    });
+}
+
+// Passes with the arms at the middle and the end of the paths, each with the impulses of the one
+// before; false where a contact does not go on till there.
+bool solve_ahead(const StepContext& context, const SubStep& sub)
+{
+    ContactMemory& memory = context.memory;
+    const auto slides = [](const Row& row) { return !row.slip.isZero(0); };
+    add_known_impulses(memory);
+    guess_ends(memory, sub);
+    bool planned = solve_pass(context, sub, sub.h);
+    if (planned && ends_as_guessed(memory, sub) && !rubs_elsewhere(memory)) {
+        return true;
+    }
+    planned = planned && solve_pass(context, sub, sub.h);
+    for (int pass = 2; planned && pass < most_passes && std::ranges::any_of(memory.rows, slides) &&
+                       rubs_elsewhere(memory);
+         ++pass) {
+        planned = solve_pass(context, sub, sub.h);
+    }
+    return planned;
 }
 
 } // namespace
@@ -301,23 +342,16 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     ContactMemory& memory = context.memory;
     plan_free_motion(context, sub);
     choose_persistent(context, sub);
-    if (memory.persistent.empty()) {
-        return;
-    }
-    set_velocities_before(memory, sub);
-    bool planned = false;
-    if (sub.arms == Arms::ahead) {
-        add_known_impulses(memory);
-        planned = solve_pass(context, sub, sub.h) &&
-                  solve_pass(context, sub, sub.h); // with the impulses of the first
-        for (int pass = 2; planned && pass < most_passes && rubs_elsewhere(memory); ++pass) {
-            planned = solve_pass(context, sub, sub.h);
+    if (!memory.persistent.empty()) {
+        set_velocities_before(memory, sub);
+        if (sub.arms == Arms::now || !solve_ahead(context, sub)) {
+            solve_pass(context, sub, 0); // with the arms as they are
         }
+        book_dissipation(context);
     }
-    if (!planned) { // with the arms as they are
-        solve_pass(context, sub, 0);
+    for (const int k : sub.cluster.bodies) {
+        memory.end[k] = pose_at(memory.paths[k], memory.rotors[k], sub.h);
     }
-    book_dissipation(context);
 }
 
 void plan_again(const StepContext& context, const SubStep& sub)

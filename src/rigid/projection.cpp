@@ -128,7 +128,7 @@ void move_to(const StepContext& context, const SubStep& sub, double s)
     for (const int k : sub.cluster.bodies) {
         const Path& path = memory.paths[k];
         Body& body = context.rigid.bodies[k];
-        memory.poses[k] = pose_at(path, memory.rotors[k], s);
+        memory.poses[k] = s < sub.h ? pose_at(path, memory.rotors[k], s) : memory.end[k];
         body.velocity = path.v0 + part * (path.v1 - path.v0);
         body.angular_momentum = path.L0 + part * (path.L1 - path.L0);
     }
