@@ -32,9 +32,6 @@ constexpr int corrections = 6;
 // What the corrections may leave of the right-hand side.
 constexpr double corrected = 1e-13;
 
-// More contacts are solved for by the velocities of their bodies.
-constexpr std::size_t dense_contacts = 8;
-
 // A factorisation takes as long as so many updates of rows as the cube of its unknowns over this.
 constexpr double factored_in_an_update = 250;
 
@@ -199,7 +196,7 @@ bool solve_shifted(SolverWork& work)
 {
     const Index n = work.W.rows();
     const double most = work.W.diagonal().maxCoeff();
-    work.factor.compute(work.W + work.shift * most * Eigen::MatrixXd::Identity(n, n));
+    work.factor.compute(work.W + work.shift * most * DenseMatrix::Identity(n, n));
     work.solution.setZero(n);
     work.left_over = work.rhs;
     const double enough = corrected * work.rhs.lpNorm<Eigen::Infinity>();
@@ -216,7 +213,7 @@ bool solve_shifted(SolverWork& work)
 // The same to the last bit, or the best there is, for ten times the cost.
 void solve_orthogonally(SolverWork& work)
 {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    Eigen::CompleteOrthogonalDecomposition<DenseMatrix> decomposition;
     decomposition.setThreshold(rank_tolerance);
     decomposition.compute(work.W);
     work.solution = decomposition.solve(work.rhs);

@@ -75,7 +75,8 @@ bool slide_together(std::span<const Row> rows)
            std::ranges::any_of(rows, [](const Row& row) { return !row.slip.isZero(0); });
 }
 
-bool share_evenly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
+// What is left, if that is little; infinity if the impulses stay as they were.
+double share_evenly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
     keep_impulses(rows, work);
     guess_states(rows, bodies, work);
@@ -83,11 +84,12 @@ bool share_evenly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork
     work.shift = large_shift;
     solve_directly(rows, bodies, work);
     work.shift = small_shift;
-    if (residual(rows, bodies) <= solved_speed * work.unit) {
-        return true;
+    const double left = residual(rows, bodies);
+    if (left <= solved_speed * work.unit) {
+        return left;
     }
     set_impulses(rows, work.start, bodies);
-    return false;
+    return infinity;
 }
 
 // Direct solutions and sweeps take turns: the sweeps find which contacts stick, slide and open,
@@ -178,11 +180,16 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
     if (!slide_together(rows)) {
         return solve_alone(rows, bodies, work, effort);
     }
-    if (share_evenly(rows, bodies, work)) {
-        return residual(rows, bodies);
+    const double known = residual(rows, bodies);
+    if (known <= settled_speed * work.unit) {
+        return known; // a steady slide, whose load is shared as in the last step
     }
-    const double left = solve_alone(rows, bodies, work, effort);
-    return share_evenly(rows, bodies, work) ? residual(rows, bodies) : left;
+    const double left = share_evenly(rows, bodies, work);
+    if (left < infinity) {
+        return left;
+    }
+    const double left_alone = solve_alone(rows, bodies, work, effort);
+    return std::min(left_alone, share_evenly(rows, bodies, work));
 }
 
 } // namespace hyoryu

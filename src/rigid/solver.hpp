@@ -33,10 +33,16 @@ struct BlockWork {
 inline constexpr double small_shift = 1e-8;
 inline constexpr double large_shift = 1e-5;
 
+/// More contacts are solved for by the velocities of their bodies.
+inline constexpr int dense_contacts = 8;
+/// The matrix of so many, which needs no memory from the heap.
+using DenseMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                                  3 * dense_contacts, 3 * dense_contacts>;
+
 /// Scratch of the solvers, kept between calls.
 struct SolverWork {
-    Eigen::PartialPivLU<Eigen::MatrixXd> factor;
-    Eigen::MatrixXd W;
+    Eigen::PartialPivLU<DenseMatrix> factor;
+    DenseMatrix W;
     Eigen::VectorXd rhs;
     Eigen::VectorXd solution;
     Eigen::VectorXd left_over;
