@@ -15,6 +15,14 @@ constexpr int most_passes = 4;
 constexpr double settled_rub = 1e-8;
 // An end of a path that is guessed as well as this is known: the noise of positions [units].
 constexpr double settled_end = 1e-12;
+// In a pile both are a hundredth of what its solution leaves open.
+constexpr double settled_rub_of_a_pile = 1e-6;
+constexpr double settled_end_of_a_pile = 1e-10;
+
+bool is_pile(const ContactMemory& memory)
+{
+    return memory.persistent.size() > contacts_of_a_pile;
+}
 
 // Touching contacts that do not fly apart; everything that the event search must not look for is
 // held.
@@ -119,10 +127,9 @@ bool slides_through(const ContactMemory& memory, const SubStep& sub, const Row& 
 {
     const Persistent& p = memory.persistent[row.contact];
     const Vec3& n = p.candidate.touch.normal;
-    const bool few = memory.persistent.size() <= contacts_of_a_pile;
     const double slow = no_slip * std::sqrt(memory.geometry.unit);
     // in a plane a slide has one direction until it ends
-    return sub.slip == Slip::mean && ahead > 0 && few && row.cone.size == 3 &&
+    return sub.slip == Slip::mean && ahead > 0 && !is_pile(memory) && row.cone.size == 3 &&
            (p.before - n * n.dot(p.before)).norm() > slow;
 }
 
@@ -277,12 +284,13 @@ void set_velocities_before(ContactMemory& memory, const SubStep& sub)
 // where they rub follows from the loads, which follow from where they rub.
 bool rubs_elsewhere(const ContactMemory& memory)
 {
+    const double settled = is_pile(memory) ? settled_rub_of_a_pile : settled_rub;
     const auto point = [](const Persistent& p) { return p.touches.push.point; };
     return std::ranges::any_of(memory.patches, [&](const FrictionPatch& patch) {
         const Persistent& p = memory.persistent[patch.contacts[0]];
         const Vec3 rub =
             (1 - patch.rule.scale) * (centre_of(memory.persistent, patch, point) - point(p));
-        return (rub - p.touches.push_rub).norm() > settled_rub * memory.geometry.unit;
+        return (rub - p.touches.push_rub).norm() > settled * memory.geometry.unit;
     });
 }
 
@@ -297,7 +305,8 @@ void guess_ends(ContactMemory& memory, const SubStep& sub)
 // arms that it foresees would find the same: what rests or slides steadily needs one pass.
 bool ends_as_guessed(const ContactMemory& memory, const SubStep& sub)
 {
-    const double most = settled_end * memory.geometry.unit;
+    const double most =
+        (is_pile(memory) ? settled_end_of_a_pile : settled_end) * memory.geometry.unit;
     return std::ranges::all_of(sub.cluster.bodies, [&](int k) {
         const Path& path = memory.paths[k];
         const Vec3 turn =

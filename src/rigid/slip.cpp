@@ -15,6 +15,9 @@ namespace {
 constexpr double short_of = 1e-6;
 constexpr double more = 30;
 constexpr int most_tries = 8;
+// Sliding that stops within this part of the sub-step stops at once; what it loses till there tells
+// when other sliding will.
+constexpr double at_once = 1.0 / 256;
 // A rest of sliding of this part of the sub-step is left to the next one.
 constexpr double settled = 1e-4;
 // Round-off of a slip that has stopped, as a part of what it was.
@@ -47,6 +50,14 @@ bool stops(const std::vector<Persistent>& contacts, double slow)
     });
 }
 
+// What stops at once stops by an impulse: there is no time before it.
+void plan_to_the_end(const StepContext& context, SubStep& sub, double whole)
+{
+    sub.slip = Slip::end;
+    sub.h = whole;
+    plan_again(context, sub);
+}
+
 } // namespace
 
 void end_with_slip(const StepContext& context, SubStep& sub)
@@ -57,9 +68,16 @@ void end_with_slip(const StepContext& context, SubStep& sub)
         return;
     }
     const double whole = sub.h;
-    double end = 0.5 * whole;
+    sub.h = at_once * whole;
+    plan_again(context, sub);
+    if (stops(contacts, slow)) {
+        plan_to_the_end(context, sub, whole);
+        return;
+    }
+    double end = extrapolated(contacts, slow, sub.h);
+    bool known = end < whole; // whether `end` is extrapolated
+    end = known ? end : 0.5 * whole;
     double margin = short_of;
-    bool known = false; // whether `end` is extrapolated
     for (int k = 0; k < most_tries; ++k) {
         sub.h = known ? (1 - margin) * end : end;
         plan_again(context, sub);
@@ -80,9 +98,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
             return;
         }
     }
-    sub.slip = Slip::end;
-    sub.h = whole; // it stops at once, by an impulse: there is no time before it
-    plan_again(context, sub);
+    plan_to_the_end(context, sub, whole);
 }
 
 } // namespace hyoryu
