@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace hyoryu {
 
@@ -46,20 +47,47 @@ std::string what_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
     return {};
 }
 
-// Particles that a gauge looks at for one row: all of the fluid from each of its points, and for
-// the level those of solids as well.
+// Particles that a gauge looks at for one row: those within the kernel about each of its points, of
+// the levels of a vertical that are near the surface, or of the layer about a plane.
 double looks_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
 {
-    const auto fluid = static_cast<double>(plan.counts.fluid);
-    if (gauge.type == GaugeType::force) {
-        return 0;
+    if (!plan.fluid) {
+        return 0; // force gauges alone
     }
-    if (gauge.type == GaugeType::elevation) {
-        return static_cast<double>(plan.counts.particles());
+    const double reach = 2 * plan.fluid->h / scene.spacing; // of the kernel, in spacings
+    const int d = scene.dimensions;
+    const double about =
+        d == 2 ? std::numbers::pi * sq(reach) : 4 * std::numbers::pi / 3 * reach * reach * reach;
+    constexpr double levels_of_spacing = 4; // as the readings have it, and the next two
+    constexpr double most_points = 64;
+    constexpr double layer = 4;
+    switch (gauge.type) {
+    case GaugeType::elevation:
+        return levels_of_spacing * 2 * reach * about;
+    case GaugeType::pressure: {
+        const double cell = std::pow(scene.spacing / 2, d - 1);
+        return about *
+               (gauge.area > 0 ? std::clamp(std::ceil(gauge.area / cell), 1.0, most_points) : 1);
     }
-    constexpr double most = 64; // as the readings have it
-    const double cell = std::pow(scene.spacing / 2, scene.dimensions - 1);
-    return fluid * (gauge.area > 0 ? std::clamp(std::ceil(gauge.area / cell), 1.0, most) : 1);
+    case GaugeType::velocity:
+        return about;
+    case GaugeType::flux:
+        return layer * std::pow(static_cast<double>(plan.counts.fluid), (d - 1.0) / d);
+    case GaugeType::front:
+    case GaugeType::force:
+        break;
+    }
+    return 0;
+}
+
+// Where the fluid is now is measured once for all gauges that look for it: as much work as looking
+// at so many of its particles.
+double looks_of_search(const Scene& scene, const Plan& plan)
+{
+    constexpr double share = 0.05;
+    const auto looks = [](const Gauge& gauge) { return gauge.type != GaugeType::force; };
+    return std::ranges::any_of(scene.gauges, looks) ? share * static_cast<double>(plan.counts.fluid)
+                                                    : 0;
 }
 
 bool has_place(const Gauge& gauge)
@@ -90,6 +118,7 @@ void list_gauges(const Scene& scene, Plan& plan)
         plan.gauges.push_back({gauge.name, what_of(scene, plan, gauge), columns});
         plan.gauge_looks += looks_of(scene, plan, gauge);
     }
+    plan.gauge_looks += looks_of_search(scene, plan);
     const double every = std::max(scene.output.gauge_every, plan.first_step);
     plan.gauge_rows = scene.gauges.empty() ? 0 : std::floor(scene.time.end / every) + 1;
 }

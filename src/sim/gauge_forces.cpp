@@ -4,6 +4,8 @@
 
 #include "hyoryu/sim/simulation.hpp"
 
+#include <algorithm>
+
 namespace hyoryu {
 
 namespace {
@@ -11,6 +13,17 @@ namespace {
 std::size_t at(Index row)
 {
     return static_cast<std::size_t>(row);
+}
+
+// Rows of the particles of a wall or body: rows of one kind are in the order of their owners.
+Rows rows_of(const Particles& particles, int target)
+{
+    const Rows kind = target >= 0 ? particles.body() : particles.wall();
+    const auto owners = particles.owner().subspan(at(kind.begin), at(kind.size()));
+    // Walls count downward from -1.
+    const auto order = [&](std::int32_t a, std::int32_t b) { return target >= 0 ? a < b : a > b; };
+    const auto [first, last] = std::equal_range(owners.begin(), owners.end(), target, order);
+    return {kind.begin + (first - owners.begin()), kind.begin + (last - owners.begin())};
 }
 
 // Sum of the viscous forces on the particles of a wall or body; zero where the fluid slips.
@@ -22,12 +35,9 @@ Vec3 viscous_force(const Simulation& sim, int target)
         return total;
     }
     const auto F = particles[field::viscous_force];
-    const auto owner = particles.owner();
-    const Rows rows = target >= 0 ? particles.body() : particles.wall();
+    const Rows rows = rows_of(particles, target);
     for (Index k = rows.begin; k < rows.end; ++k) {
-        if (owner[at(k)] == target) {
-            total += F[at(k)];
-        }
+        total += F[at(k)];
     }
     return total;
 }

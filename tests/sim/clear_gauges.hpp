@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Gauges read in the clear way: every gauge looks at every particle, and sums are those of
+// `reduce`. What the readings of the program are held against, to the bit.
+#pragma once
+
+#include "hyoryu/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace hyoryu::by_all_particles {
+
+inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+inline std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+inline Pair<real> pair_at(const Fluid& fluid, const Vec3& r)
+{
+    return fluid.kernel(Vec<real>{r.x(), r.y(), r.z()});
+}
+
+// From a particle, or its nearest image, to a place.
+inline Vec3 way(const Fluid& fluid, const Vec3& from, const Vec3& to)
+{
+    return fluid.neighbours.fluid.lattice.shortest(to - from);
+}
+
+// Particles about a vertical line.
+struct Column {
+    std::vector<Index> fluid, solid;
+    double top = -infinity; // of the fluid [m]
+    double bottom = infinity;
+};
+
+inline Column column_about(const Fluid& fluid, const Vec3& place)
+{
+    const auto x = fluid.particles[field::position];
+    const Index fluid_rows = fluid.particles.fluid().end;
+    Column column;
+    for (Index j = 0; j < fluid.particles.size(); ++j) {
+        const Vec3 r = way(fluid, x[at(j)], place);
+        if (std::hypot(r.x(), r.y()) >= fluid.kernel.support) {
+            continue;
+        }
+        if (j >= fluid_rows) {
+            column.solid.push_back(j);
+            continue;
+        }
+        column.fluid.push_back(j);
+        column.top = std::max(column.top, x[at(j)].z());
+        column.bottom = std::min(column.bottom, x[at(j)].z());
+    }
+    return column;
+}
+
+// Part of space about a point that particles fill: sum V W.
+inline double filled(const Fluid& fluid, const std::vector<Index>& near, const Vec3& point)
+{
+    const auto x = fluid.particles[field::position];
+    const auto V = fluid.particles[field::volume];
+    double sum_ = 0;
+    for (const Index j : near) {
+        sum_ += V[at(j)] * pair_at(fluid, way(fluid, x[at(j)], point)).w;
+    }
+    return sum_;
+}
+
+// Highest place of the vertical through (x, y) where fluid fills half of what solids leave, from
+// above in steps of a quarter spacing, then by the line between two of them.
+inline double elevation(const Fluid& fluid, const Vec3& place)
+{
+    constexpr double least_open = 0.2; // less is the inside of a solid
+    const double step = fluid.parameters.spacing / 4;
+    const Column column = column_about(fluid, place);
+    double above = 0;
+    for (double z = column.top + fluid.kernel.support; z > column.bottom - fluid.kernel.support;
+         z -= step) {
+        const Vec3 point{place.x(), place.y(), z};
+        const double open = 1 - filled(fluid, column.solid, point);
+        const double here = open > least_open ? filled(fluid, column.fluid, point) / open : 0;
+        if (here >= 0.5) {
+            return z + step * (here - 0.5) / (here - above);
+        }
+        above = here;
+    }
+    return nothing;
+}
+
+// Kernel average over the fluid about a place.
+template <class T, class F>
+T average(const Fluid& fluid, const Vec3& place, const T& zero, const T& dry, const F& value)
+{
+    const auto x = fluid.particles[field::position];
+    const auto V = fluid.particles[field::volume];
+    const Rows rows = fluid.particles.fluid();
+    T weighted = zero;
+    double weight = 0;
+    for (Index j = rows.begin; j < rows.end; ++j) {
+        const Vec3 r = way(fluid, x[at(j)], place);
+        if (r.squaredNorm() < sq(fluid.kernel.support)) {
+            const double w = V[at(j)] * pair_at(fluid, r).w;
+            weighted += w * value(at(j));
+            weight += w;
+        }
+    }
+    return weight > 0 ? T(weighted / weight) : dry;
+}
+
+inline double front(const Fluid& fluid, int axis)
+{
+    const auto x = fluid.particles[field::position];
+    const Rows rows = fluid.particles.fluid();
+    return largest(rows.begin, rows.end, -infinity, [&](Index i) { return x[at(i)][axis]; }) +
+           fluid.parameters.spacing / 2;
+}
+
+// Points that stand for the face of a sensor: the middles of equal parts of a length, or a spiral
+// of equal areas over a disc; not closer than half a spacing, which the kernel would not tell
+// apart.
+inline std::vector<Vec3> face_points(const Gauge& gauge, const Fluid& fluid)
+{
+    constexpr double most = 64;
+    const double cell = fluid.parameters.spacing / 2;
+    const int d = fluid.parameters.dimensions;
+    const double cells = gauge.area / (d == 2 ? cell : sq(cell));
+    const auto n = static_cast<int>(std::clamp(std::ceil(cells), 1.0, most));
+    const Vec3 t = d == 2 ? Vec3(Vec3::UnitY().cross(gauge.normal)) : gauge.normal.unitOrthogonal();
+    const Vec3 s = gauge.normal.cross(t);
+    const double radius = std::sqrt(gauge.area / std::numbers::pi);
+    const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+    std::vector<Vec3> points;
+    for (int k = 0; k < n; ++k) {
+        const double part = (k + 0.5) / n;
+        const double r = radius * std::sqrt(part);
+        points.push_back(gauge.at + (d == 2 ? Vec3(gauge.area * (part - 0.5) * t)
+                                            : Vec3(r * std::cos(golden * k) * t +
+                                                   r * std::sin(golden * k) * s)));
+    }
+    return points;
+}
+
+inline double pressure(const Fluid& fluid, const Gauge& gauge)
+{
+    const auto x = fluid.particles[field::position];
+    const auto p = fluid.particles[field::pressure];
+    const auto rho = fluid.particles[field::density];
+    const Vec3& g = fluid.parameters.gravity;
+    double total = 0;
+    const std::vector<Vec3> points = face_points(gauge, fluid);
+    for (const Vec3& point : points) {
+        total += std::max(0.0, average(fluid, point, 0.0, 0.0, [&](std::size_t j) {
+                              return p[j] + rho[j] * g.dot(point - x[j]);
+                          }));
+    }
+    return total / static_cast<double>(points.size());
+}
+
+inline double flux(const Fluid& fluid, const Gauge& gauge)
+{
+    const auto x = fluid.particles[field::position];
+    const auto v = fluid.particles[field::velocity];
+    const auto V = fluid.particles[field::volume];
+    const Rows rows = fluid.particles.fluid();
+    const double reach = 2 * fluid.parameters.spacing;
+    return sum(rows.begin, rows.end, 0.0, [&](Index i) {
+        const double distance = std::abs(gauge.normal.dot(x[at(i)] - gauge.at));
+        const double hat = std::max(0.0, 1 - distance / reach) / reach;
+        return V[at(i)] * gauge.normal.dot(v[at(i)]) * hat;
+    });
+}
+
+inline std::vector<double> read_fluid(const Fluid& fluid, const Gauge& gauge)
+{
+    const auto v = fluid.particles[field::velocity];
+    switch (gauge.type) {
+    case GaugeType::elevation:
+        return {elevation(fluid, gauge.at)};
+    case GaugeType::pressure:
+        return {pressure(fluid, gauge)};
+    case GaugeType::velocity: {
+        const Vec3 mean =
+            average(fluid, gauge.at, Vec3(Vec3::Zero()), Vec3(Vec3::Constant(nothing)),
+                    [&](std::size_t j) { return v[j]; });
+        return {mean.x(), mean.y(), mean.z()};
+    }
+    case GaugeType::front:
+        return {front(fluid, gauge.axis)};
+    case GaugeType::flux:
+        return {flux(fluid, gauge)};
+    case GaugeType::force:
+        break;
+    }
+    return {};
+}
+
+/// Sum of the viscous forces on the particles of a body, or of wall -1 - target.
+inline Vec3 viscous_force(const Fluid& fluid, int target)
+{
+    Vec3 total = Vec3::Zero();
+    const Particles& particles = fluid.particles;
+    const Rows rows = target >= 0 ? particles.body() : particles.wall();
+    for (Index k = rows.begin; k < rows.end; ++k) {
+        if (particles.owner()[at(k)] == target) {
+            total += particles[field::viscous_force][at(k)];
+        }
+    }
+    return total;
+}
+
+} // namespace hyoryu::by_all_particles
