@@ -179,6 +179,9 @@ void Outputs::write_energy(const Simulation& sim)
     append(row, t.momentum);
     append(row, sim.ledger.wall_impulse);
     append(row, sim.ledger.gravity_impulse);
+    const LostParticles lost = sim.fluid ? sim.fluid->lost : LostParticles{};
+    row.push_back(cell(lost.energy));
+    append(row, lost.momentum);
     energy_->append(row);
 }
 

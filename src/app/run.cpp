@@ -341,6 +341,7 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
         take_previous_checkpoint(folder);
         progress.line(fmt::format("note: {}; this is the one before it", from.passed_over));
     }
+    change_columns(folder, energy_table(scene.dimensions)); // of a version that wrote fewer
     if (scene.gauges.empty()) {
         set_aside(folder, "gauges");
     } else {

@@ -60,6 +60,8 @@ Table energy_table(int dimensions)
     add_vector(table, "momentum_", per_width("kg m/s", dimensions));
     add_vector(table, "wall_impulse_", per_width("N s", dimensions));
     add_vector(table, "gravity_impulse_", per_width("N s", dimensions));
+    table.heads.push_back({"lost_energy", per_width("J", dimensions)});
+    add_vector(table, "lost_momentum_", per_width("kg m/s", dimensions));
     return table;
 }
 

@@ -50,6 +50,14 @@ void add(Values& sum, const Values& values, double factor)
     }
 }
 
+/// What has left the domain with the fluid by then; nothing in results of versions that did not
+/// tell.
+Values lost(const RunResults& run, const std::string& name)
+{
+    const CsvTable::Column* found = run.energy.find(name);
+    return found == nullptr ? Values(run.energy.rows, 0.0) : found->numbers;
+}
+
 std::string energy_text(const RunResults& run, double remainder, double scale)
 {
     const std::string closing = fmt::format(
@@ -58,7 +66,7 @@ std::string energy_text(const RunResults& run, double remainder, double scale)
     const bool fluid = run.plan.at("counts").at("fluid").get<std::int64_t>() > 0;
     return html_paragraph(
         "Each line is the change since the start; contact loss is what impacts and friction "
-        "took. " +
+        "took, and what left the domain was motion and height of the fluid. " +
         closing +
         (fluid
              ? "With a fluid it is not zero: the dissipation by viscosity, physical and numerical, "
@@ -87,17 +95,23 @@ std::string energy_books(const RunResults& run, const Values& time)
             chart.lines.push_back({label, time, values});
         }
     }
+    const Values left = lost(run, "lost_energy");
+    add(sum, left, 1);
+    if (largest_magnitude(left) > 0) {
+        chart.lines.push_back({"left the domain", time, left});
+    }
     chart.lines.push_back({"sum", time, sum});
     return "<h3>Energy</h3>\n" + svg_chart(chart) + energy_text(run, sum.back(), scale);
 }
 
-/// Momentum less its start and less what walls and gravity gave: zero but for fluid that left.
+/// Momentum less its start and less what walls and gravity gave, with what left the domain.
 Values unexplained(const RunResults& run, char axis)
 {
     const auto of = [&](const char* name) { return column(run, fmt::format("{}_{}", name, axis)); };
     Values rest = change(of("momentum"));
     add(rest, change(of("wall_impulse")), -1);
     add(rest, change(of("gravity_impulse")), -1);
+    add(rest, lost(run, fmt::format("lost_momentum_{}", axis)), 1);
     return rest;
 }
 
@@ -133,7 +147,7 @@ std::string momentum_books(const RunResults& run, const Values& time)
                    .x_axis = "time [s]",
                    .y_axis = fmt::format("momentum [{}]", unit),
                    .lines = {}};
-    Chart rest{.title = "momentum that neither walls nor gravity explain",
+    Chart rest{.title = "momentum that neither walls, gravity nor what left explain",
                .x_axis = "time [s]",
                .y_axis = fmt::format("closing error [{}]", unit),
                .lines = {}};

@@ -43,13 +43,22 @@ Reading reading_of(const std::string& column, const std::string& gauge)
     return {column, ""};
 }
 
+/// Whether a column is the mean contact force since the row before: an impulse over the time
+/// between rows, which says more of that time than of any force.
+bool is_mean_of_contact(const std::string& column, const std::string& gauge)
+{
+    const std::string rest = column.substr(gauge.size());
+    return rest == "_contact_x" || rest == "_contact_y" || rest == "_contact_z";
+}
+
 /// The plots of one gauge, in the order of its columns.
 std::vector<Chart> charts_of(const RunResults& run, const std::string& gauge)
 {
     std::vector<Chart> charts;
     const std::vector<double>& time = numbers_of(*run.gauges, "time", "gauges.csv");
     for (const CsvTable::Column& column : run.gauges->columns) {
-        if (gauge_of(column.name, run.gauge_names) != gauge) {
+        if (gauge_of(column.name, run.gauge_names) != gauge ||
+            is_mean_of_contact(column.name, gauge)) {
             continue;
         }
         const Reading reading = reading_of(column.name, gauge);

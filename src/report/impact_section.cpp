@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/report/html.hpp"
+#include "hyoryu/report/svg.hpp"
 #include "sections.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hyoryu {
 
@@ -15,67 +17,110 @@ using Align = HtmlTable::Align;
 
 constexpr std::size_t most_rows = 20;
 
-bool has_force(const std::vector<Impact>& impacts)
+bool has_force(const std::vector<Blow>& blows)
 {
-    return std::any_of(impacts.begin(), impacts.end(),
-                       [](const Impact& impact) { return std::isfinite(impact.stiffness); });
+    return std::ranges::any_of(blows,
+                               [](const Blow& blow) { return std::isfinite(blow.stiffness); });
 }
 
-std::string impact_table(const RunResults& run, const ImpactGroup& group)
+std::string counted(std::size_t count, const std::string& what)
+{
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string place_text(const RunResults& run, const Vec3& place)
+{
+    return run.dimensions() == 2 ? fmt::format("{}, {}", readable(place.x()), readable(place.z()))
+                                 : fmt::format("{}, {}, {}", readable(place.x()),
+                                               readable(place.y()), readable(place.z()));
+}
+
+std::string blow_table(const RunResults& run, const ContactGroup& group)
 {
     const bool between = group.structure.empty();
-    const bool force = has_force(group.impacts);
+    const bool force = has_force(group.blows);
     const auto unit = [&](const char* what, const char* of) {
         return fmt::format("{} [{}]", what, run.per_width(of));
     };
     HtmlTable table{.heads = {{"time [s]", Align::right},
                               {between ? "bodies" : "body"},
                               {"approach speed [m/s]", Align::right},
-                              {unit("normal impulse", "N s"), Align::right},
+                              {unit("impulse", "N s"), Align::right},
                               {unit("effective mass", "kg"), Align::right},
-                              {unit("energy lost", "J"), Align::right}},
+                              {unit("energy lost", "J"), Align::right},
+                              {"contact points", Align::right},
+                              {run.dimensions() == 2 ? "place x, z [m]" : "place x, y, z [m]"}},
                     .rows = {}};
     if (force) {
         table.heads.push_back({unit("u sqrt(k m)", "N"), Align::right});
     }
-    for (const Impact& i : largest(group.impacts, most_rows)) {
-        table.rows.push_back({fmt::format("{:.6g}", i.time),
-                              between ? i.body + ", " + i.other : i.body, readable(i.speed),
-                              readable(i.impulse), readable(i.mass), readable(i.energy_lost)});
+    for (const Blow& b : largest(group.blows, most_rows)) {
+        table.rows.push_back({fmt::format("{:.6g}", b.time),
+                              between ? b.body + ", " + b.other : b.body, readable(b.speed),
+                              readable(b.impulse), readable(b.mass), readable(b.energy_lost),
+                              fmt::format("{}", b.points), place_text(run, b.place)});
         if (force) {
-            table.rows.back().push_back(readable(peak_force(i)));
+            table.rows.back().push_back(readable(peak_force(b)));
         }
     }
     return html_table(table);
 }
 
-std::string totals(const RunResults& run, const ImpactGroup& group)
+/// A stem a blow: time and impulse.
+std::string blow_chart(const RunResults& run, const ContactGroup& group)
+{
+    constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+    ChartLine stems;
+    for (const Blow& blow : group.blows) {
+        stems.x.insert(stems.x.end(), {blow.time, blow.time, gap});
+        stems.y.insert(stems.y.end(), {0, blow.impulse, gap});
+    }
+    return svg_chart(
+        {.title = group.structure.empty() ? "blows between bodies" : "blows on " + group.structure,
+         .x_axis = "time [s]",
+         .y_axis = fmt::format("impulse [{}]", run.per_width("N s")),
+         .lines = {std::move(stems)}});
+}
+
+std::string blow_totals(const RunResults& run, const ContactGroup& group)
 {
     double impulse = 0, energy = 0;
-    for (const Impact& impact : group.impacts) {
-        impulse += impact.impulse;
-        energy += impact.energy_lost;
+    std::size_t points = 0;
+    for (const Blow& blow : group.blows) {
+        impulse += blow.impulse;
+        energy += blow.energy_lost;
+        points += blow.points;
     }
-    const std::size_t count = group.impacts.size();
     std::string text =
-        fmt::format("{} impact{}; normal impulses together {} {}, energy lost {} {}.", count,
-                    count == 1 ? "" : "s", readable(impulse), run.per_width("N s"),
-                    readable(energy), run.per_width("J"));
-    if (count > most_rows) {
+        fmt::format("{} at {}; impulses together {} {}, energy lost {} {}.",
+                    counted(group.blows.size(), "blow"), counted(points, "contact point"),
+                    readable(impulse), run.per_width("N s"), readable(energy), run.per_width("J"));
+    if (group.blows.size() > most_rows) {
         text += fmt::format(" The {} with the largest impulses:", most_rows);
     }
     return html_paragraph(text);
 }
 
-std::string group_text(const RunResults& run, const ImpactGroup& group)
+std::string resting_text(const RunResults& run, const RestingSum& resting)
+{
+    return html_paragraph(fmt::format("Resting and sliding contact: normal impulses together {} "
+                                      "{}, energy lost {} {}.",
+                                      readable(resting.impulse), run.per_width("N s"),
+                                      readable(resting.energy_lost), run.per_width("J")));
+}
+
+std::string group_text(const RunResults& run, const ContactGroup& group)
 {
     const std::string title = group.structure.empty() ? "Between bodies" : "On " + group.structure;
     const std::string heading = fmt::format("<h3>{}</h3>\n", escaped(title));
-    return group.impacts.empty() ? heading + html_paragraph("No impact.")
-                                 : heading + totals(run, group) + impact_table(run, group);
+    const std::string blows =
+        group.blows.empty()
+            ? html_paragraph("No blow.")
+            : blow_totals(run, group) + blow_table(run, group) + blow_chart(run, group);
+    return heading + blows + resting_text(run, group.resting);
 }
 
-std::string force_text(const RunResults& run, const DeclaredStiffness& declared, bool any)
+std::string force_text(const RunResults& run, const DeclaredContact& declared, bool any)
 {
     const std::string width = run.dimensions() == 2 ? " per metre of width" : "";
     if (!any) {
@@ -93,8 +138,22 @@ std::string force_text(const RunResults& run, const DeclaredStiffness& declared,
         "stiffness k {}. It is a design formula, no result of the simulation: impulses, not "
         "forces, "
         "are what the simulation computes. A dash: no k for that pair.",
-        declared.all ? fmt::format("= {} N/m{} of --stiffness", readable(*declared.all), width)
-                     : "that the case declares for the two materials");
+        declared.stiffness
+            ? fmt::format("= {} N/m{} of --stiffness", readable(*declared.stiffness), width)
+            : "that the case declares for the two materials");
+}
+
+/// What all contact took, blows and resting, beside the sum that the run kept.
+std::string energy_text(const RunResults& run, const std::vector<Impact>& rows)
+{
+    double energy = 0;
+    for (const Impact& row : rows) {
+        energy += row.energy_lost;
+    }
+    return html_paragraph(
+        fmt::format("All contact together, blows and resting, lost {} {}; the run counted {}.",
+                    readable(energy), run.per_width("J"),
+                    readable(number(run.summary.at("energy").at("contact_loss")))));
 }
 
 } // namespace
@@ -105,20 +164,25 @@ std::string impact_section(const RunResults& run, std::optional<double> stiffnes
     if (!run.contacts) {
         return heading + html_paragraph("The case has no contact.");
     }
-    DeclaredStiffness declared = run.stiffness;
-    declared.all = stiffness;
-    const std::vector<Impact> impacts = read_impacts(*run.contacts, declared);
+    DeclaredContact declared = run.contact;
+    declared.stiffness = stiffness;
+    const std::vector<Impact> rows = read_contacts(*run.contacts, declared);
+    const std::vector<ContactGroup> groups = by_structure(rows, run.walls);
+    const bool force = std::ranges::any_of(
+        groups, [](const ContactGroup& group) { return has_force(group.blows); });
     std::string text =
         heading +
-        html_paragraph("A row is one contact point of an impact: a face that meets a wall flat has "
-                       "several at one time, each with its impulse and with the effective mass 1 / "
-                       "(n K n) of the body at that point. Resting and sliding contact is not "
-                       "listed. All rows are in contacts.csv.") +
-        html_paragraph(force_text(run, declared, has_force(impacts)));
-    for (const ImpactGroup& group : by_structure(impacts, run.walls)) {
+        html_paragraph("A row is one blow: all impacts of two partners within 2 sqrt(m / k) of the "
+                       "first, or within 10 ms where no stiffness k is declared. The impulse is "
+                       "the length of the sum of its impulses, friction included; speed and "
+                       "effective mass are those of its largest group of simultaneous impacts, the "
+                       "mass being impulse / ((1 + e) speed). The single impacts, one row for each "
+                       "contact point, are in contacts.csv.") +
+        html_paragraph(force_text(run, declared, force));
+    for (const ContactGroup& group : groups) {
         text += group_text(run, group);
     }
-    return text;
+    return text + energy_text(run, rows);
 }
 
 } // namespace hyoryu

@@ -28,7 +28,7 @@ std::string wall_names(const RunResults& run)
 {
     std::string names;
     for (const std::string& wall : run.walls) {
-        const std::string& material = run.stiffness.materials.at(wall);
+        const std::string& material = run.contact.materials.at(wall);
         names += (names.empty() ? "" : ", ") + wall;
         names += material.empty() ? "" : fmt::format(" ({})", material);
     }

@@ -86,13 +86,13 @@ void read_resolved_case(RunResults& run)
         run.spacing = spacing_of(*root.table());
         for (const TomlTable* wall : tables_at(*root.table(), "wall")) {
             run.walls.push_back(text_at(*wall, "name"));
-            run.stiffness.materials[text_at(*wall, "name")] = text_at(*wall, "material");
+            run.contact.materials[text_at(*wall, "name")] = text_at(*wall, "material");
         }
         for (const TomlTable* gauge : tables_at(*root.table(), "gauge")) {
             run.gauge_names.push_back(text_at(*gauge, "name"));
         }
         for (const TomlTable* body : tables_at(*root.table(), "body")) {
-            run.stiffness.materials[text_at(*body, "name")] = text_at(*body, "material");
+            run.contact.materials[text_at(*body, "name")] = text_at(*body, "material");
         }
     } catch (const TomlFault& fault) {
         throw IoError(fmt::format("`{}` is damaged: line {}: {}", file.string(), fault.place.line,
@@ -100,7 +100,7 @@ void read_resolved_case(RunResults& run)
     }
 }
 
-void read_stiffness(RunResults& run)
+void read_contact_laws(RunResults& run)
 {
     if (!run.plan.contains("contact")) {
         return;
@@ -109,13 +109,11 @@ void read_stiffness(RunResults& run)
         return material.is_null() ? std::string() : material.get<std::string>();
     };
     for (const ordered_json& pair : run.plan.at("contact").at("pairs")) {
-        if (!pair.at("stiffness").is_null()) {
-            const std::string a = name(pair.at("materials").at(0));
-            const std::string b = name(pair.at("materials").at(1));
-            const double k = pair.at("stiffness").get<double>();
-            run.stiffness.of_pairs[{a, b}] = k;
-            run.stiffness.of_pairs[{b, a}] = k;
-        }
+        const std::string a = name(pair.at("materials").at(0));
+        const std::string b = name(pair.at("materials").at(1));
+        const ContactLaw law{number(pair.at("stiffness")), number(pair.at("restitution"))};
+        run.contact.of_pairs[{a, b}] = law;
+        run.contact.of_pairs[{b, a}] = law;
     }
 }
 
@@ -147,7 +145,7 @@ RunResults read_results(const fs::path& folder)
     run.plan = read_json(folder / "plan.json");
     run.summary = read_json(folder / "summary.json");
     read_resolved_case(run);
-    read_stiffness(run);
+    read_contact_laws(run);
     read_histories(run);
     return run;
 }

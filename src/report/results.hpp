@@ -20,7 +20,7 @@ struct RunResults {
     double spacing = 0;             // of fluid and walls [m]
     std::vector<std::string> walls; // names, in the order of the case
     std::vector<std::string> gauge_names;
-    DeclaredStiffness stiffness; // as the case declares it
+    DeclaredContact contact; // as the case declares it
     CsvTable energy;
     std::optional<CsvTable> bodies, contacts, gauges; // none where the plan has none
     std::optional<Surface> structures;                // walls at the start

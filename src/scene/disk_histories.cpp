@@ -95,7 +95,7 @@ double history_rows(const Scene& scene, const Course& course)
 
 HistorySize energy(const Scene& scene, const Plan& plan, const Course& course)
 {
-    constexpr double columns = 15; // beside the time
+    constexpr double columns = 19; // beside the time; of what is lost four, mostly zero
     const bool falls = scene.gravity.norm() > 0;
     const bool pushes = !scene.walls.empty() && (plan.fluid || plan.contact);
     const Vec3 drive = scene.fluid ? scene.fluid->acceleration : Vec3(Vec3::Zero());

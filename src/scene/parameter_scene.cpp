@@ -47,8 +47,9 @@ std::vector<Parameter> gauge_parameters()
             "gauge[].type", {"elevation", "pressure", "velocity", "force", "front", "flux"},
             required,
             "What is measured: the water level over a place (at), pressure or velocity at a "
-            "point (at), the force on a wall or body (on), how far the water has come along an "
-            "axis (axis), or the volume that passes a plane in a second (at, normal)."),
+            "point (at), the force of the fluid on a wall or body with the impulses of fluid and "
+            "contact (on), how far the water has come along an axis (axis), or the volume that "
+            "passes a plane in a second (at, normal)."),
         gauge_place_row(),
         positive("gauge[].area", "", "",
                  "Area of the face of a pressure sensor, over which it averages [m2]; its length "
@@ -56,7 +57,7 @@ std::vector<Parameter> gauge_parameters()
         vector_row("gauge[].normal", "", "",
                    "Direction that the face of a pressure sensor looks in, or in which a flux "
                    "counts as positive; of any length."),
-        text_row("gauge[].on", "", "The wall or body whose force is measured, by its name."),
+        text_row("gauge[].on", "", "The wall or body on which forces are measured, by its name."),
         choice_row("gauge[].axis", {"x", "y", "z"}, "x",
                    "The axis along which the front is followed."),
         choice_row("gauge[].filter", {"none", "mean", "median", "exponential"}, "none",

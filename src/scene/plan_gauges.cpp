@@ -37,7 +37,7 @@ std::string what_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
     case GaugeType::velocity:
         return fmt::format("velocity at {}", text_of(gauge.at));
     case GaugeType::force:
-        return fmt::format("force and impulse of fluid and contact on \"{}\"", gauge.on);
+        return fmt::format("force of the fluid, impulses of fluid and contact on \"{}\"", gauge.on);
     case GaugeType::front:
         return fmt::format("farthest place of the fluid along {}", "xyz"[gauge.axis]);
     case GaugeType::flux:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The report of a run."""
 import json
+import re
 import xml.etree.ElementTree
 
 from program import FLOOD, ProgramTest, main
@@ -107,24 +108,79 @@ material = "pine"
         self.assertIn("[m]", charts["level"])
         self.assertIn("[N]", charts["load"])
         self.assertIn("[N s]", charts["load_fluid_impulse"])
-        for part in ("load_pressure", "load_viscous", "load_contact", "load_contact_impulse"):
+        for part in ("load_pressure", "load_viscous", "load_contact_impulse"):
             self.assertIn(part, charts)
+
+    def test_b9_contact_is_shown_as_impulses_and_never_as_a_force(self):
+        """An impulse over the time between rows is no force: it would be ten times as large at a tenth of it."""
+        gauge = "[[gauge]]\nname = \"load\"\ntype = \"force\"\non = \"floor\"\n"
+        for every in (0.001, 0.01):
+            self.run_case(self.DROP + gauge + f"[output]\nhistory_every = {every}\n", out="out")
+            text, root = self.page()
+            charts = {svg.get("aria-label"): "".join(svg.itertext())
+                      for svg in root.findall(".//{*}svg")}
+            self.assertNotIn("load_contact", charts)
+            self.assertIn("[N s]", charts["load_contact_impulse"])
+            self.assertIn("impulse [N s]", charts["blows on floor"])
+            (self.dir / "out").rename(self.dir / f"out{every}")
+        head = self.call("describe", "gauge[].type").stdout
+        self.assertIn("force of the fluid", " ".join(head.split()))
+
+    def test_e12_books_count_what_leaves_by_an_open_side(self):
+        text = self.CASE.replace('open = ["+z"]', 'open = ["+z", "+x"]').replace(
+            "end = 0.1", "end = 0.8").replace("max = [1.6,", "max = [0.6,")
+        text = text[:text.index("[[body]]")] + "[output]\nevery = 0.1\nhistory_every = 0.01\n"
+        self.run_case(text)
+        summary = json.loads((self.dir / "out/summary.json").read_text())
+        self.assertGreater(summary["particles_lost"], 300)
+        rows = [line.split(",") for line in (self.dir / "out/energy.csv").read_text().splitlines()[1:]]
+        rows = [dict(zip(rows[0], map(float, row))) for row in rows[1:]]
+        first, scale, worst, without = rows[0], 0.0, 0.0, 0.0
+        for row in rows:
+            for axis in "xyz":
+                open_books = (row["momentum_" + axis] - first["momentum_" + axis]
+                              - row["wall_impulse_" + axis] - row["gravity_impulse_" + axis])
+                scale = max(scale, abs(row["wall_impulse_" + axis]))
+                worst = max(worst, abs(open_books + row["lost_momentum_" + axis]))
+                without = max(without, abs(open_books))
+        self.assertLess(worst, 1e-5 * scale)  # single precision of the pair loops
+        self.assertGreater(without, 0.01 * scale, "nothing left that the books could miss")
+        _, root = self.page()
+        charts = {svg.get("aria-label"): "".join(svg.itertext()) for svg in root.findall(".//{*}svg")}
+        self.assertIn("left the domain", charts["energy: change since the start"])
 
     def test_impacts_have_the_numbers_of_the_drop(self):
         self.run_case(self.DROP)
         text, root = self.page()
         self.assertIn("--stiffness K", text)
         rows = self.rows(root, "On floor")
-        self.assertEqual(len(rows[0]), 6)
+        self.assertEqual(len(rows[0]), 8)
+        self.assertEqual(len(rows), 2, "four corners of one cube are one blow")
+        self.assertEqual(rows[1][6], "4")
+        # 8 kg at 0.6264 m/s, restitution 0.4 of [contact].
+        self.assertAlmostEqual(float(rows[1][4]), 8, delta=0.01)
+        self.assertAlmostEqual(float(rows[1][3]), 1.4 * 8 * (2 * 9.81 * 0.02) ** 0.5, delta=0.01)
         self.assertAlmostEqual(float(rows[1][0]), (2 * 0.02 / 9.81) ** 0.5, delta=1e-6)
         self.assertEqual(rows[1][1], "cube")
         self.assertAlmostEqual(float(rows[1][2]), (2 * 9.81 * 0.02) ** 0.5, delta=1e-4)
         self.assertIn("impulses together", text)
         _, root = self.page("--stiffness", "2.5e5")
         rows = self.rows(root, "On floor")
-        self.assertEqual(rows[0][6], "u sqrt(k m) [N]")
+        self.assertEqual(rows[0][8], "u sqrt(k m) [N]")
         u, m = float(rows[1][2]), float(rows[1][4])
-        self.assertAlmostEqual(float(rows[1][6]), u * (2.5e5 * m) ** 0.5, delta=1e-3 * u * (2.5e5 * m) ** 0.5)
+        self.assertAlmostEqual(float(rows[1][8]), u * (2.5e5 * m) ** 0.5, delta=1e-3 * u * (2.5e5 * m) ** 0.5)
+
+    def test_e12_resting_contact_is_in_the_sums(self):
+        """A cube that comes to rest: all impulses of its contact carry its weight and stop its fall."""
+        self.run_case(self.DROP.replace("end = 0.08", "end = 0.6"))
+        text, _ = self.page()
+        rest = re.search(r"Resting and sliding contact: normal impulses together ([0-9.e+]+) N s", text)
+        blows = re.search(r"blows? at [0-9]+ contact points?; impulses together ([0-9.e+]+) N s", text)
+        carried = float(rest[1]) + float(blows[1])
+        self.assertAlmostEqual(carried, 8 * 9.81 * 0.6, delta=0.01 * 8 * 9.81 * 0.6)
+        self.assertGreater(float(rest[1]), 8 * 9.81 * 0.2)
+        lost, counted = re.search(r"lost ([0-9.e+-]+) J; the run counted ([0-9.e+-]+)\.", text).groups()
+        self.assertAlmostEqual(float(lost), float(counted), delta=2e-3 * float(counted))
 
     def test_the_stiffness_of_the_case_is_used(self):
         pair = "[[contact.pair]]\nmaterials = [\"pine\", \"concrete\"]\nrestitution = 0.4\n" \
@@ -133,13 +189,13 @@ material = "pine"
         _, root = self.page()
         rows = self.rows(root, "On floor")
         u, m = float(rows[1][2]), float(rows[1][4])
-        self.assertAlmostEqual(float(rows[1][6]), u * (1e6 * m) ** 0.5, delta=u * m ** 0.5)
+        self.assertAlmostEqual(float(rows[1][8]), u * (1e6 * m) ** 0.5, delta=u * m ** 0.5)
 
     def test_two_dimensions_are_per_metre_of_width(self):
         self.run_case("dimensions = 2\n" + self.DROP.strip())
         text, _ = self.page("--stiffness", "2.5e5")
         self.assertIn("u sqrt(k m) [N/m]", text)
-        self.assertIn("normal impulse [N s/m]", text)
+        self.assertIn("impulse [N s/m]", text)
         self.assertIn(">z [m]<", text)
 
     def test_by_default_the_page_stands_in_the_folder_and_force_replaces_it(self):
