@@ -107,4 +107,30 @@ void write_text(const std::filesystem::path& file, const std::string& text)
     atomic.commit();
 }
 
+bool write_new_text(const std::filesystem::path& file, std::string_view text)
+{
+    const int descriptor =
+        ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, everyone_reads);
+    if (descriptor < 0 && errno == EEXIST) {
+        return false;
+    }
+    if (descriptor < 0) {
+        throw_system_error("create", file);
+    }
+    try {
+        write_all(descriptor, std::as_bytes(std::span(text)), file);
+    } catch (const IoError&) {
+        ::close(descriptor);
+        ::unlink(file.c_str());
+        throw;
+    }
+    if (::close(descriptor) != 0) {
+        const int reason = errno;
+        ::unlink(file.c_str());
+        errno = reason;
+        throw_system_error("write", file);
+    }
+    return true;
+}
+
 } // namespace hyoryu

@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 constexpr std::array our_files{
     R"(case\.toml|plan\.json|summary\.json|run\.log|report\.html|results\.h5|checkpoint(\.previous)?\.h5|all\.vtkhdf)",
     R"((bodies|contacts|energy|gauges)(_[0-9]+)?\.csv)",
-    R"((fluid|bodies|surfaces|walls|structures)\.(hdf|hdf\.series|pvd))",
+    R"((fluid|bodies|surfaces|walls|structures)\.(hdf|hdf\.series))",
     R"(frames/[a-z]+_[0-9]{6,}\.hdf)",
-    R"((vtp|csv)/[a-z]+_[0-9]{6,}\.(vtp|csv))",
+    R"((vtp|csv)/([a-z]+_[0-9]{6,}\.(vtp|csv)|[a-z]+\.(pvd|csv)|\.hyoryu-convert))",
     R"(pictures/(frame_[0-9]{6,}\.png|animation\.mp4))",
 };
 constexpr std::array our_folders{"frames", "pictures", "vtp", "csv"};

@@ -235,6 +235,16 @@ void put_attribute(hid_t object, const std::string& name, std::span<const std::i
     check(H5Awrite(attribute, H5T_NATIVE_INT64, values.data()), action);
 }
 
+void put_count_attribute(hid_t object, const std::string& name, std::int64_t count)
+{
+    const std::string action = fmt::format("write the attribute `{}`", name);
+    const Handle space = scalar_space();
+    const Handle attribute(
+        H5Acreate2(object, name.c_str(), H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose, action);
+    check(H5Awrite(attribute, H5T_NATIVE_INT64, &count), action);
+}
+
 std::string text_attribute(hid_t object, const std::string& name)
 {
     const Handle attribute = open_attribute(object, name);

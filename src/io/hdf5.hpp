@@ -78,6 +78,8 @@ void put_fixed_attribute(hid_t object, const std::string& name, const std::strin
 void put_attribute(hid_t object, const std::string& name, double value);
 /// An array of integers: VTKHDF asks for `Version` = [1, 0].
 void put_attribute(hid_t object, const std::string& name, std::span<const std::int64_t> values);
+/// A whole number, not an array of one.
+void put_count_attribute(hid_t object, const std::string& name, std::int64_t count);
 /// A text of variable length.
 std::string text_attribute(hid_t object, const std::string& name);
 double number_attribute(hid_t object, const std::string& name);

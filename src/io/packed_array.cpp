@@ -15,6 +15,40 @@
 
 namespace hyoryu {
 
+hid_t hdf5_type(ElementType type)
+{
+    switch (type) {
+    case ElementType::float32:
+        return H5T_NATIVE_FLOAT;
+    case ElementType::float64:
+        return H5T_NATIVE_DOUBLE;
+    case ElementType::int32:
+        return H5T_NATIVE_INT32;
+    case ElementType::int64:
+        return H5T_NATIVE_INT64;
+    case ElementType::uint8:
+        break;
+    }
+    return H5T_NATIVE_UINT8;
+}
+
+ElementType stored_type(hid_t dataset, const std::string& name)
+{
+    const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, "read a dataset");
+    const H5T_class_t kind = H5Tget_class(type);
+    const std::size_t size = H5Tget_size(type);
+    if (kind == H5T_FLOAT && (size == 4 || size == 8)) {
+        return size == 4 ? ElementType::float32 : ElementType::float64;
+    }
+    if (kind == H5T_INTEGER && (size == 4 || size == 8)) {
+        return size == 4 ? ElementType::int32 : ElementType::int64;
+    }
+    if (kind == H5T_INTEGER && size == 1) {
+        return ElementType::uint8;
+    }
+    throw IoError(fmt::format("cannot read the array `{}`: its type is none that we write", name));
+}
+
 namespace {
 
 constexpr hsize_t rows_of_a_chunk = 65536;
@@ -31,23 +65,6 @@ std::size_t size_of(ElementType type)
 {
     constexpr std::array<std::size_t, 5> sizes{4, 8, 4, 8, 1};
     return sizes[static_cast<std::size_t>(type)];
-}
-
-hid_t hdf5_type(ElementType type)
-{
-    switch (type) {
-    case ElementType::float32:
-        return H5T_NATIVE_FLOAT;
-    case ElementType::float64:
-        return H5T_NATIVE_DOUBLE;
-    case ElementType::int32:
-        return H5T_NATIVE_INT32;
-    case ElementType::int64:
-        return H5T_NATIVE_INT64;
-    case ElementType::uint8:
-        break;
-    }
-    return H5T_NATIVE_UINT8;
 }
 
 template <class T>
@@ -133,24 +150,6 @@ void write_chunks(hid_t dataset, const PackedArray& array, const std::string& ac
     }
 }
 
-/// Which of our element types a dataset holds.
-ElementType stored_type(hid_t dataset, const std::string& name)
-{
-    const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, "read a dataset");
-    const H5T_class_t kind = H5Tget_class(type);
-    const std::size_t size = H5Tget_size(type);
-    if (kind == H5T_FLOAT && (size == 4 || size == 8)) {
-        return size == 4 ? ElementType::float32 : ElementType::float64;
-    }
-    if (kind == H5T_INTEGER && (size == 4 || size == 8)) {
-        return size == 4 ? ElementType::int32 : ElementType::int64;
-    }
-    if (kind == H5T_INTEGER && size == 1) {
-        return ElementType::uint8;
-    }
-    throw IoError(fmt::format("cannot read the array `{}`: its type is none that we write", name));
-}
-
 template <class T>
 Values read_values(hid_t dataset, std::size_t count, const std::string& action)
 {
@@ -176,6 +175,19 @@ Values read_values(hid_t dataset, ElementType type, std::size_t count, const std
         break;
     }
     return read_values<std::uint8_t>(dataset, count, action);
+}
+
+/// Throws IoError if the file does not hold as much as the dataset claims: memory would be taken
+/// for numbers that are nowhere.
+void expect_stored(hid_t dataset, std::size_t bytes, const std::string& action)
+{
+    const hdf5::Handle creation(H5Dget_create_plist(dataset), H5Pclose, action);
+    constexpr std::size_t most_of_deflate = 1032; // bytes that one byte can stand for
+    constexpr std::size_t a_chunk = std::size_t{8} << 20;
+    if (H5Pget_layout(creation) != H5D_VIRTUAL && bytes > a_chunk &&
+        bytes / most_of_deflate > H5Dget_storage_size(dataset)) {
+        throw IoError(fmt::format("cannot {}: the file holds less than it says", action));
+    }
 }
 
 } // namespace
@@ -282,7 +294,15 @@ Column get_column(hid_t parent, const std::string& name)
     }
     H5Sget_simple_extent_dims(space, dims.data(), nullptr);
     Column column{.name = name, .unit = {}, .components = static_cast<int>(dims[1]), .values = {}};
-    column.values = read_values(dataset, stored_type(dataset, name), dims[0] * dims[1], action);
+    const ElementType type = stored_type(dataset, name);
+    constexpr hsize_t most_rows = hsize_t{1} << 40;
+    constexpr hsize_t most_components = 1 << 10;
+    if (dims[0] > most_rows || dims[1] > most_components) {
+        throw IoError(
+            fmt::format("cannot {}: it says that it is {} x {} numbers", action, dims[0], dims[1]));
+    }
+    expect_stored(dataset, size_of(type) * dims[0] * dims[1], action);
+    column.values = read_values(dataset, type, dims[0] * dims[1], action);
     if (H5Aexists(dataset, "unit") > 0) {
         column.unit = hdf5::text_attribute(dataset, "unit");
     }

@@ -19,6 +19,11 @@ using Values = decltype(Column::values);
 
 enum class ElementType { float32, float64, int32, int64, uint8 };
 
+/// The type in HDF5's memory.
+hid_t hdf5_type(ElementType type);
+/// Which of our element types the dataset `name` holds. Throws IoError if it is none of them.
+ElementType stored_type(hid_t dataset, const std::string& name);
+
 /// Rows of numbers that live elsewhere.
 struct ArrayView {
     ElementType type = ElementType::float32;

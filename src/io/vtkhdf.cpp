@@ -158,6 +158,23 @@ std::vector<float> points_of(hid_t root)
     return std::move(*points);
 }
 
+std::size_t size_of(const Column& column)
+{
+    return std::visit([](const auto& values) { return values.size(); }, column.values);
+}
+
+/// Throws IoError if an array has not one row a point.
+template <class Frame>
+void expect_whole(const Frame& frame)
+{
+    for (const Column& column : frame.columns) {
+        if (3 * size_of(column) !=
+            frame.points.size() * static_cast<std::size_t>(column.components)) {
+            throw IoError(fmt::format("its array `{}` has not one row a point", column.name));
+        }
+    }
+}
+
 template <class Frame>
 void get_data(hid_t file, hid_t root, Frame& frame)
 {
@@ -166,13 +183,14 @@ void get_data(hid_t file, hid_t root, Frame& frame)
     for (const std::string& name : hdf5::link_names(point_data)) {
         frame.columns.push_back(get_column(point_data, name));
     }
+    expect_whole(frame);
     const hdf5::Handle meta = hdf5::open_group(file, "meta");
     frame.name = hdf5::text_attribute(meta, "name");
     frame.time = hdf5::number_attribute(meta, "time");
     frame.index = static_cast<std::int64_t>(hdf5::number_attribute(meta, "index"));
 }
 
-std::vector<std::int32_t> triangles_of(hid_t root)
+std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
 {
     const Column types = get_column(root, "Types");
     for (const std::uint8_t type : std::get<std::vector<std::uint8_t>>(types.values)) {
@@ -184,7 +202,13 @@ std::vector<std::int32_t> triangles_of(hid_t root)
     const auto& corners = std::get<std::vector<std::int64_t>>(connectivity.values);
     std::vector<std::int32_t> triangles(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (corners[i] < 0 || corners[i] >= static_cast<std::int64_t>(points)) {
+            throw IoError("a triangle has a corner that is no point");
+        }
         triangles[i] = static_cast<std::int32_t>(corners[i]);
+    }
+    if (triangles.size() % 3 != 0) {
+        throw IoError("its last triangle is not whole");
     }
     return triangles;
 }
@@ -228,7 +252,7 @@ Surface read_surface(const std::filesystem::path& file)
     Surface surface;
     read_vtkhdf(file, [&](hid_t open, hid_t root) {
         get_data(open, root, surface);
-        surface.triangles = triangles_of(root);
+        surface.triangles = triangles_of(root, surface.points.size() / 3);
     });
     return surface;
 }

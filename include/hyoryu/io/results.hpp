@@ -43,6 +43,11 @@ FolderLock prepare_results(const std::filesystem::path& folder, Existing existin
 /// Writes `text` to `file` so that a reader sees the old or the new text, never a part.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
+/// Writes `text` to a file that is not there yet. Returns false, and changes nothing, if anything
+/// has that name, a link that leads nowhere included. Throws IoError, and leaves no file, if it
+/// cannot be written.
+bool write_new_text(const std::filesystem::path& file, std::string_view text);
+
 /// Writes frames in a thread of its own while the solver goes on; at most two frames wait (all
 /// clouds and surfaces of one index are one frame). Every file is a complete VTKHDF 1.0
 /// UnstructuredGrid under `frames/`; the series file `<name>.hdf.series` follows after the rename.
