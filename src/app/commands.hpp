@@ -41,8 +41,28 @@ int describe_keys(const DescribeOptions& options);
 
 struct InfoOptions {
     std::filesystem::path folder;
+    bool json = false; // as docs/info.schema.json describes it
 };
 int show_info(const InfoOptions& options);
+
+struct NewOptions {
+    std::string name;               // of a template
+    std::filesystem::path file;     // the case file or its folder; empty: NAME.toml here
+    std::string program = "hyoryu"; // as it was called, for lines that a user may paste
+};
+/// Writes a case to begin with; never replaces a file.
+int write_new_case(const NewOptions& options);
+
+struct ConvertOptions {
+    std::filesystem::path folder;  // of results
+    std::string format;            // vtp, csv or vtkhdf
+    std::filesystem::path output;  // a folder, of vtkhdf a file; empty: within the results
+    std::vector<std::string> only; // names of frame sets; empty: all that the format can hold
+    std::vector<double> times;     // [s] only the frames nearest to these; empty: all
+    bool force = false;            // replace an earlier conversion
+};
+/// Writes the frames in another format; replaces nothing but what it wrote itself.
+int convert_results(const ConvertOptions& options);
 
 struct RenderOptions {
     std::filesystem::path folder;

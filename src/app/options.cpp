@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "options.hpp"
-
-#include "commands.hpp"
-
-#include "hyoryu/core/error.hpp"
-#include "hyoryu/scene/reader_hint.hpp"
+#include "command_table.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace hyoryu {
@@ -34,20 +27,35 @@ const CLI::Validator finite(
     },
     "");
 
+void add_results(CLI::App& command, std::filesystem::path& results)
+{
+    command.add_option("RESULTS", results, "results folder")
+        ->type_name("FOLDER")
+        ->required()
+        ->check(a_name);
+}
+
 void add_run(CLI::App& app, RunOptions& options)
 {
     auto* run = app.add_subcommand("run", "run a case");
-    run->add_option("CASE", options.case_file, "case file (TOML)")->required()->check(a_name);
+    run->add_option("CASE", options.case_file, "case file (TOML)")
+        ->type_name("FILE.toml")
+        ->required()
+        ->check(a_name);
     run->add_option("-o,--output", options.folder,
                     "results folder (default: the case's name + -results, here)")
+        ->type_name("FOLDER")
         ->check(a_name);
     run->add_option("--set", options.overrides,
                     "change a key of the case: key.path=VALUE; repeatable")
+        ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     run->add_option("--threads", options.threads,
                     "threads to use (default: OMP_NUM_THREADS, else all)")
+        ->type_name("N")
         ->check(CLI::Range(1, 4096));
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
+        ->type_name("SECONDS")
         ->check(finite & CLI::NonNegativeNumber);
     run->add_flag("--resume", options.resume, "go on from the checkpoint in the results folder");
     run->add_flag("--force", options.force, "replace an existing results folder");
@@ -57,10 +65,14 @@ void add_run(CLI::App& app, RunOptions& options)
 void add_check(CLI::App& app, CheckOptions& options)
 {
     auto* check = app.add_subcommand("check", "find every mistake of a case and show its plan");
-    check->add_option("CASE", options.case_file, "case file (TOML)")->required()->check(a_name);
+    check->add_option("CASE", options.case_file, "case file (TOML)")
+        ->type_name("FILE.toml")
+        ->required()
+        ->check(a_name);
     check
         ->add_option("--set", options.overrides,
                      "change a key of the case: key.path=VALUE; repeatable")
+        ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     auto* json = check->add_flag("--json", options.json, "print the plan as JSON");
     check
@@ -74,57 +86,74 @@ void add_check(CLI::App& app, CheckOptions& options)
 void add_describe(CLI::App& app, DescribeOptions& options)
 {
     auto* describe_ = app.add_subcommand("describe", "explain the keys of the case file");
-    describe_->add_option("KEY", options.key, "one key or table (default: all)");
+    describe_->add_option("KEY", options.key, "one key or table (default: all)")->type_name("KEY");
     describe_->add_flag("--json-schema", options.json_schema, "print a JSON Schema for editors");
 }
 
 void add_render(CLI::App& app, RenderOptions& options)
 {
     auto* render_ = app.add_subcommand("render", "pictures and an animation of a run, off-screen");
-    render_->add_option("RESULTS", options.folder, "results folder")->required()->check(a_name);
+    add_results(*render_, options.folder);
     render_
         ->add_option("--times", options.settings.times,
                      "only the frames nearest to these times [s]")
+        ->type_name("T,T...")
         ->delimiter(',')
         ->check(finite);
-    render_->add_option("--width", options.settings.width, "pixels")->check(CLI::Range(64, 7680));
-    render_->add_option("--height", options.settings.height, "pixels")->check(CLI::Range(64, 4320));
+    render_->add_option("--width", options.settings.width, "pixels")
+        ->type_name("N")
+        ->check(CLI::Range(64, 7680));
+    render_->add_option("--height", options.settings.height, "pixels")
+        ->type_name("N")
+        ->check(CLI::Range(64, 4320));
     render_->add_option("--azimuth", options.settings.azimuth_deg, "camera direction [deg]")
+        ->type_name("DEGREES")
         ->check(finite);
     render_->add_option("--elevation", options.settings.elevation_deg, "camera height [deg]")
+        ->type_name("DEGREES")
         ->check(finite);
     render_->add_option("--fps", options.settings.fps, "frames a second of the animation")
+        ->type_name("N")
         ->check(CLI::Range(1, 120));
 }
 
 void add_report(CLI::App& app, ReportOptions& options)
 {
     auto* report = app.add_subcommand("report", "one self-contained HTML page about a run");
-    report->add_option("RESULTS", options.folder, "results folder")->required()->check(a_name);
+    add_results(*report, options.folder);
     report->add_option("-o,--output", options.file, "the page (default: RESULTS/report.html)")
+        ->type_name("FILE")
         ->check(a_name);
     report
         ->add_option("--stiffness", options.stiffness,
                      "contact stiffness k [N/m] of every impact, for peak forces u sqrt(k m) "
                      "(default: as the case declares for pairs of materials)")
+        ->type_name("N/m")
         ->check(finite & CLI::PositiveNumber);
 }
 
 void add_verify(CLI::App& app, VerifyOptions& options)
 {
     auto* verify_ = app.add_subcommand("verify", "run benchmarks against their references");
-    verify_->add_option("NAME", options.names, "benchmarks or groups of them (default: all)");
-    verify_->add_option("--tier", options.tier, "quick (default), nightly or release");
-    verify_->add_option("--cases", options.cases, "folder of the benchmark folders")->check(a_name);
+    verify_->add_option("NAME", options.names, "benchmarks or groups of them (default: all)")
+        ->type_name("NAME");
+    verify_->add_option("--tier", options.tier, "quick (default), nightly or release")
+        ->type_name("quick|nightly|release");
+    verify_->add_option("--cases", options.cases, "folder of the benchmark folders")
+        ->type_name("FOLDER")
+        ->check(a_name);
     verify_
         ->add_option("-o,--output", options.folder,
                      "folder for results, tables and figures (default: verify-results)")
+        ->type_name("FOLDER")
         ->check(a_name);
     verify_->add_option("--json", options.json, "write verify.json to this file as well")
+        ->type_name("FILE")
         ->check(a_name);
     verify_
         ->add_option("--threads", options.threads,
                      "threads to use (default: OMP_NUM_THREADS, else all)")
+        ->type_name("N")
         ->check(CLI::Range(1, 4096));
     verify_->add_flag("--list", options.list, "only list the benchmarks");
     verify_->add_flag("--force", options.force, "replace the results of an earlier verify");
@@ -133,16 +162,22 @@ void add_verify(CLI::App& app, VerifyOptions& options)
 void add_study(CLI::App& app, StudyOptions& options)
 {
     auto* study = app.add_subcommand("study", "accuracy against cost over values of case keys");
-    study->add_option("STUDY", options.file, "study file (TOML)")->required()->check(a_name);
+    study->add_option("STUDY", options.file, "study file (TOML)")
+        ->type_name("FILE.toml")
+        ->required()
+        ->check(a_name);
     study
         ->add_option("-o,--output", options.folder,
                      "results folder (default: the study's name + -results, here)")
+        ->type_name("FOLDER")
         ->check(a_name);
     study->add_option("--threads", options.threads, "threads of each run (default: 1)")
+        ->type_name("N")
         ->check(CLI::Range(1, 4096));
     study
         ->add_option("--jobs", options.jobs,
                      "runs side by side, where memory allows; disturbs wall times (default: 1)")
+        ->type_name("N")
         ->check(CLI::Range(1, 4096));
     study->add_flag("--force", options.force, "run again what an earlier call has done");
 }
@@ -157,146 +192,126 @@ void add_bench(CLI::App& app, BenchOptions& options)
     bench
         ->add_option("--sizes", options.sizes,
                      "numbers of fluid particles for the cost against size")
+        ->type_name("N,N...")
         ->delimiter(',')
         ->check(CLI::Range(1e2, 1e8));
     bench
         ->add_option("--threads", options.threads,
                      "threads to use (default: OMP_NUM_THREADS, else all)")
+        ->type_name("N")
         ->check(CLI::Range(1, 4096));
     bench->add_option("--json", options.json, "write the results to this file as well")
+        ->type_name("FILE")
         ->check(a_name);
     bench
         ->add_option("--state", options.state,
                      "keep the developed flow in this folder, and take it from there")
+        ->type_name("FOLDER")
         ->check(a_name);
 }
 
-// The names of options, or of commands, that a word may have meant.
-std::string nearest(const std::string& word, const std::vector<std::string>& known)
+void add_info(CLI::App& app, InfoOptions& options)
 {
-    const std::vector<std::string_view> views(known.begin(), known.end());
-    const std::string hint = did_you_mean(word, views);
-    return hint.empty() ? "there are: " + fmt::format("{}", fmt::join(known, ", ")) : hint;
+    auto* info = app.add_subcommand("info", "what a results folder holds");
+    add_results(*info, options.folder);
+    info->add_flag("--json", options.json, "the same as JSON, for programs");
 }
 
-std::vector<std::string> commands_of(const CLI::App& app)
+void add_new(CLI::App& app, NewOptions& options)
 {
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands(nullptr)) {
-        names.push_back(command->get_name());
-    }
-    return names;
+    auto* new_ = app.add_subcommand("new", "write a commented case to begin with");
+    new_->add_option("TEMPLATE", options.name, "which case, see below")
+        ->type_name("TEMPLATE")
+        ->required()
+        ->check(a_name);
+    new_->add_option("FILE", options.file,
+                     "the case file, or the folder for a case.toml (default: TEMPLATE.toml, here)")
+        ->type_name("FILE")
+        ->check(a_name);
+    new_->footer("Templates:\n"
+                 "  tank                   still water: pressure at rest\n"
+                 "  dam_break              a column of water collapses and hits a wall\n"
+                 "  floating_body          a box comes to rest at its draft\n"
+                 "  bore_with_debris       a bore throws timbers and a container at a house\n"
+                 "  street_with_buildings  a flood between buildings carries cars along\n"
+                 "  contact_alone          bodies without water fall on a ramp\n"
+                 "\n"
+                 "A file that is there already is never replaced.");
 }
 
-std::vector<std::string> options_of(const CLI::App& command)
+void add_convert(CLI::App& app, ConvertOptions& options)
 {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) {
-            names.push_back("--" + name);
-        }
-    }
-    return names;
+    auto* convert = app.add_subcommand("convert", "write the frames of a run in another format");
+    add_results(*convert, options.folder);
+    convert->add_option("--to", options.format, "the format, see below")
+        ->type_name("vtp|csv|vtkhdf")
+        ->required();
+    convert
+        ->add_option("-o,--output", options.output,
+                     "folder of the files, or the file of vtkhdf (default: within RESULTS)")
+        ->type_name("FILE")
+        ->check(a_name);
+    convert
+        ->add_option("--only", options.only,
+                     "only these of fluid, bodies, walls, surfaces, structures")
+        ->type_name("NAME,NAME...")
+        ->delimiter(',');
+    convert->add_option("--times", options.times, "only the frames nearest to these times [s]")
+        ->type_name("T,T...")
+        ->delimiter(',')
+        ->check(finite);
+    convert->add_flag("--force", options.force, "replace an earlier conversion");
+    convert->footer(
+        "Formats:\n"
+        "  vtp     RESULTS/vtp: a .vtp file a frame (VTK PolyData, inline base64), and a .pvd "
+        "file\n"
+        "          for each of fluid, bodies, walls, surfaces, structures, which knows their "
+        "times\n"
+        "  csv     RESULTS/csv: a table a frame of fluid, bodies and walls, one row a particle,\n"
+        "          and a table of their times\n"
+        "  vtkhdf  RESULTS/all.vtkhdf: one temporal VTKHDF 2 file for ParaView 5.12 and later. It\n"
+        "          refers to the frames of fluid, bodies and walls, which must stay where they "
+        "are\n"
+        "\n"
+        "Frames stay as they are. Files that no conversion wrote are never replaced.");
 }
 
-// A word that no command knows, and the one that was meant.
-void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv)
+void add_completions(CLI::App& app, std::string& shell)
 {
-    const std::vector<std::string> known = commands_of(app);
-    const std::string word = argc > 1 ? argv[1] : "";
-    if (!word.starts_with('-') && argc > 1 && std::ranges::find(known, word) == known.end()) {
-        throw CaseError(fmt::format("there is no command \"{}\"", word), nearest(word, known));
-    }
+    auto* completions =
+        app.add_subcommand("completions", "print the script by which a shell completes commands");
+    completions->add_option("SHELL", shell, "bash, zsh or fish")
+        ->type_name("bash|zsh|fish")
+        ->required();
+    completions->footer("Where it goes:\n"
+                        "  bash  source <(hyoryu completions bash)\n"
+                        "  zsh   hyoryu completions zsh > DIR/_hyoryu, DIR being in $fpath\n"
+                        "  fish  hyoryu completions fish > ~/.config/fish/completions/hyoryu.fish");
 }
 
-CaseError mistake_of(const CLI::App& app, const CLI::ParseError& error, int argc,
-                     const char* const* argv)
+void add_man(CLI::App& app, std::string& command)
 {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    const CLI::App& command = chosen.empty() ? app : *chosen.front();
-    const std::vector<std::string> known = options_of(command);
-    for (int k = 1; k < argc; ++k) {
-        std::string word = argv[k];
-        word.resize(std::min(word.find('='), word.size()));
-        if (word.starts_with("--") && word.size() > 2 &&
-            std::ranges::find(known, word) == known.end()) {
-            return CaseError(fmt::format("`hyoryu {}` has no option {}", command.get_name(), word),
-                             nearest(word, known));
-        }
-    }
-    return CaseError(
-        error.what(),
-        fmt::format("see `{} --help`", chosen.empty() ? "hyoryu" : "hyoryu " + command.get_name()));
+    auto* man = app.add_subcommand("man", "print a manual page, for `man -l -`");
+    man->add_option("COMMAND", command, "one command (default: the program)")->type_name("COMMAND");
 }
 
 } // namespace
 
-int run_command_line(int argc, const char* const* argv)
+void add_commands(CLI::App& app, CommandOptions& options)
 {
-    CLI::App app("Hyoryu: floods that carry debris. A particle fluid coupled both ways to rigid "
-                 "bodies that meet walls and each other through impulses.",
-                 "hyoryu");
-    app.set_version_flag("--version", version_text());
-    app.require_subcommand(1);
-    RunOptions run;
-    CheckOptions check;
-    DescribeOptions describe_;
-    InfoOptions info;
-    RenderOptions render_;
-    ReportOptions report;
-    VerifyOptions verify_;
-    StudyOptions study;
-    BenchOptions bench;
-    add_run(app, run);
-    add_check(app, check);
-    add_describe(app, describe_);
-    add_render(app, render_);
-    add_report(app, report);
-    add_verify(app, verify_);
-    add_study(app, study);
-    add_bench(app, bench);
-    app.add_subcommand("info", "what a results folder holds")
-        ->add_option("RESULTS", info.folder, "results folder")
-        ->required()
-        ->check(a_name);
-
-    refuse_unknown_command(app, argc, argv);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        // Help and version are no mistakes; everything else is the user's input.
-        if (error.get_exit_code() == 0) {
-            app.exit(error);
-            return exit_code::done;
-        }
-        throw mistake_of(app, error, argc, argv);
-    }
-    if (app.got_subcommand("run")) {
-        run.program = argv[0];
-        return run_case(run);
-    }
-    if (app.got_subcommand("check")) {
-        return check_case(check);
-    }
-    if (app.got_subcommand("describe")) {
-        return describe_keys(describe_);
-    }
-    if (app.got_subcommand("info")) {
-        return show_info(info);
-    }
-    if (app.got_subcommand("report")) {
-        return write_report(report);
-    }
-    if (app.got_subcommand("verify")) {
-        return verify(verify_);
-    }
-    if (app.got_subcommand("study")) {
-        return run_study(study);
-    }
-    if (app.got_subcommand("bench")) {
-        return run_bench(bench);
-    }
-    return render_results(render_);
+    add_run(app, options.run);
+    add_check(app, options.check);
+    add_describe(app, options.describe);
+    add_new(app, options.new_case);
+    add_info(app, options.info);
+    add_render(app, options.render);
+    add_report(app, options.report);
+    add_convert(app, options.convert);
+    add_verify(app, options.verify);
+    add_study(app, options.study);
+    add_bench(app, options.bench);
+    add_completions(app, options.shell);
+    add_man(app, options.manual);
 }
 
 } // namespace hyoryu

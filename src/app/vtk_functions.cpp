@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `read_mesh`, `render` and `draw` of the program: found in the VTK module, which stands beside the
 // program or in ../lib/hyoryu.
+#include "build_info.hpp"
 #include "vtk/module.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -29,8 +30,13 @@ void* open_module()
             return module;
         }
     }
-    throw IoError("meshes and pictures need VTK, and this program was built without it "
-                  "(HYORYU_VTK=OFF)");
+    throw IoError(
+        build_info::vtk == "ON"
+            ? fmt::format("meshes and pictures need {}, which is not installed: on Debian "
+                          "the package hyoryu-vtk holds it",
+                          file_name)
+            : std::string("meshes and pictures need VTK, and this program was built "
+                          "without it (HYORYU_VTK=OFF)"));
 }
 
 template <class Function>

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 HYORYU = str(pathlib.Path(sys.argv.pop(1)).resolve())
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
 CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 
 FLOOD = """

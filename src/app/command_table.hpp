@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The table of commands and options: what the program accepts, and the source of `--help`, of the
+// manual pages and of what shells complete.
+#pragma once
+
+#include "commands.hpp"
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace hyoryu {
+
+/// What the command line fills in, a value a command.
+struct CommandOptions {
+    RunOptions run;
+    CheckOptions check;
+    DescribeOptions describe;
+    NewOptions new_case;
+    InfoOptions info;
+    RenderOptions render;
+    ReportOptions report;
+    ConvertOptions convert;
+    VerifyOptions verify;
+    StudyOptions study;
+    BenchOptions bench;
+    std::string shell;  // of `completions`
+    std::string manual; // of `man`: a command, or empty
+};
+
+/// Adds every command with its options and their texts; parsing fills in `options`.
+void add_commands(CLI::App& app, CommandOptions& options);
+
+} // namespace hyoryu
