@@ -44,11 +44,10 @@ enum class FeatureKind {
     crossing,     // edge i-j of the owner over the side k-l of face f of the other
     edge_edge,    // edge i-j of a, edge k-l of b
     rim_face,     // the point of rim i of the owner, a rod, nearest to face f of the other
-    cap_line,     // end j of the chord of cap i of the owner, a rod, along what side_line meets
     cap_cap,      // end j of the chord that cap i of the owner and cap k of the other share
     rod_corner,   // the owner, a rod, and corner k of the other
     side_line,    // the side of the owner, a rod; edge k-l, crease k or the side of the other
-    rim_line,     // rim i of the owner, a rod; edge k-l, crease k or the side of the other
+    rim_line,     // end j of the chord of rim i of the owner, a rod, along what side_line meets
     rim_rim,      // rim i of rod a, rim j of rod b
     edge_crease,  // edge i-j of a, crease k of a mesh
     face_corner,  // face f of a, corner i of a mesh

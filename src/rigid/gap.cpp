@@ -157,7 +157,6 @@ Touch touch_of(const Feature& feature, const Configuration& at)
     case FeatureKind::edge_edge:
         return edge_touch(feature, at);
     case FeatureKind::rim_face:
-    case FeatureKind::cap_line:
     case FeatureKind::cap_cap:
     case FeatureKind::rod_corner:
     case FeatureKind::side_line:

@@ -198,8 +198,6 @@ private:
         add_curve(triangle, f, crease);
         for (f.i = 0; f.i < 2; ++f.i) {
             f.kind = FeatureKind::rim_line;
-            add_curve(triangle, f, crease);
-            f.kind = FeatureKind::cap_line;
             for (f.j = 0; f.j < 2; ++f.j) {
                 add_curve(triangle, f, crease);
             }
@@ -207,13 +205,18 @@ private:
         }
     }
 
-    // A rim has the normals between its cap and the side only.
+    // A rim has the normals between its cap and the side only: where the rod reaches beyond its
+    // point along the normal, by twice the second part of it, no contact is there.
     void add_curve(const FlatTriangle& triangle, const Feature& f, const Crease& crease)
     {
         const RodTouch found = rod_touch(f, at_);
         const Vec3& n = found.touch.normal;
-        const double outward = (f.i == 0 ? 1 : -1) * pose_.R.col(0).dot(n);
-        const bool of_rod = f.kind == FeatureKind::side_line || outward >= -lying_flat;
+        const Vec3 axis = pose_.R.col(0);
+        const double outward = (f.i == 0 ? 1 : -1) * axis.dot(n);
+        const Vec3 point = found.touch.point - displacement(wall_.motion, at_.time) - pose_.x;
+        const double inward = n.dot(point - axis * axis.dot(point));
+        const bool of_rod = f.kind == FeatureKind::side_line ||
+                            (outward >= -lying_flat && 2 * inward <= deep * at_.geometry.unit);
         if (of_rod && found.past <= rim_tolerance * solid_.reach && in_cone(crease, n) &&
             faces(triangle, found.touch.gap)) {
             add(f);

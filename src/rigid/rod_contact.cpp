@@ -18,6 +18,8 @@ constexpr double standing = 0.995;
 // A gap below this and twice the overlap of the solids belongs to features that do not face each
 // other [units].
 constexpr double no_overlap = -1e-9;
+// What round-off does to the normal of an edge that lies flat (unit vectors).
+constexpr double lying_flat = 1e-6;
 // Contacts show the distance of the solids to this [units].
 constexpr double exact = 1e-10;
 
@@ -103,6 +105,20 @@ void add_meeting(Look& look, const Feature& feature, const Edge* edge)
     }
 }
 
+// A rim and a line: the end of the chord that the line goes into, and, where it lies so flat on the
+// cap that both ends may touch, the other one.
+void add_rim_ends(Look& look, Feature rim, const Vec3& line, const Edge* edge, double enough)
+{
+    const PlacedSolid& rod = look.part(rim.owner);
+    const double lean = (rim.i == 0 ? -1 : 1) * rod.pose.R.col(0).dot(line) / line.norm();
+    for (rim.j = 0; rim.j < 2; ++rim.j) {
+        const int end = rim.j == 0 ? -1 : 1;
+        if (2 * rod.solid.radius * end * lean <= std::max(enough, 0.0)) {
+            add_meeting(look, rim, edge);
+        }
+    }
+}
+
 // Both stop at a normal that separates by more than `enough`.
 void add_meetings_of_rods(Look& look, double enough)
 {
@@ -114,7 +130,7 @@ void add_meetings_of_rods(Look& look, double enough)
             }
             Feature rim = look.feature(FeatureKind::rim_line, i);
             rim.i = j;
-            add_meeting(look, rim, nullptr);
+            add_rim_ends(look, rim, look.part(1 - i).pose.R.col(0), nullptr, enough);
             Feature rims = look.feature(FeatureKind::rim_rim, 0);
             rims.i = i;
             rims.j = j;
@@ -125,7 +141,8 @@ void add_meetings_of_rods(Look& look, double enough)
 
 void add_meetings_with_polytope(Look& look, int rod, double enough)
 {
-    const Solid& polytope = look.part(1 - rod).solid;
+    const PlacedSolid& other = look.part(1 - rod);
+    const Solid& polytope = other.solid;
     for (int k = 0; k < static_cast<int>(polytope.corners.size()); ++k) {
         if (look.distance > enough) {
             return;
@@ -142,11 +159,12 @@ void add_meetings_with_polytope(Look& look, int rod, double enough)
         side.k = polytope.first_corner + edge.i;
         side.l = polytope.first_corner + edge.j;
         add_meeting(look, side, &edge);
+        const Vec3 line = other.pose.R * (polytope.corners[edge.j] - polytope.corners[edge.i]);
         for (const int i : {0, 1}) {
             Feature rim = side;
             rim.kind = FeatureKind::rim_line;
             rim.i = i;
-            add_meeting(look, rim, &edge);
+            add_rim_ends(look, rim, line, &edge, enough);
         }
     }
 }
@@ -218,27 +236,17 @@ Candidate rim_on_face(const Look& look, const FaceAxis& axis, int rim)
     return {f, touch_of(f, look.at)};
 }
 
-// The ends of the chords of a cap along the edges or the side of the other solid, or where the rims
-// of two caps cross.
-void add_chords(Look& look, const FaceAxis& axis)
+// Where the rims of two caps cross.
+void add_crossings(Look& look, const FaceAxis& axis)
 {
-    Feature f = look.feature(FeatureKind::cap_line, axis.owner);
+    if (!look.is_rod(1 - axis.owner)) {
+        return;
+    }
+    Feature f = look.feature(FeatureKind::cap_cap, axis.owner);
     f.i = axis.face;
-    const Solid& other = look.part(1 - axis.owner).solid;
     for (f.j = 0; f.j < 2; ++f.j) {
-        if (other.form == Form::rod) {
+        for (f.k = 0; f.k < 2; ++f.k) {
             add_meeting(look, f, nullptr);
-            Feature caps = f;
-            caps.kind = FeatureKind::cap_cap;
-            for (const int cap : {0, 1}) {
-                caps.k = cap;
-                add_meeting(look, caps, nullptr);
-            }
-        }
-        for (const Edge& edge : other.edges) {
-            f.k = other.first_corner + edge.i;
-            f.l = other.first_corner + edge.j;
-            add_meeting(look, f, &edge);
         }
     }
 }
@@ -341,11 +349,25 @@ private:
     double lowest_ = infinity;
 };
 
+// Whether the polytope of an edge lies below it, seen from the rod along the normal.
+bool lies_below(const Look& look, const Meeting& meeting)
+{
+    const PlacedSolid& polytope = look.part(1 - meeting.feature.owner);
+    const Edge& edge = *meeting.edge;
+    const Solid& solid = polytope.solid;
+    const Vec3 out = (meeting.feature.owner == 0 ? 1 : -1) * meeting.at.touch.normal;
+    const Vec3 n = polytope.pose.R.transpose() * out;
+    const Vec3 d = (solid.corners[edge.j] - solid.corners[edge.i]).normalized();
+    return n.dot(solid.faces[edge.left].normal.cross(d)) <= lying_flat &&
+           n.dot(d.cross(solid.faces[edge.right].normal)) <= lying_flat;
+}
+
 // Whether the solids lie on either side of the touch.
 bool separates(const Look& look, const Meeting& meeting, double near)
 {
     const Touch& touch = meeting.at.touch;
     return meeting.at.past <= look.tolerance && touch.gap <= look.distance + near &&
+           (meeting.edge == nullptr || lies_below(look, meeting)) &&
            distance_along(look.parts, touch.normal) >= touch.gap - near;
 }
 
@@ -379,7 +401,7 @@ void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configu
             add(is_open(look, axis, c.touch.point), c);
         }
         if (look.is_rod(axis.owner)) {
-            add_chords(look, axis);
+            add_crossings(look, axis);
         }
     }
     for (const Meeting& meeting : look.meetings) {

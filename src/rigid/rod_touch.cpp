@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace hyoryu {
 
@@ -72,10 +73,16 @@ Line side_of(const PlacedSolid& rod)
     return {rod.pose.x - half * axis, axis, 2 * half, rod.solid.radius};
 }
 
+// The side of its rod that a cap is on.
+int out_of(int cap)
+{
+    return cap == 0 ? -1 : 1;
+}
+
 Rim rim_of(const PlacedSolid& rod, int i)
 {
     const Vec3 axis = rod.pose.R.col(0);
-    return {rod.pose.x + (i == 0 ? -1 : 1) * rod.solid.half_length * axis, axis, rod.solid.radius};
+    return {rod.pose.x + out_of(i) * rod.solid.half_length * axis, axis, rod.solid.radius};
 }
 
 Line line_between(const Vec3& p, const Vec3& q)
@@ -105,15 +112,22 @@ RodTouch side_on_line(const Line& side, const Line& line)
             sine <= parallel_lines ? infinity : std::max(side.past(s0), line.past(t0))};
 }
 
-// The normal of the ellipse (x/1)^2 + (y/beta)^2 = 1, kappa = 1 - beta^2, through the point (x, y)
-// with x, y >= 0: the largest root s of (x/(s + kappa))^2 + (beta y/s)^2 = 1, on which Newton's
-// method closes in from below. Source: Eberly, Distance from a Point to an Ellipse (2013).
-Eigen::Vector2d ellipse_normal(double x, double y, double beta, double kappa)
+// A point (cosine, beta sine) of the ellipse of half axes 1 and |beta|, and a normal there.
+struct Foot {
+    Eigen::Vector2d angle{1, 0};
+    Eigen::Vector2d normal{1, 0};
+};
+
+// The point nearest to (x, y), x, y and beta >= 0, kappa = 1 - beta^2, with the outward normal: the
+// largest root s of (x/(s + kappa))^2 + (beta y/s)^2 = 1, on which Newton's method closes in from
+// below. Source: Eberly, Distance from a Point to an Ellipse (2013).
+Foot nearest_foot(double x, double y, double beta, double kappa)
 {
     double s = std::max(beta * y, x - kappa);
     if (s <= 0) { // on the major axis, within the centres of curvature
         const double cosine = kappa > 0 ? std::min(x / kappa, 1.0) : 0;
-        return {beta * cosine, std::sqrt(1 - sq(cosine))};
+        const double sine = std::sqrt(1 - sq(cosine));
+        return {{cosine, sine}, {beta * cosine, std::max(sine, no_direction)}};
     }
     for (int k = 0; k < most_steps; ++k) {
         const double p = sq(x / (s + kappa));
@@ -124,48 +138,87 @@ Eigen::Vector2d ellipse_normal(double x, double y, double beta, double kappa)
         }
         s = next;
     }
-    return {x * s, y * (s + kappa)};
+    const Eigen::Vector2d angle(x / (s + kappa), beta * y / s);
+    return {angle.normalized(), {x * s, y * (s + kappa)}};
 }
 
-// Seen along the line, the rim is an ellipse and the line a point.
-RodTouch rim_on_line(const Rim& rim, const Line& line)
+// Whether the ellipse has a second normal through the point, on its other long side: within the
+// evolute, m = |beta y|.
+bool has_far_foot(double x, double m, double kappa)
 {
-    const Vec3 cross = rim.axis.cross(line.along);
+    return std::cbrt(sq(x)) + std::cbrt(sq(m)) < std::cbrt(sq(kappa));
+}
+
+// The angle of that second foot: cosine (kappa - m/sine) = x, a concave function of the cosine, on
+// the smallest root of which Newton's method closes in from below.
+Eigen::Vector2d far_angle(double x, double m, double kappa)
+{
+    double cosine = x / kappa;
+    for (int k = 0; k < most_steps; ++k) {
+        const double sine2 = 1 - sq(cosine);
+        const double sine = std::sqrt(sine2);
+        const double slope = kappa - m / (sine * sine2);
+        const double next = cosine + (x - cosine * (kappa - m / sine)) / slope;
+        if (next <= cosine) {
+            break;
+        }
+        cosine = next;
+    }
+    return {cosine, std::sqrt(1 - sq(cosine))};
+}
+
+// The foot on the long side of normal +y of the ellipse (cos t, beta sin t), 0 < t < pi, nothing if
+// there is none. With beta < 0 this side is behind the other one, and its normal points inward.
+std::optional<Foot> upper_foot(double x, double y, double beta)
+{
+    const double kappa = 1 - sq(beta);
+    const double m = std::abs(beta * y);
+    const bool inside = has_far_foot(std::abs(x), m, kappa);
+    Foot foot;
+    if (beta >= 0 && (y >= 0 || !inside)) {
+        foot = nearest_foot(std::abs(x), std::abs(y), beta, kappa);
+        foot.angle.y() *= y < 0 ? -1 : 1;
+        foot.normal.y() *= y < 0 ? -1 : 1;
+    } else if (!inside) {
+        return std::nullopt;
+    } else {
+        foot.angle = y < 0 && beta < 0 ? nearest_foot(std::abs(x), -y, -beta, kappa).angle
+                                       : far_angle(std::abs(x), m, kappa);
+        foot.normal = {beta * foot.angle.x(), foot.angle.y()};
+    }
+    foot.angle.x() *= x < 0 ? -1 : 1;
+    foot.normal.x() *= x < 0 ? -1 : 1;
+    return foot;
+}
+
+// Seen along the line, the rim is an ellipse and the line a point. One long side of the ellipse is
+// the half of the rim on which the line enters the cap (end -1), the other that on which it leaves
+// (end 1): where the line rocks over the cap, these sides change places, and each end stays where
+// it is. At the end that lies behind the other one the normal points into the rod.
+RodTouch rim_on_line(const PlacedSolid& rod, int i, const Line& line, int end)
+{
+    const Rim rim = rim_of(rod, i);
+    const Vec3 out = out_of(i) * rim.axis;
+    const Vec3 cross = out.cross(line.along);
     const double sine = cross.norm();
     const Vec3 major = sine > no_direction ? Vec3(cross / sine) : any_square_to(line.along);
     const Vec3 minor = line.along.cross(major);
     const Vec3 r = line.from - rim.centre;
     const double x = major.dot(r) / rim.radius;
     const double y = minor.dot(r) / rim.radius;
-    const double beta = std::abs(rim.axis.dot(line.along));
-    const Eigen::Vector2d normal = ellipse_normal(std::abs(x), std::abs(y), beta, sq(sine));
-    const Vec3 out = (std::copysign(normal.x(), x) * major + std::copysign(normal.y(), y) * minor)
-                         .normalized(); // towards the line
-    const double across = rim.axis.cross(out).norm();
-    const double gap = out.dot(r) - rim.radius * across - line.radius;
-    const Vec3 on_rim = rim.centre + rim.towards(out);
-    const double past = across > flat ? line.past(line.along.dot(on_rim - line.from)) : infinity;
-    return {{on_rim + 0.5 * gap * out, -out, gap}, past};
-}
-
-// Where the line leaves the cap (end 1) or comes over it (end -1), seen along the axis. Where the
-// line ends over the cap its end has a touch of its own.
-RodTouch line_over_cap(const Rim& rim, int side, const Line& line, int end)
-{
-    const Vec3 n = side * rim.axis;
-    const Vec3 facing = n - line.along * line.along.dot(n);
-    const Vec3 r = line.from - line.radius * direction(facing) - rim.centre;
-    const Vec3 across = r - n * n.dot(r);
-    const Vec3 along = line.along - n * n.dot(line.along);
-    const double a = along.squaredNorm();
-    const double b = along.dot(across);
-    const double root = sq(b) - a * (across.squaredNorm() - sq(rim.radius));
-    if (a <= sq(no_direction) || root < 0) {
-        return {{rim.centre + r, -n, n.dot(r)}, infinity};
+    const double beta = -end * out.dot(line.along);
+    const std::optional<Foot> foot = upper_foot(x, y, beta);
+    if (!foot) { // behind the rod
+        RodTouch other = rim_on_line(rod, i, line, -end);
+        other.past = infinity;
+        return other;
     }
-    const double t = (end * std::sqrt(root) - b) / a;
-    const Vec3 p = r + t * line.along;
-    return {{rim.centre + p, -n, n.dot(p)}, line.past(t)};
+    const Vec3 n = (foot->normal.x() * major + foot->normal.y() * minor).normalized();
+    const Vec3 on_rim = rim.centre + rim.radius * (foot->angle.x() * major +
+                                                   end * foot->angle.y() * major.cross(out));
+    const double gap = n.dot(line.from - on_rim) - line.radius;
+    const double past = line.past(line.along.dot(on_rim - line.from));
+    return {{on_rim + 0.5 * gap * n, -n, gap}, past};
 }
 
 // Where the rims of two caps cross, seen along the axis of the first: on the line of equal power to
@@ -258,12 +311,6 @@ Vec3 widest(const DiscGap& discs, Vec3 n)
         }
     }
     return n;
-}
-
-// The side of its rod that a cap is on.
-int out_of(int cap)
-{
-    return cap == 0 ? -1 : 1;
 }
 
 // Of the normals between the rims at some points of the second, out of both caps, the one of the
@@ -362,9 +409,6 @@ RodTouch touch_on_rod(const Feature& feature, const PlacedSolid& rod, const Part
         const Vec3 n = other.solid.pose.R * other.solid.solid.faces[feature.f].normal;
         return {over_face(low_point(rod, feature.i, n), other.solid, feature.f)};
     }
-    case FeatureKind::cap_line:
-        return line_over_cap(rim_of(rod, feature.i), feature.i == 0 ? -1 : 1, other.line(feature),
-                             feature.j == 0 ? -1 : 1);
     case FeatureKind::cap_cap:
         return cap_on_cap(rim_of(rod, feature.i), feature.i == 0 ? -1 : 1,
                           rim_of(other.solid, feature.k), feature.j == 0 ? -1 : 1);
@@ -373,7 +417,7 @@ RodTouch touch_on_rod(const Feature& feature, const PlacedSolid& rod, const Part
     case FeatureKind::side_line:
         return side_on_line(side_of(rod), other.line(feature));
     case FeatureKind::rim_line:
-        return rim_on_line(rim_of(rod, feature.i), other.line(feature));
+        return rim_on_line(rod, feature.i, other.line(feature), feature.j == 0 ? -1 : 1);
     default:
         return rim_on_rim(rod, feature.i, other.solid, feature.j);
     }
@@ -410,8 +454,10 @@ double rod_triangle_distance(const PlacedSolid& rod, const std::array<Vec3, 3>& 
         const Line edge = line_between(triangle[k], triangle[(k + 1) % 3]);
         look(corner_touch(rod, triangle[k]).touch.normal);
         look(side_on_line(side_of(rod), edge).touch.normal);
-        look(rim_on_line(rim_of(rod, 0), edge).touch.normal);
-        look(rim_on_line(rim_of(rod, 1), edge).touch.normal);
+        for (const int i : {0, 1}) {
+            const int end = out_of(i) * axis.dot(edge.along) > 0 ? -1 : 1;
+            look(rim_on_line(rod, i, edge, end).touch.normal);
+        }
     }
     return distance;
 }

@@ -14,7 +14,7 @@ struct RodTouch {
     double past = 0;
 };
 
-/// The touch of rim_face, cap_line, cap_cap, rod_corner, side_line, rim_line and rim_rim; the edges
+/// The touch of rim_face, cap_cap, rod_corner, side_line, rim_line and rim_rim; the edges
 /// and corners of a mesh are its creases and corners.
 RodTouch rod_touch(const Feature& feature, const Configuration& at);
 
