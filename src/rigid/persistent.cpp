@@ -133,10 +133,11 @@ bool slides_through(const ContactMemory& memory, const SubStep& sub, const Row& 
            (p.before - n * n.dot(p.before)).norm() > slow;
 }
 
-// Whether the contact at the middle and the end of the planned motion is the one of its start. A
-// line that rocks over a cap goes on at the far end of its chord, a log along an edge by its other
-// end, a corner over a rim, and a guess of the forces may turn a body too far: the answer of the
-// bodies is then that of two contacts, may be negative, and no impulse solves it.
+// Whether the contact at the middle and the end of the planned motion is the one of its start. The
+// low point of a cap may run to its other side where the cap rocks through flat, the crossing of a
+// log and an edge or another log to its other end, a corner over a rim, and a guess of the forces
+// may turn a body too far: the answer of the bodies is then that of two places, may be negative,
+// and no impulse solves it.
 bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& bodies)
 {
     constexpr double same_way = 0.5; // cosine

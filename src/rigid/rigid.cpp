@@ -111,7 +111,8 @@ void plan_located(const StepContext& context, SubStep& sub, double rest)
 
 bool needs_halving(const StepContext& context, const SubStep& sub)
 {
-    return (context.memory.stepped && ends_deep(context, sub)) || gains_energy(context, sub);
+    return (context.memory.stepped && ends_deep(context, sub)) || contacts_sink(context, sub) ||
+           gains_energy(context, sub);
 }
 
 // Advances with impacts located in time until the step is over or the events are too many for the

@@ -108,18 +108,24 @@ void end_with_turn(const StepContext& context, SubStep& sub);
 /// time and plans it again.
 void end_with_slip(const StepContext& context, SubStep& sub);
 
+/// Whether the planned motion, which ends at the poses `end`, leaves a contact that it was planned
+/// with overlapping: one whose point runs along the solids faster than they turn, as the low point
+/// of a cap that is nearly flat, is not where it was foreseen.
+bool contacts_sink(const StepContext& context, const SubStep& sub);
+
 /// The first time within the sub-step at which a contact that is not held closes; h if none does.
 double first_event(const StepContext& context, const SubStep& sub);
 
-/// Whether the planned motion leaves pairs whose events are not looked for deeper in each other:
-/// what turns away from a contact on its free path, and is pressed back by another, is not seen to
-/// close.
+/// Whether the planned motion, which ends at the poses `end`, leaves pairs whose events are not
+/// looked for deeper in each other: what turns away from a contact on its free path, and is pressed
+/// back by another, is not seen to close.
 bool ends_deep(const StepContext& context, const SubStep& sub);
 /// Such a sub-step is halved so often at most.
 inline constexpr int halvings = 8;
 
-/// Whether contacts, walls that move left out, give the cluster energy in the planned motion, or
-/// the projection of the gaps at its end would: more than a millionth of what it moves with.
+/// Whether contacts, walls that move left out, give the cluster energy in the planned motion,
+/// which ends at the poses `end`, or the projection of the gaps there would: more than a millionth
+/// of what it moves with.
 bool gains_energy(const StepContext& context, const SubStep& sub);
 
 /// Moves the bodies along their paths to s and books the share of the contact impulses.

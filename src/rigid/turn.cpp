@@ -23,6 +23,9 @@ constexpr double short_of_turn = 0.8;
 constexpr double most_shortening = 0.1;
 constexpr int most_tries = 8;
 
+// A contact may sink by this in a sub-step [units].
+constexpr double shallow = 2e-6;
+
 // The largest turn of a normal between two curves within the sub-step [rad].
 double largest_turn(const std::vector<Persistent>& contacts)
 {
@@ -71,6 +74,16 @@ void end_with_part(const StepContext& context, SubStep& sub, double rest)
         sub.h = part;
         plan_again(context, sub);
     }
+}
+
+bool contacts_sink(const StepContext& context, const SubStep& sub)
+{
+    const ContactMemory& memory = context.memory;
+    const Configuration end = configuration(memory, memory.end, sub.time + sub.h);
+    return std::ranges::any_of(memory.persistent, [&](const Persistent& p) {
+        const double least = std::min(p.candidate.touch.gap, 0.0) - shallow * memory.geometry.unit;
+        return touch_of(p.candidate.feature, end).gap < least;
+    });
 }
 
 void end_with_turn(const StepContext& context, SubStep& sub)

@@ -218,20 +218,25 @@ Meeting throw_over_rims(int seed)
 }
 
 // Deeper than asked for in no scene: 1e-5 m at 1 ms, 1e-4 m at 5 ms; and no energy from contacts.
-void expect_sound(Meeting (*scene_of)(int), int count, double end)
+void expect_sound(Meeting (*scene_of)(int), int seed, double end)
+{
+    for (const auto& [dt, most] : {std::pair(1e-3, 1e-5), std::pair(5e-3, 1e-4)}) {
+        Meeting meeting = scene_of(seed);
+        const Watched seen = run_and_watch(meeting, dt, end);
+        const double deepest = seen.overlap;
+        EXPECT_LT(deepest, most) << "HYORYU_SEED=" << seed << " HYORYU_MEETINGS=1, dt " << dt;
+        EXPECT_LT(seen.gain, 1e-6) << "HYORYU_SEED=" << seed << " HYORYU_MEETINGS=1, dt " << dt;
+        // The program sees in the middle of a step, too, and so as much at least; 1e-8 m is
+        // what the witness takes for nothing.
+        EXPECT_LE(deepest, meeting.rigid.counters.worst_penetration + most) << seed;
+    }
+}
+
+void expect_family_sound(Meeting (*scene_of)(int), int count, double end)
 {
     const int first = number_from("HYORYU_SEED", 1);
     for (int seed = first; seed < first + number_from("HYORYU_MEETINGS", count); ++seed) {
-        for (const auto& [dt, most] : {std::pair(1e-3, 1e-5), std::pair(5e-3, 1e-4)}) {
-            Meeting meeting = scene_of(seed);
-            const Watched seen = run_and_watch(meeting, dt, end);
-            const double deepest = seen.overlap;
-            EXPECT_LT(deepest, most) << "HYORYU_SEED=" << seed << " HYORYU_MEETINGS=1, dt " << dt;
-            EXPECT_LT(seen.gain, 1e-6) << "HYORYU_SEED=" << seed << " HYORYU_MEETINGS=1, dt " << dt;
-            // The program sees in the middle of a step, too, and so as much at least; 1e-8 m is
-            // what the witness takes for nothing.
-            EXPECT_LE(deepest, meeting.rigid.counters.worst_penetration + most) << seed;
-        }
+        expect_sound(scene_of, seed, end);
     }
 }
 
@@ -308,17 +313,23 @@ TEST(Meetings, ContactsOfCylindersShowTheDistance)
 
 TEST(Meetings, EndsOfCylindersLandOnEdgesAndCorners)
 {
-    expect_sound(landing, 30, 0.25);
+    expect_family_sound(landing, 30, 0.25);
+}
+
+TEST(Meetings, ACapComesDownNearlyFlatOnAFace)
+{
+    // its low point runs along the rim: with the whole step ahead it sank 0.23 mm at 5 ms
+    expect_sound(landing, 498, 0.25);
 }
 
 TEST(Meetings, PairsOfAllShapes)
 {
-    expect_sound(pair_of, 30, 0.4);
+    expect_family_sound(pair_of, 30, 0.4);
 }
 
 TEST(Meetings, ThrowsIntoBasinsAndOverRims)
 {
-    expect_sound(throw_over_rims, 20, 0.8);
+    expect_family_sound(throw_over_rims, 20, 0.8);
 }
 
 } // namespace
