@@ -62,9 +62,8 @@ private:
     void place(int body, double s)
     {
         if (body >= 0 && memory_.rotors[body].movable) {
-            memory_.trial[body] =
-                s < sub_.h ? pose_at(memory_.paths[body], memory_.rotors[body], s)
-                           : memory_.end[body];
+            memory_.trial[body] = s < sub_.h ? pose_at(memory_.paths[body], memory_.rotors[body], s)
+                                             : memory_.end[body];
         }
     }
 

@@ -19,9 +19,9 @@ inline bool is_worth_locating(const ContactMemory& memory)
 }
 
 /// Where smooth contacts take their arms and normals: at the middle and the end of the planned
-/// motion, in two passes, which is of second order; or as they are at the start, which is of first
-/// order but keeps the contact problem symmetric, so that no solution of it, however rough, gains
-/// energy.
+/// motion, in two passes, or one that ends where the known impulses led to, which is of second
+/// order; or as they are at the start, which is of first order but keeps the contact problem
+/// symmetric, so that no solution of it, however rough, gains energy.
 enum class Arms { ahead, now };
 
 /// The slip that friction opposes: that at the end of the sub-step, which holds wherever a contact
