@@ -5,6 +5,8 @@
 // joint bears no tension (successive over-relaxation with projection: Cryer 1971).
 #include "joint_pressure.hpp"
 
+#include "joint_line.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,15 +25,6 @@ std::size_t at(Index k)
 {
     return static_cast<std::size_t>(k);
 }
-
-// A way for water between a cell and its surroundings, or the next cell.
-struct Way {
-    double conductance = 0; // of a uniform gap, relative
-    double pressure = 0;    // outside, moved to the centre of the cell [Pa]
-    double enters = 0;      // share of the conductance by which water comes in; all lets it out
-    int next = -1;          // cell of the joint across the edge, counted from the first of the face
-    double rise = 0;        // by which a pressure there grows on the way to the centre [Pa]
-};
 
 // Fluid particles between the two faces.
 struct Filled {
@@ -71,7 +64,7 @@ public:
     {
         const Index cells = face_.last - face_.first;
         inside_.assign(at(cells), Filled{});
-        ways_.assign(at(4 * cells), Way{});
+        ways_.assign(at(4 * cells), JointWay{});
         pressure_.assign(at(cells), 0);
         bool open = false;
         for (int c = face_.first; c < face_.last; ++c) {
@@ -99,7 +92,7 @@ private:
     const JointCell& cell(int c) const { return body_.faces.cells[at(c)]; }
     JointNode& node(int c) { return body_.nodes[at(c)]; }
     bool joined(int c) { return c >= 0 && node(c).other != JointNode::none; }
-    Way& way(int c, int edge) { return ways_[at(4 * (c - face_.first) + edge)]; }
+    JointWay& way(int c, int edge) { return ways_[at(4 * (c - face_.first) + edge)]; }
     Filled& inside(int c) { return inside_[at(c - face_.first)]; }
 
     double conductance(int edge) const
@@ -164,7 +157,7 @@ private:
     }
 
     // Water or air beyond the rim, or a solid nearer than a spacing that closes it.
-    Way rim(int c, int edge)
+    JointWay rim(int c, int edge)
     {
         const Pose& pose = poses_[at(b_)];
         const Vec3 place = pose.position + pose.orientation * cell(c).rim[at(edge)];
@@ -176,7 +169,7 @@ private:
         if (first_other(tables_, poses_, b_, ray, part).hit.enter < room) {
             return {};
         }
-        Way way{2 * conductance(edge), 0, 0};
+        JointWay way{2 * conductance(edge), 0, 0};
         if (cell(c).probe[at(edge)] >= 0) {
             const std::size_t row = fluid_.first + at(cell(c).probe[at(edge)]);
             const double wet = std::min(2 * fluid_.shepard[row] / fluid_.sums.rim, 1.0);
@@ -198,7 +191,7 @@ private:
     {
         double head = 0;
         double weight = 0;
-        const auto add = [&](int c, const Way& w) {
+        const auto add = [&](int c, const JointWay& w) {
             const double share = w.enters * w.conductance; // none of ways to other cells
             head += share * (w.pressure - fluid_.weight.dot(node(c).place));
             weight += share;
@@ -212,29 +205,6 @@ private:
             const double p = weight > 0 ? head / weight + fluid_.weight.dot(node(c).place) : 0.0;
             pressure_[at(c - face_.first)] = joined(c) ? std::max(p, 0.0) : 0;
         }
-    }
-
-    // The pressure that a cell, counted from the first, would have between its neighbours and ways.
-    double balanced(int c) const
-    {
-        const double own = pressure_[at(c)];
-        double total = 0;
-        double weight = 0;
-        for (int edge = 0; edge < edges_; ++edge) {
-            const Way& out = ways_[at(4 * c + edge)];
-            double there = out.pressure;
-            double g = out.conductance;
-            if (out.next >= 0) {
-                const double its = pressure_[at(out.next)];
-                there = its + out.rise;
-                g = its > 0 || there < own ? g : 0; // air gives none
-            } else {
-                g *= there > own ? out.enters : 1;
-            }
-            total += g * there;
-            weight += g;
-        }
-        return weight > 0 ? total / weight : own;
     }
 
     // What flows in through the rim while the faces part has to be sped up: by Bernoulli's law the
@@ -290,6 +260,10 @@ private:
 
     void relax()
     {
+        const JointWays ways{ways_, edges_};
+        if (edges_ == 2 && solve_line(ways, pressure_)) {
+            return;
+        }
         const double along = std::sqrt(static_cast<double>(face_.last - face_.first));
         const double n = edges_ == 2 ? sq(along) : along;
         const double omega = 2 / (1 + std::sin(std::numbers::pi / (n + 1)));
@@ -305,7 +279,8 @@ private:
             double largest = 0;
             for (const int c : cells) {
                 const double before = pressure_[at(c)];
-                const double now = std::max(before + omega * (balanced(c) - before), 0.0);
+                const double now =
+                    std::max(before + omega * (balanced(ways, pressure_, c) - before), 0.0);
                 pressure_[at(c)] = now;
                 change = std::max(change, std::abs(now - before));
                 largest = std::max(largest, now);
@@ -324,7 +299,7 @@ private:
     BodyJoints& body_;
     int edges_;
     std::vector<Filled> inside_;   // by cell
-    std::vector<Way> ways_;        // by cell and edge
+    std::vector<JointWay> ways_;   // by cell and edge
     std::vector<double> pressure_; // by cell [Pa]
 };
 
