@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "displace.hpp"
 
+#include "near_points.hpp"
 #include "walls.hpp"
 
 #include <algorithm>
@@ -151,6 +152,7 @@ void drop(const std::vector<bool>& gone, Filling& filling)
             filling.fluid_velocity[kept] = filling.fluid_velocity[k];
             filling.fluid_depth[kept] = filling.fluid_depth[k];
             filling.fluid_pressure[kept] = filling.fluid_pressure[k];
+            filling.fluid_cut[kept] = filling.fluid_cut[k];
             ++kept;
         }
     }
@@ -158,6 +160,24 @@ void drop(const std::vector<bool>& gone, Filling& filling)
     filling.fluid_velocity.resize(kept);
     filling.fluid_depth.resize(kept);
     filling.fluid_pressure.resize(kept);
+    filling.fluid_cut.resize(kept);
+}
+
+// About the cut cells, whether they keep their particle or not.
+void mark(const std::vector<CutCell>& cut, double spacing, Filling& filling)
+{
+    constexpr double around = 4; // spacings: what evens out what the surface leaves of its cells
+    if (cut.empty()) {
+        return;
+    }
+    std::vector<std::uint8_t> marked(filling.fluid.size(), 0);
+    for (const CutCell& cell : cut) {
+        marked[cell.row] = 1;
+    }
+    marked = marks_about(filling.fluid, marked, around * spacing);
+    for (std::size_t k = 0; k < marked.size(); ++k) {
+        filling.fluid_cut[k] = std::max(filling.fluid_cut[k], marked[k]);
+    }
 }
 
 } // namespace
@@ -221,6 +241,7 @@ void take_out(const Scene& scene, const Cluster& cluster, Filling& filling)
         }
     }
     choose(cut, gone);
+    mark(cut, spacing, filling);
     move_out(scene, cut, gone, filling);
     drop(gone, filling);
 }

@@ -7,6 +7,7 @@
 #include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
+#include "relax_packing.hpp"
 #include "stand_off.hpp"
 #include "units.hpp"
 #include "walls.hpp"
@@ -154,6 +155,7 @@ void fill_fluid(const Scene& scene, Filling& filling)
         for (const Vec3& p : blocks[b].particles.points) {
             const double surface = surface_above(scene, blocks, b, p);
             filling.fluid.push_back(p);
+            filling.fluid_cut.push_back(blocks[b].particles.cut ? 1 : 0);
             filling.fluid_velocity.push_back(start.velocity(p));
             filling.fluid_pressure.push_back(start.pressure(p));
             check_start(scene, b, filling);
@@ -254,6 +256,9 @@ Filling fill(const Scene& scene)
     if (scene.fluid && !scene.bodies.empty()) {
         take_out_bodies(scene, filling);
         stand_off_bodies(scene, filling);
+    }
+    if (scene.fluid) {
+        relax_packing(scene, filling);
     }
     return filling;
 }

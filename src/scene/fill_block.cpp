@@ -61,6 +61,17 @@ double shortest_edge(const Cells& cells, int dimensions)
     return dimensions == 3 ? std::min(least, cells.edge(1)) : least;
 }
 
+// Whether an edge differs from the spacing by so much that the lattice would rearrange.
+bool is_stretched(const Cells& cells, double spacing, int dimensions)
+{
+    constexpr double stretched = 0.025; // of the spacing
+    bool any = false;
+    for (int a = 0; a < 3; ++a) {
+        any = any || (has_axis(dimensions, a) && std::abs(cells.edge(a) / spacing - 1) > stretched);
+    }
+    return any;
+}
+
 // Calls f for every cell.
 void over_cells(const std::array<Index, 3>& count, const auto& f)
 {
@@ -372,8 +383,10 @@ BlockParticles fill_block(const Scene& scene, std::size_t block)
         }
         const Cells even = even_cells(box, scene.spacing, d);
         found = fit(space, middles_in(shape, even), shortest_edge(even, d));
+        result.cut = is_stretched(even, scene.spacing, d);
         if (!found.fits) {
             found.points = in_columns(scene, space, shape, even);
+            result.cut = true;
         }
     }
     result.points = std::move(found.points);

@@ -13,6 +13,7 @@ struct BlockParticles {
     std::vector<Vec3> points; // [m]
     Index all = 0;            // that the lattice of the block would have
     Index in_walls = 0;       // of those
+    bool cut = false;         // cells are cut by walls, or stretched to hold the volume
 };
 
 /// Fills a block.

@@ -3,8 +3,8 @@
 
 #include "displace.hpp"
 #include "free_space.hpp"
+#include "near_points.hpp"
 
-#include "hyoryu/core/cell_grid.hpp"
 #include "hyoryu/core/parallel.hpp"
 
 #include <algorithm>
@@ -21,22 +21,6 @@ constexpr double around = 2.5;   // of what was moved: what gives way
 std::size_t at(Index row)
 {
     return static_cast<std::size_t>(row);
-}
-
-// Calls f for the points in the cells about a place.
-void for_cells_about(const CellGrid& grid, const Vec3& place, const auto& f)
-{
-    const auto home = grid.cell_of(place);
-    const auto first = [&](std::size_t a) { return std::max<Index>(home[a] - 1, 0); };
-    const auto last = [&](std::size_t a) { return std::min(home[a] + 2, grid.count[a]); };
-    for (Index z = first(2); z < last(2); ++z) {
-        for (Index y = first(1); y < last(1); ++y) {
-            const Index row = (z * grid.count[1] + y) * grid.count[0];
-            for (Index k = grid.start[at(row + first(0))]; k < grid.start[at(row + last(0))]; ++k) {
-                f(at(grid.order[at(k)]));
-            }
-        }
-    }
 }
 
 // Rows of the fluid that are clearly too near to a body.
@@ -56,23 +40,6 @@ std::vector<std::uint8_t> too_near(const Scene& scene, const std::vector<Vec3>& 
                 near[at(k)] = 1;
             }
         });
-    }
-    return near;
-}
-
-// The rows within a distance of marked ones.
-std::vector<std::uint8_t> about(const std::vector<Vec3>& points,
-                                const std::vector<std::uint8_t>& marked, double distance)
-{
-    CellGrid grid;
-    build(grid, points, 0, distance);
-    std::vector<std::uint8_t> near = marked;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        if (marked[k] != 0) {
-            for_cells_about(grid, points[k], [&](std::size_t j) {
-                near[j] = (points[k] - points[j]).norm() < distance ? 1 : near[j];
-            });
-        }
     }
     return near;
 }
@@ -152,8 +119,8 @@ void stand_off_bodies(const Scene& scene, Filling& filling)
     if (std::ranges::find(near, 1) == near.end()) {
         return;
     }
-    const std::vector<std::uint8_t> giving = about(filling.fluid, near, around * spacing);
-    const std::vector<std::uint8_t> seen = about(filling.fluid, giving, spacing);
+    const std::vector<std::uint8_t> giving = marks_about(filling.fluid, near, around * spacing);
+    const std::vector<std::uint8_t> seen = marks_about(filling.fluid, giving, spacing);
     std::vector<std::size_t> rows;
     std::vector<Vec3> points;
     std::vector<std::uint8_t> is_free;

@@ -272,7 +272,7 @@ double rise(Standing s, double level, double over)
 {
     s.density = water_density * (level - over * s.spacing) / s.size.z();
     Simulation sim = stand(s);
-    while (sim.clock.time < 0.15) {
+    while (sim.clock.time < 0.3) {
         step_on(sim);
     }
     EXPECT_LE(sim.ledger.worst_closure, 6e-8) << "half a unit of the last place of a float";
@@ -292,9 +292,9 @@ void show(const Standing& s)
     }
 }
 
-// Half a spacing above the draft it floats up. Half a spacing below it may stir by as much, while
-// water that does not fit the lattice beside it settles: that presses up to an eighth harder than
-// by its depth, for a tenth of a second.
+// Half a spacing above the draft it floats up, half a spacing below it stays: water that does not
+// fit the lattice beside it starts in a packing that is at rest. As filled it pressed up to an
+// eighth harder than by its depth, which lifted a crate of twelve spacings by 0.3.
 TEST(JointPlacements, ACrateLiftsAtItsDraftWithinHalfASpacing)
 {
     for_seeds(4, [](std::uint64_t seed) {
@@ -302,8 +302,8 @@ TEST(JointPlacements, ACrateLiftsAtItsDraftWithinHalfASpacing)
             const Standing s = on_level_ground(seed, spacing);
             show(s);
             const double level = level_over_foot(s);
-            EXPECT_GT(rise(s, level, 0.5), 0.15) << "spacing " << spacing;
-            EXPECT_LT(rise(s, level, -0.5), 0.5) << "spacing " << spacing;
+            EXPECT_GT(rise(s, level, 0.5), 0.25) << "spacing " << spacing;
+            EXPECT_LT(rise(s, level, -0.5), 0.1) << "spacing " << spacing;
         }
     });
 }

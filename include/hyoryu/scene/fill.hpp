@@ -22,6 +22,7 @@ struct Filling {
     std::vector<Vec3> fluid_velocity;     // [m/s]
     std::vector<double> fluid_depth;      // below the free surface above it, along gravity [m]
     std::vector<double> fluid_pressure;   // above the hydrostatic one [Pa]
+    std::vector<std::uint8_t> fluid_cut;  // 1 about cells that surfaces cut or the block stretches
     std::vector<Vec3> wall;               // [m]; empty without fluid
     std::vector<std::int32_t> wall_owner; // index of the wall
     std::vector<double> wall_depth;       // behind the surface [m]; empty where fluid slips

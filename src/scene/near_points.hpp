@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Points about a place or about marked points.
+#pragma once
+
+#include "hyoryu/core/cell_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hyoryu {
+
+/// Calls f(k) for the points k in the cell of a place and in those about it, which hold all points
+/// within an edge of a cell. The place may be outside of the grid.
+void for_cells_about(const CellGrid& grid, const Vec3& place, const auto& f)
+{
+    std::array<Index, 3> first{};
+    std::array<Index, 3> last{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto axis = static_cast<Eigen::Index>(a);
+        const double cells = (place[axis] - grid.origin[axis]) / grid.cell;
+        const auto home = static_cast<Index>(std::floor(std::clamp(cells, -2.0, 1e9)));
+        first[a] = std::max<Index>(home - 1, 0);
+        last[a] = std::min(home + 2, grid.count[a]);
+    }
+    for (Index z = first[2]; z < last[2]; ++z) {
+        for (Index y = first[1]; y < last[1] && first[0] < last[0]; ++y) {
+            const Index row = (z * grid.count[1] + y) * grid.count[0];
+            const auto begin = static_cast<std::size_t>(row + first[0]);
+            const auto end = static_cast<std::size_t>(row + last[0]);
+            for (std::int32_t k = grid.start[begin]; k < grid.start[end]; ++k) {
+                f(static_cast<std::size_t>(grid.order[static_cast<std::size_t>(k)]));
+            }
+        }
+    }
+}
+
+/// Marks of the points within a distance [m] of marked ones, which stay marked.
+std::vector<std::uint8_t> marks_about(std::span<const Vec3> points,
+                                      std::span<const std::uint8_t> marked, double distance);
+
+} // namespace hyoryu

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "relax_packing.hpp"
+
+#include "free_space.hpp"
+#include "near_points.hpp"
+
+#include "hyoryu/core/kernel.hpp"
+#include "hyoryu/core/parallel.hpp"
+
+#include <functional>
+
+namespace hyoryu {
+
+namespace {
+
+// In spacings.
+constexpr double least = 0.46;    // distance of a particle from a surface
+constexpr double skin = 0.5;      // by which listed pairs may come nearer
+constexpr double longest = 0.1;   // way of a particle in a round
+constexpr double farthest = 1;    // that a particle is moved in all
+constexpr double beside = 2;      // farther from a surface than that none comes too near
+constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
+
+constexpr int rounds = 100;
+constexpr double gain = 0.1;     // of the descent, at twice of which it is unstable
+constexpr double momentum = 0.9; // share of a way that the next round goes on with
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+// The particles that take part: those that move, then fluid that stays, then solids.
+struct Packing {
+    std::vector<std::size_t> rows;        // of the fluid, for those that move and stay
+    std::vector<Vec3> points;             // [m]
+    std::vector<double> depth;            // of the fluid, below its surface [m]
+    std::vector<Vec3> start;              // of those that move [m]
+    std::vector<Vec3> way;                // that those that move went in the last round [m]
+    std::vector<std::vector<int>> solids; // that each of them may come too near to
+    Index moving = 0;
+    std::vector<std::size_t> first, neighbours; // of those that move
+};
+
+std::vector<Vec3> solid_points(const Scene& scene, const Filling& filling)
+{
+    std::vector<Vec3> points = filling.wall;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        for (const Vec3& p : filling.bodies[b].points) {
+            points.push_back(scene.bodies[b].position + scene.bodies[b].rotation * p);
+        }
+    }
+    return points;
+}
+
+// Ways along which water may lie open: level ones and down.
+std::vector<Vec3> open_ways(const Scene& scene)
+{
+    const Vec3 down = scene.gravity.normalized();
+    const Vec3 u =
+        scene.dimensions == 2 ? down.cross(Vec3::UnitY()).normalized() : down.unitOrthogonal();
+    const Vec3 v = down.cross(u);
+    if (scene.dimensions == 2) {
+        return {down, u, -u};
+    }
+    const double h = std::sqrt(0.5);
+    return {down, u, -u, v, -v, h * (u + v), h * (u - v), h * (v - u), -h * (u + v)};
+}
+
+// What is near a place: the nearest point, and whether it is fluid.
+class Surroundings {
+public:
+    Surroundings(std::span<const Vec3> points, std::size_t fluid, double reach)
+        : points_(points), fluid_(fluid), reach_(reach)
+    {
+        build(grid_, points, 0, reach);
+    }
+
+    // Whether a way from a point leads to an empty place before it leads to a solid.
+    bool is_open(const Vec3& from, const Vec3& way, double support) const
+    {
+        for (double s = reach_; s < support + reach_ / 2; s += reach_ / 2) {
+            double nearest = reach_;
+            std::size_t which = points_.size();
+            const Vec3 place = from + s * way;
+            for_cells_about(grid_, place, [&](std::size_t k) {
+                const double distance = (points_[k] - place).norm();
+                if (distance < nearest) {
+                    nearest = distance;
+                    which = k;
+                }
+            });
+            if (which >= fluid_) {
+                return which == points_.size();
+            }
+        }
+        return false;
+    }
+
+private:
+    std::span<const Vec3> points_;
+    std::size_t fluid_;
+    double reach_;
+    CellGrid grid_;
+};
+
+// The marks without those of particles beside open sides.
+std::vector<std::uint8_t> free_to_move(const Scene& scene, const Filling& filling,
+                                       std::span<const Vec3> solids, double support)
+{
+    std::vector<Vec3> points = filling.fluid;
+    points.insert(points.end(), solids.begin(), solids.end());
+    const Surroundings about(points, filling.fluid.size(), emptiness * scene.spacing);
+    const std::vector<Vec3> ways = open_ways(scene);
+    std::vector<std::uint8_t> moves = filling.fluid_cut;
+    parallel_for(0, static_cast<Index>(moves.size()), [&](Index k) {
+        if (moves[at(k)] != 0 && std::ranges::any_of(ways, [&](const Vec3& way) {
+                return about.is_open(points[at(k)], way, support);
+            })) {
+            moves[at(k)] = 0;
+        }
+    });
+    return moves;
+}
+
+void add_fluid(const Filling& filling, std::span<const std::uint8_t> rows, Packing& packing)
+{
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (rows[k] != 0) {
+            packing.rows.push_back(k);
+            packing.points.push_back(filling.fluid[k]);
+            packing.depth.push_back(filling.fluid_depth[k]);
+        }
+    }
+}
+
+// Those that some particle that moves may see.
+void add_solids(std::span<const Vec3> solids, double seen, Packing& packing)
+{
+    CellGrid grid;
+    build(grid, std::span(packing.points).first(at(packing.moving)), 0, seen);
+    for (const Vec3& p : solids) {
+        bool near = false;
+        for_cells_about(grid, p, [&](std::size_t) { near = true; });
+        if (near) {
+            packing.points.push_back(p);
+        }
+    }
+}
+
+Packing packing_of(const Scene& scene, const Filling& filling, double support)
+{
+    const double dp = scene.spacing;
+    const std::vector<Vec3> solids = solid_points(scene, filling);
+    const std::vector<std::uint8_t> moves = free_to_move(scene, filling, solids, support);
+    Packing packing;
+    add_fluid(filling, moves, packing);
+    packing.moving = static_cast<Index>(packing.points.size());
+    packing.start = packing.points;
+    packing.way.assign(packing.points.size(), Vec3::Zero());
+    if (packing.moving == 0) {
+        return packing;
+    }
+    const double seen = support + (skin + 1) * dp;
+    std::vector<std::uint8_t> stays = marks_about(filling.fluid, moves, seen);
+    std::ranges::transform(stays, moves, stays.begin(), std::minus<>());
+    add_fluid(filling, stays, packing);
+    add_solids(solids, seen, packing);
+    return packing;
+}
+
+void find_surfaces(const Scene& scene, const FreeSpace& space, Packing& packing)
+{
+    const double reach = beside * scene.spacing;
+    packing.solids.resize(at(packing.moving));
+    parallel_for(0, packing.moving, [&](Index i) {
+        const std::vector<int> near = space.about(packing.points[at(i)], reach);
+        if (space.nearest(packing.points[at(i)], near).distance < reach) {
+            packing.solids[at(i)] = near;
+        }
+    });
+}
+
+void make_lists(Packing& packing, double reach)
+{
+    CellGrid grid;
+    build(grid, packing.points, 0, reach);
+    std::vector<std::vector<std::size_t>> of(at(packing.moving));
+    parallel_for(0, packing.moving, [&](Index i) {
+        const Vec3& x = packing.points[at(i)];
+        for_cells_about(grid, x, [&](std::size_t j) {
+            if (j != at(i) && (x - packing.points[j]).squaredNorm() < sq(reach)) {
+                of[at(i)].push_back(j);
+            }
+        });
+    });
+    packing.first.assign(1, 0);
+    packing.neighbours.clear();
+    for (const std::vector<std::size_t>& list : of) {
+        packing.neighbours.insert(packing.neighbours.end(), list.begin(), list.end());
+        packing.first.push_back(packing.neighbours.size());
+    }
+}
+
+// The force on a particle over its weight.
+Vec3 force_on(const Packing& packing, const Kernel& kernel, double volume, const Vec3& down,
+              std::size_t i)
+{
+    const double own = packing.depth[i];
+    Vec3 force = down;
+    for (std::size_t n = packing.first[i]; n < packing.first[i + 1]; ++n) {
+        const std::size_t j = packing.neighbours[n];
+        const Vec3 r = packing.points[i] - packing.points[j];
+        const double its = j < packing.depth.size() ? packing.depth[j] : own - r.dot(down);
+        const double f = kernel(Vec<real>{r.x(), r.y(), r.z()}).f;
+        force -= volume * (std::max(own, 0.0) + std::max(its, 0.0)) * f * r;
+    }
+    return force;
+}
+
+// Where one round takes the particles that move.
+void descend(const Packing& packing, const FreeSpace& space, const Kernel& kernel,
+             const Scene& scene, std::vector<Vec3>& moved)
+{
+    const double dp = scene.spacing;
+    const double volume = std::pow(dp, scene.dimensions);
+    const Vec3 down = scene.gravity.normalized();
+    parallel_for(0, packing.moving, [&](Index i) {
+        const Vec3 force = force_on(packing, kernel, volume, down, at(i));
+        const double stiffness = (2 * std::max(packing.depth[at(i)], 0.0) + dp) / sq(dp);
+        Vec3 way = momentum * packing.way[at(i)] + gain / stiffness * force;
+        const double length = way.norm();
+        way *= length > longest * dp ? longest * dp / length : 1.0;
+        Vec3 p = packing.points[at(i)] + way;
+        const std::vector<int>& solids = packing.solids[at(i)];
+        const auto is_near = [&] { return space.nearest(p, solids).distance < least * dp; };
+        if (!solids.empty() && is_near()) {
+            step_off(space, solids, (least + 1e-6) * dp, p);
+            p = is_near() ? packing.points[at(i)] : p; // in a corner
+        }
+        const bool strays = (p - packing.start[at(i)]).norm() > farthest * dp;
+        moved[at(i)] = strays ? packing.points[at(i)] : p;
+    });
+}
+
+} // namespace
+
+void relax_packing(const Scene& scene, Filling& filling)
+{
+    const bool any = std::ranges::find(filling.fluid_cut, 1) != filling.fluid_cut.end();
+    const bool in_layers = std::ranges::any_of(scene.fluid->blocks, &FluidBlock::layers);
+    if (!any || in_layers || !(scene.gravity.norm() > 0)) {
+        return;
+    }
+    const double dp = scene.spacing;
+    const Kernel kernel = make_kernel(scene.fluid->smoothing_ratio * dp, dp, scene.dimensions);
+    Packing packing = packing_of(scene, filling, kernel.support);
+    const FreeSpace space(scene);
+    find_surfaces(scene, space, packing);
+    const Vec3 down = scene.gravity.normalized();
+    std::vector<Vec3> moved(at(packing.moving));
+    std::vector<Vec3> listed;
+    for (int round = 0; round < rounds; ++round) {
+        double since = listed.empty() ? infinity : 0; // since the lists were made
+        for (std::size_t k = 0; k < listed.size(); ++k) {
+            since = std::max(since, (packing.points[k] - listed[k]).norm());
+        }
+        if (since > (skin / 2 - longest) * dp) {
+            make_lists(packing, kernel.support + skin * dp);
+            listed.assign(packing.points.begin(), packing.points.begin() + packing.moving);
+        }
+        descend(packing, space, kernel, scene, moved);
+        for (std::size_t k = 0; k < moved.size(); ++k) {
+            packing.way[k] = moved[k] - packing.points[k];
+            packing.depth[k] += down.dot(packing.way[k]);
+            packing.points[k] = moved[k];
+        }
+    }
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+        filling.fluid[packing.rows[k]] = packing.points[k];
+        filling.fluid_depth[packing.rows[k]] = packing.depth[k];
+    }
+}
+
+} // namespace hyoryu
