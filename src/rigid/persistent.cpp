@@ -243,19 +243,43 @@ void add_known_impulses(ContactMemory& memory)
     }
 }
 
-// Energy that friction takes over the whole sub-step: - P . (u0 + u1) / 2 at the contact.
+Vec3 tangential(const Vec3& u, const Vec3& n)
+{
+    return u - n * n.dot(u);
+}
+
+// The velocity of a body at a contact, along the tangents where friction acts: `rub` from there.
+Vec3 velocity_at(const Response& body, const Vec3& arm, const Vec3& rub, const Vec3& n)
+{
+    return body.v + body.omega.cross(arm) + tangential(body.omega.cross(rub), n);
+}
+
+// The relative velocity of a contact at the end of the planned motion, with the arms there.
+Vec3 velocity_after(const ContactMemory& memory, const Row& row, const TwoTouches& at)
+{
+    const auto of = [&](int k) {
+        const Vec3 arm = at.see.point - memory.end[k].x;
+        return velocity_at(memory.responses[k], arm, at.see_rub, at.see.normal);
+    };
+    return of(row.a) - row.wall_velocity - (row.b >= 0 ? of(row.b) : Vec3::Zero());
+}
+
+// Energy that friction takes over the whole sub-step: - P . (u0 + u1) / 2 at the contact, and the
+// slip at its ends. A row that opposes the mean slip has the arms of the middle, which tell the sum
+// of the two but neither of them.
 void book_dissipation(const StepContext& context)
 {
     ContactMemory& memory = context.memory;
     for (const Row& row : memory.rows) {
         Persistent& p = memory.persistent[row.contact];
-        const Vec3 after = row.D * (velocity(row, memory.responses) - row.slip);
-        const auto tangential = [](const Vec3& u, const Vec3& n) { return Vec3(u - n * n.dot(u)); };
         const Vec3& n = p.candidate.touch.normal;
-        p.slip_before = row.slip.isZero(0) ? tangential(p.before, n) : Vec3(row.D * row.slip);
-        p.before = n * n.dot(p.before) + p.slip_before;
-        p.dissipated = std::max(0.0, -0.5 * p.impulse.dot(p.before + after));
-        p.slip_after = tangential(after, p.touches.see.normal);
+        const bool mean = !row.slip.isZero(0);
+        const Vec3 after = row.D * (velocity(row, memory.responses) - row.slip);
+        const Vec3 before = mean ? Vec3(n * n.dot(p.before) + row.D * row.slip) : p.before;
+        p.dissipated = std::max(0.0, -0.5 * p.impulse.dot(before + after));
+        p.slip_before = tangential(p.before, n);
+        p.slip_after =
+            tangential(mean ? velocity_after(memory, row, p.touches) : after, p.touches.see.normal);
         context.rigid.counters.tangential_impacts += row.tangential ? 1 : 0;
     }
 }
@@ -271,10 +295,8 @@ void set_velocities_before(ContactMemory& memory, const SubStep& sub)
         const Feature& f = p.candidate.feature;
         const Vec3& n = p.candidate.touch.normal;
         const auto at_point = [&](int k) {
-            const Response& body = memory.responses[k];
-            const Vec3 turn = body.omega.cross(p.rub);
-            return Vec3(body.v + body.omega.cross(p.candidate.touch.point - memory.poses[k].x) +
-                        turn - n * n.dot(turn));
+            const Vec3 arm = p.candidate.touch.point - memory.poses[k].x;
+            return velocity_at(memory.responses[k], arm, p.rub, n);
         };
         p.before =
             at_point(f.a) - (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b, sub.time));
