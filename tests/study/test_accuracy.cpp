@@ -110,15 +110,100 @@ TEST_F(Accuracy, OfBodiesFollowsFromTheStepInUnitsOfTheirFall)
     // A stone of 1 m is the timber; one of 4 m falls half as fast.
     EXPECT_NEAR(expected(stone).at(0).error, 1.324e-5, 1e-8);
     EXPECT_NEAR(expected(stone, {"body[0].size=[4.0, 0.2, 0.2]"}).at(0).error, 3.319e-6, 1e-9);
-    // Flat: the metre of width of two dimensions does not count.
-    EXPECT_NEAR(expected(stone, {"dimensions=2", "body[0].size=[0.25, 0.0, 0.2]"}).at(0).error,
-                5.272e-5, 1e-8);
     // 0.005 % at 20 ms.
     EXPECT_EQ(expected(stone, {"time.step=0.02"}).at(0).halving, "not needed");
     EXPECT_TRUE(std::isnan(expected(stone, {"time.step=0.04"}).at(0).error));
     const ExpectedError springs = expected(stone, {"contact.method=penalty"}).at(0);
     EXPECT_EQ(springs.error, 0.58);
     EXPECT_NE(springs.halving.find("impulse"), std::string::npos);
+}
+
+// The effects of the case of a study, but for gauges, which change nothing.
+std::vector<std::string> effects_of(const StudyCoverage& coverage)
+{
+    const std::string study(coverage.study);
+    const std::filesystem::path file = std::filesystem::path(HYORYU_SOURCE_DIR) / "cases" /
+                                       study.substr(0, study.find('/')) / "case.toml";
+    const Scene scene = read_case(file, {});
+    std::vector<std::string> names;
+    for (const Plan::Effect& effect : make_plan(scene, fill(scene)).on) {
+        if (effect.name != "gauges") {
+            names.push_back(effect.name);
+        }
+    }
+    return names;
+}
+
+TEST_F(Accuracy, C8CoverageIsThatOfTheCaseOfTheStudy)
+{
+    for (const StudyCoverage& coverage :
+         {still_water_coverage(), bore_coverage(), timber_coverage()}) {
+        EXPECT_EQ(effects_of(coverage),
+                  std::vector<std::string>(coverage.effects.begin(), coverage.effects.end()))
+            << coverage.study;
+        for (const std::string_view model : coverage.models) {
+            EXPECT_NE(std::ranges::find(coverage.effects, model), coverage.effects.end()) << model;
+        }
+    }
+    EXPECT_EQ(bore_coverage().fewest_spacings, bore_rungs().front().number);
+    EXPECT_EQ(bore_coverage().most_spacings, bore_rungs().back().number);
+}
+
+TEST_F(Accuracy, C8NothingIsPromisedOfWetContact)
+{
+    const std::string crate = "[[body]]\nname = \"crate\"\nshape = \"box\"\n"
+                              "size = [0.2, 0.0, 0.2]\ndensity = 500.0\n"
+                              "position = [0.5, 0.0, 1.11]\n";
+    for (const ExpectedError& e : expected(pool + crate)) {
+        EXPECT_TRUE(std::isnan(e.error)) << e.quantity;
+        EXPECT_EQ(e.halving, "not studied") << e.quantity;
+        EXPECT_FALSE(e.not_covered.empty()) << e.quantity;
+    }
+    const std::string text = expected_errors_text(expected(pool + crate));
+    EXPECT_NE(text.find("motion of bodies in contact, in water: not studied"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("studied without body_load"), std::string::npos) << text;
+    // The impulse that is named is that of the kept study.
+    const auto impulse = kept("debris_flood/study", "impulse on the house");
+    EXPECT_NEAR(1 - 1 / (1 + impulse.at("spacing=0.2")), 0.32, 0.005);
+    EXPECT_NE(text.find("moves by 32 %"), std::string::npos) << text;
+}
+
+TEST_F(Accuracy, C8EveryStepBesideWhatWasStudiedIsNotStudied)
+{
+    struct Step {
+        const char* base;
+        std::vector<std::string> set;
+        const char* why;
+    };
+    const std::string second = stone + "[[body]]\nname = \"other\"\nshape = \"box\"\n"
+                                       "size = [1.0, 0.2, 0.2]\ndensity = 2500.0\n"
+                                       "position = [3.0, 0.0, 0.5]\n";
+    const std::vector<Step> steps{
+        {pool.c_str(),
+         {"dimensions=3", "particles.spacing=0.1", "fluid.block[0].max=[1.0, 0.5, 1.0]",
+          "wall[0].max=[1.0, 0.5, 1.3]"},
+         "2 dimensions"},
+        {pool.c_str(), {"particles.spacing=0.125"}, "10 to 40 spacings"},
+        {pool.c_str(), {"particles.spacing=0.02"}, "10 to 40 spacings"},
+        {pool.c_str(), {"fluid.viscosity.model=none"}, "with artificial_viscosity"},
+        {pool.c_str(),
+         {"fluid.viscosity.model=laminar", "fluid.viscosity.kinematic=1e-3"},
+         "without laminar_viscosity"},
+        {pool.c_str(), {"fluid.density_diffusion.model=none"}, "with density_diffusion"},
+        {pool.c_str(), {"fluid.formulation=mps"}, "formulation sph"},
+        {stone.c_str(), {"dimensions=2", "body[0].size=[0.25, 0.0, 0.2]"}, "3 dimensions"},
+        {second.c_str(), {}, "one body at most"},
+    };
+    for (const Step& step : steps) {
+        const ExpectedError e = expected(step.base, step.set).at(0);
+        EXPECT_TRUE(std::isnan(e.error)) << step.why;
+        const std::string text = expected_errors_text({e});
+        EXPECT_NE(text.find(step.why), std::string::npos) << text;
+        EXPECT_NE(text.find(": not studied"), std::string::npos) << text;
+    }
+    EXPECT_TRUE(expected(pool).at(0).not_covered.empty());
+    EXPECT_TRUE(expected(stone).at(0).not_covered.empty());
 }
 
 TEST_F(Accuracy, ASceneWithoutAnyOfItSaysSo)

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hyoryu {
@@ -13,11 +14,32 @@ namespace hyoryu {
 /// One quantity of a scene; `error` is NaN where the setting lies outside what was studied.
 struct ExpectedError {
     std::string quantity;
-    double error = 0;    // relative [1]
-    std::string why;     // the number of the scene that it follows from
-    std::string halving; // what would halve it, and what that costs
-    std::string study;   // folder below docs/studies
+    double error = 0;                     // relative [1]
+    std::string why;                      // the number of the scene that it follows from
+    std::string halving;                  // what would halve it, and what that costs
+    std::string study;                    // folder below docs/studies
+    std::vector<std::string> not_covered; // how the scene differs from what was studied
 };
+
+/// What the runs of a study had in common with each other: it says nothing of a scene beyond.
+struct StudyCoverage {
+    std::string_view study; // folder below docs/studies, also that of the case below cases
+    int dimensions = 3;
+    Index most_bodies = 0;      // that move
+    double fewest_spacings = 0; // over the depth of the water
+    double most_spacings = infinity;
+    std::span<const std::string_view> effects; // names in the plan of its case, but for gauges
+    std::span<const std::string_view> models;  // those of them without which it says nothing
+};
+/// Of still water, of the bore and of the timber.
+const StudyCoverage& still_water_coverage();
+const StudyCoverage& bore_coverage();
+const StudyCoverage& timber_coverage();
+
+/// How a scene differs from what a study covers, in words; empty if it covers the scene. `depth`:
+/// of the water [m]; 0 without water.
+std::vector<std::string> not_covered(const StudyCoverage& coverage, const Scene& scene,
+                                     const Plan& plan, double depth);
 
 /// The main quantities of the scene. Empty for a scene of which no study says anything.
 std::vector<ExpectedError> expected_errors(const Scene& scene, const Filling& filling,
