@@ -174,6 +174,13 @@ std::vector<PlotPanel> panels_of(const StudyResult& result, std::size_t quantity
     return panels;
 }
 
+// Logarithmic axes show what is above zero: without any of it a picture would be blank.
+bool shows_anything(const std::vector<PlotPanel>& panels)
+{
+    return std::ranges::any_of(panels,
+                               [](const PlotPanel& panel) { return !panel.y_range.empty(); });
+}
+
 } // namespace
 
 StudyPictures draw_study(const StudyResult& result, const std::filesystem::path& folder)
@@ -183,6 +190,11 @@ StudyPictures draw_study(const StudyResult& result, const std::filesystem::path&
     for (std::size_t q = 0; q < result.study.quantities.size(); ++q) {
         const std::string& name = result.study.quantities[q].name;
         const std::vector<PlotPanel> panels = panels_of(result, q);
+        if (!shows_anything(panels)) {
+            pictures.notes.push_back(
+                fmt::format("{} is not drawn: no run has an error above zero", file_of(name, 0)));
+            continue;
+        }
         for (std::size_t at = 0; at < panels.size(); at += panels_of_a_sheet) {
             const auto end = std::min(at + panels_of_a_sheet, panels.size());
             const Plot plot{.title = result.study.title + ": " + name,

@@ -48,6 +48,17 @@ std::string read_bytes(const std::filesystem::path& file)
     return bytes;
 }
 
+// A file `case.toml` is known by its folder, also where it is named from within.
+std::string name_of_case(const std::filesystem::path& file)
+{
+    return file.filename() == "case.toml" ? std::filesystem::absolute(file)
+                                                .lexically_normal()
+                                                .parent_path()
+                                                .filename()
+                                                .string()
+                                          : file.filename().string();
+}
+
 std::string how_measured(const StudyResult& result, const StudyInfo& info)
 {
     return fmt::format(
@@ -55,11 +66,8 @@ std::string how_measured(const StudyResult& result, const StudyInfo& info)
         "wall time: median of {} repeat(s) within the steps, rounds of all runs in turn, {} "
         "thread(s), {} run(s) side by "
         "side. Hyoryu {} ({}), {}.",
-        result.study.case_file.filename() == "case.toml"
-            ? result.study.case_file.parent_path().filename().string()
-            : result.study.case_file.filename().string(),
-        result.work_unit, result.study.repeats, info.threads, info.jobs, info.version, info.commit,
-        info.build);
+        name_of_case(result.study.case_file), result.work_unit, result.study.repeats, info.threads,
+        info.jobs, info.version, info.commit, info.build);
 }
 
 std::string markdown_row(const std::vector<std::string>& cells)

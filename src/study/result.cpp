@@ -101,6 +101,23 @@ std::size_t finest_like(const StudyResult& result, std::size_t k)
     return static_cast<std::size_t>(found - result.runs.begin());
 }
 
+// Whether the run stands on a ladder: another has its texts and other numbers.
+bool has_finer_and_coarser(const StudyResult& result, std::size_t k)
+{
+    const auto& own = result.runs[k].run.value_of;
+    return std::ranges::any_of(result.runs, [&](const StudyRunResult& other) {
+        bool differs = false;
+        for (std::size_t s = 0; s < own.size(); ++s) {
+            const int value = other.run.value_of[s];
+            if (value != own[s] && (value < 0 || own[s] < 0 || !result.study.sweeps[s].ordered())) {
+                return false;
+            }
+            differs = differs || value != own[s];
+        }
+        return differs;
+    });
+}
+
 // Where nothing exact is known, the finest run is what the others are held against.
 void hold_against_finest(StudyResult& result, std::size_t quantity)
 {
@@ -111,7 +128,10 @@ void hold_against_finest(StudyResult& result, std::size_t quantity)
         const std::size_t finest = finest_like(result, k);
         v.finest = finest;
         if (finest == k) {
-            v.why = v.why.empty() ? "the finest run" : v.why;
+            const char* const alone = has_finer_and_coarser(result, k)
+                                          ? "the finest run"
+                                          : "no finer run to be held against";
+            v.why = v.why.empty() ? alone : v.why;
             continue;
         }
         v.expected = result.runs[finest].values[quantity].value;

@@ -56,6 +56,48 @@ every = 0.3
         self.write(text, "slide.toml")
         return self.call("study", "slide.toml", *arguments)
 
+    def test_e12_a_page_names_its_case_and_says_which_run_is_the_finest_of_which(self):
+        text = self.STUDY.replace("brick.toml", "case.toml").replace(
+            'expected = "1/(2*0.5*9.81)"', 'against = "finest"') + """
+[[sweep]]
+name = "law"
+[sweep.choices]
+coupled = []
+paper = ["contact.law=paper"]
+"""
+        folder = self.dir / "sliding"
+        folder.mkdir()
+        (folder / "case.toml").write_text(self.CASE)
+        (folder / "slide.toml").write_text(text)
+        done = subprocess.run([HYORYU, "study", "slide.toml"], cwd=folder, capture_output=True, text=True,
+                              timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (folder / "slide-results/study.md").read_text()
+        self.assertIn("Case sliding.", page)
+        notes = {row[0] + "," + row[1]: row[-1] for row in
+                 ([cell.strip() for cell in line.strip("|").split("|")]
+                  for line in page.split("## way")[1].splitlines() if line.startswith("| "))}
+        self.assertEqual(sum("the finest run" in note for note in notes.values()), 1, notes)
+        self.assertGreater(sum("no finer run" in note for note in notes.values()), 0, notes)
+
+    def test_e12_no_blank_pictures(self):
+        """Settings of text alone, held against the finest: there is none, no error and so no picture."""
+        text = self.STUDY[:self.STUDY.index("[[sweep]]")] + """
+[[sweep]]
+name = "law"
+[sweep.choices]
+coupled = []
+paper = ["contact.law=paper"]
+""" + self.STUDY[self.STUDY.index("[[quantity]]"):].replace('expected = "1/(2*0.5*9.81)"', 'against = "finest"')
+        done = self.study(text=text)
+        if done.returncode == 0:
+            self.assertEqual(list((self.dir / "slide-results").glob("*.png")), [])
+            self.assertIn("no run has an error above zero", done.stdout + done.stderr)
+            self.assertNotIn("the finest run", (self.dir / "slide-results/study.md").read_text())
+        else:
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("finest", done.stderr)
+
     def rows(self, folder="slide-results"):
         """The table without wall times."""
         table = [line.split(",") for line in self.read(folder, "study.csv").decode().splitlines()]
