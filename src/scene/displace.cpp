@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <tuple>
 
 namespace hyoryu {
@@ -190,42 +191,175 @@ double height(const Scene& scene, const Vec3& p)
 
 namespace {
 
-// The bodies that may cut a cell together, all of them in groups.
-std::vector<Cluster> clusters_of(const Scene& scene)
+// What the bodies cover, a spacing larger.
+std::vector<Bounds> boxes_of(const std::vector<Placed>& shapes, double spacing)
 {
-    std::vector<Cluster> clusters;
-    const double spacing = scene.spacing;
+    std::vector<Bounds> boxes;
+    for (const Placed& shape : shapes) {
+        Bounds box = bounds(shape);
+        box.min -= Vec3::Constant(spacing);
+        box.max += Vec3::Constant(spacing);
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+// The axis along which boxes are spread the most.
+Index longest_axis(const std::vector<Bounds>& boxes)
+{
+    Bounds all;
+    for (const Bounds& box : boxes) {
+        all.add(box);
+    }
+    Index axis = 0;
+    if (!boxes.empty()) {
+        (all.max - all.min).maxCoeff(&axis);
+    }
+    return axis;
+}
+
+// For each body those before it with which it may cut a cell, by a sweep along the longest axis: of
+// many bodies all pairs cannot be looked at.
+std::vector<std::vector<std::size_t>> near_before(const std::vector<Bounds>& boxes, double spacing)
+{
     const auto meet = [&](const Bounds& a, const Bounds& b) { // both are a spacing too large
         return (a.min.array() <= b.max.array() - spacing).all() &&
                (b.min.array() <= a.max.array() - spacing).all();
     };
-    for (const BodySettings& body : scene.bodies) {
-        Cluster joined{{{&body.shape, body.position, body.rotation, scene.dimensions}}, {}};
-        Bounds box = bounds(joined.shapes[0]);
-        box.min -= Vec3::Constant(spacing);
-        box.max += Vec3::Constant(spacing);
-        joined.boxes.push_back(box);
-        std::erase_if(clusters, [&](const Cluster& other) {
-            const bool near =
-                std::ranges::any_of(other.boxes, [&](const Bounds& its) { return meet(its, box); });
-            if (near) {
-                joined.shapes.insert(joined.shapes.end(), other.shapes.begin(), other.shapes.end());
-                joined.boxes.insert(joined.boxes.end(), other.boxes.begin(), other.boxes.end());
+    const Index axis = longest_axis(boxes);
+    std::vector<std::size_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::ranges::sort(order, {}, [&](std::size_t k) { return boxes[k].min[axis]; });
+    std::vector<std::vector<std::size_t>> near(boxes.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::size_t one = order[k];
+        for (std::size_t m = k + 1;
+             m < order.size() && boxes[order[m]].min[axis] <= boxes[one].max[axis]; ++m) {
+            if (meet(boxes[one], boxes[order[m]])) {
+                near[std::max(one, order[m])].push_back(std::min(one, order[m]));
             }
-            return near;
-        });
-        clusters.push_back(std::move(joined));
+        }
+    }
+    return near;
+}
+
+// Groups that are joined body by body: each body is a new root of the groups that it meets.
+class Groups {
+public:
+    explicit Groups(std::size_t bodies) : above_(bodies), below_(bodies)
+    {
+        std::iota(above_.begin(), above_.end(), std::size_t(0));
+    }
+    void join(std::size_t body, const std::vector<std::size_t>& near)
+    {
+        for (const std::size_t other : near) {
+            below_[body].push_back(root(other));
+        }
+        std::ranges::sort(below_[body]);
+        const auto rest = std::ranges::unique(below_[body]);
+        below_[body].erase(rest.begin(), rest.end());
+        for (const std::size_t other : below_[body]) {
+            above_[other] = body;
+        }
+    }
+    bool is_root(std::size_t body) const { return above_[body] == body; }
+    /// The bodies of a group: its root, then those of each group that it joined.
+    std::vector<std::size_t> members(std::size_t of_root) const
+    {
+        std::vector<std::size_t> found;
+        std::vector<std::size_t> left{of_root};
+        while (!left.empty()) {
+            const std::size_t body = left.back();
+            left.pop_back();
+            found.push_back(body);
+            left.insert(left.end(), below_[body].rbegin(), below_[body].rend());
+        }
+        return found;
+    }
+
+private:
+    std::size_t root(std::size_t body)
+    {
+        while (above_[body] != body) {
+            above_[body] = above_[above_[body]];
+            body = above_[body];
+        }
+        return body;
+    }
+    std::vector<std::size_t> above_;
+    std::vector<std::vector<std::size_t>> below_;
+};
+
+// The bodies that may cut a cell together, all of them in groups.
+std::vector<Cluster> clusters_of(const Scene& scene)
+{
+    std::vector<Placed> shapes;
+    for (const BodySettings& body : scene.bodies) {
+        shapes.push_back({&body.shape, body.position, body.rotation, scene.dimensions});
+    }
+    const std::vector<Bounds> boxes = boxes_of(shapes, scene.spacing);
+    const std::vector<std::vector<std::size_t>> near = near_before(boxes, scene.spacing);
+    Groups groups(shapes.size());
+    for (std::size_t body = 0; body < shapes.size(); ++body) {
+        groups.join(body, near[body]);
+    }
+    std::vector<Cluster> clusters;
+    for (std::size_t body = 0; body < shapes.size(); ++body) {
+        if (!groups.is_root(body)) {
+            continue;
+        }
+        Cluster cluster;
+        for (const std::size_t member : groups.members(body)) {
+            cluster.shapes.push_back(shapes[member]);
+            cluster.boxes.push_back(boxes[member]);
+        }
+        clusters.push_back(std::move(cluster));
     }
     return clusters;
 }
 
-void take_out(const Scene& scene, const Cluster& cluster, Filling& filling)
+bool overlap(const Bounds& a, const Bounds& b)
 {
-    const double spacing = scene.spacing;
+    return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+// The shapes of a cluster that reach the fluid, in their order.
+Cluster within(const Cluster& cluster, const Bounds& fluid)
+{
+    Cluster found;
+    for (std::size_t k = 0; k < cluster.shapes.size(); ++k) {
+        if (overlap(cluster.boxes[k], fluid)) {
+            found.shapes.push_back(cluster.shapes[k]);
+            found.boxes.push_back(cluster.boxes[k]);
+        }
+    }
+    return found;
+}
+
+Bounds box_of(const Cluster& cluster)
+{
     Bounds box;
     for (const Bounds& one : cluster.boxes) {
         box.add(one);
     }
+    return box;
+}
+
+// Where sub-cells of the fluid are.
+Bounds cells_of(const Filling& filling, double spacing)
+{
+    Bounds fluid;
+    for (const Vec3& p : filling.fluid) {
+        fluid.add(p - Vec3::Constant(spacing));
+        fluid.add(p + Vec3::Constant(spacing));
+    }
+    return fluid;
+}
+
+// `box`: about the whole cluster, of which `cluster` are the shapes that reach the fluid.
+void take_out(const Scene& scene, const Bounds& box, const Cluster& cluster, Filling& filling)
+{
+    const double spacing = scene.spacing;
     std::vector<bool> gone(filling.fluid.size(), false);
     std::vector<CutCell> cut;
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
@@ -250,8 +384,13 @@ void take_out(const Scene& scene, const Cluster& cluster, Filling& filling)
 
 void take_out_bodies(const Scene& scene, Filling& filling)
 {
+    Bounds fluid = cells_of(filling, scene.spacing);
     for (const Cluster& cluster : clusters_of(scene)) {
-        take_out(scene, cluster, filling);
+        const Cluster reaching = within(cluster, fluid);
+        if (!reaching.shapes.empty()) {
+            take_out(scene, box_of(cluster), reaching, filling);
+            fluid = cells_of(filling, scene.spacing);
+        }
     }
 }
 
