@@ -211,4 +211,26 @@ TEST(CaseFileEntry, SyntaxIsToldInPlainWordsAtItsLine)
     }
 }
 
+// E11: one pair of brackets too few, for every list of tables; nothing else is told of it.
+TEST(CaseFileEntry, E11AListOfTablesInSingleBracketsIsToldWithItsHint)
+{
+    const std::string time = "[time]\nend = 1.0\n[particles]\nspacing = 0.1\n";
+    const std::vector<std::pair<std::string, std::string>> all = {
+        {"gauge", "name = \"level\"\ntype = \"front\"\n"},
+        {"wall", "name = \"floor\"\nshape = \"plane\"\n"},
+        {"body", "name = \"ball\"\nshape = \"sphere\"\nradius = 0.2\ndensity = 500\n"},
+        {"fluid.block", "shape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n"},
+        {"contact.pair", "materials = [\"a\", \"b\"]\nrestitution = 0.1\nfriction = 0.1\n"}};
+    for (const auto& [name, keys] : all) {
+        SCOPED_TRACE(name);
+        const auto found = mistakes(time + "[" + name + "]\n" + keys);
+        const auto told = std::ranges::find_if(found, [&](const Diagnostic& d) {
+            return d.hint.find("write [[" + name + "]]") != std::string::npos;
+        });
+        ASSERT_NE(told, found.end());
+        EXPECT_NE(told->what.find("expected a list of tables"), std::string::npos) << told->what;
+        EXPECT_EQ(told->line, 5);
+    }
+}
+
 } // namespace hyoryu

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes named by a case: found beside it, checked, centred for bodies.
+#include "hyoryu/scene/plan_slips.hpp"
 #include "test_case_file_support.hpp"
 
 #include <gtest/gtest.h>
@@ -52,6 +53,35 @@ protected:
     std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
                                     ("hyoryu_case_mesh_" + std::to_string(getpid()));
 };
+
+// E11: a mesh in millimetres read as metres, and one in metres shrunk to millimetres.
+TEST_F(CaseMesh, E11AScaleThatIsProbablyWrongIsWarnedOf)
+{
+    const auto warnings = [&](const std::string& scale) {
+        const Scene scene = parse_case(
+            "[time]\nend = 1.0\n[particles]\nspacing = 0.05\n[[wall]]\nname = \"floor\"\n"
+            "shape = \"box\"\nmin = [-2, -2, -0.5]\nmax = [2, 2, 0]\n[[body]]\n"
+            "name = \"crate\"\nshape = \"mesh\"\nfile = \"cube.obj\"\ndensity = 500\n"
+            "position = [0, 0, 3]\nscale = " +
+                scale + "\n",
+            folder_ / "case.toml");
+        Plan plan;
+        warn_about_slips(scene, plan);
+        std::string text;
+        for (const Diagnostic& slip : plan.warnings) {
+            text += slip.key + ": " + slip.what + "; " + slip.hint + "\n";
+        }
+        return text;
+    };
+    EXPECT_EQ(warnings("1.0").find("scale"), std::string::npos) << warnings("1.0");
+    for (const auto& [scale, words] : {std::pair("0.001", "less than the spacing of 0.05 m"),
+                                       std::pair("1000", "3.46e+03 m across, all else")}) {
+        const std::string text = warnings(scale);
+        EXPECT_NE(text.find("body[0].scale"), std::string::npos) << text;
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+        EXPECT_NE(text.find("is `scale` right?"), std::string::npos) << text;
+    }
+}
 
 std::string body_of(const std::string& file)
 {

@@ -180,6 +180,37 @@ TEST(Watch, WhatAMovingWallPressesIsLeftAloneWhileThereIsRoom)
     EXPECT_LE(sim.rigid.counters.worst_penetration, 1e-3);
 }
 
+// E5: each cause where it is there, and none of the others.
+TEST(Watch, E5NamesTheRightCause)
+{
+    struct Cause {
+        std::vector<std::string> set;
+        const char* words;
+    };
+    const std::vector<Cause> causes{{{"time.step=1e-4"}, "the fixed `time.step` is too long"},
+                                    {{"time.cfl=0.9"}, "`time.cfl` = 0.9 is too large"},
+                                    {{"domain.min=[-0.2, 0.0, -0.2]", "domain.max=[0.6, 0.0, 1.2]"},
+                                     "[domain], which ends within the scene"},
+                                    {{"fluid.viscosity.model=none"}, "nothing damps the fluid"},
+                                    {{"fluid.sound_speed=12"}, "`fluid.sound_speed` is too low"},
+                                    {{}, "an overlap at the start"}};
+    for (const Cause& cause : causes) {
+        Simulation sim = make(tank, cause.set);
+        advance(sim, 1);
+        sim.fluid->particles[field::velocity][0] = {1e6, 0, 0};
+        const std::string text = said([&] { watch(sim); });
+        for (const Cause& other : causes) {
+            EXPECT_EQ(text.find(other.words) != std::string::npos, &other == &cause)
+                << other.words << " in: " << text;
+        }
+        Totals more = totals(sim);
+        more.fluid_kinetic = more.fluid_kinetic + 1e9;
+        if (sim.plan.fluid->drive.isZero(0)) {
+            expect_words(said([&] { watch_energy(sim, more); }), {cause.words});
+        }
+    }
+}
+
 TEST(Watch, EnergyFromNowhereIsTold)
 {
     Simulation sim = make(tank);
