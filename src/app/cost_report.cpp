@@ -46,15 +46,25 @@ ordered_json value_at(const ordered_json& json, const std::string& pointer)
     return json.contains(place) ? json.at(place) : ordered_json();
 }
 
-ordered_json measured_share(const std::optional<StepCost>& measured, const std::string& effect)
+// The share of an effect, or its spread; null if it was not timed apart.
+ordered_json measured_share(const std::optional<StepCost>& measured, const std::string& effect,
+                            double StepCost::Share::*number)
 {
     if (measured) {
         const auto found = std::ranges::find(measured->effects, effect, &StepCost::Share::effect);
         if (found != measured->effects.end()) {
-            return found->share;
+            return (*found).*number;
         }
     }
     return {};
+}
+
+// Bytes for each particle of the fluid that the run began with; null without fluid.
+ordered_json per_fluid_particle(const ordered_json& bytes, const ordered_json& plan)
+{
+    const ordered_json fluid = value_at(plan, "/counts/fluid");
+    const bool told = bytes.is_number() && fluid.is_number() && fluid.get<double>() > 0;
+    return told ? ordered_json(bytes.get<double>() / fluid.get<double>()) : ordered_json();
 }
 
 // Runs the case at so many times its spacing; nothing if that takes more than so many seconds.
@@ -150,17 +160,26 @@ void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
                      {"measured", value_at(summary, "/steps")}};
     cost["memory_bytes"] = {{"predicted", value_at(plan, "/forecast/memory_bytes")},
                             {"measured", value_at(summary, "/peak_memory_bytes")}};
+    cost["memory_bytes_per_fluid_particle"] = {
+        {"predicted", per_fluid_particle(cost["memory_bytes"]["predicted"], plan)},
+        {"measured", per_fluid_particle(cost["memory_bytes"]["measured"], plan)},
+        {"of_it_columns", per_fluid_particle(value_at(plan, "/forecast/column_bytes"), plan)}};
     cost["disk_bytes"] = {{"predicted", value_at(plan, "/forecast/disk_bytes")},
                           {"measured", bytes_in(folder)}};
     cost["wall_seconds"] = {{"predicted", value_at(plan, "/forecast/wall_seconds")},
                             {"measured", spent.wall_seconds}};
+    cost["waiting_for_a_core"] = {{"predicted", value_at(plan, "/cost/waiting_for_a_core")},
+                                  {"measured", spent.waiting}};
     cost["effects"] = ordered_json::array();
     for (const ordered_json& effect : value_at(plan, "/on")) {
         const std::string name = effect.value("name", "");
-        cost["effects"].push_back({{"name", name},
-                                   {"asked", value_at(effect, "/why")},
-                                   {"predicted", value_at(plan, "/cost/effects/" + name)},
-                                   {"measured", measured_share(measured, name)}});
+        cost["effects"].push_back(
+            {{"name", name},
+             {"asked", value_at(effect, "/why")},
+             {"predicted", value_at(plan, "/cost/effects/" + name)},
+             {"predicted_spread", value_at(plan, "/cost/effects_spread/" + name)},
+             {"measured", measured_share(measured, name, &StepCost::Share::share)},
+             {"measured_spread", measured_share(measured, name, &StepCost::Share::spread)}});
     }
     write_text(folder / "summary.json", summary.dump(2) + "\n");
 }

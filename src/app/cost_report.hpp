@@ -41,6 +41,7 @@ struct SpentCost {
     double wall_seconds = 0; // until it was done, all included [s]
     double steps = 0;        // of them
     double memory = 0;       // largest resident memory, results.h5 included [B]
+    double waiting = 0;      // share of the time in which a thread had no core [1]
 };
 
 /// Adds `cost` to the summary.json in the folder: for each effect that its plan.json names, and for

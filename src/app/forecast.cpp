@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "forecast.hpp"
 
+#include "machine_load.hpp"
 #include "stop_request.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -18,9 +19,19 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Fluid particle-steps a second and thread: measured on one 2-core AVX2 machine in a developed 3-D
-// dam break with all default effects. A forecast from it is an order of magnitude, not a promise.
-constexpr double measured_rate = 0.55e6;
+// Seconds of a thread for a step of one fluid particle in two and in three dimensions, of one wall
+// particle, of which most are dry, and of a step besides: fitted to the measured runs of 2-D and
+// 3-D cases in docs/forecast.md and docs/how-it-is-fast.md (two threads, AVX-512), which they meet
+// within a third, the dam break of 8.5 mm within a tenth. A forecast from it is an order of
+// magnitude on another machine, not a promise.
+constexpr double fluid_seconds_2d = 0.26e-6;
+constexpr double fluid_seconds_3d = 0.42e-6;
+constexpr double wall_seconds = 0.2e-6;
+constexpr double step_seconds = 80e-6;
+
+// How much longer a step of fluid takes with AVX2 than with AVX-512: 2.16 against 1.38 M
+// particle-steps a second of the same dam break, on two machines (docs/how-it-is-fast.md).
+constexpr double without_avx512 = 1.6;
 
 // A box that falls into a heap and rests there, measured with one thread over whole runs of 1,000
 // and 1,960 boxes. At rest it takes half of that, in flight a tenth.
@@ -134,6 +145,7 @@ double seconds_to_write(const std::filesystem::path& file, const std::string& te
 std::optional<StepCost> time_case(const CaseSource& source, const Scene& scene, const Plan& plan,
                                   const Filling& filling, const TimingBudget& budget)
 {
+    const CoreWatch watch;
     std::optional<StepCost> cost;
     if (plan.fluid && budget.steps > 0) {
         cost = time_fluid(source, scene, plan, filling, budget);
@@ -142,6 +154,7 @@ std::optional<StepCost> time_case(const CaseSource& source, const Scene& scene, 
     }
     if (cost) {
         cost->output = output_of_step(scene, plan, *cost, budget.file);
+        cost->waiting = watch.waiting();
     }
     return cost;
 }
@@ -173,12 +186,22 @@ double gauge_seconds(const Plan& plan)
     return plan.gauge_rows * plan.gauge_looks / gauge_rate;
 }
 
+double untimed_step(const Plan& plan)
+{
+    const double bodies = static_cast<double>(plan.counts.bodies) * body_seconds;
+    if (!plan.fluid) {
+        return bodies;
+    }
+    const double of_fluid = plan.fluid->dimensions == 2 ? fluid_seconds_2d : fluid_seconds_3d;
+    const double particles = of_fluid * static_cast<double>(plan.counts.fluid) +
+                             wall_seconds * static_cast<double>(plan.counts.wall);
+    const double set = widest_instruction_set() == InstructionSet::avx512 ? 1.0 : without_avx512;
+    return step_seconds + set * particles / thread_count() + bodies;
+}
+
 double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed)
 {
-    const double step =
-        timed ? seconds_of_run(*timed)
-              : static_cast<double>(plan.counts.fluid) / (measured_rate * thread_count()) +
-                    static_cast<double>(plan.counts.bodies) * body_seconds;
+    const double step = timed ? seconds_of_run(*timed) : untimed_step(plan);
     return expected_steps(plan, timed) * step + gauge_seconds(plan);
 }
 

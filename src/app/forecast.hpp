@@ -39,6 +39,9 @@ Course expected_course(const Plan& plan, const std::optional<StepCost>& timed);
 /// Wall time of gauges, over the whole run [s].
 double gauge_seconds(const Plan& plan);
 
+/// Wall time of a step where nothing was timed, from fixed rates [s]: an order of magnitude.
+double untimed_step(const Plan& plan);
+
 /// Wall time of the run [s]; from fixed rates, an order of magnitude, if nothing was timed.
 double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed);
 

@@ -2,6 +2,7 @@
 #include "plan_report.hpp"
 
 #include "forecast.hpp"
+#include "machine_load.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "hyoryu/scene/disk.hpp"
 #include "hyoryu/scene/memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hyoryu {
@@ -19,10 +21,10 @@ namespace {
 nlohmann::ordered_json cost_json(const StepCost& cost)
 {
     using nlohmann::ordered_json;
-    ordered_json json{{"seconds_per_step", seconds_of_run(cost)},
-                      {"seconds_per_first_step", cost.seconds},
-                      {"development", nullptr},
-                      {"effects", ordered_json::object()}};
+    ordered_json json{
+        {"seconds_per_step", seconds_of_run(cost)}, {"seconds_per_first_step", cost.seconds},
+        {"waiting_for_a_core", cost.waiting},       {"development", nullptr},
+        {"effects", ordered_json::object()},        {"effects_spread", ordered_json::object()}};
     if (cost.development) {
         const Development& d = *cost.development;
         json["development"] = {
@@ -32,6 +34,7 @@ nlohmann::ordered_json cost_json(const StepCost& cost)
     }
     for (const StepCost::Share& share : cost.effects) {
         json["effects"][share.effect] = share.share;
+        json["effects_spread"][share.effect] = share.spread;
     }
     return json;
 }
@@ -106,14 +109,42 @@ nlohmann::ordered_json material_json(const Scene& scene, const Plan& plan)
     return json;
 }
 
+// What the columns of all particles hold [B]: only a part of what a run needs.
+double column_bytes(const Plan& plan)
+{
+    double bytes = 0;
+    for (const auto& field : plan.fields) {
+        bytes += static_cast<double>(field.bytes());
+    }
+    return bytes;
+}
+
+double memory_of(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
+{
+    return memory_bytes(scene, plan, expected_course(plan, timed));
+}
+
+std::string memory_lines(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
+{
+    const double memory = memory_of(scene, plan, timed);
+    std::string text =
+        fmt::format("    memory                 about {} resident", readable_bytes(memory));
+    if (plan.counts.fluid > 0) {
+        const auto fluid = static_cast<double>(plan.counts.fluid);
+        text += fmt::format(", {} for each fluid particle\n{:27}of it columns {}, {} for each",
+                            readable_bytes(memory / fluid), "", readable_bytes(column_bytes(plan)),
+                            readable_bytes(column_bytes(plan) / fluid));
+    }
+    return text + "\n";
+}
+
 std::string size_lines(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
 {
     const auto& n = plan.counts;
     std::string text = fmt::format("  size\n    particles              {} fluid, {} wall, {} "
                                    "body\n    bodies, walls          {}, {}\n",
                                    n.fluid, n.wall, n.body, n.bodies, n.walls);
-    text += fmt::format("    memory                 about {}\n",
-                        readable_bytes(memory_bytes(scene, plan, expected_course(plan, timed))));
+    text += memory_lines(scene, plan, timed);
     text += fmt::format("    disk                   about {}, with {:.0f} frames\n",
                         readable_bytes(disk_bytes(scene, plan, expected_course(plan, timed))),
                         plan.frames);
@@ -127,12 +158,34 @@ std::string size_lines(const Scene& scene, const Plan& plan, const std::optional
     return text;
 }
 
+// An effect that takes less than what the timing scatters is told by that bound.
+std::string share_text(const StepCost::Share& share)
+{
+    return share.share > share.spread
+               ? fmt::format("{:.0f} % of a step, +- {:.0f}", 100 * share.share, 100 * share.spread)
+               : fmt::format("less than {:.0f} % of a step, the scatter of the timing",
+                             std::max(1.0, 100 * (share.share + share.spread)));
+}
+
+// Times that were taken beside other work are told with what they would be without it.
+std::string busy_lines(const Plan& plan, const StepCost& timed)
+{
+    if (timed.waiting < noteworthy_waiting) {
+        return {};
+    }
+    return fmt::format("      the machine was busy   threads waited for a core in {:.0f} % of the "
+                       "timing:\n{:27}about {} once it is free\n",
+                       100 * timed.waiting, "",
+                       readable_seconds((1 - timed.waiting) * wall_forecast(plan, timed)));
+}
+
 std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)
 {
     const std::string about = readable_seconds(wall_forecast(plan, timed));
     if (!plan.fluid && timed) {
         return fmt::format("    run time               about {}, by {:.3g} s a step timed now\n",
-                           about, seconds_of_run(*timed));
+                           about, seconds_of_run(*timed)) +
+               busy_lines(plan, *timed);
     }
     if (!plan.fluid) {
         return fmt::format(
@@ -147,8 +200,9 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
     std::string text = fmt::format(
         "    run time               about {} on {} threads, by {:.3g} s a step timed now\n", about,
         thread_count(), timed->seconds);
+    text += busy_lines(plan, *timed);
     for (const StepCost::Share& share : timed->effects) {
-        text += fmt::format("      {:<20} {:.0f} % of a step\n", share.effect, 100 * share.share);
+        text += fmt::format("      {:<20} {}\n", share.effect, share_text(share));
     }
     if (timed->development) {
         const Development& d = *timed->development;
@@ -302,11 +356,16 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
         json["precision"] = name(scene.precision);
         json["instruction_set"] = name(widest_instruction_set());
     }
-    json["forecast"] = {{"memory_bytes", memory_bytes(scene, plan, expected_course(plan, timed))},
-                        {"frames", plan.frames},
-                        {"disk_bytes", disk_bytes(scene, plan, expected_course(plan, timed))},
-                        {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
-                        {"wall_seconds", wall_forecast(plan, timed)}};
+    json["forecast"] = {
+        {"memory_bytes", memory_of(scene, plan, timed)},
+        {"memory_bytes_per_fluid_particle",
+         n.fluid > 0 ? ordered_json(memory_of(scene, plan, timed) / static_cast<double>(n.fluid))
+                     : ordered_json()},
+        {"column_bytes", column_bytes(plan)},
+        {"frames", plan.frames},
+        {"disk_bytes", disk_bytes(scene, plan, expected_course(plan, timed))},
+        {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
+        {"wall_seconds", wall_forecast(plan, timed)}};
     if (timed) {
         json["cost"] = cost_json(*timed);
     }

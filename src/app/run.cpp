@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "cost_report.hpp"
 #include "forecast.hpp"
+#include "machine_load.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "plan_report.hpp"
@@ -107,6 +108,7 @@ struct Job {
     std::int64_t saved_step = 0; // of the last checkpoint
     double until = infinity;
     std::string command_to_go_on; // for the user, where the run stops before its end
+    CoreWatch cores = {};
 };
 
 void write_closing(Job& job, const std::string& reason)
@@ -238,7 +240,8 @@ void tell_cost(Job& job)
     const auto steps = static_cast<double>(job.sim.clock.step - job.first_step);
     const int timed = steps_to_time(job.sim.plan, steps);
     const SpentCost spent{job.progress.wall_seconds(), steps,
-                          peak_memory()}; // before the steps that are timed now
+                          peak_memory(), // before the steps that are timed now
+                          job.cores.waiting()};
     write_cost(job.folder, spent, time_steps(job.sim, timed));
 }
 

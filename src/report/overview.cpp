@@ -113,6 +113,20 @@ std::string run_section(const RunResults& run)
                                         s.at("commit").get<std::string>())}});
 }
 
+// Whether other work held the cores.
+std::string busy_text(const ordered_json& cost)
+{
+    constexpr double noteworthy = 0.05;
+    if (!cost.contains("waiting_for_a_core")) {
+        return {};
+    }
+    const double waiting = number(cost.at("waiting_for_a_core").at("measured"));
+    return waiting > noteworthy ? fmt::format(" The machine was busy: threads waited for a core in "
+                                              "{:.0f} % of the run.",
+                                              100 * waiting)
+                                : std::string();
+}
+
 // What was foretold beside what was measured; runs that did not end by themselves have none.
 std::string forecast_table(const RunResults& run)
 {
@@ -126,14 +140,25 @@ std::string forecast_table(const RunResults& run)
     const auto cell = [](const ordered_json& value, double factor, const char* unit) {
         return value.is_number() ? readable(factor * value.get<double>()) + unit : std::string();
     };
+    const auto cell_of = [&](const ordered_json& values, const std::string& key, double factor,
+                             const char* unit) {
+        const std::string spread = key + "_spread";
+        const bool scatters = values.contains(spread) && values.at(spread).is_number();
+        return cell(values.at(key), factor, unit) +
+               (scatters ? " ± " + cell(values.at(spread), factor, unit) : std::string());
+    };
     const auto add = [&](const std::string& name, const std::string& why,
                          const ordered_json& values, double factor, const char* unit) {
-        table.rows.push_back({name, why, cell(values.at("predicted"), factor, unit),
-                              cell(values.at("measured"), factor, unit)});
+        table.rows.push_back({name, why, cell_of(values, "predicted", factor, unit),
+                              cell_of(values, "measured", factor, unit)});
     };
     add("a step", "wall time", cost.at("seconds_per_step"), 1e3, " ms");
     add("steps", "", cost.at("steps"), 1, "");
-    add("memory", "at most", cost.at("memory_bytes"), 1e-6, " MB");
+    add("memory", "resident, at most", cost.at("memory_bytes"), 1e-6, " MB");
+    if (cost.contains("memory_bytes_per_fluid_particle")) {
+        add("memory", "for each fluid particle", cost.at("memory_bytes_per_fluid_particle"), 1,
+            " B");
+    }
     if (cost.contains("disk_bytes")) {
         add("disk", "all results", cost.at("disk_bytes"), 1e-6, " MB");
     }
@@ -144,8 +169,9 @@ std::string forecast_table(const RunResults& run)
     return "<h2>Asked, foretold, measured</h2>\n" + html_table(table) +
            html_paragraph(
                "The share of an effect is what a step takes longer with it, timed at the "
-               "start and at the end of the run; effects without a number are not timed "
-               "apart.");
+               "start and at the end of the run, with half of what the middle half of the "
+               "timings spans; effects without a number are not timed apart." +
+               busy_text(cost));
 }
 
 std::string cost_section(const RunResults& run)

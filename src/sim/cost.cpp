@@ -46,7 +46,7 @@ constexpr std::array slots{
 struct Variant {
     std::string without; // effect; none in the first
     FluidEffects effects;
-    double least = infinity; // seconds of a step
+    std::vector<double> seconds = {}; // of the step of each round, without making lists
 };
 
 std::vector<Variant> variants(const Simulation& sim)
@@ -153,6 +153,17 @@ double seconds_of_build(Fluid& fluid)
     return least;
 }
 
+// What each round says of the effect that a variant leaves out [1].
+std::vector<double> shares(const Variant& with, const Variant& without, const Spent& of_step)
+{
+    std::vector<double> found;
+    for (std::size_t round = 0; round < with.seconds.size(); ++round) {
+        found.push_back((with.seconds[round] - without.seconds[round]) /
+                        (with.seconds[round] + of_step.lists));
+    }
+    return found;
+}
+
 double seconds_of_step(Simulation& sim)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -161,6 +172,24 @@ double seconds_of_step(Simulation& sim)
 }
 
 } // namespace
+
+StepCost::Share share_of(std::string effect, std::vector<double> rounds)
+{
+    expects(!rounds.empty());
+    std::ranges::sort(rounds);
+    // Between the two nearest by rank: all rounds count where there are few.
+    const auto at = [&](double rank) {
+        const double place = rank * static_cast<double>(rounds.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const std::size_t above = std::min(below + 1, rounds.size() - 1);
+        return rounds[below] +
+               (place - static_cast<double>(below)) * (rounds[above] - rounds[below]);
+    };
+    const bool few = rounds.size() < 4;
+    const double half = 0.5 * (few ? at(1) - at(0) : at(0.75) - at(0.25));
+    const double median = at(0.5);
+    return {std::move(effect), std::max(median, 0.0), std::max(half, -median)};
+}
 
 double seconds_of_run(const StepCost& cost)
 {
@@ -202,9 +231,9 @@ StepCost measure_cost(Simulation& sim, int steps)
             sim.fluid->effects = variant.effects;
             const double lists = spent(sim).lists;
             const double seconds = seconds_of_step(sim);
-            variant.least = std::min(variant.least, seconds);
+            variant.seconds.push_back(seconds - (spent(sim).lists - lists));
             if (variant.without.empty()) {
-                cost.seconds += (seconds - (spent(sim).lists - lists)) / rounds;
+                cost.seconds += variant.seconds.back() / rounds;
             }
         }
     }
@@ -218,7 +247,7 @@ StepCost measure_cost(Simulation& sim, int steps)
     cost.lists = std::min(builds * cost.build, of_all.lists);
     for (const Variant& variant : all) {
         if (!variant.without.empty()) {
-            cost.effects.push_back({variant.without, 1 - variant.least / all.front().least});
+            cost.effects.push_back(share_of(variant.without, shares(all.front(), variant, of_all)));
         }
     }
     return cost;

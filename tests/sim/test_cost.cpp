@@ -2,6 +2,7 @@
 // What a step costs, and what of it each effect takes.
 #include "hyoryu/sim/cost.hpp"
 
+#include "dice.hpp"
 #include "runs.hpp"
 
 #include <gtest/gtest.h>
@@ -71,6 +72,50 @@ TEST(Cost, IsMeasuredAtTheEndOfARunToo)
     EXPECT_GT(cost.seconds, 0);
     for (const StepCost::Share& share : cost.effects) {
         EXPECT_LT(share.share, 1) << share.effect;
+    }
+}
+
+// Noise of rounds: the share that is told is never below zero and never without its spread, and the
+// two together hold the median of the rounds.
+TEST(Cost, D6SharesAreNeverBelowZeroNorWithoutTheirSpread)
+{
+    const StepCost::Share few = share_of("shifting", {0.3, 0.1, 0.2});
+    EXPECT_DOUBLE_EQ(few.share, 0.2);
+    EXPECT_DOUBLE_EQ(few.spread, 0.1);
+    const StepCost::Share many = share_of("shifting", {0.1, 0.2, 0.3, 0.4, 9.0});
+    EXPECT_DOUBLE_EQ(many.share, 0.3);
+    EXPECT_DOUBLE_EQ(many.spread, 0.1); // of 0.2 to 0.4: one disturbed round counts for nothing
+    const StepCost::Share below = share_of("viscosity", {-0.021, -0.023, -0.025, -0.022, -0.024});
+    EXPECT_EQ(below.share, 0);
+    EXPECT_DOUBLE_EQ(below.spread, 0.023);
+    Dice dice(6);
+    for (int scene = 0; scene < 500; ++scene) {
+        std::vector<double> rounds(1 + static_cast<std::size_t>(dice.below(12)));
+        const double middle = dice.between(-0.1, 0.2);
+        for (double& round : rounds) {
+            round = middle + dice.between(-0.1, 0.1);
+        }
+        const StepCost::Share told = share_of("effect", rounds);
+        std::ranges::nth_element(rounds,
+                                 rounds.begin() + static_cast<std::ptrdiff_t>(rounds.size() / 2));
+        EXPECT_GE(told.share, 0);
+        EXPECT_GE(told.spread, 0);
+        if (rounds.size() % 2 == 1) {
+            const double median = rounds[rounds.size() / 2];
+            EXPECT_GE(median, told.share - told.spread - 1e-15);
+            EXPECT_LE(median, told.share + told.spread + 1e-15);
+        }
+    }
+}
+
+TEST(Cost, D6MeasuredSharesAreNeverBelowZero)
+{
+    for (int k = 0; k < 3; ++k) {
+        Simulation sim = make(tank);
+        for (const StepCost::Share& share : measure_cost(sim, 20).effects) {
+            EXPECT_GE(share.share, 0) << share.effect;
+            EXPECT_GT(share.spread, 0) << share.effect;
+        }
     }
 }
 

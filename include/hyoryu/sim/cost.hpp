@@ -30,7 +30,8 @@ struct Development {
 struct StepCost {
     struct Share {
         std::string effect; // as the plan names it
-        double share = 0;   // of a step [1]; noise may take it a little below zero
+        double share = 0;   // of a step, median over the rounds; not below 0 [1]
+        double spread = 0; // half of what the middle half of the rounds spans, at least -median [1]
     };
     double seconds = 0; // of a step with everything on, on average [s]
     double bodies = 0;  // of them, for the motion of bodies and their contacts [s]
@@ -39,9 +40,13 @@ struct StepCost {
     double row = 0;     // of the sums of a row of the histories [s]
     double output = 0;  // of a step on average over the run, besides, for what is written [s]
     double impacts = 0; // rows of contacts.csv that tell of one, over the whole run
+    double waiting = 0; // share of the timing in which a thread had no core: a busy machine [1]
     std::vector<Share> effects;
     std::optional<Development> development;
 };
+
+/// The share of an effect and its spread, from those that single rounds found.
+StepCost::Share share_of(std::string effect, std::vector<double> rounds);
 
 /// The wall time of a step on average over the run [s], with what is written: that of the timed
 /// ones, if nothing is known of how the flow develops.
@@ -49,8 +54,9 @@ double seconds_of_run(const StepCost& cost);
 
 /// Times about so many steps of a simulation with fluid, in rounds, two at least: in each one step
 /// with everything, and one without each effect that the slots of the fluid can do without. What an
-/// effect takes is how much less the fastest step without it needs than the fastest with it; one
-/// state, one after the other, so that a busy machine disturbs all alike. The simulation goes on
+/// effect takes is how much less the step without it needs than that with everything of the same
+/// round, the making of lists apart, which only some steps do; one state, one after the other, so
+/// that a busy machine disturbs all alike. The simulation goes on
 /// from where it stands, beyond its end, and is no result any more. Throws NumericalError like
 /// step().
 StepCost measure_cost(Simulation& sim, int steps);
