@@ -23,21 +23,43 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
+// Rows of the points in the cells that a box reaches.
+std::vector<std::size_t> rows_in(const CellGrid& grid, const Bounds& box)
+{
+    const auto low = grid.cell_of(box.min);
+    const auto high = grid.cell_of(box.max);
+    const auto first = [&](std::size_t a) { return std::max<Index>(low[a], 0); };
+    const auto last = [&](std::size_t a) { return std::min(high[a] + 1, grid.count[a]); };
+    std::vector<std::size_t> rows;
+    for (Index z = first(2); z < last(2); ++z) {
+        for (Index y = first(1); y < last(1) && first(0) < last(0); ++y) {
+            const Index row = (z * grid.count[1] + y) * grid.count[0];
+            for (Index k = grid.start[at(row + first(0))]; k < grid.start[at(row + last(0))]; ++k) {
+                rows.push_back(at(grid.order[at(k)]));
+            }
+        }
+    }
+    return rows;
+}
+
 // Rows of the fluid that are clearly too near to a body.
 std::vector<std::uint8_t> too_near(const Scene& scene, const std::vector<Vec3>& points)
 {
     std::vector<std::uint8_t> near(points.size(), 0);
+    CellGrid grid;
+    build(grid, points, 0, around * scene.spacing);
     for (const BodySettings& body : scene.bodies) {
         const Placed shape{&body.shape, body.position, body.rotation, scene.dimensions};
         Bounds box = bounds(shape);
         box.min -= Vec3::Constant(scene.spacing);
         box.max += Vec3::Constant(scene.spacing);
-        parallel_for(0, static_cast<Index>(points.size()), [&](Index k) {
-            const Vec3& p = points[at(k)];
+        const std::vector<std::size_t> rows = rows_in(grid, box);
+        parallel_for(0, static_cast<Index>(rows.size()), [&](Index k) {
+            const Vec3& p = points[rows[at(k)]];
             const bool in_box =
                 (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
             if (in_box && signed_distance(shape, p) < clearly * scene.spacing) {
-                near[at(k)] = 1;
+                near[rows[at(k)]] = 1;
             }
         });
     }
