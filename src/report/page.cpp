@@ -37,9 +37,9 @@ std::string page_of(const RunResults& run, const ReportSettings& settings)
                        "lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
                        "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                        title, style) +
-           case_section(run) + run_section(run) + impact_section(run, settings.stiffness) +
-           track_section(run) + gauge_section(run) + books_section(run) + plan_section(run) +
-           cost_section(run) + "</body>\n</html>\n";
+           case_section(run) + run_section(run) + picture_section(run) +
+           impact_section(run, settings.stiffness) + track_section(run) + gauge_section(run) +
+           books_section(run) + plan_section(run) + cost_section(run) + "</body>\n</html>\n";
 }
 
 } // namespace

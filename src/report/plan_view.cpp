@@ -134,6 +134,33 @@ std::string drawn_track(const Track& track, const Layout& at, std::size_t k, std
                        at.x(track.x.back()) + 5, at.y(track.y.back()) - 4, escaped(name));
 }
 
+std::string svg_head(const Layout& at, const std::string& label)
+{
+    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+                       "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\" aria-label=\"{2}\">\n",
+                       at.width, at.height, escaped(label));
+}
+
+std::string drawn_outline(const std::vector<Segment>& outline, const Layout& at,
+                          std::string_view style)
+{
+    std::string d;
+    for (const Segment& s : outline) {
+        d += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", at.x(s[0]), at.y(s[1]), at.x(s[2]),
+                         at.y(s[3]));
+    }
+    return d.empty() ? d : fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, d);
+}
+
+// From a light to a deep blue.
+std::string water_colour(double shade)
+{
+    const auto mix = [&](double light, double deep) {
+        return static_cast<int>(std::lround(light + shade * (deep - light)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", mix(205, 8), mix(228, 69), mix(246, 130));
+}
+
 } // namespace
 
 View view_of(int dimensions)
@@ -157,22 +184,34 @@ std::vector<Segment> outline(const Surface& surface, View view)
     return {segments.begin(), segments.end()};
 }
 
+std::string svg_scene(const SceneView& scene, View view, const std::string& label)
+{
+    std::vector<Segment> all = scene.walls;
+    all.insert(all.end(), scene.bodies.begin(), scene.bodies.end());
+    for (const Patch& p : scene.water) {
+        all.push_back({p.x, p.y, p.x + p.width, p.y + p.height});
+    }
+    const Layout at = layout_of(ranges_of(all, {}));
+    std::string text = svg_head(at, label);
+    for (const Patch& p : scene.water) {
+        text += fmt::format("<rect fill=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+                            "height=\"{:.1f}\"/>\n",
+                            water_colour(p.shade), at.x(p.x), at.y(p.y + p.height),
+                            at.x(p.x + p.width) - at.x(p.x), at.y(p.y) - at.y(p.y + p.height));
+    }
+    text += svg_axes(at.area, at.x, at.y, "x [m]", view == View::xy ? "y [m]" : "z [m]");
+    return text + drawn_outline(scene.walls, at, "w") + drawn_outline(scene.bodies, at, "f") +
+           "</svg>\n";
+}
+
 std::string svg_plan_view(const std::vector<Segment>& outline, const std::vector<Track>& tracks,
                           View view)
 {
     const Layout at = layout_of(ranges_of(outline, tracks));
     const char* up = view == View::xy ? "y [m]" : "z [m]";
-    std::string text = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-        "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\" aria-label=\"tracks of the bodies\">\n",
-        at.width, at.height);
+    std::string text = svg_head(at, "tracks of the bodies");
     text += svg_axes(at.area, at.x, at.y, "x [m]", up);
-    std::string d;
-    for (const Segment& s : outline) {
-        d += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", at.x(s[0]), at.y(s[1]), at.x(s[2]),
-                         at.y(s[3]));
-    }
-    text += d.empty() ? "" : fmt::format("<path class=\"w\" d=\"{}\"/>\n", d);
+    text += drawn_outline(outline, at, "w");
     for (std::size_t k = 0; k < tracks.size(); ++k) {
         const std::string_view name =
             tracks.size() <= most_names ? tracks[k].body : std::string_view();

@@ -12,6 +12,7 @@ namespace hyoryu {
 std::string case_section(const RunResults& run);
 std::string plan_section(const RunResults& run);
 std::string run_section(const RunResults& run);
+std::string picture_section(const RunResults& run);
 std::string cost_section(const RunResults& run);
 std::string books_section(const RunResults& run);
 std::string gauge_section(const RunResults& run);

@@ -74,7 +74,7 @@ material = "pine"
         for forbidden in ("<script", "src=", "href=", "url(", "@import", "nan", "inf "):
             self.assertNotIn(forbidden, text.replace("http://www.w3.org/", ""), forbidden)
         headings = [h.text for h in root.findall(".//{*}h2")]
-        self.assertEqual(headings, ["Case", "Run", "Impacts", "Tracks of the bodies", "Gauges",
+        self.assertEqual(headings, ["Case", "Run", "Pictures", "Impacts", "Tracks of the bodies", "Gauges",
                                     "Energy and momentum", "Plan", "Cost by stage",
                                     "Asked, foretold, measured"])
 
@@ -125,6 +125,25 @@ material = "pine"
             (self.dir / "out").rename(self.dir / f"out{every}")
         head = self.call("describe", "gauge[].type").stdout
         self.assertIn("force of the fluid", " ".join(head.split()))
+
+    def test_e12_the_page_has_pictures_of_water_and_bodies(self):
+        self.run_case(self.CASE)
+        _, root = self.page()
+        scenes = [svg for svg in root.findall(".//{*}svg")
+                  if svg.get("aria-label").startswith("the scene at")]
+        self.assertGreaterEqual(len(scenes), 2)
+        self.assertEqual(scenes[0].get("aria-label"), "the scene at t = 0 s")
+        self.assertEqual(scenes[-1].get("aria-label"), "the scene at t = 0.1 s")
+        for scene in scenes:
+            water = [r for r in scene.findall("{*}rect") if r.get("fill")]
+            self.assertGreater(len(water), 0)
+            self.assertEqual(len([p for p in scene.findall("{*}path") if p.get("class") == "f"]), 1)
+            area = sum(float(r.get("width")) * float(r.get("height")) for r in water)
+            frame = next(r for r in scene.findall("{*}rect") if r.get("class") == "f")
+            whole = float(frame.get("width")) * float(frame.get("height"))
+            # 0.5 x 0.5 m of water in a basin of 1.6 x 0.5 m, three layers of walls and a margin.
+            self.assertGreater(area, 0.1 * whole)
+            self.assertLess(area, 0.6 * whole)
 
     def test_e12_books_count_what_leaves_by_an_open_side(self):
         text = self.CASE.replace('open = ["+z"]', 'open = ["+z", "+x"]').replace(

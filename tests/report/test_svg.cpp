@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scales and ticks against numbers worked out by hand, and what must survive thinning.
+#include "dice.hpp"
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/plan_view.hpp"
 #include "hyoryu/report/svg.hpp"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace hyoryu {
 namespace {
@@ -169,6 +171,38 @@ TEST(PlanView, ABoxShowsItsRectangleAndNoDiagonal)
     const std::vector<Segment> aside{{0, 0, 0, 3}, {0, 0, 2, 0}, {0, 3, 2, 3}, {2, 0, 2, 3}};
     EXPECT_EQ(outline(box(), View::xy), above);
     EXPECT_EQ(outline(box(), View::xz), aside);
+}
+
+// E12: the patches of points on a lattice are the cells that hold any of them, each once.
+TEST(PlanView, E12WaterCoversTheCellsOfItsParticles)
+{
+    Dice dice(12);
+    for (int scene = 0; scene < 50; ++scene) {
+        const double dp = dice.between(0.01, 0.1);
+        const View view = dice.chance(0.5) ? View::xy : View::xz;
+        std::vector<float> points;
+        std::set<std::pair<int, int>> cells{{0, 0}};
+        const auto add = [&](int i, int j) {
+            const double up = dp * (j + dice.between(0.001, 0.4)), other = dice.between(0, 1);
+            points.push_back(static_cast<float>(dp * (i + dice.between(0.001, 0.4))));
+            points.push_back(static_cast<float>(view == View::xy ? up : other));
+            points.push_back(static_cast<float>(view == View::xy ? other : up));
+        };
+        points = {0, 0, 0}; // the corner that the cells are counted from
+        for (int k = 0; k < 200; ++k) {
+            const int i = dice.below(60), j = dice.below(40);
+            cells.insert({i, j});
+            add(i, j);
+        }
+        double area = 0;
+        for (const Patch& patch : water_patches(points, dp, view, {0, 1})) {
+            area += patch.width * patch.height;
+            EXPECT_GE(patch.shade, 0);
+            EXPECT_LE(patch.shade, 1);
+        }
+        EXPECT_NEAR(area, static_cast<double>(cells.size()) * dp * dp, 1e-9 * area);
+    }
+    EXPECT_TRUE(water_patches({}, 0.1, View::xy, {0, 1}).empty());
 }
 
 TEST(PlanView, BothAxesHaveOneScale)

@@ -28,6 +28,27 @@ struct Track {
     std::vector<double> x, y;
 };
 
+/// A stretch of water, in the plane of the picture [m]; deeper shades for 1 than for 0.
+struct Patch {
+    double x = 0, y = 0, width = 0, height = 0;
+    double shade = 0;
+};
+
+/// The scene at one moment.
+struct SceneView {
+    std::vector<Segment> walls, bodies;
+    std::vector<Patch> water;
+};
+
+/// Where points of water are, as rows of patches: cells of the larger of `spacing` and what keeps
+/// the picture at 260 cells across, shaded from above by the height of the highest point of each
+/// cell between `heights`, in the x-z plane alike. `points`: x, y, z of each [m].
+std::vector<Patch> water_patches(const std::vector<float>& points, double spacing, View view,
+                                 const std::array<double, 2>& heights);
+
+/// One moment at one scale for both axes; `label` is for readers who cannot see it.
+std::string svg_scene(const SceneView& scene, View view, const std::string& label);
+
 /// Outline and tracks at one scale for both axes; a ring marks each start, a dot each end, and the
 /// name stands at the end if there are at most `most_names` bodies.
 inline constexpr std::size_t most_names = 40;
