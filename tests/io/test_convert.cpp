@@ -23,7 +23,7 @@ namespace {
 
 using testing::text_of;
 
-constexpr int runs_drawn = 40;
+constexpr int runs_drawn = 25;
 
 template <class T>
 std::vector<T> random_numbers(Dice& dice, std::size_t count)
