@@ -188,12 +188,12 @@ std::string svg_scene(const SceneView& scene, View view, const std::string& labe
 {
     std::vector<Segment> all = scene.walls;
     all.insert(all.end(), scene.bodies.begin(), scene.bodies.end());
-    for (const Patch& p : scene.water) {
+    for (const WaterPatch& p : scene.water) {
         all.push_back({p.x, p.y, p.x + p.width, p.y + p.height});
     }
     const Layout at = layout_of(ranges_of(all, {}));
     std::string text = svg_head(at, label);
-    for (const Patch& p : scene.water) {
+    for (const WaterPatch& p : scene.water) {
         text += fmt::format("<rect fill=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
                             "height=\"{:.1f}\"/>\n",
                             water_colour(p.shade), at.x(p.x), at.y(p.y + p.height),

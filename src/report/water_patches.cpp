@@ -59,10 +59,10 @@ int shade_of(double top, const std::array<double, 2>& heights)
 
 } // namespace
 
-std::vector<Patch> water_patches(const std::vector<float>& points, double spacing, View view,
-                                 const std::array<double, 2>& heights)
+std::vector<WaterPatch> water_patches(const std::vector<float>& points, double spacing, View view,
+                                      const std::array<double, 2>& heights)
 {
-    std::vector<Patch> patches;
+    std::vector<WaterPatch> patches;
     if (points.empty()) {
         return patches;
     }

@@ -195,7 +195,7 @@ TEST(PlanView, E12WaterCoversTheCellsOfItsParticles)
             add(i, j);
         }
         double area = 0;
-        for (const Patch& patch : water_patches(points, dp, view, {0, 1})) {
+        for (const WaterPatch& patch : water_patches(points, dp, view, {0, 1})) {
             area += patch.width * patch.height;
             EXPECT_GE(patch.shade, 0);
             EXPECT_LE(patch.shade, 1);

@@ -29,7 +29,7 @@ struct Track {
 };
 
 /// A stretch of water, in the plane of the picture [m]; deeper shades for 1 than for 0.
-struct Patch {
+struct WaterPatch {
     double x = 0, y = 0, width = 0, height = 0;
     double shade = 0;
 };
@@ -37,14 +37,14 @@ struct Patch {
 /// The scene at one moment.
 struct SceneView {
     std::vector<Segment> walls, bodies;
-    std::vector<Patch> water;
+    std::vector<WaterPatch> water;
 };
 
 /// Where points of water are, as rows of patches: cells of the larger of `spacing` and what keeps
 /// the picture at 260 cells across, shaded from above by the height of the highest point of each
 /// cell between `heights`, in the x-z plane alike. `points`: x, y, z of each [m].
-std::vector<Patch> water_patches(const std::vector<float>& points, double spacing, View view,
-                                 const std::array<double, 2>& heights);
+std::vector<WaterPatch> water_patches(const std::vector<float>& points, double spacing, View view,
+                                      const std::array<double, 2>& heights);
 
 /// One moment at one scale for both axes; `label` is for readers who cannot see it.
 std::string svg_scene(const SceneView& scene, View view, const std::string& label);
