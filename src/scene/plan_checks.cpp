@@ -6,6 +6,7 @@
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
+#include "walls.hpp"
 
 #include <fmt/format.h>
 
@@ -38,6 +39,14 @@ double depth_in_mesh(const BodySettings& body, const Wall& wall, int dimensions)
     }
     return -signed_distance({&solid->shape, solid->centre, solid->rotation, dimensions},
                             body.position);
+}
+
+// Whether the ball about a body is clear of a wall that is made of planes: most of many bodies in a
+// basin are, and need no closer look.
+bool is_clear_of(const Wall& wall, const Body& body, int dimensions)
+{
+    return !std::holds_alternative<SolidWall>(wall.geometry) &&
+           -depth_behind(wall, body.position, dimensions) > bounding_radius(body, dimensions);
 }
 
 // Pairs a < b whose bounding balls meet, by a sweep along the axis on which the bodies are spread
@@ -101,6 +110,9 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
         const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
         for (int w = 0; w < walls; ++w) {
             const Wall& wall = scene.walls[static_cast<std::size_t>(w)];
+            if (is_clear_of(wall, rigid.bodies[static_cast<std::size_t>(a)], scene.dimensions)) {
+                continue;
+            }
             const double depth =
                 std::max(overlap(rigid, a, -1 - w, 0), depth_in_mesh(body, wall, scene.dimensions));
             if (depth > allowed_overlap * body.spacing) {
