@@ -323,12 +323,12 @@ bool overlap(const Bounds& a, const Bounds& b)
     return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
-// The shapes of a cluster that reach the fluid, in their order.
-Cluster within(const Cluster& cluster, const Bounds& fluid)
+// The shapes of a cluster that reach into bounds, in their order.
+Cluster within(const Cluster& cluster, const Bounds& bounds)
 {
     Cluster found;
     for (std::size_t k = 0; k < cluster.shapes.size(); ++k) {
-        if (overlap(cluster.boxes[k], fluid)) {
+        if (overlap(cluster.boxes[k], bounds)) {
             found.shapes.push_back(cluster.shapes[k]);
             found.boxes.push_back(cluster.boxes[k]);
         }
@@ -368,7 +368,9 @@ void take_out(const Scene& scene, const Bounds& box, const Cluster& cluster, Fil
         if (distance >= spacing) {
             continue;
         }
-        const Cover cover = distance < -spacing ? Cover{1, p} : covered(cluster, p, spacing);
+        const Bounds cell{p - Vec3::Constant(spacing), p + Vec3::Constant(spacing)};
+        const Cover cover =
+            distance < -spacing ? Cover{1, p} : covered(within(cluster, cell), p, spacing);
         gone[k] = cover.part == 1;
         if (cover.part > 0 && cover.part < 1) {
             cut.push_back({k, distance, cover, room_at(scene, p), morton((p - box.min) / spacing)});
