@@ -3,10 +3,13 @@
 // nothing.
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/results.hpp"
+#include "io/hdf5.hpp"
+
 #include "results_fixture.hpp"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <csignal>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -191,6 +194,50 @@ TEST_F(Frames, TellWhyAFolderCannotBeWritten)
     } catch (const IoError& error) {
         EXPECT_NE(std::string(error.what()).find("No such file or directory"), std::string::npos);
     }
+}
+
+/// Puts an array of `rows` x 3 numbers, of which the file holds none, in the place of an array.
+void claim_rows(const fs::path& file, const std::string& dataset, hsize_t rows)
+{
+    const hdf5::Session session;
+    const hdf5::Handle open(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "open");
+    hdf5::check(H5Ldelete(open, dataset.c_str(), H5P_DEFAULT), "remove");
+    const std::array<hsize_t, 2> dims{rows, 3};
+    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(rows, 1024), 3};
+    const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "prepare");
+    hdf5::check(H5Pset_chunk(creation, 2, chunk.data()), "prepare");
+    const hdf5::Handle space(H5Screate_simple(2, dims.data(), nullptr), H5Sclose, "size");
+    const hdf5::Handle array(H5Dcreate2(open, dataset.c_str(), H5T_NATIVE_FLOAT, space, H5P_DEFAULT,
+                                        creation, H5P_DEFAULT),
+                             H5Dclose, "create");
+}
+
+std::string fault_of(const fs::path& file)
+{
+    try {
+        read_frame(file);
+    } catch (const IoError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST_F(Frames, ThatClaimWhatTheyDoNotHoldAreErrors)
+{
+    FrameWriter writer(folder);
+    writer.write(make_cloud("fluid", 0, 10));
+    writer.write(make_cloud("fluid", 1, 10));
+    writer.finish();
+    const fs::path file = folder / "frames/fluid_000000.hdf";
+    // 1.6 GB that are nowhere, and a product of dimensions that no integer holds.
+    claim_rows(file, "/VTKHDF/Points", hsize_t{1} << 27);
+    EXPECT_NE(fault_of(file).find("holds less than it says"), std::string::npos) << fault_of(file);
+    claim_rows(file, "/VTKHDF/Points", hsize_t{1} << 62);
+    EXPECT_NE(fault_of(file).find("it says that it is"), std::string::npos) << fault_of(file);
+    // An array for other points than those of the frame.
+    claim_rows(folder / "frames/fluid_000001.hdf", "/VTKHDF/PointData/Velocity", 11);
+    EXPECT_NE(fault_of(folder / "frames/fluid_000001.hdf").find("not one row a point"),
+              std::string::npos);
 }
 
 } // namespace
