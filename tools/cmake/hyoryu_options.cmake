@@ -35,7 +35,7 @@ if(HYORYU_SANITIZE)
   # behaviour are left out that the address sanitizer sees, too: they cost a third of the build.
   target_compile_options(hyoryu_options INTERFACE
     -fsanitize=${HYORYU_SANITIZE} -fno-sanitize=null,object-size -fno-sanitize-recover=all
-    -fno-omit-frame-pointer -Wno-error)
+    -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-error>)
   target_link_options(hyoryu_options INTERFACE -fsanitize=${HYORYU_SANITIZE})
 endif()
 if(HYORYU_FUZZER) # what it counts, in all we compile; what drives it, in its targets alone
