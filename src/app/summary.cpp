@@ -66,7 +66,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     const Totals end = totals(sim);
     const auto steps = static_cast<double>(sim.clock.step - first_step);
     const auto& n = sim.plan.counts;
-    const Index fluid_now = sim.fluid ? sim.fluid->particles.fluid().size() : 0;
+    const Index fluid_now = sim.fluid ? sim.fluid->particles.fluid.size() : 0;
     ordered_json json;
     json["version"] = build_info::version;
     json["commit"] = build_info::commit;

@@ -14,11 +14,6 @@ namespace hyoryu::bench {
 
 namespace {
 
-auto at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 Fluid make_cube(const LoopSetting& setting)
 {
     constexpr double dp = 0.01;
@@ -42,9 +37,10 @@ Fluid make_cube(const LoopSetting& setting)
         const double jx = off(random);
         const double jy = off(random);
         const Vec3 jitter(jx, jy, off(random));
-        fluid.particles[field::position][at(k)] = dp * (Vec3(k % n, k / n % n, k / n / n) + jitter);
-        fluid.particles[field::velocity][at(k)] = {off(random), off(random), off(random)};
-        fluid.particles[field::density][at(k)] = 1000 + 5 * off(random);
+        fluid.particles.fluid[field::position][k] =
+            dp * (Vec3(k % n, k / n % n, k / n / n) + jitter);
+        fluid.particles.fluid[field::velocity][k] = {off(random), off(random), off(random)};
+        fluid.particles.fluid[field::density][k] = 1000 + 5 * off(random);
     }
     return fluid;
 }
@@ -58,7 +54,7 @@ void sweep_all(Fluid& fluid)
             const auto& loops = std::get<HotLoops<Real>>(hot_loops_for(fluid.instruction_set));
             const SweepView<Stored, Real> view{n.fluid_fluid.blocks().data(),
                                                data.records.data(),
-                                               fluid.particles.pointers(),
+                                               fluid.particles.fluid.pointers(),
                                                n.fluid.row.data(),
                                                0,
                                                n.fluid.lattice.edge,
@@ -79,7 +75,7 @@ double memory_traffic(const Fluid& fluid, std::size_t list_bytes)
     const double record = fluid.parameters.precision == Precision::single_precision
                               ? sizeof(RecordRow<Stored, float>)
                               : sizeof(RecordRow<Stored, double>);
-    return static_cast<double>(list_bytes) + static_cast<double>(fluid.particles.fluid().size()) *
+    return static_cast<double>(list_bytes) + static_cast<double>(fluid.particles.fluid.size()) *
                                                  (record + 2 * sizeof(real) * Sums::scalars);
 }
 
@@ -127,7 +123,7 @@ LoopRates measure_loops(const LoopSetting& setting)
     update_pressure(fluid);
     const PairList& list = fluid.neighbours.fluid_fluid;
     const double pairs = pairs_within_support(fluid, list);
-    const auto n = static_cast<double>(fluid.particles.fluid().size());
+    const auto n = static_cast<double>(fluid.particles.fluid.size());
     const auto time = [&](const auto& call) { return median_time(setting.seconds, call); };
     const double build = time([&] { rebuild_neighbours(fluid); });
     const double all = time([&] { sweep_all(fluid); });

@@ -20,7 +20,7 @@ std::size_t row_of(const FluidNeighbours& n, Index slot)
 
 double pairs_within_support(const Fluid& fluid, const PairList& list)
 {
-    const auto x = fluid.particles[field::position];
+    const auto x = fluid.particles.fluid[field::position];
     double pairs = 0;
     list.for_each_pair([&](Index i, Index j) {
         const double squared =

@@ -247,20 +247,17 @@ private:
             return count;
         }
         const std::uint16_t* const end = std::remove_if(
-            number, number + count, [&](std::uint16_t other) { return kin(k, other); });
+            number, number + count, [&](std::uint16_t other) { return same_owner(k, other); });
         return static_cast<std::size_t>(end - number);
     }
 
-    bool kin(Index k, std::uint16_t number) const
+    bool same_owner(Index k, std::uint16_t number) const
     {
+        const auto owner = [&](Index slot) {
+            return choice_.owner[at(slot - choice_.first_owner)];
+        };
         const Index slot = shop_.chunks[number / chunk_slots].slot + number % chunk_slots;
-        for (const Tiles* source : sources_) {
-            if (slot >= source->first_slot && slot < source->first_slot + source->count()) {
-                const std::int32_t row = source->row[at(slot - source->first_slot)];
-                return choice_.owner[at(row)] == choice_.owner[at(destination_.row[at(k)])];
-            }
-        }
-        return false;
+        return owner(slot) == owner(destination_.first_slot + k);
     }
 
     template <class T>

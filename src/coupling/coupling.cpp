@@ -13,20 +13,20 @@ std::size_t at(Index row)
 // What the fluid does to a solid particle: pressure and, where it sticks, friction.
 class SolidForce {
 public:
-    explicit SolidForce(const Fluid& fluid)
-        : F_(fluid.particles[field::force]),
-          friction_(sticks_to_solids(fluid) && fluid.particles.has(field::viscous_force)
-                        ? fluid.particles[field::viscous_force]
-                        : std::span<const Vec3>())
+    SolidForce(const Fluid& fluid, const Store& solids)
+        : F_(solids[field::force]),
+          friction_(sticks_to_solids(fluid) && solids.has(field::viscous_force)
+                        ? solids[field::viscous_force]
+                        : ColumnView<const Vec3>())
     {
     }
     Vec3 operator()(Index row) const
     {
-        return friction_.empty() ? F_[at(row)] : Vec3(F_[at(row)] + friction_[at(row)]);
+        return friction_.empty() ? F_[row] : Vec3(F_[row] + friction_[row]);
     }
 
 private:
-    std::span<const Vec3> F_, friction_;
+    ColumnView<const Vec3> F_, friction_;
 };
 
 Quat turned(const Quat& q, const Vec3& angle)
@@ -51,17 +51,17 @@ std::vector<Pose> free_flight(const Rigid& rigid, double ahead)
 void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const BodyParticles& bodies,
                   Fluid& fluid)
 {
-    const Index first = fluid.particles.body().begin;
-    const auto x = fluid.particles[field::position];
-    const auto v = fluid.particles[field::velocity];
+    Store& store = fluid.particles.body;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
     for (std::size_t b = 0; b < rigid.bodies.size(); ++b) {
         const Mat3 R = poses[b].orientation.toRotationMatrix();
         const Vec3 V = rigid.bodies[b].velocity;
         const Vec3 omega = angular_velocity(rigid.bodies[b]);
         parallel_for(bodies.of[b].begin, bodies.of[b].end, [&](Index k) {
             const Vec3 r = R * bodies.points[at(k)];
-            x[at(first + k)] = poses[b].position + r;
-            v[at(first + k)] = V + omega.cross(r);
+            x[k] = poses[b].position + r;
+            v[k] = V + omega.cross(r);
         });
     }
 }
@@ -69,17 +69,16 @@ void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const Body
 void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const BodyParticles& bodies,
                    std::vector<Wrench>& loads)
 {
-    const Index first = fluid.particles.body().begin;
-    const auto x = fluid.particles[field::position];
-    const SolidForce force(fluid);
+    const auto x = fluid.particles.body[field::position];
+    const SolidForce force(fluid, fluid.particles.body);
     loads.resize(bodies.of.size());
     // One body a row of the loop: its sum has one writer and one order.
     parallel_for(0, static_cast<Index>(bodies.of.size()), [&](Index b) {
         Wrench load;
         for (Index k = bodies.of[at(b)].begin; k < bodies.of[at(b)].end; ++k) {
-            const Vec3 f = force(first + k);
+            const Vec3 f = force(k);
             load.force += f;
-            load.torque += (x[at(first + k)] - poses[at(b)].position).cross(f);
+            load.torque += (x[k] - poses[at(b)].position).cross(f);
         }
         loads[at(b)] = load;
     });
@@ -88,11 +87,11 @@ void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const Bod
 void collect_wall_forces(const Fluid& fluid, std::span<Vec3> forces)
 {
     std::fill(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
-    const Rows rows = fluid.particles.wall();
-    const SolidForce force(fluid);
-    const auto owner = fluid.particles.owner();
-    for (Index k = rows.begin; k < rows.end; ++k) {
-        forces[at(-1 - owner[at(k)])] += force(k);
+    const Store& walls = fluid.particles.wall;
+    const SolidForce force(fluid, walls);
+    const auto owner = walls.owner();
+    for (Index k = 0; k < walls.size(); ++k) {
+        forces[at(-1 - owner[k])] += force(k);
     }
 }
 

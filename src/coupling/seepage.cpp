@@ -58,10 +58,10 @@ private:
 
 ParticlePressure pressure_of(const Fluid& fluid)
 {
-    const Particles& particles = fluid.particles;
-    return {.x = particles[field::position],
-            .p = particles[field::pressure],
-            .shepard = particles[field::shepard_sum],
+    const Store& bodies = fluid.particles.body;
+    return {.x = bodies[field::position],
+            .p = bodies[field::pressure],
+            .shepard = bodies[field::shepard_sum],
             .spacing = fluid.parameters.spacing,
             .support = fluid.kernel.support,
             .weight = fluid.parameters.eos.rho0 * fluid.parameters.gravity,
@@ -199,7 +199,6 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     find_near(tables, rigid, poses, step.time);
     ParticlePressure pressure = pressure_of(fluid);
     pressure.dt = step.dt;
-    const Index first = fluid.particles.body().begin;
     const OpenJoints joins(seepage, tables, fluid.parameters.gravity);
     parallel_blocks(
         0, static_cast<Index>(poses.size()),
@@ -225,7 +224,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             if (keep_joined(body, opposite, fluid.parameters.spacing)) {
                 find_speeds(body, rigid, poses, at(b), step.time);
                 ParticlePressure own = pressure;
-                own.first = at(first + rows.begin);
+                own.first = at(rows.begin);
                 solve_pressure(tables, poses, static_cast<int>(b), own);
                 book_loads(body, seepage.loads[at(b)]);
             }
@@ -242,7 +241,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     fluid.film_share.clear();
     for (std::size_t b = 0; b < poses.size(); ++b) {
         if (!seepage.loads[b].empty()) {
-            fluid.film_share.resize(at(fluid.particles.body().size()), 1);
+            fluid.film_share.resize(at(fluid.particles.body.size()), 1);
             share_films(tables.bodies[b], bodies.of[b].begin, fluid.film_share);
         }
     }

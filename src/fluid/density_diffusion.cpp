@@ -19,25 +19,25 @@ Vec3 renormalised(const Vec3& G, const Mat3& M)
 
 void add_renormalised_diffusion(Fluid& fluid)
 {
-    Particles& particles = fluid.particles;
+    Store& store = fluid.particles.fluid;
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, 0);
-    clear(particles, particles.fluid(), DensityGradient::Writes{});
-    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.gradient; });
-    const auto G = particles[field::pressure_gradient];
-    const auto moments = particles[field::moments];
-    const auto mixed = particles[field::mixed_moments];
-    const Rows rows = particles.fluid();
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        G[at(i)] = renormalised(
-            G[at(i)], moment_matrix(moments[at(i)], mixed[at(i)], fluid.parameters.dimensions));
+    clear(store, DensityGradient::Writes{});
+    run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
+        [](const auto& loops) { return loops.gradient; });
+    const auto G = store[field::pressure_gradient];
+    const auto moments = store[field::moments];
+    const auto mixed = store[field::mixed_moments];
+    parallel_for(0, store.size(), [&](Index i) {
+        G[i] = renormalised(G[i], moment_matrix(moments[i], mixed[i], fluid.parameters.dimensions));
     });
     std::visit(
         [&](auto& data) {
-            data.records.lend(particles, n.fluid, field::pressure_gradient, field::velocity);
+            data.records.lend(store, n.fluid, field::pressure_gradient, field::velocity);
         },
         fluid.pair_data);
-    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.diffusion; });
+    run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
+        [](const auto& loops) { return loops.diffusion; });
 }
 
 } // namespace hyoryu

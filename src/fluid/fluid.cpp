@@ -57,29 +57,30 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
     if (fluid.parameters.precision == Precision::double_precision) {
         fluid.pair_data.emplace<PairData<double>>();
     }
+    reset(fluid.particles, fluid_count, wall_count, body_count);
     using Core = Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>;
     std::visit(
         [&](const auto&... effect) {
             using Own = Union<Core, typename std::remove_cvref_t<decltype(effect)>::Writes...>;
-            fluid.particles.allocate(Own{}, fluid_count, wall_count, body_count);
+            add_columns(fluid.particles, Own{});
         },
         fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting,
         fluid.effects.cavitation);
     if (wall_count + body_count > 0) {
-        fluid.particles.add(
-            Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
+        add_columns(fluid.particles,
+                    Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
     }
     if (sticks_to_solids(fluid) && wall_count + body_count > 0) {
-        fluid.particles.add(Union<NoSlip::Writes, Fields<Depth>>{});
+        add_columns(fluid.particles, Union<NoSlip::Writes, Fields<Depth>>{});
     }
     if (held<EddyViscosity>(fluid.effects.viscosity) != nullptr) {
-        fluid.particles.add(Union<StrainRate::Writes, Fields<TurbulentViscosity>>{});
+        add_columns(fluid.particles, Union<StrainRate::Writes, Fields<TurbulentViscosity>>{});
     }
     if (held<RenormalisedDiffusion>(fluid.effects.diffusion) != nullptr) {
-        fluid.particles.add(DensityGradient::Writes{});
+        add_columns(fluid.particles, DensityGradient::Writes{});
     }
     if (fluid.parameters.formulation == FormulationKind::mps) {
-        fluid.particles.add(MpsGradient::Writes{});
+        add_columns(fluid.particles, MpsGradient::Writes{});
     }
 }
 
@@ -88,82 +89,76 @@ namespace {
 // Leaves to the gap what solids would stretch of the fluid in dt, see fluid/parting.
 void part_from_solids(Fluid& fluid, real dt)
 {
-    Particles& particles = fluid.particles;
-    const auto rho = particles[field::density];
-    const auto rate = particles[field::solid_rate];
-    const auto gap = particles[field::gap];
+    Store& store = fluid.particles.fluid;
+    const auto rho = store[field::density];
+    const auto rate = store[field::solid_rate];
+    const auto gap = store[field::gap];
     const real rho0 = fluid.parameters.eos.rho0;
-    const Rows rows = particles.fluid();
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        const real kept = to_gap(gap[at(i)], dt * rate[at(i)], rho0 - rho[at(i)]);
-        gap[at(i)] += kept;
-        rho[at(i)] += kept;
+    parallel_for(0, store.size(), [&](Index i) {
+        const real kept = to_gap(gap[i], dt * rate[i], rho0 - rho[i]);
+        gap[i] += kept;
+        rho[i] += kept;
     });
 }
 
-void open_cavities(Particles& particles, const Cavitation& cavitation)
+void open_cavities(Store& store, const Cavitation& cavitation)
 {
-    const auto rho = particles[field::density];
-    const auto cavity = particles[field::cavity];
-    const Rows rows = particles.fluid();
-    parallel_for(rows.begin, rows.end,
-                 [&](Index i) { cavitation.divide(rho[at(i)], cavity[at(i)]); });
+    const auto rho = store[field::density];
+    const auto cavity = store[field::cavity];
+    parallel_for(0, store.size(), [&](Index i) { cavitation.divide(rho[i], cavity[i]); });
 }
 
 } // namespace
 
 void drift(Fluid& fluid, real dt)
 {
-    Particles& particles = fluid.particles;
-    const auto x = particles[field::position];
-    const auto v = particles[field::velocity];
-    const auto rho = particles[field::density];
-    const auto rate = particles[field::density_rate];
-    const Rows rows = particles.fluid();
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        rho[at(i)] += dt * rate[at(i)];
-        x[at(i)] += dt * v[at(i)];
+    Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const auto rho = store[field::density];
+    const auto rate = store[field::density_rate];
+    parallel_for(0, store.size(), [&](Index i) {
+        rho[i] += dt * rate[i];
+        x[i] += dt * v[i];
     });
-    if (particles.has(field::gap)) {
+    if (store.has(field::gap)) {
         part_from_solids(fluid, dt);
     }
     if (const auto* cavitation = held<Cavitation>(fluid.effects.cavitation)) {
-        open_cavities(particles, *cavitation);
+        open_cavities(store, *cavitation);
     }
 }
 
 void update_pressure(Fluid& fluid)
 {
-    Particles& particles = fluid.particles;
+    Store& store = fluid.particles.fluid;
     const FluidParameters& f = fluid.parameters;
-    FluidNeighbours& n = fluid.neighbours;
-    const auto rho = particles[field::density];
-    const auto p = particles[field::pressure];
-    const auto V = particles[field::volume];
-    const Rows rows = particles.fluid();
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        p[at(i)] = f.eos.pressure(rho[at(i)]);
-        V[at(i)] = f.mass / rho[at(i)];
+    const FluidNeighbours& n = fluid.neighbours;
+    const auto rho = store[field::density];
+    const auto p = store[field::pressure];
+    const auto V = store[field::volume];
+    parallel_for(0, store.size(), [&](Index i) {
+        p[i] = f.eos.pressure(rho[i]);
+        V[i] = f.mass / rho[i];
     });
-    load(fluid, n.fluid, Stored{});
-    if (particles.solid().size() == 0) {
+    load_fluid(fluid, Stored{});
+    if (fluid.particles.solids() == 0) {
         return;
     }
     load_solids(fluid, Stored{});
-    for_wet_solids(fluid, [&](std::size_t i) {
-        particles[field::shepard_sum][i] = 0;
-        p[i] = 0;
-    });
+    clear_wet_solids(fluid, Fields<ShepardSum, Pressure>{});
     const FluidTerms terms = terms_of(fluid, 0);
-    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.extrapolation; });
-    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.extrapolation; });
-    const auto shepard = particles[field::shepard_sum];
-    const auto owner = particles.owner();
-    for_wet_solids(fluid, [&](std::size_t i) {
-        const real p_w = shepard[i] > 0 ? positive(p[i] / shepard[i]) : 0;
-        p[i] = p_w;
-        rho[i] = f.eos.density(p_w);
-        V[i] = stand_in_mass(fluid, owner[i]) / rho[i];
+    const auto extrapolation = [](const auto& loops) { return loops.extrapolation; };
+    run(fluid, n.wall_fluid, to_walls(fluid), terms, extrapolation);
+    run(fluid, n.body_fluid, to_bodies(fluid), terms, extrapolation);
+    for_wet_solids(fluid, [&](Store& solids) {
+        return [&fluid, eos = f.eos, p_w = solids[field::pressure], rho_w = solids[field::density],
+                V_w = solids[field::volume], shepard = solids[field::shepard_sum],
+                owner = solids.owner()](Index i) {
+            p_w[i] = shepard[i] > 0 ? positive(p_w[i] / shepard[i]) : 0;
+            rho_w[i] = eos.density(p_w[i]);
+            V_w[i] = stand_in_mass(fluid, owner[i]) / rho_w[i];
+        };
     });
     load_solids(fluid, Fields<Volume, Pressure>{});
 }
@@ -177,20 +172,19 @@ void add_film_forces(Fluid& fluid, const FluidTerms& terms)
     const FluidNeighbours& n = fluid.neighbours;
     const bool shared = !fluid.film_share.empty();
     if (shared) {
-        const auto V = std::as_const(fluid.particles)[field::volume];
-        const Index first = fluid.particles.body().begin;
+        const auto V = std::as_const(fluid.particles).body[field::volume];
         std::visit(
             [&](auto& data) {
-                data.records.lend(n.body, field::volume, [&](std::size_t i) {
-                    return V[i] * fluid.film_share[i - at(first)];
-                });
+                data.records.lend(n.body, field::volume,
+                                  [&](std::size_t i) { return V[i] * fluid.film_share[i]; });
             },
             fluid.pair_data);
     }
-    run(fluid, n.body_solid, n.body, terms, [](const auto& loops) { return loops.film_forces; });
-    run(fluid, n.wall_body, n.wall, terms, [](const auto& loops) { return loops.film_forces; });
+    const auto film_forces = [](const auto& loops) { return loops.film_forces; };
+    run(fluid, n.body_solid, to_bodies(fluid), terms, film_forces);
+    run(fluid, n.wall_body, to_walls(fluid), terms, film_forces);
     if (shared) {
-        load(fluid, n.body, Fields<Volume>{});
+        load_bodies(fluid, Fields<Volume>{});
     }
 }
 
@@ -198,20 +192,22 @@ void add_film_forces(Fluid& fluid, const FluidTerms& terms)
 // shows them no pressure.
 void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
 {
-    const Particles& particles = fluid.particles;
+    const Store& store = fluid.particles.fluid;
     const FluidNeighbours& n = fluid.neighbours;
-    const auto p = particles[field::pressure];
-    const auto gap = particles[field::gap];
+    const auto p = store[field::pressure];
+    const auto gap = store[field::gap];
     std::visit(
         [&](auto& data) {
             data.records.lend(n.fluid, field::pressure,
                               [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
         },
         fluid.pair_data);
-    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.solid_forces; });
-    run(fluid, n.wall_fluid, n.wall, terms, [](const auto& loops) { return loops.solid_loads; });
-    run(fluid, n.body_fluid, n.body, terms, [](const auto& loops) { return loops.solid_loads; });
-    load(fluid, n.fluid, Fields<Pressure>{});
+    run(fluid, n.fluid_solid, to_fluid(fluid), terms,
+        [](const auto& loops) { return loops.solid_forces; });
+    const auto solid_loads = [](const auto& loops) { return loops.solid_loads; };
+    run(fluid, n.wall_fluid, to_walls(fluid), terms, solid_loads);
+    run(fluid, n.body_fluid, to_bodies(fluid), terms, solid_loads);
+    load_fluid(fluid, Fields<Pressure>{});
     add_film_forces(fluid, terms);
 }
 
@@ -219,28 +215,26 @@ void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
 
 void update_forces(Fluid& fluid, real dt)
 {
-    Particles& particles = fluid.particles;
+    Store& store = fluid.particles.fluid;
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, dt);
     const bool mps = fluid.parameters.formulation == FormulationKind::mps;
-    clear(particles, particles.fluid(), Fields<Force>{});
-    for_wet_solids(fluid, [&](std::size_t i) { particles[field::force][i].setZero(); });
+    clear(store, Fields<Force, DiffusionRate>{});
+    clear_wet_solids(fluid, Fields<Force>{});
     if (mps) {
-        clear(particles, particles.fluid(), MpsGradient::Writes{});
+        clear(store, MpsGradient::Writes{});
     }
-    if (particles.has(field::diffusion_rate)) {
-        clear(particles, particles.fluid(), Fields<DiffusionRate>{});
-    }
-    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.fluid_forces; });
-    if (particles.solid().size() > 0) {
+    run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
+        [](const auto& loops) { return loops.fluid_forces; });
+    if (fluid.particles.solids() > 0) {
         add_solid_forces(fluid, terms);
     }
     if (held<ParticleCollision>(fluid.effects.collision) != nullptr) {
-        run(fluid, n.fluid_fluid, n.fluid, terms,
+        run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
             [](const auto& loops) { return loops.collision; });
     }
     if (mps) {
-        add_corrected_pressure(fluid.parameters, particles);
+        add_corrected_pressure(fluid.parameters, store);
     }
     if (held<RenormalisedDiffusion>(fluid.effects.diffusion) != nullptr) {
         add_renormalised_diffusion(fluid);
@@ -249,32 +243,29 @@ void update_forces(Fluid& fluid, real dt)
 
 void kick(Fluid& fluid, real dt)
 {
-    Particles& particles = fluid.particles;
+    Store& store = fluid.particles.fluid;
     const FluidParameters& f = fluid.parameters;
-    const auto v = particles[field::velocity];
-    const auto F = particles[field::force];
-    const Rows rows = particles.fluid();
+    const auto v = store[field::velocity];
+    const auto F = store[field::force];
     const real dt_m = dt / f.mass;
     const Vec3 g = dt * (f.gravity + f.drive);
     fluid.lost.momentum += dt * fluid.lost.force;
     fluid.lost.force.setZero();
-    if (!particles.has(field::viscous_force)) {
-        parallel_for(rows.begin, rows.end, [&](Index i) { v[at(i)] += dt_m * F[at(i)] + g; });
+    if (!store.has(field::viscous_force)) {
+        parallel_for(0, store.size(), [&](Index i) { v[i] += dt_m * F[i] + g; });
         return;
     }
-    const auto F_visc = particles[field::viscous_force];
-    parallel_for(rows.begin, rows.end,
-                 [&](Index i) { v[at(i)] += dt_m * (F[at(i)] + F_visc[at(i)]) + g; });
+    const auto F_visc = store[field::viscous_force];
+    parallel_for(0, store.size(), [&](Index i) { v[i] += dt_m * (F[i] + F_visc[i]) + g; });
 }
 
 namespace {
 
 // The largest of f over the fluid rows, NaN if any is NaN: a comparison that fails keeps the
 // culprit.
-real worst(const Particles& particles, const auto& f)
+real worst(const Fluid& fluid, const auto& f)
 {
-    const Rows rows = particles.fluid();
-    return reduce(rows.begin, rows.end, real(0), f,
+    return reduce(0, fluid.particles.fluid.size(), real(0), f,
                   [](real a, real b) { return b <= a ? a : (a <= b ? b : a + b); });
 }
 
@@ -282,16 +273,15 @@ real worst(const Particles& particles, const auto& f)
 
 real top_speed(const Fluid& fluid)
 {
-    const auto v = fluid.particles[field::velocity];
-    return std::sqrt(worst(fluid.particles, [&](Index i) { return v[at(i)].squaredNorm(); }));
+    const auto v = fluid.particles.fluid[field::velocity];
+    return std::sqrt(worst(fluid, [&](Index i) { return v[i].squaredNorm(); }));
 }
 
 real top_acceleration(const Fluid& fluid)
 {
-    const auto F = fluid.particles[field::force];
+    const auto F = fluid.particles.fluid[field::force];
     const Vec3 weight = fluid.parameters.mass * (fluid.parameters.gravity + fluid.parameters.drive);
-    const real squared =
-        worst(fluid.particles, [&](Index i) { return (F[at(i)] + weight).squaredNorm(); });
+    const real squared = worst(fluid, [&](Index i) { return (F[i] + weight).squaredNorm(); });
     return std::sqrt(squared) / fluid.parameters.mass;
 }
 
@@ -308,11 +298,11 @@ real effective_viscosity(const Fluid& fluid)
     if (eddies == nullptr) {
         return 0;
     }
-    if (!fluid.particles.has(field::turbulent_viscosity)) {
+    if (!fluid.particles.fluid.has(field::turbulent_viscosity)) {
         return eddies->kappa / unit;
     }
-    const auto nu = fluid.particles[field::turbulent_viscosity];
-    return eddies->kappa / unit + worst(fluid.particles, [&](Index i) { return nu[at(i)]; });
+    const auto nu = fluid.particles.fluid[field::turbulent_viscosity];
+    return eddies->kappa / unit + worst(fluid, [&](Index i) { return nu[i]; });
 }
 
 void shift(Fluid& fluid, real dt)
@@ -322,21 +312,21 @@ void shift(Fluid& fluid, real dt)
         return;
     }
     constexpr real most_spacings = 0.05;
-    Particles& particles = fluid.particles;
+    Store& store = fluid.particles.fluid;
     const FluidParameters& f = fluid.parameters;
     const FluidNeighbours& n = fluid.neighbours;
-    const Rows rows = particles.fluid();
     const FluidTerms terms = terms_of(fluid, dt);
     const real scale = shifting->coefficient * f.h * top_speed(fluid) * dt;
-    clear(particles, rows, Shifting::Writes{});
-    run(fluid, n.fluid_fluid, n.fluid, terms, [](const auto& loops) { return loops.shifting; });
-    run(fluid, n.fluid_solid, n.fluid, terms, [](const auto& loops) { return loops.shifting; });
-    const auto x = particles[field::position];
-    const auto S = particles[field::shift_gradient];
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        const real way = scale * S[at(i)].norm();
+    clear(store, Shifting::Writes{});
+    const auto crowding = [](const auto& loops) { return loops.shifting; };
+    run(fluid, n.fluid_fluid, to_fluid(fluid), terms, crowding);
+    run(fluid, n.fluid_solid, to_fluid(fluid), terms, crowding);
+    const auto x = store[field::position];
+    const auto S = store[field::shift_gradient];
+    parallel_for(0, store.size(), [&](Index i) {
+        const real way = scale * S[i].norm();
         const real most = most_spacings * f.spacing;
-        x[at(i)] -= (way > most ? most / way : 1) * scale * S[at(i)];
+        x[i] -= (way > most ? most / way : 1) * scale * S[i];
     });
 }
 

@@ -44,13 +44,13 @@ std::vector<MemoryUse> memory_of(const Fluid& fluid)
                                  &n.body_solid, &n.wall_body}) {
         lists += list->bytes();
     }
-    return {{"columns", fluid.particles.bytes()},
+    return {{"columns", bytes_of(fluid.particles)},
             {"records", std::visit([](const auto& data) { return held(data); }, fluid.pair_data)},
             {"lists", lists},
             {"tiles", held(n.fluid) + held(n.wall) + held(n.body)},
             {"motion of tiles", held(n.fluid_motion) + held(n.wall_motion) + held(n.body_motion)},
             {"sorting", held(s.key, s.key_swap) + held(s.row, s.row_swap, s.histogram)},
-            {"marks", held(n.met) + held(n.wet_walls)}};
+            {"marks", held(n.met) + held(n.wet_walls, n.owner)}};
 }
 
 std::size_t total(const std::vector<MemoryUse>& parts)

@@ -27,18 +27,16 @@ real corrected_share(const Mat3& M)
 
 } // namespace
 
-void add_corrected_pressure(const FluidParameters& fluid, Particles& particles)
+void add_corrected_pressure(const FluidParameters& fluid, Store& store)
 {
-    const auto p = particles[field::pressure];
-    const auto V = particles[field::volume];
-    const auto G = particles[field::pressure_gradient];
-    const auto S = particles[field::crowding_gradient];
-    const auto moments = particles[field::moments];
-    const auto mixed = particles[field::mixed_moments];
-    const auto F = particles[field::force];
-    const Rows rows = particles.fluid();
-    parallel_for(rows.begin, rows.end, [&](Index row) {
-        const auto i = static_cast<std::size_t>(row);
+    const auto p = store[field::pressure];
+    const auto V = store[field::volume];
+    const auto G = store[field::pressure_gradient];
+    const auto S = store[field::crowding_gradient];
+    const auto moments = store[field::moments];
+    const auto mixed = store[field::mixed_moments];
+    const auto F = store[field::force];
+    parallel_for(0, store.size(), [&](Index i) {
         const Mat3 M = moment_matrix(moments[i], mixed[i], fluid.dimensions);
         const real b = corrected_share(M);
         Vec3 gradient = (1 - b) * (G[i] + 2 * p[i] * S[i]);

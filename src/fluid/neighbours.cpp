@@ -37,15 +37,17 @@ TileLattice lattice_of(const Fluid& fluid)
 Displacement measure(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
-    const auto x = std::as_const(fluid.particles)[field::position];
+    const Particles& particles = fluid.particles;
     DisplacementSpace& f = n.fluid_motion;
     DisplacementSpace& w = n.wall_motion;
     DisplacementSpace& b = n.body_motion;
     Displacement motion;
-    motion.absolute = bound_motion(n.fluid, x, f.box);
-    motion.absolute = std::max(motion.absolute, bound_motion(n.body, x, b.box));
+    motion.absolute = bound_motion(n.fluid, particles.fluid[field::position], f.box);
+    motion.absolute =
+        std::max(motion.absolute, bound_motion(n.body, particles.body[field::position], b.box));
     if (fluid.moving_walls || n.steps == 1) { // fixed walls stay where they are
-        motion.absolute = std::max(motion.absolute, bound_motion(n.wall, x, w.box));
+        motion.absolute =
+            std::max(motion.absolute, bound_motion(n.wall, particles.wall[field::position], w.box));
     }
     motion.fluid = relative_motion(f.box, f.box, f.fluid);
     motion.solid =
@@ -67,17 +69,17 @@ bool stale(const Fluid& fluid, const Displacement& motion)
 // Books the particles that left the domain.
 void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
 {
-    const auto x = fluid.particles[field::position];
-    const auto v = fluid.particles[field::velocity];
+    const Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
     const real m = fluid.parameters.mass;
     for (const std::int32_t i : rows) {
-        const Vec3& vi = v[at(i)];
+        const Vec3& vi = v[i];
         fluid.lost.count += 1;
         fluid.lost.momentum += m * vi;
-        fluid.lost.energy +=
-            0.5 * m * vi.squaredNorm() - m * fluid.parameters.gravity.dot(x[at(i)]);
-        if (fluid.particles.has(field::viscous_force)) {
-            fluid.lost.force += fluid.particles[field::viscous_force][at(i)];
+        fluid.lost.energy += 0.5 * m * vi.squaredNorm() - m * fluid.parameters.gravity.dot(x[i]);
+        if (store.has(field::viscous_force)) {
+            fluid.lost.force += store[field::viscous_force][i];
         }
     }
 }
@@ -94,11 +96,11 @@ bool is_met(std::span<const Vec3> x, std::span<const std::uint64_t> key, Index r
 }
 
 // Sets rows at one place on a ring about it in x-z, in the order of their numbers [m].
-void set_on_ring(Particles& particles, std::span<std::size_t> ring, real radius)
+void set_on_ring(Store& store, std::span<std::size_t> ring, real radius)
 {
     constexpr real golden_angle = 2.399963229728653; // so that rings of several places differ
-    const auto x = particles[field::position];
-    const auto id = particles.id();
+    const auto x = store[field::position];
+    const auto id = store.id();
     std::ranges::sort(ring, {}, [&](std::size_t k) { return id[k]; });
     for (std::size_t k = 0; k < ring.size(); ++k) {
         const real part = static_cast<real>(k) / static_cast<real>(ring.size());
@@ -113,8 +115,8 @@ void set_on_ring(Particles& particles, std::span<std::size_t> ring, real radius)
 // nothing else. `key`: the cells of the rows, which are in their order.
 void part_coincident(Fluid& fluid, std::span<const std::uint64_t> key)
 {
-    Particles& particles = fluid.particles;
-    const auto x = particles[field::position].first(at(particles.fluid().size()));
+    Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
     const auto met = [&](Index row) { return is_met(x, key, row); };
     const auto count = static_cast<Index>(x.size());
     if (!reduce(0, count, false, met, std::logical_or<>{})) {
@@ -131,68 +133,55 @@ void part_coincident(Fluid& fluid, std::span<const std::uint64_t> key)
                 ring.push_back(k);
             }
         }
-        set_on_ring(particles, ring, 0.05 * fluid.parameters.spacing);
+        set_on_ring(store, ring, 0.05 * fluid.parameters.spacing);
     }
 }
 
 // Puts the fluid rows into the order of the tiles, without those that left the domain.
 void sort_fluid(Fluid& fluid)
 {
-    Particles& particles = fluid.particles;
+    Store& store = fluid.particles.fluid;
     SortSpace& space = fluid.neighbours.space;
     const TileLattice lattice = lattice_of(fluid);
     if (fluid.period != Vec3(0, 0, 0)) {
-        const auto x = particles[field::position];
-        const Rows rows = particles.fluid();
-        parallel_for(rows.begin, rows.end, [&](Index i) { x[at(i)] = lattice.wrapped(x[at(i)]); });
+        const auto x = store[field::position];
+        parallel_for(0, store.size(), [&](Index i) { x[i] = lattice.wrapped(x[i]); });
     }
-    const Index kept = sort_rows(lattice, particles[field::position], particles.fluid(),
-                                 fluid.domain_min, fluid.domain_max, space);
+    const Index kept = sort_rows(lattice, store[field::position], store.rows(), fluid.domain_min,
+                                 fluid.domain_max, space);
     const std::span<const std::int32_t> order = space.row;
     count_lost(fluid, order.subspan(at(kept)));
     // The records are written anew before anyone reads them again.
-    std::visit(
-        [&](auto& data) { particles.permute_fluid(order.first(at(kept)), data.records.room()); },
-        fluid.pair_data);
+    std::visit([&](auto& data) { store.permute(order.first(at(kept)), data.records.room()); },
+               fluid.pair_data);
     part_coincident(fluid, space.key);
     std::iota(space.row.begin(), space.row.begin() + kept, 0);
-    make_tiles(fluid.neighbours.fluid, lattice, particles[field::position], space, kept);
+    make_tiles(fluid.neighbours.fluid, lattice, store[field::position], space, kept);
 }
 
-void sort_solids(Fluid& fluid, Rows rows, Tiles& tiles)
+// Puts the tiles of a kind of solids in order; their rows stay.
+void sort_solids(Fluid& fluid, Store& store, Tiles& tiles)
 {
     const TileLattice lattice = lattice_of(fluid);
-    const auto x = fluid.particles[field::position];
+    const auto x = store[field::position];
     if (fluid.moving_walls && fluid.period != Vec3(0, 0, 0)) {
-        parallel_for(rows.begin, rows.end, [&](Index i) { x[at(i)] = lattice.wrapped(x[at(i)]); });
+        parallel_for(0, store.size(), [&](Index i) { x[i] = lattice.wrapped(x[i]); });
     }
     SortSpace& space = fluid.neighbours.space;
-    sort_rows(lattice, x, rows, everywhere_low, everywhere_high, space);
-    make_tiles(tiles, lattice, x, space, rows.size());
-}
-
-// Where fluid particles have left the store, the rows of walls have moved up.
-void follow_walls(Fluid& fluid)
-{
-    FluidNeighbours& n = fluid.neighbours;
-    const Rows walls = fluid.particles.wall();
-    const auto up = static_cast<std::int32_t>(n.walls_in_tiles.begin - walls.begin);
-    std::for_each(n.wall.row.begin(), n.wall.row.end(), [&](std::int32_t& row) { row -= up; });
-    n.walls_in_tiles = walls;
+    sort_rows(lattice, x, store.rows(), everywhere_low, everywhere_high, space);
+    make_tiles(tiles, lattice, x, space, store.size());
 }
 
 void sort_particles(Fluid& fluid)
 {
-    const Particles& particles = fluid.particles;
+    Particles& particles = fluid.particles;
     FluidNeighbours& n = fluid.neighbours;
     sort_fluid(fluid);
-    const Rows walls = particles.wall();
-    if (fluid.moving_walls || n.walls_in_tiles.size() != walls.size()) {
-        sort_solids(fluid, walls, n.wall);
-        n.walls_in_tiles = walls;
+    if (fluid.moving_walls ||
+        n.wall.count() != particles.wall.size()) { // others stay where they are
+        sort_solids(fluid, particles.wall, n.wall);
     }
-    follow_walls(fluid);
-    sort_solids(fluid, particles.body(), n.body);
+    sort_solids(fluid, particles.body, n.body);
 }
 
 // Room for the records of all slots, and for those that a block looks at, on each thread.
@@ -246,19 +235,29 @@ void connect(Fluid& fluid)
 // the others.
 void dry(Fluid& fluid)
 {
-    Particles& particles = fluid.particles;
-    const Rows rows = particles.solid();
-    if (rows.size() == 0) {
-        return;
-    }
-    clear(particles, rows, Fields<Pressure, Force, ShepardSum>{});
-    const auto rho = particles[field::density];
-    const auto V = particles[field::volume];
-    const auto owner = particles.owner();
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        rho[at(i)] = fluid.parameters.eos.rho0;
-        V[at(i)] = stand_in_mass(fluid, owner[at(i)]) / rho[at(i)];
+    for_solids(fluid.particles, [&](Store& store) {
+        clear(store, Fields<Pressure, Force, ShepardSum>{});
+        const auto rho = store[field::density];
+        const auto V = store[field::volume];
+        const auto owner = store.owner();
+        parallel_for(0, store.size(), [&](Index i) {
+            rho[i] = fluid.parameters.eos.rho0;
+            V[i] = stand_in_mass(fluid, owner[i]) / rho[i];
+        });
     });
+}
+
+// The owners of solid particles, by slot from the first wall slot on.
+void collect_owners(const Particles& particles, FluidNeighbours& n)
+{
+    n.owner.clear();
+    const auto append = [&](const Tiles& tiles, const Store& store) {
+        for (const std::int32_t row : tiles.row) {
+            n.owner.push_back(store.owner()[row]);
+        }
+    };
+    append(n.wall, particles.wall);
+    append(n.body, particles.body);
 }
 
 int pack_lanes(const Fluid& fluid)
@@ -285,7 +284,7 @@ void build_lists(Fluid& fluid)
     const Tiles* const of_bodies[] = {&n.body};
     const Tiles* const of_solids[] = {&n.wall, &n.body};
     n.fluid_fluid.build(n.fluid, of_fluid, of_pairs);
-    if (particles.solid().size() > 0) {
+    if (particles.solids() > 0) {
         n.fluid_solid.build(n.fluid, of_solids, settings);
         // Dry walls have met nothing and get no lists of their own.
         n.met.assign(at(particles.size()), 0);
@@ -293,8 +292,10 @@ void build_lists(Fluid& fluid)
         n.wall_fluid.build(n.wall, of_fluid, settings, {.wanted = n.met});
         n.body_fluid.build(n.body, of_fluid, settings, {.wanted = n.met});
     }
-    if (particles.body().size() > 0) {
-        n.body_solid.build(n.body, of_solids, settings, {.owner = particles.owner()});
+    if (particles.body.size() > 0) {
+        collect_owners(particles, n);
+        n.body_solid.build(n.body, of_solids, settings,
+                           {.owner = n.owner, .first_owner = n.wall.first_slot});
         n.met.assign(at(particles.size()), 0);
         n.body_solid.mark_met(n.met);
         n.wall_body.build(n.wall, of_bodies, settings, {.wanted = n.met});
@@ -308,7 +309,7 @@ void build_lists(Fluid& fluid)
     n.entries = {of_fluid_alone, with_solids + films};
     // Pressure and velocity loops of the fluid; extrapolation and loads of the solids; films.
     n.visits = 2 * (of_fluid_alone + with_solids) + films;
-    std::visit([&](auto& data) { data.records.load(particles, n.wall, Stored{}); },
+    std::visit([&](auto& data) { data.records.load(particles.wall, n.wall, Stored{}); },
                fluid.pair_data);
 }
 
@@ -337,7 +338,6 @@ void update_neighbours(Fluid& fluid)
 
 void rebuild_neighbours(Fluid& fluid)
 {
-    follow_walls(fluid);
     for (Tiles* tiles : {&fluid.neighbours.fluid, &fluid.neighbours.wall, &fluid.neighbours.body}) {
         tiles->lattice = lattice_of(fluid);
         bound_chunks(*tiles);
@@ -345,7 +345,7 @@ void rebuild_neighbours(Fluid& fluid)
     build_lists(fluid);
     dry(fluid); // a store that was just made holds the pressures of time 0
     if (!fluid.moving_walls) {
-        bound_motion(fluid.neighbours.wall, fluid.particles[field::position],
+        bound_motion(fluid.neighbours.wall, fluid.particles.wall[field::position],
                      fluid.neighbours.wall_motion.box);
     }
 }

@@ -17,11 +17,22 @@ FluidTerms terms_of(const Fluid& fluid, real dt);
 /// D of the renormalised diffusion, from the pressures that the records hold; they lose velocities.
 void add_renormalised_diffusion(Fluid& fluid);
 
-/// Copies fields of the particles of some tiles to what the pair loops read.
-void load(Fluid& fluid, const Tiles& tiles, const auto& fields)
+/// Copies fields of the fluid particles to the records of the pair loops.
+void load_fluid(Fluid& fluid, const auto& fields)
 {
-    std::visit([&](auto& data) { data.records.load(fluid.particles, tiles, fields); },
-               fluid.pair_data);
+    std::visit(
+        [&](auto& data) {
+            data.records.load(fluid.particles.fluid, fluid.neighbours.fluid, fields);
+        },
+        fluid.pair_data);
+}
+
+/// The same for the particles of bodies.
+void load_bodies(Fluid& fluid, const auto& fields)
+{
+    std::visit(
+        [&](auto& data) { data.records.load(fluid.particles.body, fluid.neighbours.body, fields); },
+        fluid.pair_data);
 }
 
 /// The same for the solid particles that fluid or a body may be near.
@@ -29,25 +40,42 @@ void load_solids(Fluid& fluid, const auto& fields)
 {
     const FluidNeighbours& n = fluid.neighbours;
     std::visit(
-        [&](auto& data) {
-            data.records.load(fluid.particles, n.wall, n.wet_walls, fields);
-            data.records.load(fluid.particles, n.body, fields);
-        },
+        [&](auto& data) { data.records.load(fluid.particles.wall, n.wall, n.wet_walls, fields); },
         fluid.pair_data);
+    load_bodies(fluid, fields);
 }
 
-/// Calls f for the rows of these particles; dry walls cost nothing.
-void for_wet_solids(const Fluid& fluid, const auto& f)
+/// For the walls that fluid or a body may be near and for the bodies: `of_store(store)` is called
+/// for each store and gives what is called with each row. Dry walls cost nothing.
+void for_wet_solids(Fluid& fluid, const auto& of_store)
 {
     const FluidNeighbours& n = fluid.neighbours;
+    const auto of_wall = of_store(fluid.particles.wall);
     parallel_blocks(0, static_cast<Index>(n.wet_walls.size()), [&](Index k) {
         const auto tile = at(n.wet_walls[at(k)]);
         for (std::int32_t slot = n.wall.start[tile]; slot < n.wall.start[tile + 1]; ++slot) {
-            f(at(n.wall.row[at(slot)]));
+            of_wall(n.wall.row[at(slot)]);
         }
     });
-    const Rows bodies = fluid.particles.body();
-    parallel_for(bodies.begin, bodies.end, [&](Index i) { f(at(i)); });
+    const auto of_body = of_store(fluid.particles.body);
+    parallel_for(0, fluid.particles.body.size(), of_body);
+}
+
+/// Sets the listed columns of those particles to zero.
+template <class List>
+void clear_wet_solids(Fluid& fluid, List fields)
+{
+    for_each(fields, [&](auto field) {
+        for_wet_solids(fluid, [&](Store& solids) {
+            return [column = solids[field]](Index i) {
+                if constexpr (width<decltype(field)> == 3) {
+                    column[i].setZero();
+                } else {
+                    column[i] = 0;
+                }
+            };
+        });
+    });
 }
 
 /// f(formulation, kernel of its pairs).
@@ -57,8 +85,26 @@ auto with_formulation(const Fluid& fluid, const auto& f)
                                                                 : f(Sph{}, fluid.kernel);
 }
 
+/// The particles that a loop writes: their store and their places.
+struct Destination {
+    Store& store;
+    const Tiles& tiles;
+};
+inline Destination to_fluid(Fluid& fluid)
+{
+    return {fluid.particles.fluid, fluid.neighbours.fluid};
+}
+inline Destination to_walls(Fluid& fluid)
+{
+    return {fluid.particles.wall, fluid.neighbours.wall};
+}
+inline Destination to_bodies(Fluid& fluid)
+{
+    return {fluid.particles.body, fluid.neighbours.body};
+}
+
 /// Runs one of the pair loops over all blocks of a list; `which` names it.
-void run(Fluid& fluid, const PairList& pairs, const Tiles& destination, const FluidTerms& terms,
+void run(Fluid& fluid, const PairList& pairs, const Destination& to, const FluidTerms& terms,
          const auto& which)
 {
     const auto sweep = [&]<class Real, class Formulation>(PairData<Real>& data, Formulation,
@@ -67,10 +113,10 @@ void run(Fluid& fluid, const PairList& pairs, const Tiles& destination, const Fl
         const auto loop = which(std::get<Loops>(fluid_loops(fluid.instruction_set)));
         const typename Loops::View view{pairs.blocks().data(),
                                         data.records.data(),
-                                        fluid.particles.pointers(),
-                                        destination.row.data(),
-                                        destination.first_slot,
-                                        destination.lattice.edge,
+                                        to.store.pointers(),
+                                        to.tiles.row.data(),
+                                        to.tiles.first_slot,
+                                        to.tiles.lattice.edge,
                                         kernel};
         parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
             loop(view, block, data.local[at(worker())].data(), terms);

@@ -305,11 +305,14 @@ void list_fields(Plan& plan)
     probe.parameters = *plan.fluid;
     probe.effects = plan.effects;
     allocate(probe, 0, std::min<Index>(plan.counts.wall, 1), std::min<Index>(plan.counts.body, 1));
-    for (const ColumnInfo& column : probe.particles.active_columns()) {
-        plan.fields.push_back(
-            {std::string(column.field.name), std::string(column.field.unit),
-             column.bytes_per_particle, column.of_fluid_alone,
-             column.of_fluid_alone ? plan.counts.fluid : plan.counts.particles()});
+    for (const ColumnInfo& column : active_columns(probe.particles)) {
+        const bool of_fluid_alone = column.field.holders == Holders::fluid;
+        const Index rows = of_fluid_alone ? plan.counts.fluid
+                           : column.field.holders == Holders::solids
+                               ? plan.counts.wall + plan.counts.body
+                               : plan.counts.particles();
+        plan.fields.push_back({std::string(column.field.name), std::string(column.field.unit),
+                               column.bytes_per_particle, of_fluid_alone, rows});
     }
 }
 

@@ -93,7 +93,7 @@ Numbers flat(std::span<const real> column)
 }
 
 template <class T>
-void unflat(const Numbers& numbers, std::span<T> column)
+void unflat(std::span<const double> numbers, std::span<T> column)
 {
     constexpr std::size_t n = std::is_same_v<T, Vec3> ? 3 : 1;
     if (numbers.size() != n * column.size()) {
@@ -108,14 +108,19 @@ void unflat(const Numbers& numbers, std::span<T> column)
     }
 }
 
-// What the lists are made from: the tiles as they were at the last time.
-void save_tiles(const Tiles& tiles, const std::string& name, Snapshot& snapshot)
+// What the lists are made from: the tiles as they were at the last time. The file counts the rows
+// of all kinds on, from `first`.
+void save_tiles(const Tiles& tiles, Index first, const std::string& name, Snapshot& snapshot)
 {
+    std::vector<std::int32_t> rows(tiles.row);
+    for (std::int32_t& row : rows) {
+        row += static_cast<std::int32_t>(first);
+    }
     add_values(
         snapshot, name + "/number",
         std::span(reinterpret_cast<const std::int64_t*>(tiles.tile.data()), tiles.tile.size()));
     add_values(snapshot, name + "/start", std::span<const std::int32_t>(tiles.start));
-    add_values(snapshot, name + "/row", std::span<const std::int32_t>(tiles.row));
+    add_values(snapshot, name + "/row", std::span<const std::int32_t>(rows));
     add_values(snapshot, name + "/x", std::span<const float>(tiles.x));
     add_values(snapshot, name + "/y", std::span<const float>(tiles.y));
     add_values(snapshot, name + "/z", std::span<const float>(tiles.z));
@@ -139,22 +144,21 @@ void check_tiles(const Tiles& tiles, Rows rows)
     }
 }
 
-void restore_tiles(Tiles& tiles, Rows rows, const std::string& name, const Snapshot& snapshot)
+void restore_tiles(Tiles& tiles, Index first, const Store& store, const std::string& name,
+                   const Snapshot& snapshot)
 {
     const auto& number = values<std::int64_t>(snapshot, name + "/number");
     tiles.tile.assign(number.begin(), number.end());
     tiles.start = values<std::int32_t>(snapshot, name + "/start");
     tiles.row = values<std::int32_t>(snapshot, name + "/row");
+    for (std::int32_t& row : tiles.row) {
+        row = static_cast<std::int32_t>(std::clamp<Index>(row - first, -1, store.size()));
+    }
     tiles.x = values<float>(snapshot, name + "/x");
     tiles.y = values<float>(snapshot, name + "/y");
     tiles.z = values<float>(snapshot, name + "/z");
-    check_tiles(tiles, rows);
+    check_tiles(tiles, store.rows());
 }
-
-// What a step starts from. All else, and all of solid particles, follows from it and from the
-// bodies before it is used.
-using Lasting =
-    Fields<Position, Velocity, Density, DensityRate, SolidRate, Gap, Cavity, Force, ViscousForce>;
 
 // Of solid particles: friction, which acts a step later, and the image that the lists know.
 using LastingOfSolids = Fields<Position, ViscousForce>;
@@ -165,33 +169,36 @@ bool lasts(const Fluid& fluid, Position)
 }
 bool lasts(const Fluid& fluid, ViscousForce)
 {
-    return sticks_to_solids(fluid) && fluid.particles.has(field::viscous_force);
+    return sticks_to_solids(fluid) && fluid.particles.wall.has(field::viscous_force);
 }
 
 void save_fluid(const Fluid& fluid, Snapshot& snapshot)
 {
-    const Particles& particles = fluid.particles;
-    const auto rows = static_cast<std::size_t>(particles.fluid().size());
-    for_each(Lasting{}, [&](auto column) {
-        if (particles.has(column)) {
-            add(snapshot, fmt::format("fluid/{}", column.info.name),
-                flat(particles[column].first(rows)));
+    const Store& store = fluid.particles.fluid;
+    store.for_each_column([&]<class T>(const FieldInfo& column, const std::vector<T>& values_of) {
+        if (column.state) {
+            add(snapshot, fmt::format("fluid/{}", column.name),
+                flat(std::span<const T>(values_of)));
         }
     });
     for_each(LastingOfSolids{}, [&](auto column) {
         if (lasts(fluid, column)) {
-            add(snapshot, fmt::format("solids/{}", column.info.name),
-                flat(particles[column].subspan(rows)));
+            Numbers both = flat(std::span(fluid.particles.wall[column]));
+            const Numbers bodies = flat(std::span(fluid.particles.body[column]));
+            both.insert(both.end(), bodies.begin(), bodies.end());
+            add(snapshot, fmt::format("solids/{}", column.info.name), std::move(both));
         }
     });
-    add_values(snapshot, "fluid/id", particles.id().first(rows));
-    save_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
+    add_values(snapshot, "fluid/id", std::span(store.id()));
+    const Index walls = store.size();
+    save_tiles(fluid.neighbours.fluid, 0, "fluid/tiles", snapshot);
     if (fluid.moving_walls) {
-        save_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
+        save_tiles(fluid.neighbours.wall, walls, "fluid/wall_tiles", snapshot);
     }
-    save_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
+    save_tiles(fluid.neighbours.body, walls + fluid.particles.wall.size(), "fluid/body_tiles",
+               snapshot);
     Numbers numbers;
-    put(numbers, static_cast<double>(particles.fluid().size()));
+    put(numbers, static_cast<double>(store.size()));
     put(numbers, static_cast<double>(fluid.neighbours.builds));
     put(numbers, static_cast<double>(fluid.neighbours.steps));
     put(numbers, fluid.neighbours.skins.fluid);
@@ -212,13 +219,13 @@ void check_places(const Numbers& places)
 
 void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
 {
-    Particles& particles = fluid.particles;
+    Store& store = fluid.particles.fluid;
     Reader numbers(snapshot, "fluid/numbers");
     const double stored = numbers.number();
-    if (!(stored >= 0 && stored <= static_cast<double>(particles.fluid().size()))) {
+    if (!(stored >= 0 && stored <= static_cast<double>(store.size()))) {
         throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
                                   "{} of this case: it belongs to another case",
-                                  stored, particles.fluid().size()));
+                                  stored, store.size()));
     }
     const auto kept = static_cast<Index>(stored);
     // Particles that were lost before the checkpoint leave the store; which rows go does not
@@ -227,7 +234,7 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     for (std::size_t k = 0; k < order.size(); ++k) {
         order[k] = static_cast<std::int32_t>(k);
     }
-    particles.permute_fluid(order);
+    store.permute(order);
     fluid.neighbours.builds = static_cast<long long>(numbers.number());
     fluid.neighbours.steps = static_cast<long long>(numbers.number());
     fluid.neighbours.skins.fluid = numbers.number();
@@ -236,30 +243,34 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     fluid.lost.momentum = numbers.vector();
     fluid.lost.energy = numbers.number();
     const auto rows = static_cast<std::size_t>(kept);
-    for_each(Lasting{}, [&](auto column) {
-        if (particles.has(column)) {
-            const Reader values_of(snapshot, fmt::format("fluid/{}", column.info.name));
-            unflat(values_of.all(), particles[column].first(rows));
+    store.for_each_column([&]<class T>(const FieldInfo& column, std::vector<T>& values_of) {
+        if (column.state) {
+            const Reader saved(snapshot, fmt::format("fluid/{}", column.name));
+            unflat(saved.all(), std::span<T>(values_of));
         }
     });
+    Store& wall = fluid.particles.wall;
+    Store& body = fluid.particles.body;
     for_each(LastingOfSolids{}, [&](auto column) {
         if (lasts(fluid, column)) {
-            const Reader values_of(snapshot, fmt::format("solids/{}", column.info.name));
-            unflat(values_of.all(), particles[column].subspan(rows));
+            const Reader saved(snapshot, fmt::format("solids/{}", column.info.name));
+            const std::span<const double> both(saved.all());
+            const auto of_walls = std::min(both.size(), wall[column].size_bytes() / sizeof(real));
+            unflat(both.first(of_walls), std::span(wall[column]));
+            unflat(both.subspan(of_walls), std::span(body[column]));
         }
     });
     const auto& id = values<std::int64_t>(snapshot, "fluid/id");
     if (id.size() != rows) {
         throw IoError("the checkpoint numbers other particles: it belongs to another case");
     }
-    std::copy(id.begin(), id.end(), particles.id().begin());
-    check_places(flat(particles[field::position].first(rows)));
-    restore_tiles(fluid.neighbours.fluid, particles.fluid(), "fluid/tiles", snapshot);
+    std::copy(id.begin(), id.end(), store.id().begin());
+    check_places(flat(std::span(store[field::position])));
+    restore_tiles(fluid.neighbours.fluid, 0, store, "fluid/tiles", snapshot);
     if (fluid.moving_walls) {
-        restore_tiles(fluid.neighbours.wall, particles.wall(), "fluid/wall_tiles", snapshot);
-        fluid.neighbours.walls_in_tiles = particles.wall();
+        restore_tiles(fluid.neighbours.wall, kept, wall, "fluid/wall_tiles", snapshot);
     }
-    restore_tiles(fluid.neighbours.body, particles.body(), "fluid/body_tiles", snapshot);
+    restore_tiles(fluid.neighbours.body, kept + wall.size(), body, "fluid/body_tiles", snapshot);
     rebuild_neighbours(fluid);
 }
 

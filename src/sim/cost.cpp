@@ -117,7 +117,7 @@ void pass(Simulation& sim, Passed& passed)
     step(sim);
     passed.impacts += impacts_of_step(sim);
     passed.fluid_time +=
-        static_cast<double>(sim.fluid->particles.fluid().size()) * (sim.clock.time - before);
+        static_cast<double>(sim.fluid->particles.fluid.size()) * (sim.clock.time - before);
 }
 
 // No frame cuts a step short.
@@ -292,7 +292,7 @@ std::optional<Development> measure_development(Simulation& sim, Simulation& agai
                                                const std::function<bool()>& goes_on)
 {
     const auto start = std::chrono::steady_clock::now();
-    const auto particles = static_cast<double>(sim.fluid->particles.fluid().size());
+    const auto particles = static_cast<double>(sim.fluid->particles.fluid.size());
     cut_no_step(sim);
     Passed passed;
     try {
@@ -313,7 +313,7 @@ std::optional<Development> measure_development(Simulation& sim, Simulation& agai
         if (!(early > 0)) {
             return {};
         }
-        const auto left = static_cast<double>(sim.fluid->particles.fluid().size());
+        const auto left = static_cast<double>(sim.fluid->particles.fluid.size());
         return Development{.steps = steps / sim.plan.expected_steps,
                            .step = late / early,
                            .builds = static_cast<double>(sim.fluid->neighbours.builds) / steps,

@@ -39,47 +39,37 @@ std::vector<float> floats(std::span<const real> column)
     return numbers;
 }
 
-// The rows of one column of the store.
 template <Field F>
-auto part(const Particles& particles, F column, Rows rows)
-{
-    return particles[column].subspan(at(rows.begin), at(rows.size()));
-}
-
-template <Field F>
-Column column_of(const Particles& particles, F column, Rows rows)
+Column column_of(const Store& store, F column)
 {
     return {std::string(F::info.name), std::string(F::info.unit), width<F>,
-            floats(part(particles, column, rows))};
+            floats(std::span(store[column]))};
 }
 
 // Index of the body of each row; -1 for fluid and walls.
-std::vector<std::int32_t> body_index(const Particles& particles, Rows rows)
+std::vector<std::int32_t> body_index(const Store& store, Kind kind)
 {
-    std::vector<std::int32_t> bodies;
-    for (Index k = rows.begin; k < rows.end; ++k) {
-        bodies.push_back(std::max(particles.owner()[at(k)], -1));
-    }
-    return bodies;
+    const auto owner = store.owner();
+    return kind == Kind::body ? std::vector<std::int32_t>(owner.begin(), owner.end())
+                              : std::vector<std::int32_t>(at(store.size()), -1);
 }
 
-Cloud cloud_of(const Simulation& sim, std::string name, Rows rows, Kind kind)
+Cloud cloud_of(const Simulation& sim, std::string name, const Store& store, Kind kind)
 {
-    const Particles& particles = sim.fluid->particles;
     Cloud cloud{std::move(name), sim.clock.time, sim.clock.frame};
-    cloud.points = floats(part(particles, field::position, rows));
-    const auto ids = particles.id().subspan(at(rows.begin), at(rows.size()));
+    cloud.points = floats(std::span(store[field::position]));
+    const auto ids = store.id();
     cloud.columns.push_back({"Id", "", 1, std::vector<std::int64_t>(ids.begin(), ids.end())});
-    cloud.columns.push_back(column_of(particles, field::velocity, rows));
-    cloud.columns.push_back(column_of(particles, field::pressure, rows));
-    cloud.columns.push_back(column_of(particles, field::density, rows));
+    cloud.columns.push_back(column_of(store, field::velocity));
+    cloud.columns.push_back(column_of(store, field::pressure));
+    cloud.columns.push_back(column_of(store, field::density));
     cloud.columns.push_back(
         {"Kind", "", 1,
-         std::vector<std::uint8_t>(at(rows.size()), static_cast<std::uint8_t>(kind))});
-    cloud.columns.push_back({"Body", "", 1, body_index(particles, rows)});
+         std::vector<std::uint8_t>(at(store.size()), static_cast<std::uint8_t>(kind))});
+    cloud.columns.push_back({"Body", "", 1, body_index(store, kind)});
     const auto& wanted = sim.scene.output.fields;
     if (std::find(wanted.begin(), wanted.end(), "volume") != wanted.end()) {
-        cloud.columns.push_back(column_of(particles, field::volume, rows));
+        cloud.columns.push_back(column_of(store, field::volume));
     }
     return cloud;
 }
@@ -103,19 +93,19 @@ std::size_t append(Surface& all, const TriangleSurface& part, const Pose& pose)
 
 Cloud fluid_cloud(const Simulation& sim)
 {
-    return cloud_of(sim, "fluid", sim.fluid->particles.fluid(), Kind::fluid);
+    return cloud_of(sim, "fluid", sim.fluid->particles.fluid, Kind::fluid);
 }
 
 Cloud wall_cloud(const Simulation& sim)
 {
-    return cloud_of(sim, "walls", sim.fluid->particles.wall(), Kind::wall);
+    return cloud_of(sim, "walls", sim.fluid->particles.wall, Kind::wall);
 }
 
 Cloud body_cloud(const Simulation& sim)
 {
     Cloud cloud{"bodies", sim.clock.time, sim.clock.frame};
     if (sim.fluid) {
-        cloud = cloud_of(sim, "bodies", sim.fluid->particles.body(), Kind::body);
+        cloud = cloud_of(sim, "bodies", sim.fluid->particles.body, Kind::body);
         cloud.points.clear(); // the rows stand where the loads were taken, half a step back
     }
     std::vector<float> velocities;

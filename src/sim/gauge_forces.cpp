@@ -15,29 +15,28 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// Rows of the particles of a wall or body: rows of one kind are in the order of their owners.
-Rows rows_of(const Particles& particles, int target)
+// Rows of the particles of a wall or body: rows of a store are in the order of their owners.
+Rows rows_of(const Store& store, int target)
 {
-    const Rows kind = target >= 0 ? particles.body() : particles.wall();
-    const auto owners = particles.owner().subspan(at(kind.begin), at(kind.size()));
+    const auto owners = store.owner();
     // Walls count downward from -1.
     const auto order = [&](std::int32_t a, std::int32_t b) { return target >= 0 ? a < b : a > b; };
     const auto [first, last] = std::equal_range(owners.begin(), owners.end(), target, order);
-    return {kind.begin + (first - owners.begin()), kind.begin + (last - owners.begin())};
+    return {first - owners.begin(), last - owners.begin()};
 }
 
 // Sum of the viscous forces on the particles of a wall or body; zero where the fluid slips.
 Vec3 viscous_force(const Simulation& sim, int target)
 {
     Vec3 total = Vec3::Zero();
-    const Particles& particles = sim.fluid->particles;
-    if (!sticks_to_solids(*sim.fluid) || !particles.has(field::viscous_force)) {
+    const Store& store = target >= 0 ? sim.fluid->particles.body : sim.fluid->particles.wall;
+    if (!sticks_to_solids(*sim.fluid) || !store.has(field::viscous_force)) {
         return total;
     }
-    const auto F = particles[field::viscous_force];
-    const Rows rows = rows_of(particles, target);
+    const auto F = store[field::viscous_force];
+    const Rows rows = rows_of(store, target);
     for (Index k = rows.begin; k < rows.end; ++k) {
-        total += F[at(k)];
+        total += F[k];
     }
     return total;
 }

@@ -41,51 +41,60 @@ Vec3 gap_between(const Fluid& fluid, const TileExtent& a, const TileExtent& b)
 
 // Particles about a vertical line.
 struct Column {
-    std::vector<Index> fluid, solid;
-    double top = -infinity; // of the fluid [m]
+    std::vector<Index> fluid, wall, body; // rows of each store
+    double top = -infinity;               // of the fluid [m]
     double bottom = infinity;
 };
 
 Column column_about(const Fluid& fluid, const GaugeSearch& search, const Vec3& place)
 {
     const FluidNeighbours& n = fluid.neighbours;
-    const auto x = fluid.particles[field::position];
     const double reach = wider * fluid.kernel.support;
     const auto near = [&](const TileExtent& extent) {
         const Vec3 gap = gap_between(fluid, extent, {place, Vec3::Zero()});
         return gap.x() < reach && gap.y() < reach;
     };
-    const auto outside = [&](Index row) {
-        const Vec3 r = way(fluid, x[at(row)], place);
-        return std::hypot(r.x(), r.y()) >= fluid.kernel.support;
+    const auto rows_of = [&](const Store& store, const Tiles& tiles, const TileBounds& bounds) {
+        const auto x = store[field::position];
+        std::vector<Index> rows;
+        append_rows_near(tiles, bounds, x, near, rows);
+        std::erase_if(rows, [&](Index row) {
+            const Vec3 r = way(fluid, x[row], place);
+            return std::hypot(r.x(), r.y()) >= fluid.kernel.support;
+        });
+        return rows;
     };
-    Column column;
-    append_rows_near(n.fluid, search.fluid, x, near, column.fluid);
-    append_rows_near(n.wall, search.wall, x, near, column.solid);
-    append_rows_near(n.body, search.body, x, near, column.solid);
-    std::erase_if(column.fluid, outside);
-    std::erase_if(column.solid, outside);
+    Column column{rows_of(fluid.particles.fluid, n.fluid, search.fluid),
+                  rows_of(fluid.particles.wall, n.wall, search.wall),
+                  rows_of(fluid.particles.body, n.body, search.body)};
+    const auto x = fluid.particles.fluid[field::position];
     for (const Index row : column.fluid) {
-        column.top = std::max(column.top, x[at(row)].z());
-        column.bottom = std::min(column.bottom, x[at(row)].z());
+        column.top = std::max(column.top, x[row].z());
+        column.bottom = std::min(column.bottom, x[row].z());
     }
     return column;
 }
 
-// Part of space about a point that particles fill: sum V W.
-double filled(const Fluid& fluid, const std::vector<Index>& near, const Vec3& point)
+// Part of space about a point that particles of a store fill: sum V W, added to `others`.
+double filled(const Fluid& fluid, const Store& store, const std::vector<Index>& near,
+              const Vec3& point, double others = 0)
 {
-    const auto x = fluid.particles[field::position];
-    const auto V = fluid.particles[field::volume];
+    const auto x = store[field::position];
+    const auto V = store[field::volume];
     const double reach = wider * fluid.kernel.support;
-    double sum_ = 0;
     for (const Index j : near) {
-        const Vec3 r = way(fluid, x[at(j)], point);
+        const Vec3 r = way(fluid, x[j], point);
         if (std::abs(r.z()) < reach) { // W is zero beyond
-            sum_ += V[at(j)] * pair_at(fluid, r).w;
+            others += V[j] * pair_at(fluid, r).w;
         }
     }
-    return sum_;
+    return others;
+}
+
+double filled_by_solids(const Fluid& fluid, const Column& column, const Vec3& point)
+{
+    const double by_walls = filled(fluid, fluid.particles.wall, column.wall, point);
+    return filled(fluid, fluid.particles.body, column.body, point, by_walls);
 }
 
 // Highest place of the vertical through (x, y) where fluid fills half of what solids leave, from
@@ -99,8 +108,8 @@ double elevation(const Fluid& fluid, const GaugeSearch& search, const Vec3& plac
     for (double z = column.top + fluid.kernel.support; z > column.bottom - fluid.kernel.support;
          z -= step) {
         const Vec3 point{place.x(), place.y(), z};
-        const double wet = filled(fluid, column.fluid, point);
-        const double open = wet > 0 ? 1 - filled(fluid, column.solid, point) : 1;
+        const double wet = filled(fluid, fluid.particles.fluid, column.fluid, point);
+        const double open = wet > 0 ? 1 - filled_by_solids(fluid, column, point) : 1;
         const double here = open > least_open ? wet / open : 0;
         if (here >= 0.5) {
             return z + step * (here - 0.5) / (here - above);
@@ -118,8 +127,8 @@ std::vector<Index> fluid_about(const Fluid& fluid, const GaugeSearch& search, co
         return gap_between(fluid, extent, extent_of(place)).maxCoeff() < reach;
     };
     std::vector<Index> rows;
-    append_rows_near(fluid.neighbours.fluid, search.fluid, fluid.particles[field::position], near,
-                     rows);
+    append_rows_near(fluid.neighbours.fluid, search.fluid, fluid.particles.fluid[field::position],
+                     near, rows);
     return rows;
 }
 
@@ -128,14 +137,14 @@ template <class T, class F>
 T average(const Fluid& fluid, const std::vector<Index>& rows, const Vec3& place, const T& zero,
           const T& dry, const F& value)
 {
-    const auto x = fluid.particles[field::position];
-    const auto V = fluid.particles[field::volume];
+    const auto x = fluid.particles.fluid[field::position];
+    const auto V = fluid.particles.fluid[field::volume];
     T weighted = zero;
     double weight = 0;
     for (const Index j : rows) {
-        const Vec3 r = way(fluid, x[at(j)], place);
+        const Vec3 r = way(fluid, x[j], place);
         if (r.squaredNorm() < sq(fluid.kernel.support)) {
-            const double w = V[at(j)] * pair_at(fluid, r).w;
+            const double w = V[j] * pair_at(fluid, r).w;
             weighted += w * value(at(j));
             weight += w;
         }
@@ -179,9 +188,9 @@ std::vector<Vec3> face_points(const Gauge& gauge, const Fluid& fluid)
 
 double pressure(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
 {
-    const auto x = fluid.particles[field::position];
-    const auto p = fluid.particles[field::pressure];
-    const auto rho = fluid.particles[field::density];
+    const auto x = fluid.particles.fluid[field::position];
+    const auto p = fluid.particles.fluid[field::pressure];
+    const auto rho = fluid.particles.fluid[field::density];
     const Vec3& g = fluid.parameters.gravity;
     const std::vector<Vec3> points = face_points(gauge, fluid);
     Bounds face;
@@ -200,7 +209,7 @@ double pressure(const Fluid& fluid, const GaugeSearch& search, const Gauge& gaug
 
 Vec3 velocity(const Fluid& fluid, const GaugeSearch& search, const Vec3& place)
 {
-    const auto v = fluid.particles[field::velocity];
+    const auto v = fluid.particles.fluid[field::velocity];
     return average(fluid, fluid_about(fluid, search, {place, place}), place, Vec3(Vec3::Zero()),
                    Vec3(Vec3::Constant(nothing)), [&](std::size_t j) { return v[j]; });
 }
@@ -213,9 +222,9 @@ Index chunk_length(Index rows)
 
 double flux(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
 {
-    const auto x = fluid.particles[field::position];
-    const auto v = fluid.particles[field::velocity];
-    const auto V = fluid.particles[field::volume];
+    const auto x = fluid.particles.fluid[field::position];
+    const auto v = fluid.particles.fluid[field::velocity];
+    const auto V = fluid.particles.fluid[field::volume];
     const double reach = 2 * fluid.parameters.spacing;
     const auto near = [&](const TileExtent& extent) {
         const double distance = std::abs(gauge.normal.dot(extent.middle - gauge.at));
@@ -223,7 +232,7 @@ double flux(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
     };
     std::vector<Index> rows;
     append_rows_near(fluid.neighbours.fluid, search.fluid, x, near, rows);
-    const Index length = chunk_length(fluid.particles.fluid().size());
+    const Index length = chunk_length(fluid.particles.fluid.size());
     double total = 0;
     double of_chunk = 0;
     Index chunk = 0;
@@ -233,9 +242,9 @@ double flux(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
             of_chunk = 0;
             chunk = i / length;
         }
-        const double distance = std::abs(gauge.normal.dot(x[at(i)] - gauge.at));
+        const double distance = std::abs(gauge.normal.dot(x[i] - gauge.at));
         const double hat = std::max(0.0, 1 - distance / reach) / reach;
-        of_chunk += V[at(i)] * gauge.normal.dot(v[at(i)]) * hat;
+        of_chunk += V[i] * gauge.normal.dot(v[i]) * hat;
     }
     return total + of_chunk;
 }
@@ -246,14 +255,15 @@ GaugeSearch make_gauge_search(const Fluid& fluid, const std::vector<Gauge>& gaug
 {
     const auto has = [&](const auto& test) { return std::ranges::any_of(gauges, test); };
     const FluidNeighbours& n = fluid.neighbours;
-    const auto x = fluid.particles[field::position];
+    const Particles& particles = fluid.particles;
     GaugeSearch search;
     if (has([](const Gauge& gauge) { return gauge.type != GaugeType::force; })) {
-        search.fluid = measure_bounds(n.fluid, x);
+        search.fluid = measure_bounds(n.fluid, particles.fluid[field::position]);
     }
     if (has([](const Gauge& gauge) { return gauge.type == GaugeType::elevation; })) {
-        search.wall = fluid.moving_walls ? measure_bounds(n.wall, x) : sorted_bounds(n.wall);
-        search.body = measure_bounds(n.body, x);
+        search.wall = fluid.moving_walls ? measure_bounds(n.wall, particles.wall[field::position])
+                                         : sorted_bounds(n.wall);
+        search.body = measure_bounds(n.body, particles.body[field::position]);
     }
     return search;
 }

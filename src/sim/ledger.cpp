@@ -31,12 +31,12 @@ MomentumSum motion(const Simulation& sim)
 {
     MomentumSum all;
     if (sim.fluid) {
-        const Rows rows = sim.fluid->particles.fluid();
-        const auto v = sim.fluid->particles[field::velocity];
+        const Store& store = sim.fluid->particles.fluid;
+        const auto v = store[field::velocity];
         all = reduce(
-            rows.begin, rows.end, MomentumSum{},
+            0, store.size(), MomentumSum{},
             [&](Index i) {
-                return MomentumSum{v[at(i)], v[at(i)].norm()};
+                return MomentumSum{v[i], v[i].norm()};
             },
             [](const MomentumSum& a, const MomentumSum& b) {
                 return MomentumSum{a.momentum + b.momentum, a.scale + b.scale};
@@ -83,7 +83,7 @@ Vec3 weight(const Simulation& sim)
 {
     Vec3 total = Vec3::Zero();
     if (sim.fluid) {
-        total += static_cast<double>(sim.fluid->particles.fluid().size()) *
+        total += static_cast<double>(sim.fluid->particles.fluid.size()) *
                  sim.fluid->parameters.mass * (sim.scene.gravity + sim.fluid->parameters.drive);
     }
     for (const Body& body : sim.rigid.bodies) {
@@ -100,16 +100,16 @@ struct FluidEnergy {
 
 FluidEnergy fluid_energy(const Fluid& fluid)
 {
-    const Rows rows = fluid.particles.fluid();
-    const auto x = fluid.particles[field::position];
-    const auto v = fluid.particles[field::velocity];
-    const auto rho = fluid.particles[field::density];
+    const Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const auto rho = store[field::density];
     const FluidParameters& f = fluid.parameters;
     FluidEnergy sum_ = reduce(
-        rows.begin, rows.end, FluidEnergy{},
+        0, store.size(), FluidEnergy{},
         [&](Index i) {
-            const double s = rho[at(i)] / f.eos.rho0;
-            return FluidEnergy{0.5 * v[at(i)].squaredNorm(), -f.gravity.dot(x[at(i)]),
+            const double s = rho[i] / f.eos.rho0;
+            return FluidEnergy{0.5 * v[i].squaredNorm(), -f.gravity.dot(x[i]),
                                sq(f.eos.c0) * (std::log(s) + 1 / s - 1)};
         },
         [](const FluidEnergy& a, const FluidEnergy& b) {

@@ -47,10 +47,10 @@ double hydrostatic_density(const FluidParameters& f, double depth)
 
 void fill_fluid_rows(const Filling& filling, Fluid& fluid)
 {
-    Particles& particles = fluid.particles;
-    const auto x = particles[field::position];
-    const auto v = particles[field::velocity];
-    const auto rho = particles[field::density];
+    Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const auto rho = store[field::density];
     for (std::size_t i = 0; i < filling.fluid.size(); ++i) {
         x[i] = filling.fluid[i];
         v[i] = filling.fluid_velocity[i];
@@ -61,16 +61,14 @@ void fill_fluid_rows(const Filling& filling, Fluid& fluid)
 
 void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
 {
-    Particles& particles = fluid.particles;
-    const Rows rows = particles.wall();
-    for (Index k = 0; k < rows.size(); ++k) {
-        const std::size_t row = at(rows.begin + k);
-        const std::int32_t wall = filling.wall_owner[at(k)];
-        particles[field::position][row] = filling.wall[at(k)];
-        particles[field::velocity][row] = velocity(scene.walls[at(wall)].motion, 0);
-        particles.owner()[row] = -1 - wall;
-        if (particles.has(field::depth)) {
-            particles[field::depth][row] = filling.wall_depth[at(k)];
+    Store& store = fluid.particles.wall;
+    for (std::size_t k = 0; k < filling.wall.size(); ++k) {
+        const std::int32_t wall = filling.wall_owner[k];
+        store[field::position][k] = filling.wall[k];
+        store[field::velocity][k] = velocity(scene.walls[at(wall)].motion, 0);
+        store.owner()[k] = -1 - wall;
+        if (store.has(field::depth)) {
+            store[field::depth][k] = filling.wall_depth[k];
         }
         fluid.moving_walls = fluid.moving_walls || moves(scene.walls[at(wall)].motion);
     }
@@ -88,32 +86,31 @@ void move_walls(Simulation& sim, double place_time, double velocity_time)
         places.push_back(displacement(wall.motion, place_time));
         velocities.push_back(velocity(wall.motion, velocity_time));
     }
-    Particles& particles = sim.fluid->particles;
-    const auto x = particles[field::position];
-    const auto v = particles[field::velocity];
-    const Rows rows = particles.wall();
+    Store& store = sim.fluid->particles.wall;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const auto owner = store.owner();
     const TileLattice& lattice = sim.fluid->neighbours.wall.lattice;
-    parallel_for(rows.begin, rows.end, [&](Index i) {
-        const auto wall = at(-1 - particles.owner()[at(i)]);
+    parallel_for(0, store.size(), [&](Index i) {
+        const auto wall = at(-1 - owner[i]);
         // In a periodic domain the image that the lists know.
-        const Vec3 place = sim.wall_start[at(i - rows.begin)] + places[wall];
-        x[at(i)] = lattice.image_near(place, x[at(i)]);
-        v[at(i)] = velocities[wall];
+        const Vec3 place = sim.wall_start[at(i)] + places[wall];
+        x[i] = lattice.image_near(place, x[i]);
+        v[i] = velocities[wall];
     });
 }
 
 void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
 {
-    const Index first = fluid.particles.body().begin;
+    Store& store = fluid.particles.body;
     for (std::size_t b = 0; b < filling.bodies.size(); ++b) {
         const Rows rows = sim.body_particles.of[b];
         for (Index k = rows.begin; k < rows.end; ++k) {
-            fluid.particles.owner()[at(first + k)] = static_cast<std::int32_t>(b);
-            if (fluid.particles.has(field::depth)) {
+            store.owner()[k] = static_cast<std::int32_t>(b);
+            if (store.has(field::depth)) {
                 const Placed shape{.shape = &sim.scene.bodies[b].shape,
                                    .dimensions = sim.scene.dimensions};
-                fluid.particles[field::depth][at(first + k)] =
-                    -signed_distance(shape, sim.body_particles.points[at(k)]);
+                store[field::depth][k] = -signed_distance(shape, sim.body_particles.points[at(k)]);
             }
         }
         fluid.body_particle_mass.push_back(fluid.parameters.eos.rho0 *
@@ -143,9 +140,6 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
     allocate(fluid, static_cast<Index>(filling.fluid.size()),
              static_cast<Index>(filling.wall.size()),
              static_cast<Index>(sim.body_particles.points.size()));
-    for (std::size_t k = 0; k < fluid.particles.id().size(); ++k) {
-        fluid.particles.id()[k] = static_cast<std::int64_t>(k);
-    }
     fill_fluid_rows(filling, fluid);
     fill_wall_rows(sim.scene, filling, fluid);
     fill_body_rows(sim, filling, fluid);

@@ -7,11 +7,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // The bodies as they are now.
 std::vector<Pose> present_poses(const Rigid& rigid)
 {
@@ -83,7 +78,7 @@ Index particles_in_solids(const Simulation& sim)
     const double deep = 0.25 * barrier.spacing;
     std::vector<SolidPlace> places;
     place_solids(sim, present_poses(sim.rigid), sim.clock.time, places);
-    const auto x = fluid.particles[field::position];
+    const auto x = fluid.particles.fluid[field::position];
     const auto inside = [&](const Vec3& p, std::span<const std::size_t> near) {
         bool in = false;
         for_images(fluid, p, 0, [&](const Vec3& image) {
@@ -95,18 +90,18 @@ Index particles_in_solids(const Simulation& sim)
     };
     // Rows that follow each other are near each other: together they meet few solids.
     constexpr Index group = 64;
-    const Index rows = fluid.particles.fluid().size();
+    const Index rows = fluid.particles.fluid.size();
     return sum(0, (rows + group - 1) / group, Index(0), [&](Index block) {
         const Index last = std::min(rows, (block + 1) * group);
         Bounds box;
         for (Index i = block * group; i < last; ++i) {
-            for_images(fluid, x[at(i)], 0, [&](const Vec3& image) { box.add(image); });
+            for_images(fluid, x[i], 0, [&](const Vec3& image) { box.add(image); });
         }
         std::vector<std::size_t> near;
         find_solids(barrier, places, box.min, box.max, near);
         Index count = 0;
         for (Index i = block * group; i < last && !near.empty(); ++i) {
-            count += inside(x[at(i)], near) ? 1 : 0;
+            count += inside(x[i], near) ? 1 : 0;
         }
         return count;
     });

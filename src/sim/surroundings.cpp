@@ -12,9 +12,12 @@ namespace hyoryu {
 
 namespace {
 
+// Stands for the fluid among the owners of particles.
+constexpr std::int32_t fluid_owner = std::numeric_limits<std::int32_t>::min();
+
 std::string owner_name(const Simulation& sim, std::int32_t owner)
 {
-    if (owner == no_owner) {
+    if (owner == fluid_owner) {
         return "of the fluid";
     }
     if (owner >= 0) {
@@ -37,17 +40,24 @@ std::string solid_name(const Simulation& sim, int b)
 std::string surroundings(const Simulation& sim, std::size_t row)
 {
     const Particles& particles = sim.fluid->particles;
-    const auto x = particles[field::position];
+    const Vec3& place = particles.fluid[field::position][row];
     const double dp = sim.fluid->parameters.spacing;
-    std::map<std::int32_t, int> counts;
+    std::map<std::int32_t, int> counts; // by owner
     double nearest = infinity;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        const double distance = (x[k] - x[row]).norm();
-        if (k != row && distance <= 2 * dp) {
-            counts[particles.owner()[k]] += 1;
-            nearest = std::min(nearest, distance);
+    const auto look_at = [&](const Store& store, const auto& owner) {
+        const auto x = store[field::position];
+        for (Index k = 0; k < store.size(); ++k) {
+            const double distance = (x[k] - place).norm();
+            if (&x[k] != &place && distance <= 2 * dp) {
+                counts[owner(k)] += 1;
+                nearest = std::min(nearest, distance);
+            }
         }
-    }
+    };
+    look_at(particles.fluid, [](Index) { return fluid_owner; });
+    for_solids(particles, [&](const Store& store) {
+        look_at(store, [&](Index k) { return store.owner()[k]; });
+    });
     if (counts.empty()) {
         return "no particle within 2 spacings of it";
     }
@@ -87,7 +97,7 @@ double energy_scale(const Simulation& sim)
     };
     if (sim.fluid) {
         const FluidParameters& f = sim.fluid->parameters;
-        mass = f.mass * static_cast<double>(sim.fluid->particles.fluid().size());
+        mass = f.mass * static_cast<double>(sim.fluid->particles.fluid.size());
         of_sound = 0.5 * mass * sq(0.01 * f.eos.c0);
         reach(sim.fluid->domain_min, 0);
         reach(sim.fluid->domain_max, 0);

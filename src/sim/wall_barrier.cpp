@@ -68,12 +68,12 @@ std::span<const int> near_of(const WallBarrier& barrier, Index tile)
 void find_near(const Fluid& fluid, WallBarrier& barrier)
 {
     const Tiles& tiles = fluid.neighbours.fluid;
-    const auto x = fluid.particles[field::position];
+    const auto x = fluid.particles.fluid[field::position];
     barrier.builds = fluid.neighbours.builds;
     barrier.way = 0;
     barrier.near.resize(tiles.tile.size());
     barrier.clearance.resize(tiles.tile.size());
-    barrier.seen.resize(at(fluid.particles.fluid().size()));
+    barrier.seen.resize(at(fluid.particles.fluid.size()));
     const double far = looked_at * barrier.spacing;
     const double reach = tiles.lattice.edge.norm() / 2 + far + slack * barrier.spacing;
     const bool repeats = fluid.period != Vec3(0, 0, 0); // images: whatever there is
@@ -212,8 +212,8 @@ void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index i,
               std::span<const int> solids, WallBarrier::Seen& seen, const Vec3& r)
 {
-    const Vec3& x = std::as_const(fluid.particles)[field::position][at(i)];
-    Vec3& v = fluid.particles[field::velocity][at(i)];
+    const Vec3& x = std::as_const(fluid.particles.fluid)[field::position][at(i)];
+    Vec3& v = fluid.particles.fluid[field::velocity][at(i)];
     std::vector<SurfaceHold>& holds = barrier.holds[at(worker())];
     const double clearance = step.look(x, v, solids, holds);
     seen = seen_at(r, clearance + barrier.way, barrier.spacing);
@@ -236,7 +236,7 @@ bool is_far(const BarrierStep& step, const Fluid& fluid, const WallBarrier& barr
     }
     const DisplacementBox& box = n.fluid_motion.box[at(tile)]; // since the lists were made
     const Vec3 moved = n.steps > 0 ? Vec3(box.high.cwiseMax(-box.low)) : Vec3(0, 0, 0);
-    const auto v = fluid.particles[field::velocity];
+    const auto v = fluid.particles.fluid[field::velocity];
     double fastest = 0;
     for (Index i = n.fluid.start[at(tile)]; i < n.fluid.start[at(tile + 1)]; ++i) {
         fastest = std::max(fastest, v[at(i)].squaredNorm());
@@ -249,8 +249,8 @@ void hold_tile(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Inde
     const Tiles& tiles = fluid.neighbours.fluid;
     const Vec3 centre = tiles.lattice.centre(tiles.tile[at(tile)]);
     const Vec3 roam = tiles.lattice.edge / 2 + Vec3::Constant(slack / 4 * barrier.spacing);
-    const auto x = std::as_const(fluid.particles)[field::position];
-    const auto v = std::as_const(fluid.particles)[field::velocity];
+    const auto x = std::as_const(fluid.particles.fluid)[field::position];
+    const auto v = std::as_const(fluid.particles.fluid)[field::velocity];
     if (is_far(step, fluid, barrier, tile)) {
         return;
     }
@@ -292,7 +292,7 @@ void share_with_bodies(Simulation& sim)
 {
     WallBarrier& barrier = *sim.barrier;
     const double mass = sim.fluid->parameters.mass;
-    const auto v = sim.fluid->particles[field::velocity];
+    const auto v = sim.fluid->particles.fluid[field::velocity];
     barrier.yields.assign(barrier.solids.size(), 0);
     const auto body_of = [&](const BarrierHit& hit) {
         return static_cast<std::size_t>(hit.solid) - barrier.walls;

@@ -62,13 +62,13 @@ std::string probable_cause(const Simulation& sim)
 
 [[noreturn]] void report_particle(const Simulation& sim, std::size_t row)
 {
-    const Particles& particles = sim.fluid->particles;
-    const Vec3& x = particles[field::position][row];
+    const Store& store = sim.fluid->particles.fluid;
+    const Vec3& x = store[field::position][row];
     report(sim,
-           fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m", particles.id()[row],
-                       x.x(), x.y(), x.z()),
-           fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", particles[field::density][row],
-                       particles[field::velocity][row].norm()),
+           fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m", store.id()[row], x.x(),
+                       x.y(), x.z()),
+           fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", store[field::density][row],
+                       store[field::velocity][row].norm()),
            probable_cause(sim) + "; " + surroundings(sim, row));
 }
 
@@ -76,21 +76,20 @@ std::string probable_cause(const Simulation& sim)
 double watch_fluid(const Simulation& sim)
 {
     const Fluid& fluid = *sim.fluid;
-    const Rows rows = fluid.particles.fluid();
-    const auto rho = fluid.particles[field::density];
-    const auto v = fluid.particles[field::velocity];
+    const Store& store = fluid.particles.fluid;
+    const auto rho = store[field::density];
+    const auto v = store[field::velocity];
     const real rho0 = fluid.parameters.eos.rho0;
     const real top = sq(fastest_over_sound * fluid.parameters.eos.c0);
     // Not-a-number fails both comparisons and so counts as bad.
-    const auto error = [&](Index row) {
-        const auto i = static_cast<std::size_t>(row);
+    const auto error = [&](Index i) {
         const real e = std::abs(rho[i] / rho0 - 1);
         const bool good = e <= worst_compression && v[i].squaredNorm() <= top;
         return good ? e : infinity;
     };
-    const real worst = largest(rows.begin, rows.end, 0, error);
+    const real worst = largest(0, store.size(), 0, error);
     if (worst == infinity) {
-        Index bad = rows.begin;
+        Index bad = 0;
         while (error(bad) != infinity) {
             ++bad;
         }

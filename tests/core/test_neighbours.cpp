@@ -123,12 +123,11 @@ TEST(PairList, LeavesOutTheOwnOwnerAndTheUnwanted)
         wanted[k] = k % 5 != 0;
     }
     PairList list;
-    list.build(tiles, sources, {radius, 8, widest_instruction_set()}, {owner, wanted});
+    list.build(tiles, sources, {radius, 8, widest_instruction_set()},
+               {.owner = owner, .wanted = wanted});
     Pairs expected = pairs_within(tiles, solid, tiles, solid, radius);
     std::erase_if(expected, [&](const auto& pair) {
-        const auto own = [&](Index slot) {
-            return owner[std::size_t(tiles.row[std::size_t(slot)])];
-        };
+        const auto own = [&](Index slot) { return owner[std::size_t(slot)]; };
         return wanted[std::size_t(pair.first)] == 0 || own(pair.first) == own(pair.second);
     });
     EXPECT_EQ(pairs_of(list), expected);

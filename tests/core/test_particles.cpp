@@ -7,56 +7,78 @@
 namespace hyoryu {
 namespace {
 
+// A field that an effect brings along.
+struct Colour {
+    using type = real;
+    static constexpr FieldInfo info{"Colour", "1", Holders::solids};
+};
+constexpr Colour colour{};
+
 TEST(Particles, OnlyTheListedColumnsExist)
 {
     Particles particles;
-    particles.allocate(Fields<Position, Density>{}, 3, 2, 1);
-    EXPECT_TRUE(particles.has(field::position));
-    EXPECT_FALSE(particles.has(field::viscous_force));
-    ASSERT_EQ(particles.active_columns().size(), 2u);
-    EXPECT_EQ(particles.active_columns()[0].bytes_per_particle, 24u);
+    reset(particles, 3, 2, 1);
+    add_columns(particles, Fields<Position, Density>{});
+    for (const Store* store : {&particles.fluid, &particles.wall, &particles.body}) {
+        EXPECT_TRUE(store->has(field::position));
+        EXPECT_FALSE(store->has(field::viscous_force));
+        EXPECT_EQ((*store)[field::density].size(), static_cast<std::size_t>(store->size()));
+    }
+    ASSERT_EQ(active_columns(particles).size(), 2u);
+    EXPECT_EQ(active_columns(particles)[0].bytes_per_particle, 24u);
     EXPECT_EQ(particles.size(), 6);
+    EXPECT_EQ(particles.solids(), 3);
 }
 
-TEST(Particles, SortingAndDroppingMovesAllColumnsAlike)
+TEST(Particles, NumbersGoOnFromKindToKind)
 {
     Particles particles;
-    particles.allocate(Fields<Density, Pressure>{}, 4, 1, 1);
-    for (std::size_t k = 0; k < 6; ++k) {
-        particles[field::density][k] = static_cast<real>(k);
-        particles[field::pressure][k] = 10 * static_cast<real>(k);
-        particles.id()[k] = static_cast<std::int64_t>(k);
+    reset(particles, 3, 2, 1);
+    EXPECT_EQ(particles.fluid.id()[2], 2);
+    EXPECT_EQ(particles.wall.id()[0], 3);
+    EXPECT_EQ(particles.body.id()[0], 5);
+}
+
+TEST(Particles, SortingAndDroppingMovesAllColumnsAlikeAndNoOtherStore)
+{
+    Particles particles;
+    reset(particles, 4, 2, 1);
+    add_columns(particles, Fields<Density, Pressure, Velocity>{});
+    for (Store* store : {&particles.fluid, &particles.wall}) {
+        for (Index k = 0; k < store->size(); ++k) {
+            (*store)[field::density][k] = static_cast<real>(store->id()[k]);
+            (*store)[field::pressure][k] = 10 * static_cast<real>(store->id()[k]);
+            (*store)[field::velocity][k].x() = 100 * static_cast<real>(store->id()[k]);
+        }
     }
     const std::int32_t order[] = {2, 0, 3}; // row 1 leaves
-    particles.permute_fluid(order);
-    ASSERT_EQ(particles.size(), 5);
-    EXPECT_EQ(particles.fluid().size(), 3);
-    EXPECT_EQ(particles.wall().begin, 3);
-    EXPECT_EQ(particles.body().end, 5);
-    const real expected[] = {2, 0, 3, 4, 5};
-    for (std::size_t k = 0; k < 5; ++k) {
-        EXPECT_EQ(particles[field::density][k], expected[k]);
-        EXPECT_EQ(particles[field::pressure][k], 10 * expected[k]);
-        EXPECT_EQ(particles.id()[k], static_cast<std::int64_t>(expected[k]));
+    std::vector<std::byte> room(3 * sizeof(Vec3));
+    particles.fluid.permute(order, room);
+    ASSERT_EQ(particles.size(), 6);
+    ASSERT_EQ(particles.fluid.size(), 3);
+    const real expected[] = {2, 0, 3};
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(particles.fluid[field::density][k], expected[k]);
+        EXPECT_EQ(particles.fluid[field::pressure][k], 10 * expected[k]);
+        EXPECT_EQ(particles.fluid[field::velocity][k].x(), 100 * expected[k]);
+        EXPECT_EQ(particles.fluid.id()[k], static_cast<std::int64_t>(expected[k]));
     }
+    EXPECT_EQ(particles.wall[field::density][1], 5); // as it was
 }
 
-TEST(Particles, SolidsHaveNoRoomForWhatIsOfFluidAlone)
+TEST(Particles, AFieldExistsOnlyOnTheKindsThatHoldIt)
 {
     Particles particles;
-    particles.allocate(Fields<Density, DensityRate>{}, 3, 2, 1);
-    ASSERT_EQ(particles[field::density].size(), 6u);
-    ASSERT_EQ(particles[field::density_rate].size(), 3u);
-    for (std::size_t k = 0; k < 3; ++k) {
-        particles[field::density_rate][k] = static_cast<real>(k);
-    }
-    const std::int32_t order[] = {2, 0}; // row 1 leaves
-    std::vector<std::byte> room(2 * sizeof(Vec3));
-    particles.permute_fluid(order, room);
-    ASSERT_EQ(particles[field::density_rate].size(), 2u);
-    EXPECT_EQ(particles[field::density_rate][0], 2);
-    EXPECT_EQ(particles[field::density_rate][1], 0);
-    EXPECT_EQ(particles[field::density].size(), 5u);
+    reset(particles, 3, 2, 1);
+    add_columns(particles, Fields<Density, DensityRate, Colour>{});
+    EXPECT_TRUE(particles.fluid.has(field::density_rate));
+    EXPECT_FALSE(particles.wall.has(field::density_rate));
+    EXPECT_FALSE(particles.fluid.has(colour));
+    EXPECT_TRUE(particles.body.has(colour));
+    particles.body[colour][0] = 7;
+    EXPECT_EQ(particles.body.pointers()[colour][0], 7);
+    EXPECT_EQ(particles.fluid.pointers()[colour], nullptr);
+    EXPECT_EQ(active_columns(particles).size(), 3u);
 }
 
 TEST(Fields, UnionKeepsOrderAndHasNoTwins)

@@ -45,7 +45,7 @@ using In = Fields<Position, Density>;
 
 template <class Real>
 struct Cloud {
-    Particles particles;
+    Store particles{Kind::fluid};
     Tiles tiles;
     PairList pairs;
     Records<In, Real> records;
@@ -54,8 +54,8 @@ struct Cloud {
     explicit Cloud(const std::vector<Vec3>& points, real h, int dimensions)
         : kernel(make_kernel(h, h / 1.5, dimensions))
     {
-        particles.allocate(Fields<Position, Density, Force, ShepardSum>{},
-                           static_cast<Index>(points.size()), 0, 0);
+        particles.reset(static_cast<Index>(points.size()));
+        particles.add(Fields<Position, Density, Force, ShepardSum>{});
         for (std::size_t k = 0; k < points.size(); ++k) {
             particles[field::position][k] = points[k];
             particles[field::density][k] = 1.0 + 0.1 * static_cast<real>(k % 7);
@@ -64,7 +64,7 @@ struct Cloud {
         SortSpace space;
         const Vec3 far = Vec3::Constant(infinity);
         const Index n =
-            sort_rows(lattice, particles[field::position], particles.fluid(), -far, far, space);
+            sort_rows(lattice, particles[field::position], particles.rows(), -far, far, space);
         make_tiles(tiles, lattice, particles[field::position], space, n);
         const Tiles* const sources[] = {&tiles};
         pairs.build(tiles, sources,
@@ -90,10 +90,10 @@ struct Cloud {
     }
     void sweep_clearly(const auto&... terms)
     {
-        sweep_reference<In>(
-            particles, pairs,
-            [&](Index slot) { return Index(tiles.row[static_cast<std::size_t>(slot)]); }, kernel,
-            terms...);
+        const auto place = [&](Index slot) {
+            return StoreRow{&particles, tiles.row[static_cast<std::size_t>(slot)]};
+        };
+        sweep_reference<In>(pairs, place, kernel, terms...);
     }
 };
 

@@ -32,13 +32,10 @@ struct Immersed {
         }
         bodies.of.push_back({0, static_cast<Index>(bodies.points.size())});
         allocate(fluid, static_cast<Index>(water.size()), 0, bodies.of[0].end);
-        std::copy(water.begin(), water.end(), fluid.particles[field::position].begin());
+        std::copy(water.begin(), water.end(), fluid.particles.fluid[field::position].begin());
         for (std::size_t i = 0; i < water.size(); ++i) {
-            fluid.particles[field::density][i] = 1000 + 0.3 * static_cast<real>(i % 11);
-            fluid.particles[field::velocity][i] = {0.1 * static_cast<real>(i % 3), 0, -0.2};
-        }
-        for (auto& owner : fluid.particles.owner().subspan(water.size())) {
-            owner = 0;
+            fluid.particles.fluid[field::density][i] = 1000 + 0.3 * static_cast<real>(i % 11);
+            fluid.particles.fluid[field::velocity][i] = {0.1 * static_cast<real>(i % 3), 0, -0.2};
         }
         fluid.body_particle_mass = {1.0};
         Body body;
@@ -59,13 +56,12 @@ struct Immersed {
 TEST(Coupling, ParticlesMoveWithTheirBody)
 {
     Immersed scene;
-    const auto x = scene.fluid.particles[field::position];
-    const auto v = scene.fluid.particles[field::velocity];
-    const Rows rows = scene.fluid.particles.body();
-    for (Index k = rows.begin; k < rows.end; ++k) {
-        const Vec3 r = x[static_cast<std::size_t>(k)] - Vec3::Constant(0.5);
+    const Store& store = scene.fluid.particles.body;
+    ASSERT_EQ(store.size(), 64);
+    for (Index k = 0; k < store.size(); ++k) {
+        const Vec3 r = store[field::position][k] - Vec3::Constant(0.5);
         const Vec3 expected = Vec3(0, 1, 0) + Vec3(0, 0, 2).cross(r);
-        EXPECT_NEAR((v[static_cast<std::size_t>(k)] - expected).norm(), 0, 1e-12);
+        EXPECT_NEAR((store[field::velocity][k] - expected).norm(), 0, 1e-12);
     }
 }
 
@@ -90,10 +86,10 @@ TEST_P(Reaction, TheLoadIsTheReactionOfTheFluid)
     Vec3 on_fluid = Vec3::Zero();
     Vec3 torque_on_fluid = Vec3::Zero();
     real scale = 0;
-    const Rows rows = scene.fluid.particles.fluid();
+    const Rows rows = scene.fluid.particles.fluid.rows();
     for (Index i = rows.begin; i < rows.end; ++i) {
-        const Vec3& f = scene.fluid.particles[field::force][static_cast<std::size_t>(i)];
-        const Vec3& x = scene.fluid.particles[field::position][static_cast<std::size_t>(i)];
+        const Vec3& f = scene.fluid.particles.fluid[field::force][static_cast<std::size_t>(i)];
+        const Vec3& x = scene.fluid.particles.fluid[field::position][static_cast<std::size_t>(i)];
         on_fluid += f;
         torque_on_fluid += (x - Vec3::Constant(0.5)).cross(f);
         scale += f.norm();

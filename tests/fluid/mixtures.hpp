@@ -4,6 +4,7 @@
 
 #include "hyoryu/fluid/fluid.hpp"
 
+#include <algorithm>
 #include <ostream>
 #include <random>
 
@@ -67,22 +68,20 @@ inline Fluid make_mixture(const Choice& choice)
     allocate(fluid, static_cast<Index>(places[0].size()), static_cast<Index>(places[1].size()),
              static_cast<Index>(places[2].size()));
     fluid.body_particle_mass = {0.9, 1.1};
-    std::size_t row = 0;
-    for (const auto& kind : places) {
-        for (const Vec3& place : kind) {
-            fluid.particles[field::position][row] = place;
-            fluid.particles[field::velocity][row] = {off(random), 0.1, off(random)};
-            fluid.particles[field::density][row] = 1005 + 20 * off(random);
-            ++row;
+    Particles& particles = fluid.particles;
+    const std::vector<Vec3>* place_of_kind = places;
+    for (Store* store : {&particles.fluid, &particles.wall, &particles.body}) {
+        std::ranges::copy(*place_of_kind++, (*store)[field::position].begin());
+        for (Index k = 0; k < store->size(); ++k) {
+            (*store)[field::velocity][k] = {off(random), 0.1, off(random)};
+            (*store)[field::density][k] = 1005 + 20 * off(random);
         }
     }
-    for (Index k = 0; k < fluid.particles.fluid().end; k += 3) {
-        fluid.particles[field::gap][at(k)] = 100; // parted from what solids it may be near
+    for (Index k = 0; k < particles.fluid.size(); k += 3) {
+        particles.fluid[field::gap][k] = 100; // parted from what solids it may be near
     }
-    const Rows walls = fluid.particles.wall();
-    std::fill_n(fluid.particles.owner().begin() + walls.begin, walls.size(), -1);
-    std::copy(owners.begin(), owners.end(),
-              fluid.particles.owner().begin() + fluid.particles.body().begin);
+    std::ranges::fill(particles.wall.owner(), -1);
+    std::ranges::copy(owners, particles.body.owner().begin());
     return fluid;
 }
 

@@ -25,8 +25,8 @@ TEST(Mps, GradientOfALinearPressureIsExactInside)
         const real jx = off(random);
         const real jy = off(random);
         const Vec3 place = dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(jx, jy, off(random)));
-        fluid.particles[field::position][at(k)] = place;
-        fluid.particles[field::density][at(k)] =
+        fluid.particles.fluid[field::position][at(k)] = place;
+        fluid.particles.fluid[field::density][at(k)] =
             fluid.parameters.eos.density(slope.dot(place) - 2000);
     }
     update_neighbours(fluid);
@@ -34,13 +34,13 @@ TEST(Mps, GradientOfALinearPressureIsExactInside)
     update_forces(fluid, 1e-4);
     int inside = 0;
     for (Index k = 0; k < n * n * n; ++k) {
-        const Vec3 place = fluid.particles[field::position][at(k)] / dp;
+        const Vec3 place = fluid.particles.fluid[field::position][at(k)] / dp;
         if (place.minCoeff() < 3.1 || place.maxCoeff() > n - 4.1) {
             continue;
         }
         ++inside;
-        const Vec3 gradient =
-            -fluid.particles[field::force][at(k)] / fluid.particles[field::volume][at(k)];
+        const Vec3 gradient = -fluid.particles.fluid[field::force][at(k)] /
+                              fluid.particles.fluid[field::volume][at(k)];
         // 50 digits of a place in a tile, and p to 1e-16 of rho0 c0^2: 1e-10 Pa over a spacing.
         EXPECT_LT((gradient - slope).norm(), 1e-8 * slope.norm()) << k;
     }
@@ -60,18 +60,18 @@ TEST(Periodic, ALatticeHasNoSides)
         fluid.domain_max = Vec3::Constant(n * dp);
         fluid.period = Vec3::Constant(n * dp);
         for (int k = 0; k < n * n * n; ++k) {
-            fluid.particles[field::position][at(k)] =
+            fluid.particles.fluid[field::position][at(k)] =
                 dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(0.4, 7.3, -3.2));
-            fluid.particles[field::density][at(k)] = 1003;
+            fluid.particles.fluid[field::density][at(k)] = 1003;
         }
         update_neighbours(fluid);
         update_pressure(fluid);
         update_forces(fluid, 1e-4);
-        EXPECT_EQ(fluid.particles.fluid().size(), n * n * n);
-        const real scale = 2 * fluid.particles[field::pressure][0] * dp * dp;
+        EXPECT_EQ(fluid.particles.fluid.size(), n * n * n);
+        const real scale = 2 * fluid.particles.fluid[field::pressure][0] * dp * dp;
         for (int k = 0; k < n * n * n; ++k) {
             // The period is that of the tiles, whole units of single precision: 1e-7 of it.
-            EXPECT_LT(fluid.particles[field::force][at(k)].norm(), 1e-5 * scale) << k;
+            EXPECT_LT(fluid.particles.fluid[field::force][at(k)].norm(), 1e-5 * scale) << k;
         }
     }
 }
@@ -87,17 +87,17 @@ TEST(Periodic, APairAcrossASideIsAPair)
     Vec3 across(0, 0, 0);
     for (const real middle : {1.5, 0.0}) {
         fluid.neighbours = {};
-        fluid.particles[field::position][0] = {middle - 0.06, 1, 1};
-        fluid.particles[field::position][1] = {middle + 0.05, 1.02, 1};
-        fluid.particles[field::density][0] = 1003;
-        fluid.particles[field::density][1] = 1005;
+        fluid.particles.fluid[field::position][0] = {middle - 0.06, 1, 1};
+        fluid.particles.fluid[field::position][1] = {middle + 0.05, 1.02, 1};
+        fluid.particles.fluid[field::density][0] = 1003;
+        fluid.particles.fluid[field::density][1] = 1005;
         update_neighbours(fluid);
         update_pressure(fluid);
         update_forces(fluid, 1e-4);
-        const auto F = fluid.particles[field::force];
+        const auto F = fluid.particles.fluid[field::force];
         ASSERT_GT(F[0].norm(), 0);
         ASSERT_EQ(F[0], Vec3(-F[1]));
-        const Vec3 on_left = fluid.particles[field::density][0] == 1003 ? F[0] : F[1];
+        const Vec3 on_left = fluid.particles.fluid[field::density][0] == 1003 ? F[0] : F[1];
         if (middle == 1.5) {
             across = on_left;
         } else {
@@ -122,21 +122,21 @@ TEST(Shifting, LeavesALatticeAndEvensOutACrowd)
     for (const bool crowd : {false, true}) {
         fluid.neighbours = {};
         for (int k = 0; k < n * n * n; ++k) {
-            fluid.particles[field::position][at(k)] =
+            fluid.particles.fluid[field::position][at(k)] =
                 dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(0.5, 0.5, 0.5));
-            fluid.particles[field::velocity][at(k)] = {1, 0, 0};
-            fluid.particles[field::density][at(k)] = 1000;
+            fluid.particles.fluid[field::velocity][at(k)] = {1, 0, 0};
+            fluid.particles.fluid[field::density][at(k)] = 1000;
         }
         const Vec3 middle = dp * Vec3(5.5, 5.5, 5.5);
         const Vec3 away = crowd ? Vec3(0.3 * dp, 0, 0) : Vec3(0, 0, 0);
-        fluid.particles[field::position][555] = middle + away;
+        fluid.particles.fluid[field::position][555] = middle + away;
         update_neighbours(fluid);
         update_pressure(fluid);
-        const std::vector<Vec3> before(fluid.particles[field::position].begin(),
-                                       fluid.particles[field::position].end());
+        const std::vector<Vec3> before(fluid.particles.fluid[field::position].begin(),
+                                       fluid.particles.fluid[field::position].end());
         shift(fluid, 1e-3);
         for (Index k = 0; k < n * n * n; ++k) {
-            const Vec3 way = fluid.particles[field::position][at(k)] - before[at(k)];
+            const Vec3 way = fluid.particles.fluid[field::position][at(k)] - before[at(k)];
             if (!crowd) {
                 EXPECT_LT(way.norm(), 1e-6 * dp) << k;
             } else if ((before[at(k)] - middle - away).norm() < 1e-9) {

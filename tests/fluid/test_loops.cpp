@@ -17,17 +17,26 @@ void sweep_clearly(Particles& particles, const Fluid& fluid, const PairList& pai
                    const auto&... terms)
 {
     const FluidNeighbours& n = fluid.neighbours;
-    const auto row = [&](Index slot) {
-        const Tiles& tiles = slot < n.wall.first_slot   ? n.fluid
-                             : slot < n.body.first_slot ? n.wall
-                                                        : n.body;
-        return Index(tiles.row[at(slot - tiles.first_slot)]);
+    const auto place = [&](Index slot) {
+        const auto row_of = [&](Store& store, const Tiles& tiles) {
+            return StoreRow{&store, tiles.row[at(slot - tiles.first_slot)]};
+        };
+        return slot < n.wall.first_slot   ? row_of(particles.fluid, n.fluid)
+               : slot < n.body.first_slot ? row_of(particles.wall, n.wall)
+                                          : row_of(particles.body, n.body);
     };
     if (fluid.parameters.formulation == FormulationKind::mps) {
-        sweep_reference<Stored>(particles, pairs, row, fluid.mps_kernel, terms...);
+        sweep_reference<Stored>(pairs, place, fluid.mps_kernel, terms...);
     } else {
-        sweep_reference<Stored>(particles, pairs, row, fluid.kernel, terms...);
+        sweep_reference<Stored>(pairs, place, fluid.kernel, terms...);
     }
+}
+
+void clear_all(Particles& particles, auto fields)
+{
+    clear(particles.fluid, fields);
+    clear(particles.wall, fields);
+    clear(particles.body, fields);
 }
 
 real length(const Vec3& v)
@@ -39,19 +48,34 @@ real length(real v)
     return std::abs(v);
 }
 
-// Every value against the largest of the column.
-void expect_same(const auto& fast, const auto& clearly, Rows rows, real tolerance,
-                 std::string_view what)
+// Every value against the largest of the column, in all stores that are given.
+void expect_same(std::initializer_list<std::pair<const Store*, const Store*>> fast_and_clear,
+                 auto column, real tolerance, std::string_view what)
 {
     real largest_value = 0;
-    for (Index k = rows.begin; k < rows.end; ++k) {
-        largest_value = std::max(largest_value, length(clearly[at(k)]));
+    for (const auto& [fast, clearly] : fast_and_clear) {
+        for (const auto& value : (*clearly)[column]) {
+            largest_value = std::max(largest_value, length(value));
+        }
     }
     ASSERT_GT(largest_value, 0) << what;
-    for (Index k = rows.begin; k < rows.end; ++k) {
-        ASSERT_LE(length(fast[at(k)] - clearly[at(k)]), tolerance * largest_value)
-            << what << " of row " << k;
+    for (const auto& [fast, clearly] : fast_and_clear) {
+        for (Index k = 0; k < fast->size(); ++k) {
+            ASSERT_LE(length((*fast)[column][k] - (*clearly)[column][k]), tolerance * largest_value)
+                << what << " of row " << k;
+        }
     }
+}
+void expect_same_fluid(const Particles& fast, const Particles& clearly, auto column, real tolerance,
+                       std::string_view what)
+{
+    expect_same({{&fast.fluid, &clearly.fluid}}, column, tolerance, what);
+}
+void expect_same_solids(const Particles& fast, const Particles& clearly, auto column,
+                        real tolerance, std::string_view what)
+{
+    expect_same({{&fast.wall, &clearly.wall}, {&fast.body, &clearly.body}}, column, tolerance,
+                what);
 }
 
 std::vector<real> copy_of(std::span<const real> column)
@@ -68,11 +92,11 @@ void expect_room_for_gaps(const Fluid& fluid, std::span<const real> of_solids,
                            ? sum_beside_plane(fluid.mps_kernel, dp, 3)
                            : sum_beside_plane(fluid.kernel, dp, 3);
     int narrowed = 0;
-    for (Index k = 0; k < fluid.particles.fluid().end; ++k) {
+    for (Index k = 0; k < fluid.particles.fluid.size(); ++k) {
         const real room = f.mass * std::max(real(0), plane - of_solids[at(k)]);
         narrowed += room < before[at(k)] ? 1 : 0;
         // 250 kg/m3 beside a plane, places rounded to half a millionth of a spacing: 1e-4 each.
-        ASSERT_NEAR(fluid.particles[field::gap][at(k)], std::min(room, before[at(k)]), 1e-3) << k;
+        ASSERT_NEAR(fluid.particles.fluid[field::gap][k], std::min(room, before[at(k)]), 1e-3) << k;
     }
     EXPECT_GT(narrowed, 10);
 }
@@ -95,40 +119,41 @@ TEST_P(Loops, EveryStageEqualsItsReference)
     const Particles& p = fluid.particles;
     {
         Particles clearly = p;
-        clear(clearly, p.solid(), WallExtrapolation::Writes{});
+        for_solids(clearly, [](Store& solids) { clear(solids, WallExtrapolation::Writes{}); });
         const WallExtrapolation term{fluid.parameters.eos, fluid.parameters.gravity};
         sweep_clearly(clearly, fluid, n.wall_fluid, term);
         sweep_clearly(clearly, fluid, n.body_fluid, term);
-        for (Index k = p.solid().begin; k < p.solid().end; ++k) {
-            real& pressure = clearly[field::pressure][at(k)];
-            const real weight = clearly[field::shepard_sum][at(k)];
-            pressure = weight > 0 ? positive(pressure / weight) : 0;
-        }
-        expect_same(p[field::pressure], clearly[field::pressure], p.solid(), tolerance(),
-                    "pressure of solids");
+        for_solids(clearly, [](Store& solids) {
+            for (Index k = 0; k < solids.size(); ++k) {
+                real& pressure = solids[field::pressure][k];
+                const real weight = solids[field::shepard_sum][k];
+                pressure = weight > 0 ? positive(pressure / weight) : 0;
+            }
+        });
+        expect_same_solids(p, clearly, field::pressure, tolerance(), "pressure of solids");
     }
     const real dt = 1e-4;
     update_forces(fluid, dt);
     Particles clearly = p;
-    clear(clearly, {0, p.size()}, Fields<Force>{});
+    clear_all(clearly, Fields<Force>{});
     const SolidBackstop stop{dp, fluid.parameters.mass / (2 * dt)};
     Particles shown = p; // to solids
-    clear(shown, {0, p.size()}, Fields<Force>{});
-    for (Index k = 0; k < p.fluid().end; ++k) {
-        real& pressure = shown[field::pressure][at(k)];
-        pressure = p[field::gap][at(k)] > 0 ? 0 : pressure;
+    clear_all(shown, Fields<Force>{});
+    for (Index k = 0; k < p.fluid.size(); ++k) {
+        real& pressure = shown.fluid[field::pressure][k];
+        pressure = p.fluid[field::gap][k] > 0 ? 0 : pressure;
     }
     if (GetParam().formulation == FormulationKind::mps) {
-        clear(clearly, p.fluid(), MpsGradient::Writes{});
+        clear(clearly.fluid, MpsGradient::Writes{});
         sweep_clearly(clearly, fluid, n.fluid_fluid, MpsGradient{});
-        clear(shown, p.fluid(), MpsGradient::Writes{});
+        clear(shown.fluid, MpsGradient::Writes{});
         sweep_clearly(shown, fluid, n.fluid_solid, MpsWallGradient{}, stop);
         for_each(MpsGradient::Writes{}, [&](auto column) {
-            for (Index k = 0; k < p.fluid().end; ++k) {
-                clearly[column][at(k)] += shown[column][at(k)];
+            for (Index k = 0; k < p.fluid.size(); ++k) {
+                clearly.fluid[column][k] += shown.fluid[column][k];
             }
         });
-        add_corrected_pressure(fluid.parameters, clearly);
+        add_corrected_pressure(fluid.parameters, clearly.fluid);
     } else {
         sweep_clearly(clearly, fluid, n.fluid_fluid, PressureForce{});
         sweep_clearly(shown, fluid, n.fluid_solid, WallPressureForce{}, stop);
@@ -136,19 +161,20 @@ TEST_P(Loops, EveryStageEqualsItsReference)
     for (const PairList* list : {&n.wall_fluid, &n.body_fluid}) {
         sweep_clearly(shown, fluid, *list, WallPressureForce{}, stop);
     }
-    for (Index k = 0; k < p.size(); ++k) {
-        clearly[field::force][at(k)] += shown[field::force][at(k)];
+    for (auto store : {&Particles::fluid, &Particles::wall, &Particles::body}) {
+        for (Index k = 0; k < (p.*store).size(); ++k) {
+            (clearly.*store)[field::force][k] += (shown.*store)[field::force][k];
+        }
     }
     sweep_clearly(clearly, fluid, n.body_solid, WallPressureForce{});
     sweep_clearly(clearly, fluid, n.wall_body, WallPressureForce{});
-    expect_same(p[field::force], clearly[field::force], p.fluid(), tolerance(), "force on fluid");
-    expect_same(p[field::force], clearly[field::force], p.solid(), tolerance(), "force on solids");
+    expect_same_fluid(p, clearly, field::force, tolerance(), "force on fluid");
+    expect_same_solids(p, clearly, field::force, tolerance(), "force on solids");
     if (GetParam().diffusion) {
-        clear(clearly, p.fluid(), Fields<DiffusionRate>{});
+        clear(clearly.fluid, Fields<DiffusionRate>{});
         sweep_clearly(clearly, fluid, n.fluid_fluid,
                       std::get<DensityDiffusion>(fluid.effects.diffusion));
-        expect_same(p[field::diffusion_rate], clearly[field::diffusion_rate], p.fluid(),
-                    tolerance(), "diffusion");
+        expect_same_fluid(p, clearly, field::diffusion_rate, tolerance(), "diffusion");
     }
 }
 
@@ -159,29 +185,27 @@ TEST_P(Loops, RatesEqualTheirReference)
     update_neighbours(fluid);
     update_pressure(fluid);
     update_forces(fluid, 1e-4);
-    const std::vector<real> gap = copy_of(fluid.particles[field::gap]);
+    const std::vector<real> gap = copy_of(fluid.particles.fluid[field::gap]);
     update_rates(fluid);
     const Particles& p = fluid.particles;
     Particles clearly = p;
-    clear(clearly, p.fluid(), SolidContinuity::Writes{});
+    clear(clearly.fluid, SolidContinuity::Writes{});
     sweep_clearly(clearly, fluid, n.fluid_solid, SolidContinuity{});
-    expect_room_for_gaps(fluid, clearly[field::shepard_sum], gap);
-    clear(clearly, p.fluid(), Fields<DensityRate>{});
+    expect_room_for_gaps(fluid, clearly.fluid[field::shepard_sum], gap);
+    clear(clearly.fluid, Fields<DensityRate>{});
     sweep_clearly(clearly, fluid, n.fluid_fluid, Continuity{});
     sweep_clearly(clearly, fluid, n.fluid_solid, Continuity{});
-    for (Index k = 0; k < p.fluid().end; ++k) {
-        clearly[field::density_rate][at(k)] *= p[field::density][at(k)];
+    for (Index k = 0; k < p.fluid.size(); ++k) {
+        clearly.fluid[field::density_rate][k] *= p.fluid[field::density][k];
         if (GetParam().diffusion) {
-            clearly[field::density_rate][at(k)] += p[field::diffusion_rate][at(k)];
+            clearly.fluid[field::density_rate][k] += p.fluid[field::diffusion_rate][k];
         }
     }
-    expect_same(p[field::density_rate], clearly[field::density_rate], p.fluid(), tolerance(),
-                "rate of density");
+    expect_same_fluid(p, clearly, field::density_rate, tolerance(), "rate of density");
     if (GetParam().viscosity) {
-        clear(clearly, p.fluid(), Fields<ViscousForce>{});
+        clear(clearly.fluid, Fields<ViscousForce>{});
         sweep_clearly(clearly, fluid, n.fluid_fluid, std::get<Viscosity>(fluid.effects.viscosity));
-        expect_same(p[field::viscous_force], clearly[field::viscous_force], p.fluid(), tolerance(),
-                    "viscous force");
+        expect_same_fluid(p, clearly, field::viscous_force, tolerance(), "viscous force");
     }
 }
 
@@ -198,36 +222,41 @@ Fluid make_rare(const Choice& choice,
     fluid.effects.collision = ParticleCollision{0.5};
     fluid.effects.slip = NoSlip{};
     std::visit([&](const auto& v) { fluid.effects.viscosity = v; }, viscosity);
-    allocate(fluid, before.fluid().size(), before.wall().size(), before.body().size());
-    for_each(Fields<Position, Velocity, Density>{}, [&](auto column) {
-        std::ranges::copy(before[column], fluid.particles[column].begin());
-    });
-    std::ranges::copy(before.owner(), fluid.particles.owner().begin());
-    const Rows solids = fluid.particles.solid();
-    for (Index k = solids.begin; k < solids.end; ++k) {
-        fluid.particles[field::depth][at(k)] = dp * (0.2 + 0.1 * static_cast<real>(k % 13));
+    allocate(fluid, before.fluid.size(), before.wall.size(), before.body.size());
+    for (auto store : {&Particles::fluid, &Particles::wall, &Particles::body}) {
+        for_each(Fields<Position, Velocity, Density>{}, [&](auto column) {
+            std::ranges::copy((before.*store)[column], (fluid.particles.*store)[column].begin());
+        });
+        std::ranges::copy((before.*store).owner(), (fluid.particles.*store).owner().begin());
     }
+    for_solids(fluid.particles, [](Store& solids) {
+        for (Index k = 0; k < solids.size(); ++k) {
+            solids[field::depth][k] = dp * (0.2 + 0.1 * static_cast<real>(k % 13));
+        }
+    });
     return fluid;
 }
 
-// The velocities that solids show to the viscosity, one pair at a time.
-std::vector<Vec3> mirrored_clearly(const Fluid& fluid)
+// The particles with the velocities that solids show to the viscosity, one pair at a time.
+Particles mirrored_clearly(const Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
     Particles clearly = fluid.particles;
-    clear(clearly, clearly.solid(), NoSlip::Writes{});
+    for_solids(clearly, [](Store& solids) { clear(solids, NoSlip::Writes{}); });
     sweep_clearly(clearly, fluid, n.wall_fluid, NoSlip{});
     sweep_clearly(clearly, fluid, n.body_fluid, NoSlip{});
-    std::vector<Vec3> v(clearly[field::velocity].begin(), clearly[field::velocity].end());
-    for (Index k = clearly.solid().begin; k < clearly.size(); ++k) {
-        const real w = clearly[field::shepard_sum][at(k)];
-        if (w > 0) {
-            v[at(k)] = mirrored_velocity(v[at(k)], clearly[field::velocity_sum][at(k)] / w,
-                                         clearly[field::offset_sum][at(k)] / w,
-                                         clearly[field::depth][at(k)], dp);
+    for_solids(clearly, [](Store& solids) {
+        for (Index k = 0; k < solids.size(); ++k) {
+            const real w = solids[field::shepard_sum][k];
+            Vec3& v = solids[field::velocity][k];
+            if (w > 0) {
+                v = mirrored_velocity(v, solids[field::velocity_sum][k] / w,
+                                      solids[field::offset_sum][k] / w, solids[field::depth][k],
+                                      dp);
+            }
         }
-    }
-    return v;
+    });
+    return clearly;
 }
 
 TEST_P(Loops, RareForcesEqualTheirReference)
@@ -240,22 +269,22 @@ TEST_P(Loops, RareForcesEqualTheirReference)
     update_forces(fluid, dt);
     const Particles& p = fluid.particles;
     Particles clearly = p;
-    clear(clearly, p.fluid(), Fields<DiffusionRate>{});
-    clear(clearly, p.fluid(), DensityGradient::Writes{});
+    clear(clearly.fluid, Fields<DiffusionRate>{});
+    clear(clearly.fluid, DensityGradient::Writes{});
     sweep_clearly(clearly, fluid, n.fluid_fluid, DensityGradient{});
-    for (Index k = 0; k < p.fluid().end; ++k) {
-        const Vec3& m = clearly[field::mixed_moments][at(k)];
-        Mat3 M = clearly[field::moments][at(k)].asDiagonal();
+    for (Index k = 0; k < p.fluid.size(); ++k) {
+        const Vec3& m = clearly.fluid[field::mixed_moments][k];
+        Mat3 M = clearly.fluid[field::moments][k].asDiagonal();
         M(1, 2) = M(2, 1) = m[0];
         M(0, 2) = M(2, 0) = m[1];
         M(0, 1) = M(1, 0) = m[2];
-        clearly[field::velocity][at(k)] = M.inverse() * clearly[field::pressure_gradient][at(k)];
+        clearly.fluid[field::velocity][k] =
+            M.inverse() * clearly.fluid[field::pressure_gradient][k];
     }
     sweep_clearly(clearly, fluid, n.fluid_fluid,
                   std::get<RenormalisedDiffusion>(fluid.effects.diffusion));
     // The gradient takes some digits: its matrix is inverted.
-    expect_same(p[field::diffusion_rate], clearly[field::diffusion_rate], p.fluid(),
-                5 * tolerance(), "renormalised diffusion");
+    expect_same_fluid(p, clearly, field::diffusion_rate, 5 * tolerance(), "renormalised diffusion");
 }
 
 TEST_P(Loops, CollisionsAreTheBackstopOfTheFluid)
@@ -274,9 +303,9 @@ TEST_P(Loops, CollisionsAreTheBackstopOfTheFluid)
     if (with.parameters.formulation == FormulationKind::sph) {
         sweep_clearly(clearly, with, with.neighbours.fluid_fluid,
                       SolidBackstop{dp, 1.5 * with.parameters.mass / (2 * dt)});
-        expect_same(p[field::force], clearly[field::force], p.fluid(), tolerance(), "collisions");
+        expect_same_fluid(p, clearly, field::force, tolerance(), "collisions");
     }
-    EXPECT_GT((p[field::force][7] - without.particles[field::force][7]).norm(), 0);
+    EXPECT_GT((p.fluid[field::force][7] - without.particles.fluid[field::force][7]).norm(), 0);
 }
 
 TEST_P(Loops, FrictionAndEddiesEqualTheirReference)
@@ -292,10 +321,8 @@ TEST_P(Loops, FrictionAndEddiesEqualTheirReference)
         update_forces(fluid, 1e-4);
         update_rates(fluid);
         const Particles& p = fluid.particles;
-        Particles clearly = p;
-        const std::vector<Vec3> mirrored = mirrored_clearly(fluid);
-        std::ranges::copy(mirrored, clearly[field::velocity].begin());
-        clear(clearly, {0, p.size()}, Fields<ViscousForce>{});
+        Particles clearly = mirrored_clearly(fluid);
+        clear_all(clearly, Fields<ViscousForce>{});
         const auto rub = [&](const auto& term) {
             sweep_clearly(clearly, fluid, n.fluid_fluid, term);
             for (const PairList* list : {&n.fluid_solid, &n.wall_fluid, &n.body_fluid}) {
@@ -303,30 +330,30 @@ TEST_P(Loops, FrictionAndEddiesEqualTheirReference)
             }
         };
         if (const auto* term = std::get_if<EddyViscosity>(&viscosity)) {
-            clear(clearly, p.fluid(), StrainRate::Writes{});
+            clear(clearly.fluid, StrainRate::Writes{});
             sweep_clearly(clearly, fluid, n.fluid_fluid, StrainRate{});
             sweep_clearly(clearly, fluid, n.fluid_solid, StrainRate{});
-            expect_same(p[field::strain], clearly[field::strain], p.fluid(), tolerance(), "strain");
-            expect_same(p[field::mixed_strain], clearly[field::mixed_strain], p.fluid(),
-                        tolerance(), "mixed strain");
-            for (Index k = 0; k < p.size(); ++k) {
-                clearly[field::pressure][at(k)] =
-                    k < p.fluid().end
-                        ? eddy_viscosity(clearly[field::strain][at(k)],
-                                         clearly[field::mixed_strain][at(k)], term->length)
-                        : 0;
+            expect_same_fluid(p, clearly, field::strain, tolerance(), "strain");
+            expect_same_fluid(p, clearly, field::mixed_strain, tolerance(), "mixed strain");
+            for (Index k = 0; k < p.fluid.size(); ++k) {
+                clearly.fluid[field::pressure][k] =
+                    eddy_viscosity(clearly.fluid[field::strain][k],
+                                   clearly.fluid[field::mixed_strain][k], term->length);
             }
+            for_solids(clearly, [](Store& solids) { clear(solids, Fields<Pressure>{}); });
         }
         std::visit(rub, viscosity);
-        expect_same(p[field::viscous_force], clearly[field::viscous_force], p.fluid(),
-                    2 * tolerance(), "viscous force on fluid");
-        expect_same(p[field::viscous_force], clearly[field::viscous_force], p.solid(),
-                    2 * tolerance(), "viscous force on solids");
+        expect_same_fluid(p, clearly, field::viscous_force, 2 * tolerance(),
+                          "viscous force on fluid");
+        expect_same_solids(p, clearly, field::viscous_force, 2 * tolerance(),
+                           "viscous force on solids");
         Vec3 sum(0, 0, 0);
         real scale = 0;
-        for (const Vec3& force : p[field::viscous_force]) {
-            sum += force;
-            scale += force.norm();
+        for (const Store* store : {&p.fluid, &p.wall, &p.body}) {
+            for (const Vec3& force : (*store)[field::viscous_force]) {
+                sum += force;
+                scale += force.norm();
+            }
         }
         EXPECT_LT(sum.norm(), tolerance() * scale); // action and reaction
     }
@@ -373,18 +400,19 @@ TEST(Loops, TwoParticlesFeelOppositeForces)
             Fluid fluid = make_mixture({precision, widest_instruction_set(), true, true});
             allocate(fluid, 2, 0, 0);
             const Vec3 place(0.11 * k, -0.05 * k, 0.3 + 0.017 * k);
-            fluid.particles[field::position][0] = place;
-            fluid.particles[field::position][1] = place + dp * Vec3(0.9, 0.4, -0.3 - 0.01 * k);
-            fluid.particles[field::velocity][0] = {0.3, 0.1, 0.2 - 0.013 * k};
-            fluid.particles[field::velocity][1] = {-0.2, 0.3, 0.1};
-            fluid.particles[field::density][0] = 1003.1;
-            fluid.particles[field::density][1] = 1001.7 + 0.1 * k;
+            fluid.particles.fluid[field::position][0] = place;
+            fluid.particles.fluid[field::position][1] =
+                place + dp * Vec3(0.9, 0.4, -0.3 - 0.01 * k);
+            fluid.particles.fluid[field::velocity][0] = {0.3, 0.1, 0.2 - 0.013 * k};
+            fluid.particles.fluid[field::velocity][1] = {-0.2, 0.3, 0.1};
+            fluid.particles.fluid[field::density][0] = 1003.1;
+            fluid.particles.fluid[field::density][1] = 1001.7 + 0.1 * k;
             update_neighbours(fluid);
             update_pressure(fluid);
             update_forces(fluid, 1e-4);
             update_rates(fluid);
-            const auto F = fluid.particles[field::force];
-            const auto G = fluid.particles[field::viscous_force];
+            const auto F = fluid.particles.fluid[field::force];
+            const auto G = fluid.particles.fluid[field::viscous_force];
             ASSERT_GT(F[0].norm(), 0);
             ASSERT_GT(G[0].norm(), 0);
             ASSERT_EQ(F[0], Vec3(-F[1])) << k;

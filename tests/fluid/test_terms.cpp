@@ -218,30 +218,30 @@ TEST(Effects, AnAbsentEffectHasNoColumn)
 {
     Fluid bare;
     allocate(bare, 4, 0, 0);
-    EXPECT_FALSE(bare.particles.has(field::viscous_force));
-    EXPECT_FALSE(bare.particles.has(field::diffusion_rate));
-    EXPECT_FALSE(bare.particles.has(field::shepard_sum)); // no solids
-    EXPECT_FALSE(bare.particles.has(field::strain));
-    EXPECT_FALSE(bare.particles.has(field::moments));
-    EXPECT_FALSE(bare.particles.has(field::depth));
+    EXPECT_FALSE(bare.particles.fluid.has(field::viscous_force));
+    EXPECT_FALSE(bare.particles.fluid.has(field::diffusion_rate));
+    EXPECT_FALSE(bare.particles.fluid.has(field::shepard_sum)); // no solids
+    EXPECT_FALSE(bare.particles.fluid.has(field::strain));
+    EXPECT_FALSE(bare.particles.fluid.has(field::moments));
+    EXPECT_FALSE(bare.particles.fluid.has(field::depth));
     Fluid full;
     full.effects.diffusion = DensityDiffusion{};
     full.effects.viscosity = Viscosity{};
     allocate(full, 4, 2, 0);
-    EXPECT_TRUE(full.particles.has(field::viscous_force));
-    EXPECT_TRUE(full.particles.has(field::diffusion_rate));
-    EXPECT_TRUE(full.particles.has(field::shepard_sum));
-    EXPECT_FALSE(full.particles.has(field::strain));
-    EXPECT_FALSE(full.particles.has(field::velocity_sum));
+    EXPECT_TRUE(full.particles.fluid.has(field::viscous_force));
+    EXPECT_TRUE(full.particles.fluid.has(field::diffusion_rate));
+    EXPECT_TRUE(full.particles.fluid.has(field::shepard_sum));
+    EXPECT_FALSE(full.particles.fluid.has(field::strain));
+    EXPECT_FALSE(full.particles.wall.has(field::velocity_sum));
     Fluid rare;
     rare.effects.diffusion = RenormalisedDiffusion{};
     rare.effects.viscosity = EddyViscosity{};
     rare.effects.slip = NoSlip{};
     allocate(rare, 4, 2, 0);
-    EXPECT_TRUE(rare.particles.has(field::moments));
-    EXPECT_TRUE(rare.particles.has(field::strain));
-    EXPECT_TRUE(rare.particles.has(field::velocity_sum));
-    EXPECT_TRUE(rare.particles.has(field::depth));
+    EXPECT_TRUE(rare.particles.fluid.has(field::moments));
+    EXPECT_TRUE(rare.particles.fluid.has(field::strain));
+    EXPECT_TRUE(rare.particles.wall.has(field::velocity_sum));
+    EXPECT_TRUE(rare.particles.wall.has(field::depth));
 }
 
 } // namespace

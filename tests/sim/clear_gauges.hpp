@@ -33,42 +33,43 @@ inline Vec3 way(const Fluid& fluid, const Vec3& from, const Vec3& to)
 
 // Particles about a vertical line.
 struct Column {
-    std::vector<Index> fluid, solid;
-    double top = -infinity; // of the fluid [m]
+    std::vector<Index> fluid, wall, body; // rows of each store
+    double top = -infinity;               // of the fluid [m]
     double bottom = infinity;
 };
 
 inline Column column_about(const Fluid& fluid, const Vec3& place)
 {
-    const auto x = fluid.particles[field::position];
-    const Index fluid_rows = fluid.particles.fluid().end;
-    Column column;
-    for (Index j = 0; j < fluid.particles.size(); ++j) {
-        const Vec3 r = way(fluid, x[at(j)], place);
-        if (std::hypot(r.x(), r.y()) >= fluid.kernel.support) {
-            continue;
+    const auto rows_about = [&](const Store& store) {
+        std::vector<Index> rows;
+        for (Index j = 0; j < store.size(); ++j) {
+            const Vec3 r = way(fluid, store[field::position][j], place);
+            if (std::hypot(r.x(), r.y()) < fluid.kernel.support) {
+                rows.push_back(j);
+            }
         }
-        if (j >= fluid_rows) {
-            column.solid.push_back(j);
-            continue;
-        }
-        column.fluid.push_back(j);
-        column.top = std::max(column.top, x[at(j)].z());
-        column.bottom = std::min(column.bottom, x[at(j)].z());
+        return rows;
+    };
+    Column column{rows_about(fluid.particles.fluid), rows_about(fluid.particles.wall),
+                  rows_about(fluid.particles.body)};
+    const auto x = fluid.particles.fluid[field::position];
+    for (const Index j : column.fluid) {
+        column.top = std::max(column.top, x[j].z());
+        column.bottom = std::min(column.bottom, x[j].z());
     }
     return column;
 }
 
 // Part of space about a point that particles fill: sum V W.
-inline double filled(const Fluid& fluid, const std::vector<Index>& near, const Vec3& point)
+inline double filled(const Fluid& fluid, const Store& store, const std::vector<Index>& near,
+                     const Vec3& point, double others = 0)
 {
-    const auto x = fluid.particles[field::position];
-    const auto V = fluid.particles[field::volume];
-    double sum_ = 0;
+    const auto x = store[field::position];
+    const auto V = store[field::volume];
     for (const Index j : near) {
-        sum_ += V[at(j)] * pair_at(fluid, way(fluid, x[at(j)], point)).w;
+        others += V[j] * pair_at(fluid, way(fluid, x[j], point)).w;
     }
-    return sum_;
+    return others;
 }
 
 // Highest place of the vertical through (x, y) where fluid fills half of what solids leave, from
@@ -82,8 +83,11 @@ inline double elevation(const Fluid& fluid, const Vec3& place)
     for (double z = column.top + fluid.kernel.support; z > column.bottom - fluid.kernel.support;
          z -= step) {
         const Vec3 point{place.x(), place.y(), z};
-        const double open = 1 - filled(fluid, column.solid, point);
-        const double here = open > least_open ? filled(fluid, column.fluid, point) / open : 0;
+        const Particles& p = fluid.particles;
+        const double by_walls = filled(fluid, p.wall, column.wall, point);
+        const double open = 1 - filled(fluid, p.body, column.body, point, by_walls);
+        const double here =
+            open > least_open ? filled(fluid, p.fluid, column.fluid, point) / open : 0;
         if (here >= 0.5) {
             return z + step * (here - 0.5) / (here - above);
         }
@@ -96,9 +100,9 @@ inline double elevation(const Fluid& fluid, const Vec3& place)
 template <class T, class F>
 T average(const Fluid& fluid, const Vec3& place, const T& zero, const T& dry, const F& value)
 {
-    const auto x = fluid.particles[field::position];
-    const auto V = fluid.particles[field::volume];
-    const Rows rows = fluid.particles.fluid();
+    const auto x = fluid.particles.fluid[field::position];
+    const auto V = fluid.particles.fluid[field::volume];
+    const Rows rows = fluid.particles.fluid.rows();
     T weighted = zero;
     double weight = 0;
     for (Index j = rows.begin; j < rows.end; ++j) {
@@ -114,8 +118,8 @@ T average(const Fluid& fluid, const Vec3& place, const T& zero, const T& dry, co
 
 inline double front(const Fluid& fluid, int axis)
 {
-    const auto x = fluid.particles[field::position];
-    const Rows rows = fluid.particles.fluid();
+    const auto x = fluid.particles.fluid[field::position];
+    const Rows rows = fluid.particles.fluid.rows();
     return largest(rows.begin, rows.end, -infinity, [&](Index i) { return x[at(i)][axis]; }) +
            fluid.parameters.spacing / 2;
 }
@@ -147,9 +151,9 @@ inline std::vector<Vec3> face_points(const Gauge& gauge, const Fluid& fluid)
 
 inline double pressure(const Fluid& fluid, const Gauge& gauge)
 {
-    const auto x = fluid.particles[field::position];
-    const auto p = fluid.particles[field::pressure];
-    const auto rho = fluid.particles[field::density];
+    const auto x = fluid.particles.fluid[field::position];
+    const auto p = fluid.particles.fluid[field::pressure];
+    const auto rho = fluid.particles.fluid[field::density];
     const Vec3& g = fluid.parameters.gravity;
     double total = 0;
     const std::vector<Vec3> points = face_points(gauge, fluid);
@@ -163,10 +167,10 @@ inline double pressure(const Fluid& fluid, const Gauge& gauge)
 
 inline double flux(const Fluid& fluid, const Gauge& gauge)
 {
-    const auto x = fluid.particles[field::position];
-    const auto v = fluid.particles[field::velocity];
-    const auto V = fluid.particles[field::volume];
-    const Rows rows = fluid.particles.fluid();
+    const auto x = fluid.particles.fluid[field::position];
+    const auto v = fluid.particles.fluid[field::velocity];
+    const auto V = fluid.particles.fluid[field::volume];
+    const Rows rows = fluid.particles.fluid.rows();
     const double reach = 2 * fluid.parameters.spacing;
     return sum(rows.begin, rows.end, 0.0, [&](Index i) {
         const double distance = std::abs(gauge.normal.dot(x[at(i)] - gauge.at));
@@ -177,7 +181,7 @@ inline double flux(const Fluid& fluid, const Gauge& gauge)
 
 inline std::vector<double> read_fluid(const Fluid& fluid, const Gauge& gauge)
 {
-    const auto v = fluid.particles[field::velocity];
+    const auto v = fluid.particles.fluid[field::velocity];
     switch (gauge.type) {
     case GaugeType::elevation:
         return {elevation(fluid, gauge.at)};
@@ -203,11 +207,10 @@ inline std::vector<double> read_fluid(const Fluid& fluid, const Gauge& gauge)
 inline Vec3 viscous_force(const Fluid& fluid, int target)
 {
     Vec3 total = Vec3::Zero();
-    const Particles& particles = fluid.particles;
-    const Rows rows = target >= 0 ? particles.body() : particles.wall();
-    for (Index k = rows.begin; k < rows.end; ++k) {
-        if (particles.owner()[at(k)] == target) {
-            total += particles[field::viscous_force][at(k)];
+    const Store& store = target >= 0 ? fluid.particles.body : fluid.particles.wall;
+    for (Index k = 0; k < store.size(); ++k) {
+        if (store.owner()[k] == target) {
+            total += store[field::viscous_force][k];
         }
     }
     return total;

@@ -114,16 +114,16 @@ TEST_P(HydrostaticTank, StaysStill)
     const auto& [precision, fastest_allowed] = GetParam();
     Simulation sim =
         open_case("hydrostatic_tank", {std::string("particles.precision=\"") + precision + '"'});
-    const std::size_t particles = sim.fluid->particles.id().size();
+    const Index particles = sim.fluid->particles.size();
     const double H = 1.0;
     const double top = std::sqrt(9.81 * H);
     double fastest = 0;
     run(sim, [&] { fastest = std::max(fastest, top_speed(*sim.fluid)); });
 
-    const Particles& p = sim.fluid->particles;
+    const Store& p = sim.fluid->particles.fluid;
     double error = 0;
     double count = 0;
-    for (Index i = 0; i < p.fluid().end; ++i) {
+    for (Index i = 0; i < p.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
         const double depth = H - p[field::position][k].z();
         if (depth > 0.1) { // away from the surface

@@ -40,7 +40,7 @@ struct Deviation {
 // Particles by their numbers: the search for neighbours sorts the rows.
 std::vector<Vec3> places(const Simulation& sim)
 {
-    const Particles& particles = sim.fluid->particles;
+    const Store& particles = sim.fluid->particles.fluid;
     std::vector<Vec3> x(particles.id().size());
     for (std::size_t row = 0; row < x.size(); ++row) {
         x[static_cast<std::size_t>(particles.id()[row])] = particles[field::position][row];
@@ -55,11 +55,11 @@ Deviation deviation(const Simulation& sim, const std::vector<Vec3>& start, doubl
     for (std::size_t k = 0; k < now.size(); ++k) {
         worst.place = std::max(worst.place, (now[k] - (1 + 0.2 * flight) * start[k]).norm());
     }
-    for (const real p : sim.fluid->particles[field::pressure]) {
+    for (const real p : sim.fluid->particles.fluid[field::pressure]) {
         worst.pressure = std::max(worst.pressure, std::abs(p));
     }
-    if (sim.fluid->particles.has(field::cavity)) {
-        for (const real c : sim.fluid->particles[field::cavity]) {
+    if (sim.fluid->particles.fluid.has(field::cavity)) {
+        for (const real c : sim.fluid->particles.fluid[field::cavity]) {
             worst.cavity = std::max(worst.cavity, c / 1000);
         }
     }
@@ -87,7 +87,7 @@ TEST(Cavitation, VoidsCloseBeforeTheWaterIsCompressed)
     Simulation sim = make(square, {"fluid.cavitation.model=void"});
     const std::vector<Vec3> start = places(sim);
     advance(sim, 200);
-    for (Vec3& v : sim.fluid->particles[field::velocity]) {
+    for (Vec3& v : sim.fluid->particles.fluid[field::velocity]) {
         v = -v;
     }
     update_rates(*sim.fluid);
@@ -121,7 +121,7 @@ TEST(Cavitation, OpensAtThePressureOfTheVoid)
 {
     Simulation sim = make(square, {"fluid.cavitation.model=void", "fluid.cavitation.pressure=-50"});
     advance(sim, 100);
-    const auto p = sim.fluid->particles[field::pressure];
+    const auto p = sim.fluid->particles.fluid[field::pressure];
     EXPECT_NEAR(*std::min_element(p.begin(), p.end()), -50, 1e-9);
 }
 

@@ -168,7 +168,7 @@ TEST(Cost, DevelopmentIsLeftWhereItTakesTooLongOrGoesWrong)
         measure_development(sim, again, 5, [n = 0]() mutable { return ++n < 3; }).has_value());
     EXPECT_EQ(sim.clock.step, 3);
     Simulation wrong = make(tank);
-    wrong.fluid->particles[field::velocity][0].x() = std::numeric_limits<real>::quiet_NaN();
+    wrong.fluid->particles.fluid[field::velocity][0].x() = std::numeric_limits<real>::quiet_NaN();
     EXPECT_FALSE(measure_development(wrong, again, 5, [] { return true; }).has_value());
     Simulation short_run = make(tank);
     EXPECT_FALSE(measure_development(short_run, again, 1'000'000, [] { return true; }).has_value());

@@ -49,10 +49,8 @@ double energy(const Simulation& sim)
 
 double nearest(const Simulation& sim)
 {
-    const Particles& particles = sim.fluid->particles;
     double x = infinity;
-    for (const Vec3& at :
-         particles[field::position].first(static_cast<std::size_t>(particles.fluid().size()))) {
+    for (const Vec3& at : sim.fluid->particles.fluid[field::position]) {
         x = std::min(x, at.x());
     }
     return x;
@@ -60,9 +58,7 @@ double nearest(const Simulation& sim)
 
 void turn_back(Simulation& sim)
 {
-    Particles& particles = sim.fluid->particles;
-    for (Vec3& v :
-         particles[field::velocity].first(static_cast<std::size_t>(particles.fluid().size()))) {
+    for (Vec3& v : sim.fluid->particles.fluid[field::velocity]) {
         v = -v;
     }
     update_rates(*sim.fluid);

@@ -43,19 +43,17 @@ TEST(Paddle, ParticlesStandOnThePathAtEveryStep)
     Vec3 pushed = Vec3::Zero();
     for (int k = 0; k < 40; ++k) {
         step_on(sim);
-        const Particles& particles = sim.fluid->particles;
-        const Rows rows = particles.wall();
+        const Store& walls = sim.fluid->particles.wall;
         const Motion& motion = sim.scene.walls[1].motion;
-        for (Index i = rows.begin; i < rows.end; ++i) {
-            const auto row = static_cast<std::size_t>(i);
-            const bool paddle = particles.owner()[row] == -2;
-            const Vec3 moved =
-                particles[field::position][row] - start[static_cast<std::size_t>(i - rows.begin)];
+        ASSERT_EQ(start.size(), walls.owner().size());
+        for (std::size_t row = 0; row < start.size(); ++row) {
+            const bool paddle = walls.owner()[row] == -2;
+            const Vec3 moved = walls[field::position][row] - start[row];
             // the place is the sum of the start and the displacement, in one rounding
             EXPECT_LE(
                 (moved - (paddle ? displacement(motion, sim.clock.time) : Vec3::Zero())).norm(),
                 1e-15);
-            EXPECT_EQ(particles[field::velocity][row],
+            EXPECT_EQ(walls[field::velocity][row],
                       paddle ? velocity(motion, sim.clock.time) : Vec3::Zero());
         }
         pushed = totals(sim).momentum;

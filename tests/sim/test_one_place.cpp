@@ -33,20 +33,20 @@ open = ["+z"]
 
 std::size_t row_of(const Simulation& sim, std::int64_t id)
 {
-    const auto ids = sim.fluid->particles.id();
+    const auto ids = sim.fluid->particles.fluid.id();
     return static_cast<std::size_t>(std::ranges::find(ids, id) - ids.begin());
 }
 
 Vec3 place_of(const Simulation& sim, std::int64_t id)
 {
-    return sim.fluid->particles[field::position][row_of(sim, id)];
+    return sim.fluid->particles.fluid[field::position][row_of(sim, id)];
 }
 
 // Two particles of still water, of which the second is put where the first is.
 Simulation doubled(const char* formulation, std::int64_t one, std::int64_t other)
 {
     Simulation sim = make(tank, {fmt::format("fluid.formulation={}", formulation)});
-    sim.fluid->particles[field::position][row_of(sim, other)] = place_of(sim, one);
+    sim.fluid->particles.fluid[field::position][row_of(sim, other)] = place_of(sim, one);
     return sim;
 }
 
@@ -60,7 +60,7 @@ TEST(OnePlace, TwoParticlesPart)
             EXPECT_GE(apart, 0.01) << formulation << ' ' << one << ": half a spacing";
             EXPECT_EQ(sim.fluid->lost.count, 0);
             double fastest = 0;
-            for (const Vec3& v : sim.fluid->particles[field::velocity]) {
+            for (const Vec3& v : sim.fluid->particles.fluid[field::velocity]) {
                 fastest = std::max(fastest, v.norm());
             }
             EXPECT_LE(fastest, 0.5) << formulation << ' ' << one; // a spacing falls at 0.6 m/s
@@ -73,7 +73,7 @@ TEST(OnePlace, SeveralPartTheSameWayInEveryRun)
     const auto snapshot_of_three = [](int threads) {
         set_threads(threads);
         Simulation sim = doubled("sph", 150, 151);
-        sim.fluid->particles[field::position][row_of(sim, 40)] = place_of(sim, 150);
+        sim.fluid->particles.fluid[field::position][row_of(sim, 40)] = place_of(sim, 150);
         advance(sim, 200);
         EXPECT_GT((place_of(sim, 150) - place_of(sim, 151)).norm(), 1e-3);
         EXPECT_GT((place_of(sim, 150) - place_of(sim, 40)).norm(), 1e-3);

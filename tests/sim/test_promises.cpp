@@ -143,27 +143,33 @@ TEST(Promises, EveryPairWithinTheSupportIsListedAtEveryStep)
         advance(sim, 12);
         update_neighbours(*sim.fluid); // as a step does in its middle
         const FluidNeighbours& n = sim.fluid->neighbours;
-        const auto x = sim.fluid->particles[field::position];
-        const auto row = [&](Index slot) {
-            for (const Tiles* tiles : {&n.fluid, &n.wall, &n.body}) {
-                if (slot < tiles->first_slot + tiles->count()) {
-                    return static_cast<std::size_t>(
-                        tiles->row[static_cast<std::size_t>(slot - tiles->first_slot)]);
-                }
+        const Particles& particles = sim.fluid->particles;
+        std::vector<Vec3> by_slot;
+        std::vector<Vec3> all; // fluid first
+        const auto add = [&](const Store& store, const Tiles& tiles) {
+            const auto x = store[field::position];
+            all.insert(all.end(), x.begin(), x.end());
+            for (const std::int32_t row : tiles.row) {
+                by_slot.push_back(x[row]);
             }
-            return std::size_t(0);
         };
-        const auto near = [&](std::size_t i, std::size_t j) {
-            return (x[i] - x[j]).norm() < sim.fluid->kernel.support;
+        add(particles.fluid, n.fluid);
+        add(particles.wall, n.wall);
+        add(particles.body, n.body);
+        ASSERT_EQ(by_slot.size(), all.size());
+        const auto near = [&](const Vec3& a, const Vec3& b) {
+            return (a - b).norm() < sim.fluid->kernel.support;
         };
+        const auto place = [&](Index slot) { return by_slot[static_cast<std::size_t>(slot)]; };
         Index listed = 0;
         for (const PairList* list : {&n.fluid_fluid, &n.fluid_solid}) {
-            list->for_each_pair([&](Index i, Index j) { listed += near(row(i), row(j)) ? 1 : 0; });
+            list->for_each_pair(
+                [&](Index i, Index j) { listed += near(place(i), place(j)) ? 1 : 0; });
         }
         Index pairs = 0;
-        for (Index i = 0; i < sim.fluid->particles.fluid().end; ++i) {
-            for (std::size_t j = 0; j < x.size(); ++j) {
-                pairs += near(static_cast<std::size_t>(i), j) ? 1 : 0;
+        for (const Vec3& a : particles.fluid[field::position]) {
+            for (const Vec3& b : all) {
+                pairs += near(a, b) ? 1 : 0;
             }
         }
         ASSERT_EQ(listed, pairs) << "after step " << sim.clock.step;
@@ -220,10 +226,10 @@ TEST(Promises, AnAbsentEffectHasNoField)
         flood, "test.toml", {"fluid.viscosity.model=none", "fluid.density_diffusion.model=none"});
     const Filling filling = fill(plain);
     Simulation without = make_simulation(plain, make_plan(plain, filling), filling);
-    EXPECT_TRUE(with.fluid->particles.has(field::viscous_force));
-    EXPECT_TRUE(with.fluid->particles.has(field::diffusion_rate));
-    EXPECT_FALSE(without.fluid->particles.has(field::viscous_force));
-    EXPECT_FALSE(without.fluid->particles.has(field::diffusion_rate));
+    EXPECT_TRUE(with.fluid->particles.fluid.has(field::viscous_force));
+    EXPECT_TRUE(with.fluid->particles.fluid.has(field::diffusion_rate));
+    EXPECT_FALSE(without.fluid->particles.fluid.has(field::viscous_force));
+    EXPECT_FALSE(without.fluid->particles.fluid.has(field::diffusion_rate));
     EXPECT_LT(without.plan.fields.size(), with.plan.fields.size());
     EXPECT_FALSE(without.plan.runs("artificial_viscosity"));
     advance(without, 20); // and runs without them

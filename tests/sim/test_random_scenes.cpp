@@ -109,8 +109,8 @@ double deepest_overlap(const Simulation& sim)
 Index escaped(const Simulation& sim)
 {
     constexpr double graze = 0.5 * spacing; // a particle is half a spacing wide
-    const Rows rows = sim.fluid->particles.fluid();
-    const auto x = sim.fluid->particles[field::position];
+    const Rows rows = sim.fluid->particles.fluid.rows();
+    const auto x = sim.fluid->particles.fluid[field::position];
     Index count = 0;
     for (Index i = rows.begin; i < rows.end; ++i) {
         const Vec3& p = x[static_cast<std::size_t>(i)];

@@ -109,8 +109,10 @@ TEST(RareEffects, MomentumCloses)
     }
     EXPECT_LE(sim.ledger.worst_closure, 2e-7); // of sums in single precision
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    for (const Vec3& x : sim.fluid->particles[field::position]) {
-        ASSERT_LT(std::abs(x.x() - 0.4), 0.7); // particles of the lid stay about the period
+    for (const Store* store : {&sim.fluid->particles.fluid, &sim.fluid->particles.wall}) {
+        for (const Vec3& x : (*store)[field::position]) {
+            ASSERT_LT(std::abs(x.x() - 0.4), 0.7); // particles of the lid stay about the period
+        }
     }
     Simulation wet = make(basin);
     advance(wet, 200);
@@ -160,10 +162,12 @@ TEST(RareEffects, AreAbsentUnlessAskedFor)
     for (const char* effect : effects) {
         EXPECT_FALSE(without.plan.runs(effect)) << effect;
     }
-    const Particles& p = without.fluid->particles;
-    EXPECT_FALSE(p.has(field::velocity_sum) || p.has(field::depth) || p.has(field::strain) ||
-                 p.has(field::turbulent_viscosity) || p.has(field::moments) ||
-                 p.has(field::cavity));
+    const Particles& particles = without.fluid->particles;
+    for (const Store* p : {&particles.fluid, &particles.wall, &particles.body}) {
+        EXPECT_FALSE(p->has(field::velocity_sum) || p->has(field::depth) || p->has(field::strain) ||
+                     p->has(field::turbulent_viscosity) || p->has(field::moments) ||
+                     p->has(field::cavity));
+    }
 }
 
 TEST(RareEffects, EddiesOfNoLengthGiveTheBitsOfLaminarFlow)

@@ -48,10 +48,10 @@ public:
     explicit Crossings(const Plate& plate) : plate_(plate) {}
     Index look(const Simulation& sim)
     {
-        const Particles& particles = sim.fluid->particles;
+        const Store& particles = sim.fluid->particles.fluid;
         Index crossed = 0;
         std::map<std::int64_t, double> now;
-        for (Index i = 0; i < particles.fluid().size(); ++i) {
+        for (Index i = 0; i < particles.size(); ++i) {
             const Vec3& x = particles[field::position][static_cast<std::size_t>(i)];
             const std::int64_t id = particles.id()[static_cast<std::size_t>(i)];
             if (std::abs(plate_.along(x, sim.clock.time)) < plate_.half - spacing) {
@@ -185,7 +185,7 @@ TEST(WallBarrier, GivesTheImpulseThatTheSolidFeels)
     Simulation sim = make(jet(2, 0, 0.5, false) +
                           "[[body]]\nname = \"it\"\nshape = \"box\"\nsize = [0.4, 1, 0.4]\n"
                           "density = 500.0\nposition = [0.2, 0, 0]\nvelocity = [-1, 0, 0]\n");
-    Particles& particles = sim.fluid->particles;
+    Store& particles = sim.fluid->particles.fluid;
     const double dt = 1e-4;
     const double m = sim.fluid->parameters.mass;
     const auto x = particles[field::position];
@@ -222,7 +222,7 @@ TEST(WallBarrier, DoesNotPressSolidsApart)
                                 side * (0.2 + gap * spacing / 2));
         }
         Simulation sim = make(text);
-        Particles& particles = sim.fluid->particles;
+        Store& particles = sim.fluid->particles.fluid;
         const auto x = particles[field::position];
         const auto v = particles[field::velocity];
         x[0] = {0.5, 0, 0.02 * spacing};
@@ -266,7 +266,7 @@ shape = "box"
 min = [0, 0, -0.6]
 max = [0.1, 0, 0.6]
 )");
-    Particles& particles = sim.fluid->particles;
+    Store& particles = sim.fluid->particles.fluid;
     const auto x = particles[field::position];
     const auto v = particles[field::velocity];
     x[0] = {1.2 - 0.1 * spacing, 0, 0.1};
@@ -288,7 +288,7 @@ Simulation particles_before_plate()
                               "[[body]]\nname = \"it\"\nshape = \"sphere\"\nradius = 0.1\n"
                               "density = 300.0\nposition = [-0.56, 0, 0]\nvelocity = [9, 0, 0]\n",
                           {"particles.spacing=0.01"});
-    const auto x = sim.fluid->particles[field::position];
+    const auto x = sim.fluid->particles.fluid[field::position];
     for (std::size_t k = 0; k < 200; ++k) {
         x[k] = {-0.0032 - 1e-5 * static_cast<double>(k % 40), 0, -0.45 + 0.0045 * double(k)};
     }

@@ -82,10 +82,10 @@ TEST(Watch, NamesTheParticleAndWhatLiesAroundIt)
 {
     Simulation sim = make(tank);
     advance(sim, 1);
-    Particles& particles = sim.fluid->particles;
+    Store& particles = sim.fluid->particles.fluid;
     const auto x = particles[field::position];
     std::size_t corner = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(particles.fluid().size()); ++k) {
+    for (std::size_t k = 0; k < x.size(); ++k) {
         corner = x[k].x() + x[k].z() < x[corner].x() + x[corner].z() ? k : corner;
     }
     particles[field::velocity][corner] = {1e6, 0, 0};
@@ -100,7 +100,7 @@ TEST(Watch, ANumberThatIsNoneIsFoundWhereverItIs)
     const double none = std::numeric_limits<double>::quiet_NaN();
     Simulation sim = make(tank);
     advance(sim, 1);
-    sim.fluid->particles[field::density][7] = none;
+    sim.fluid->particles.fluid[field::density][7] = none;
     expect_words(said([&] { watch(sim); }), {"fluid particle", "density nan"});
     sim = make(tank);
     sim.rigid.bodies[0].angular_momentum.x() = none;
@@ -197,7 +197,7 @@ TEST(Watch, E5NamesTheRightCause)
     for (const Cause& cause : causes) {
         Simulation sim = make(tank, cause.set);
         advance(sim, 1);
-        sim.fluid->particles[field::velocity][0] = {1e6, 0, 0};
+        sim.fluid->particles.fluid[field::velocity][0] = {1e6, 0, 0};
         const std::string text = said([&] { watch(sim); });
         for (const Cause& other : causes) {
             EXPECT_EQ(text.find(other.words) != std::string::npos, &other == &cause)

@@ -14,10 +14,17 @@
 
 namespace hyoryu {
 
-/// Name and unit of a field as they stand in output files and plans.
+/// The kinds of particles that have a field.
+enum class Holders { all, fluid, solids };
+
+/// A field as it stands in output files, plans and checkpoints.
 struct FieldInfo {
     std::string_view name;
     std::string_view unit;
+    Holders holders = Holders::all;
+    /// Whether the value at the start of a step is part of the state of the fluid, which a
+    /// checkpoint keeps; every other field is computed anew before it is read.
+    bool state = false;
 };
 
 template <class F>
@@ -34,46 +41,46 @@ template <Field F>
 inline constexpr int width = std::is_same_v<typename F::type, Vec3> ? 3 : 1;
 
 // clang-format off
-struct Position        { using type = Vec3; static constexpr FieldInfo info{"Position", "m"}; };
-struct Velocity        { using type = Vec3; static constexpr FieldInfo info{"Velocity", "m/s"}; };
-struct Density         { using type = real; static constexpr FieldInfo info{"Density", "kg/m3"}; };
+struct Position        { using type = Vec3; static constexpr FieldInfo info{"Position", "m", Holders::all, true}; };
+struct Velocity        { using type = Vec3; static constexpr FieldInfo info{"Velocity", "m/s", Holders::all, true}; };
+struct Density         { using type = real; static constexpr FieldInfo info{"Density", "kg/m3", Holders::all, true}; };
 struct Pressure        { using type = real; static constexpr FieldInfo info{"Pressure", "Pa"}; };
 /// Volume that the particle stands for; m2 in two dimensions.
 struct Volume          { using type = real; static constexpr FieldInfo info{"Volume", "m3"}; };
 /// Rate of density of the last continuity sum.
-struct DensityRate     { using type = real; static constexpr FieldInfo info{"DensityRate", "kg/m3/s"}; };
+struct DensityRate     { using type = real; static constexpr FieldInfo info{"DensityRate", "kg/m3/s", Holders::fluid, true}; };
 /// Part of the density rate that the density-diffusion effect adds.
-struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"DiffusionRate", "kg/m3/s"}; };
+struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"DiffusionRate", "kg/m3/s", Holders::fluid}; };
 /// Part of the density rate that solids make.
-struct SolidRate       { using type = real; static constexpr FieldInfo info{"SolidRate", "kg/m3/s"}; };
+struct SolidRate       { using type = real; static constexpr FieldInfo info{"SolidRate", "kg/m3/s", Holders::fluid, true}; };
 /// Density that fluid without pressure has kept in parting from solids.
-struct Gap             { using type = real; static constexpr FieldInfo info{"Gap", "kg/m3"}; };
+struct Gap             { using type = real; static constexpr FieldInfo info{"Gap", "kg/m3", Holders::fluid, true}; };
 /// Density that fluid at the pressure of a void has lost to the void that opens in it.
-struct Cavity          { using type = real; static constexpr FieldInfo info{"Cavity", "kg/m3"}; };
+struct Cavity          { using type = real; static constexpr FieldInfo info{"Cavity", "kg/m3", Holders::fluid, true}; };
 /// Sum of pair forces that depend on positions and densities; N/m in two dimensions.
-struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N"}; };
+struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N", Holders::all, true}; };
 /// Sum of pair forces that depend on velocities.
-struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N"}; };
+struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N", Holders::all, true}; };
 /// Uncorrected sum for the gradient of the pressure, of which one side alone is known.
-struct PressureGradient { using type = Vec3; static constexpr FieldInfo info{"PressureGradient", "Pa/m"}; };
+struct PressureGradient { using type = Vec3; static constexpr FieldInfo info{"PressureGradient", "Pa/m", Holders::fluid}; };
 /// Sum of V grad W: the gradient of the share of space that particles fill.
-struct CrowdingGradient { using type = Vec3; static constexpr FieldInfo info{"CrowdingGradient", "1/m"}; };
+struct CrowdingGradient { using type = Vec3; static constexpr FieldInfo info{"CrowdingGradient", "1/m", Holders::fluid}; };
 /// Second moments of V grad W, by which a gradient is corrected: xx, yy, zz and yz, xz, xy.
-struct Moments         { using type = Vec3; static constexpr FieldInfo info{"Moments", "1"}; };
-struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"MixedMoments", "1"}; };
+struct Moments         { using type = Vec3; static constexpr FieldInfo info{"Moments", "1", Holders::fluid}; };
+struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"MixedMoments", "1", Holders::fluid}; };
 /// Sum that points to where particles are dense, by which they are shifted.
-struct ShiftGradient   { using type = Vec3; static constexpr FieldInfo info{"ShiftGradient", "1/m"}; };
+struct ShiftGradient   { using type = Vec3; static constexpr FieldInfo info{"ShiftGradient", "1/m", Holders::fluid}; };
 /// Twice the rate of strain, xx, yy, zz and yz, xz, xy, and the eddy viscosity that it makes.
-struct Strain          { using type = Vec3; static constexpr FieldInfo info{"Strain", "1/s"}; };
-struct MixedStrain     { using type = Vec3; static constexpr FieldInfo info{"MixedStrain", "1/s"}; };
+struct Strain          { using type = Vec3; static constexpr FieldInfo info{"Strain", "1/s", Holders::fluid}; };
+struct MixedStrain     { using type = Vec3; static constexpr FieldInfo info{"MixedStrain", "1/s", Holders::fluid}; };
 struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"TurbulentViscosity", "m2/s"}; };
 /// Kernel sums over particles of the other kind, fluid or solid; by them a solid particle takes over
 /// the state of the fluid before it.
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
-struct VelocitySum     { using type = Vec3; static constexpr FieldInfo info{"VelocitySum", "1/m2/s"}; };
-struct OffsetSum       { using type = Vec3; static constexpr FieldInfo info{"OffsetSum", "1/m2"}; };
+struct VelocitySum     { using type = Vec3; static constexpr FieldInfo info{"VelocitySum", "1/m2/s", Holders::solids}; };
+struct OffsetSum       { using type = Vec3; static constexpr FieldInfo info{"OffsetSum", "1/m2", Holders::solids}; };
 /// Of a solid particle behind the surface of its solid.
-struct Depth           { using type = real; static constexpr FieldInfo info{"Depth", "m"}; };
+struct Depth           { using type = real; static constexpr FieldInfo info{"Depth", "m", Holders::solids}; };
 
 /// The values by which columns and records are indexed: `particles[field::velocity]`.
 namespace field {
@@ -115,14 +122,6 @@ template <class F, class List>
 inline constexpr bool contains = false;
 template <class F, class... G>
 inline constexpr bool contains<F, Fields<G...>> = (std::is_same_v<F, G> || ...);
-
-/// Fields that fluid particles alone have: solids move by their bodies, and their density follows
-/// from the pressure of the fluid.
-using FluidFields =
-    Fields<DensityRate, DiffusionRate, SolidRate, Gap, Cavity, PressureGradient, CrowdingGradient,
-           Moments, MixedMoments, ShiftGradient, Strain, MixedStrain>;
-template <Field F>
-inline constexpr bool of_fluid_alone = contains<F, FluidFields>;
 
 namespace detail {
 template <class... Lists>

@@ -15,7 +15,8 @@ namespace hyoryu {
 
 /// What is left out of neighbour lists. An empty span leaves out nothing.
 struct ListChoice {
-    std::span<const std::int32_t> owner = {};  // by row: neighbours of the row's own owner (a body)
+    std::span<const std::int32_t> owner = {};  // by slot: neighbours of the same owner (a body)
+    Index first_owner = 0;                     // the slot at which `owner` begins
     std::span<const std::uint8_t> wanted = {}; // by slot: those marked 0 get no neighbours
 };
 

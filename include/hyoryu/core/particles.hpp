@@ -1,188 +1,225 @@
 // SPDX-License-Identifier: MIT
-// All particles in one store: columns that exist only if an active effect needs them, rows ordered
-// fluid | wall | body.
+// Particles in stores, one for each kind: fluid, wall and body. A store has a column for each field
+// that an active effect needs on its kind, and no other; rows are numbered from 0 in each store, so
+// that particles of one kind come and go without moving those of another.
 #pragma once
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/fields.hpp"
 #include "hyoryu/core/parallel.hpp"
 
+#include <algorithm>
+#include <concepts>
 #include <span>
 #include <string>
-#include <tuple>
+#include <variant>
 #include <vector>
 
 namespace hyoryu {
 
-/// Every field that a column can be made of. A new field is one line here and one in fields.hpp.
-using AllFields = Fields<Position, Velocity, Density, Pressure, Volume, DensityRate, DiffusionRate,
-                         SolidRate, Gap, Cavity, Force, ViscousForce, ShepardSum, PressureGradient,
-                         CrowdingGradient, Moments, MixedMoments, ShiftGradient, VelocitySum,
-                         OffsetSum, Depth, Strain, MixedStrain, TurbulentViscosity>;
-
-/// Consecutive rows [begin, end).
+/// Consecutive rows [begin, end) of a store.
 struct Rows {
     Index begin = 0;
     Index end = 0;
     Index size() const { return end - begin; }
 };
 
-/// What a row stands for; the values are those of the `Kind` array of frame files.
+/// The kind of a particle; the values are those of the `Kind` array of frame files.
 enum class Kind : std::uint8_t { fluid = 0, wall = 1, body = 2 };
 
-/// The owner of a fluid particle.
-inline constexpr std::int32_t no_owner = std::numeric_limits<std::int32_t>::min();
+/// A column of a store by row, of either integer type.
+template <class T>
+class ColumnView : public std::span<T> {
+public:
+    using std::span<T>::span;
+    constexpr ColumnView(std::span<T> column) : std::span<T>(column) {}
+    constexpr T& operator[](std::integral auto row) const { return this->data()[row]; }
+};
 
 /// A column that exists, for plans and memory reports.
 struct ColumnInfo {
     FieldInfo field;
     std::size_t bytes_per_particle = 0;
-    bool of_fluid_alone = false; // solid particles have none
 };
 
-namespace detail {
-template <class List>
-struct ColumnsOf;
-template <class... F>
-struct ColumnsOf<Fields<F...>> {
-    using type = std::tuple<std::vector<typename F::type>...>;
-};
-template <class F, class List>
-inline constexpr std::size_t index_in = 0;
-template <class F, class... G>
-inline constexpr std::size_t index_in<F, Fields<G...>> = [] {
-    std::size_t at = 0;
-    std::size_t found = sizeof...(G);
-    ((found = std::is_same_v<F, G> ? at : found, ++at), ...);
-    return found;
-}();
-} // namespace detail
-
-/// Addresses of the columns of a store as plain numbers, three to a vector; null if absent.
+/// Addresses of the columns of a store as plain numbers, three to a vector. The hot loops find the
+/// columns that they write once for each block.
 class ColumnPointers {
 public:
-    template <Field F>
-    real*& operator[](F)
-    {
-        return column_[detail::index_in<F, AllFields>];
-    }
+    /// The column of a field; null if it is absent.
     template <Field F>
     real* operator[](F) const
     {
-        return column_[detail::index_in<F, AllFields>];
+        for (int k = 0; k < count_; ++k) {
+            if (column_[k].field == &F::info) {
+                return column_[k].first;
+            }
+        }
+        return nullptr;
+    }
+    void add(const FieldInfo* field, real* first)
+    {
+        expects(count_ < most);
+        column_[count_++] = {field, first};
     }
 
 private:
-    real* column_[AllFields::count] = {};
+    static constexpr int most = 32;
+    struct Entry {
+        const FieldInfo* field;
+        real* first;
+    };
+    Entry column_[most];
+    int count_ = 0;
 };
 
-class Particles {
+/// The particles of one kind. A field is known by the address of its `info`, so that an effect may
+/// bring a field of its own.
+class Store {
 public:
-    /// Makes columns for the listed fields, zeroed, and rows of each kind. Any other field stays
-    /// absent.
-    template <class... F>
-    void allocate(Fields<F...>, Index fluid, Index wall, Index body)
-    {
-        fluid_ = {0, fluid};
-        wall_ = {fluid, fluid + wall};
-        body_ = {fluid + wall, fluid + wall + body};
-        (make_column<F>(), ...);
-        id_.assign(static_cast<std::size_t>(size()), 0);
-        owner_.assign(static_cast<std::size_t>(size()), no_owner);
-    }
+    explicit Store(Kind kind) : kind_(kind) {}
 
-    /// Makes more columns, zeroed, for the rows there are.
+    /// Sets the number of rows and removes all columns; numbers are 0.
+    void reset(Index rows);
+
+    /// Makes columns for the listed fields that particles of this kind have, zeroed.
     template <class... F>
     void add(Fields<F...>)
     {
         (make_column<F>(), ...);
     }
 
-    Index size() const { return body_.end; }
-    Rows fluid() const { return fluid_; }
-    Rows wall() const { return wall_; }
-    Rows body() const { return body_; }
-    Rows solid() const { return {wall_.begin, body_.end}; }
+    Index size() const { return static_cast<Index>(id_.size()); }
+    Rows rows() const { return {0, size()}; }
 
     template <Field F>
     bool has(F) const
     {
-        return active_[detail::index_in<F, AllFields>];
+        return find(&F::info) != nullptr;
     }
 
-    /// The column of a field, by row; a field of the fluid alone ends with the rows of the fluid.
-    /// The field must be active.
+    /// The column of a field, which must exist.
     template <Field F>
-    std::span<typename F::type> operator[](F)
+    ColumnView<typename F::type> operator[](F)
     {
-        expects(has(F{}));
-        return std::get<detail::index_in<F, AllFields>>(columns_);
+        auto* const column = find(&F::info);
+        expects(column != nullptr);
+        return std::span(std::get<std::vector<typename F::type>>(column->values));
     }
     template <Field F>
-    std::span<const typename F::type> operator[](F) const
+    ColumnView<const typename F::type> operator[](F) const
     {
-        expects(has(F{}));
-        return std::get<detail::index_in<F, AllFields>>(columns_);
+        const auto* const column = find(&F::info);
+        expects(column != nullptr);
+        return std::span(std::get<std::vector<typename F::type>>(column->values));
     }
 
-    ColumnPointers pointers()
-    {
-        ColumnPointers all;
-        for_each_column([&](auto field, auto column) {
-            if constexpr (width<decltype(field)> == 3) {
-                all[field] = column.empty() ? nullptr : column.front().data();
-            } else {
-                all[field] = column.data();
-            }
-        });
-        return all;
-    }
+    ColumnPointers pointers();
 
     /// Number of a particle for life, unique over all kinds.
-    std::span<std::int64_t> id() { return id_; }
-    std::span<const std::int64_t> id() const { return id_; }
-    /// Whose particle it is: the index of a body, -1 - (index of a wall), or `no_owner` for fluid.
-    std::span<std::int32_t> owner() { return owner_; }
-    std::span<const std::int32_t> owner() const { return owner_; }
+    ColumnView<std::int64_t> id() { return std::span(id_); }
+    ColumnView<const std::int64_t> id() const { return std::span(id_); }
+    /// The owner of each solid particle: the index of a body, or -1 - (index of a wall). Fluid has
+    /// no owner and no such column.
+    ColumnView<std::int32_t> owner() { return std::span(owner_); }
+    ColumnView<const std::int32_t> owner() const { return std::span(owner_); }
 
-    /// Reorders the fluid rows: row k becomes what row `order[k]` was. Rows that `order` leaves out
-    /// are gone, and everything behind moves up. `room` is memory that nobody needs meanwhile, 24 B
-    /// a row; where it is too small, memory is taken.
-    void permute_fluid(std::span<const std::int32_t> order, std::span<std::byte> room = {});
+    /// Reorders the rows: row k becomes what row `order[k]` was. Rows that `order` leaves out are
+    /// removed. `room` is memory that nobody needs meanwhile, 24 B a row; where it is too small,
+    /// memory is taken.
+    void permute(std::span<const std::int32_t> order, std::span<std::byte> room = {});
 
-    std::vector<ColumnInfo> active_columns() const;
+    /// Calls f(info, values) for each column, `values` a vector of real or Vec3.
+    void for_each_column(auto&& f)
+    {
+        for (StoredColumn& column : columns_) {
+            std::visit([&](auto& values) { f(*column.field, values); }, column.values);
+        }
+    }
+    void for_each_column(auto&& f) const
+    {
+        for (const StoredColumn& column : columns_) {
+            std::visit([&](const auto& values) { f(*column.field, values); }, column.values);
+        }
+    }
     /// Bytes held.
     std::size_t bytes() const;
 
-    /// Calls `f(tag, span)` for each active column.
-    void for_each_column(auto&& f)
-    {
-        for_each(AllFields{}, [&](auto field) {
-            if (has(field)) {
-                f(field, (*this)[field]);
-            }
-        });
-    }
-
 private:
+    struct StoredColumn {
+        const FieldInfo* field;
+        std::variant<std::vector<real>, std::vector<Vec3>> values;
+    };
+
     template <Field F>
     void make_column()
     {
-        active_[detail::index_in<F, AllFields>] = true;
-        auto& column = std::get<detail::index_in<F, AllFields>>(columns_);
-        const auto rows = static_cast<std::size_t>(of_fluid_alone<F> ? fluid_.end : size());
+        using Values = std::vector<typename F::type>;
+        const Holders others = kind_ == Kind::fluid ? Holders::solids : Holders::fluid;
+        if (F::info.holders == others) {
+            return;
+        }
+        StoredColumn* column = find(&F::info);
+        if (column == nullptr) {
+            column = &columns_.emplace_back(StoredColumn{&F::info, Values()});
+        }
         if constexpr (width<F> == 3) {
-            column.assign(rows, Vec3::Zero());
+            std::get<Values>(column->values).assign(id_.size(), Vec3::Zero());
         } else {
-            column.assign(rows, 0);
+            std::get<Values>(column->values).assign(id_.size(), 0);
         }
     }
 
-    Rows fluid_, wall_, body_;
-    std::array<bool, static_cast<std::size_t>(AllFields::count)> active_{};
-    detail::ColumnsOf<AllFields>::type columns_;
+    // Null if the column is absent.
+    const StoredColumn* find(const FieldInfo* field) const
+    {
+        const auto found = std::ranges::find(columns_, field, &StoredColumn::field);
+        return found == columns_.end() ? nullptr : &*found;
+    }
+    StoredColumn* find(const FieldInfo* field)
+    {
+        const auto found = std::ranges::find(columns_, field, &StoredColumn::field);
+        return found == columns_.end() ? nullptr : &*found;
+    }
+
+    Kind kind_;
+    std::vector<StoredColumn> columns_;
     std::vector<std::int64_t> id_;
     std::vector<std::int32_t> owner_;
 };
+
+/// All particles of a scene.
+struct Particles {
+    Store fluid{Kind::fluid};
+    Store wall{Kind::wall};
+    Store body{Kind::body};
+
+    Index size() const { return fluid.size() + solids(); }
+    Index solids() const { return wall.size() + body.size(); }
+};
+
+/// Sets the number of particles of each kind, numbered on from 0 in the order fluid, wall, body;
+/// there are no columns yet.
+void reset(Particles& particles, Index fluid, Index wall, Index body);
+
+/// Calls f(store) for walls and bodies.
+void for_solids(auto& particles, const auto& f)
+{
+    f(particles.wall);
+    f(particles.body);
+}
+
+/// Makes columns in every store whose particles have the field.
+template <class List>
+void add_columns(Particles& particles, List fields)
+{
+    particles.fluid.add(fields);
+    for_solids(particles, [&](Store& store) { store.add(fields); });
+}
+
+/// The columns of all stores, each field once.
+std::vector<ColumnInfo> active_columns(const Particles& particles);
+/// Bytes held.
+std::size_t bytes_of(const Particles& particles);
 
 } // namespace hyoryu

@@ -42,18 +42,18 @@ public:
     /// ones. Positions are rounded to the unit of the lattice, half a millionth of a spacing in
     /// single precision.
     template <class Some = List>
-    void load(const Particles& particles, const Tiles& tiles, Some fields = {})
+    void load(const Store& store, const Tiles& tiles, Some fields = {})
     {
         parallel_blocks(0, tiles.tiles(),
-                        [&](Index tile) { load_tile(particles, tiles, tile, fields); });
+                        [&](Index tile) { load_tile(store, tiles, tile, fields); });
     }
     /// The same for some of the tiles.
     template <class Some>
-    void load(const Particles& particles, const Tiles& tiles, std::span<const std::int32_t> which,
+    void load(const Store& store, const Tiles& tiles, std::span<const std::int32_t> which,
               Some fields)
     {
         parallel_blocks(0, static_cast<Index>(which.size()), [&](Index k) {
-            load_tile(particles, tiles, which[static_cast<std::size_t>(k)], fields);
+            load_tile(store, tiles, which[static_cast<std::size_t>(k)], fields);
         });
     }
 
@@ -75,10 +75,10 @@ public:
     }
     /// The same with the values of another column.
     template <Field From, Field To>
-    void lend(const Particles& particles, const Tiles& tiles, From from, To to)
+    void lend(const Store& store, const Tiles& tiles, From from, To to)
     {
         static_assert(width<From> == width<To>);
-        const auto column = particles[from];
+        const auto column = store[from];
         lend(tiles, to, [&](std::size_t row) { return column[row]; });
     }
 
@@ -92,14 +92,14 @@ private:
     Row& at(Index slot) { return rows_[static_cast<std::size_t>(slot)]; }
 
     template <class Some>
-    void load_tile(const Particles& particles, const Tiles& tiles, Index tile_index, Some fields)
+    void load_tile(const Store& store, const Tiles& tiles, Index tile_index, Some fields)
     {
         const auto tile = static_cast<std::size_t>(tile_index);
         // Adding a large number in double, as `rounded` does, leaves no more than 50 digits.
         const real unit = tiles.lattice.unit(std::min(std::numeric_limits<Real>::digits, 50));
         const Vec3 centre = tiles.lattice.centre(tiles.tile[tile]);
         for_each(fields, [&](auto field) {
-            const auto column = particles[field];
+            const auto column = store[field];
             constexpr int to = offset<decltype(field), List>;
             for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
                 const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);

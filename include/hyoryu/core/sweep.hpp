@@ -94,12 +94,25 @@ void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>
     }
 }
 
+/// The columns of the listed fields, found once.
+template <class Out>
+struct OutColumns {
+    real* first[Out::count];
+
+    explicit OutColumns(const ColumnPointers& columns)
+    {
+        int k = 0;
+        for_each(Out{}, [&](auto field) { first[k++] = columns[field]; });
+    }
+};
+
 /// Adds the lanes of every field of `sum` to the row of the columns.
 template <class Out>
-void accumulate(const ColumnPointers& columns, Index row, const auto& sum)
+void accumulate(const OutColumns<Out>& columns, Index row, const auto& sum)
 {
+    int k = 0;
     for_each(Out{}, [&](auto field) {
-        real* const to = columns[field] + width<decltype(field)> * row;
+        real* const to = columns.first[k++] + width<decltype(field)> * row;
         if constexpr (width<decltype(field)> == 3) {
             to[0] += lane_sum(sum[field].x);
             to[1] += lane_sum(sum[field].y);
@@ -126,6 +139,7 @@ template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms
     if constexpr (Out::count > 0) {
         const ListBlock block = view.blocks[block_index];
         const PairKernel kernel = view.kernel;
+        const detail::OutColumns<Out> out(view.columns);
         detail::copy_chunks<bytes>(block, view, local);
         const std::uint8_t* entry = block.entry;
         for (std::int32_t slot = block.first; slot < block.last; ++slot) {
@@ -144,23 +158,28 @@ template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms
                 const Pair<N> ij = kernel(i[field::position] - j[field::position]);
                 (terms(ij, i, j, sum), ...);
             }
-            detail::accumulate<Out>(view.columns, view.row[slot - view.first_slot], sum);
+            detail::accumulate(out, view.row[slot - view.first_slot], sum);
         }
     }
 }
 
+/// A row of a store.
+struct StoreRow {
+    Store* store;
+    Index row;
+};
+
 /// The same sums, one pair at a time in double, positions and all: the clear version that the fast
-/// one is tested against. `row` is the row of a slot.
+/// one is tested against. `place` is the store and row of a slot.
 template <class List, class... Terms>
-void sweep_reference(Particles& particles, const PairList& pairs, const auto& row,
-                     const auto& kernel, const Terms&... terms)
+void sweep_reference(const PairList& pairs, const auto& place, const auto& kernel,
+                     const Terms&... terms)
 {
     using Out = Union<typename Terms::Writes...>;
-    const auto record = [&](Index slot) {
+    const auto record = [](const StoreRow& from) {
         Record<List, real> values;
         for_each(List{}, [&](auto field) {
-            const auto& value =
-                std::as_const(particles)[field][static_cast<std::size_t>(row(slot))];
+            const auto& value = std::as_const(*from.store)[field][from.row];
             if constexpr (width<decltype(field)> == 3) {
                 values[field] = {value.x(), value.y(), value.z()};
             } else {
@@ -169,29 +188,31 @@ void sweep_reference(Particles& particles, const PairList& pairs, const auto& ro
         });
         return values;
     };
-    const ColumnPointers columns = particles.pointers();
     pairs.for_each_pair([&](Index slot_i, Index slot_j) {
-        const auto i = record(slot_i);
-        const auto j = record(slot_j);
+        const StoreRow to = place(slot_i);
+        const auto i = record(to);
+        const auto j = record(place(slot_j));
         const Pair<real> ij = kernel(i[field::position] - j[field::position]);
         Record<Out, real> sum;
         (terms(ij, i, j, sum), ...);
-        detail::accumulate<Out>(columns, row(slot_i), sum);
+        detail::accumulate(detail::OutColumns<Out>(to.store->pointers()), to.row, sum);
     });
 }
 
-/// Sets the listed columns of the rows to zero.
+/// Sets the listed columns of a store to zero, those that it has.
 template <class List>
-void clear(Particles& particles, Rows rows, List fields)
+void clear(Store& store, List fields)
 {
     for_each(fields, [&](auto field) {
-        const auto column = particles[field];
-        typename decltype(field)::type nothing{};
-        if constexpr (width<decltype(field)> == 3) {
-            nothing.setZero();
+        if (!store.has(field)) {
+            return;
         }
-        parallel_for(rows.begin, rows.end,
-                     [&](Index k) { column[static_cast<std::size_t>(k)] = nothing; });
+        const auto column = store[field];
+        typename decltype(field)::type zero{};
+        if constexpr (width<decltype(field)> == 3) {
+            zero.setZero();
+        }
+        parallel_for(0, store.size(), [&](Index k) { column[k] = zero; });
     });
 }
 

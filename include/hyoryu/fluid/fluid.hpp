@@ -25,9 +25,9 @@ struct FluidNeighbours {
     long long steps = 0; // since they were made
     DisplacementSpace fluid_motion, wall_motion, body_motion;
     std::vector<std::int32_t> wet_walls; // tiles of walls of which a particle is in any list
-    Rows walls_in_tiles; // the wall rows that `wall` knows; fixed walls are sorted once
     SortSpace space;
-    std::vector<std::uint8_t> met; // by slot: what stands in any list
+    std::vector<std::uint8_t> met;   // by slot: what stands in any list
+    std::vector<std::int32_t> owner; // of solid particles, by slot
     long long builds = 0;
     EntryCounts entries;
     Index visits = 0; // list entries that the sweeps of one step go over

@@ -58,6 +58,6 @@ struct MpsWallGradient {
 /// the least eigenvalue of M_i falls from 0.95 to 0.8, b goes to 0 and the symmetric form of the
 /// SPH loops remains: corrected there, the gradient is not the adjoint of the divergence and
 /// sound grows. Source: Khayyer & Gotoh (2011), corrective matrix; Tamai & Koshizuka (2014).
-void add_corrected_pressure(const FluidParameters& fluid, Particles& particles);
+void add_corrected_pressure(const FluidParameters& fluid, Store& store);
 
 } // namespace hyoryu
