@@ -16,13 +16,15 @@ struct LineRow {
     double below = 0, own = 1, above = 0, right = 0;
 };
 
+// Of a line that is wet all along, whatever `pressure` says: that only tells which way the water
+// goes at the rims.
 LineRow row_of(const JointWays& ways, std::span<const double> pressure, int cell)
 {
     const double own = pressure[static_cast<std::size_t>(cell)];
     LineRow row{0, 0, 0, 0};
     for (int edge = 0; edge < 2; ++edge) {
         const JointWay& way = ways(cell, edge);
-        const double g = open_conductance(way, own, pressure);
+        const double g = way.next >= 0 ? way.conductance : open_conductance(way, own, pressure);
         row.own += g;
         row.right += g * (way.next >= 0 ? way.rise : way.pressure);
         if (way.next >= 0) {

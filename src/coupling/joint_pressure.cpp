@@ -201,9 +201,11 @@ private:
                 add(c, way(c, edge));
             }
         }
+        // What is zero but for rounding is air in every frame of reference.
+        const double least = 1e-9 * fluid_.weight.norm() * fluid_.spacing;
         for (int c = face_.first; c < face_.last; ++c) {
             const double p = weight > 0 ? head / weight + fluid_.weight.dot(node(c).place) : 0.0;
-            pressure_[at(c - face_.first)] = joined(c) ? std::max(p, 0.0) : 0;
+            pressure_[at(c - face_.first)] = joined(c) && p > least ? p : 0;
         }
     }
 

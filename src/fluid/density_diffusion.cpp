@@ -23,8 +23,7 @@ void add_renormalised_diffusion(Fluid& fluid)
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, 0);
     clear(store, DensityGradient::Writes{});
-    run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
-        [](const auto& loops) { return loops.gradient; });
+    run<PassOf<DensityGradient>>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     const auto G = store[field::pressure_gradient];
     const auto moments = store[field::moments];
     const auto mixed = store[field::mixed_moments];
@@ -36,8 +35,7 @@ void add_renormalised_diffusion(Fluid& fluid)
             data.records.lend(store, n.fluid, field::pressure_gradient, field::velocity);
         },
         fluid.pair_data);
-    run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
-        [](const auto& loops) { return loops.diffusion; });
+    run<RenormalisedDiffusion::Sum>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
 }
 
 } // namespace hyoryu

@@ -35,18 +35,34 @@ namespace {
 // An effect that a scene asks for is never left out in silence.
 void expect_built(const FluidEffects& effects)
 {
-    const auto look = []<class Effect>(const Effect&) {
+    const auto look = []<class Effect>(const Effect*) {
         if constexpr (!is_built<Effect>) {
             throw CaseError(std::string(Effect::name) + " is not part of this build",
                             "configure it without HYORYU_WITHOUT");
         }
     };
-    std::visit(look, effects.diffusion);
-    std::visit(look, effects.viscosity);
-    std::visit(look, effects.shifting);
-    std::visit(look, effects.slip);
-    std::visit(look, effects.collision);
-    std::visit(look, effects.cavitation);
+    const auto look_at = [&](const auto& slot) {
+        std::visit([&](const auto& effect) { look(&effect); }, slot);
+    };
+    std::apply([&](const auto&... slot) { (look_at(slot), ...); }, slots_of(effects));
+}
+
+// The columns that an effect needs.
+template <class Effect>
+void add_columns_of(Particles& particles, const Effect&)
+{
+    constexpr bool needs_solids = requires
+    {
+        Effect::needs_solids;
+    };
+    if (needs_solids && particles.solids() == 0) {
+        return;
+    }
+    if constexpr (requires { typename Effect::Columns; }) {
+        add_columns(particles, typename Effect::Columns{});
+    } else {
+        add_columns(particles, typename Effect::Writes{});
+    }
 }
 
 } // namespace
@@ -58,26 +74,13 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
         fluid.pair_data.emplace<PairData<double>>();
     }
     reset(fluid.particles, fluid_count, wall_count, body_count);
-    using Core = Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>;
-    std::visit(
-        [&](const auto&... effect) {
-            using Own = Union<Core, typename std::remove_cvref_t<decltype(effect)>::Writes...>;
-            add_columns(fluid.particles, Own{});
-        },
-        fluid.effects.diffusion, fluid.effects.viscosity, fluid.effects.shifting,
-        fluid.effects.cavitation);
+    add_columns(fluid.particles,
+                Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>{});
+    for_each_effect(fluid.effects,
+                    [&](const auto& effect) { add_columns_of(fluid.particles, effect); });
     if (wall_count + body_count > 0) {
         add_columns(fluid.particles,
                     Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
-    }
-    if (sticks_to_solids(fluid) && wall_count + body_count > 0) {
-        add_columns(fluid.particles, Union<NoSlip::Writes, Fields<Depth>>{});
-    }
-    if (held<EddyViscosity>(fluid.effects.viscosity) != nullptr) {
-        add_columns(fluid.particles, Union<StrainRate::Writes, Fields<TurbulentViscosity>>{});
-    }
-    if (held<RenormalisedDiffusion>(fluid.effects.diffusion) != nullptr) {
-        add_columns(fluid.particles, DensityGradient::Writes{});
     }
     if (fluid.parameters.formulation == FormulationKind::mps) {
         add_columns(fluid.particles, MpsGradient::Writes{});
@@ -148,9 +151,8 @@ void update_pressure(Fluid& fluid)
     load_solids(fluid, Stored{});
     clear_wet_solids(fluid, Fields<ShepardSum, Pressure>{});
     const FluidTerms terms = terms_of(fluid, 0);
-    const auto extrapolation = [](const auto& loops) { return loops.extrapolation; };
-    run(fluid, n.wall_fluid, to_walls(fluid), terms, extrapolation);
-    run(fluid, n.body_fluid, to_bodies(fluid), terms, extrapolation);
+    run<pass::Extrapolation>(fluid, n.wall_fluid, to_walls(fluid), terms);
+    run<pass::Extrapolation>(fluid, n.body_fluid, to_bodies(fluid), terms);
     for_wet_solids(fluid, [&](Store& solids) {
         return [&fluid, eos = f.eos, p_w = solids[field::pressure], rho_w = solids[field::density],
                 V_w = solids[field::volume], shepard = solids[field::shepard_sum],
@@ -180,9 +182,8 @@ void add_film_forces(Fluid& fluid, const FluidTerms& terms)
             },
             fluid.pair_data);
     }
-    const auto film_forces = [](const auto& loops) { return loops.film_forces; };
-    run(fluid, n.body_solid, to_bodies(fluid), terms, film_forces);
-    run(fluid, n.wall_body, to_walls(fluid), terms, film_forces);
+    run<pass::FilmForces>(fluid, n.body_solid, to_bodies(fluid), terms);
+    run<pass::FilmForces>(fluid, n.wall_body, to_walls(fluid), terms);
     if (shared) {
         load_bodies(fluid, Fields<Volume>{});
     }
@@ -202,11 +203,9 @@ void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
                               [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
         },
         fluid.pair_data);
-    run(fluid, n.fluid_solid, to_fluid(fluid), terms,
-        [](const auto& loops) { return loops.solid_forces; });
-    const auto solid_loads = [](const auto& loops) { return loops.solid_loads; };
-    run(fluid, n.wall_fluid, to_walls(fluid), terms, solid_loads);
-    run(fluid, n.body_fluid, to_bodies(fluid), terms, solid_loads);
+    run<pass::SolidForces>(fluid, n.fluid_solid, to_fluid(fluid), terms);
+    run<pass::SolidLoads>(fluid, n.wall_fluid, to_walls(fluid), terms);
+    run<pass::SolidLoads>(fluid, n.body_fluid, to_bodies(fluid), terms);
     load_fluid(fluid, Fields<Pressure>{});
     add_film_forces(fluid, terms);
 }
@@ -219,19 +218,17 @@ void update_forces(Fluid& fluid, real dt)
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, dt);
     const bool mps = fluid.parameters.formulation == FormulationKind::mps;
-    clear(store, Fields<Force, DiffusionRate>{});
+    clear(store, Union<Fields<Force>, StageWrites<stage::Forces>>{});
     clear_wet_solids(fluid, Fields<Force>{});
     if (mps) {
         clear(store, MpsGradient::Writes{});
     }
-    run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
-        [](const auto& loops) { return loops.fluid_forces; });
+    run<pass::FluidForces>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     if (fluid.particles.solids() > 0) {
         add_solid_forces(fluid, terms);
     }
     if (held<ParticleCollision>(fluid.effects.collision) != nullptr) {
-        run(fluid, n.fluid_fluid, to_fluid(fluid), terms,
-            [](const auto& loops) { return loops.collision; });
+        run<ParticleCollision::Sum>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     }
     if (mps) {
         add_corrected_pressure(fluid.parameters, store);
@@ -317,10 +314,9 @@ void shift(Fluid& fluid, real dt)
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, dt);
     const real scale = shifting->coefficient * f.h * top_speed(fluid) * dt;
-    clear(store, Shifting::Writes{});
-    const auto crowding = [](const auto& loops) { return loops.shifting; };
-    run(fluid, n.fluid_fluid, to_fluid(fluid), terms, crowding);
-    run(fluid, n.fluid_solid, to_fluid(fluid), terms, crowding);
+    clear(store, StageWrites<stage::Crowding>{});
+    run<pass::Crowding>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
+    run<pass::Crowding>(fluid, n.fluid_solid, to_fluid(fluid), terms);
     const auto x = store[field::position];
     const auto S = store[field::shift_gradient];
     parallel_for(0, store.size(), [&](Index i) {

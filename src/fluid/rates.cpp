@@ -14,9 +14,8 @@ void mirror_velocities(Fluid& fluid)
     const FluidNeighbours& n = fluid.neighbours;
     clear_wet_solids(fluid, NoSlip::Writes{});
     const FluidTerms terms = terms_of(fluid, 0);
-    const auto mirror = [](const auto& loops) { return loops.mirror; };
-    run(fluid, n.wall_fluid, to_walls(fluid), terms, mirror);
-    run(fluid, n.body_fluid, to_bodies(fluid), terms, mirror);
+    run<NoSlip::Mirror>(fluid, n.wall_fluid, to_walls(fluid), terms);
+    run<NoSlip::Mirror>(fluid, n.body_fluid, to_bodies(fluid), terms);
     for_wet_solids(fluid, [&](Store& solids) {
         return [u = solids[field::velocity], v_sum = solids[field::velocity_sum],
                 r_sum = solids[field::offset_sum], shepard = solids[field::shepard_sum],
@@ -48,11 +47,10 @@ void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, 0);
     clear(store, StrainRate::Writes{});
-    const auto strain_rate = [](const auto& loops) { return loops.strain; };
-    run(fluid, n.fluid_fluid, to_fluid(fluid), terms, strain_rate);
+    run<PassOf<StrainRate>>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     if (sticks) {
         lend_solids(fluid, field::velocity_sum, field::velocity);
-        run(fluid, n.fluid_solid, to_fluid(fluid), terms, strain_rate);
+        run<PassOf<StrainRate>>(fluid, n.fluid_solid, to_fluid(fluid), terms);
         load_solids(fluid, Fields<Velocity>{});
     }
     const auto strain = store[field::strain];
@@ -77,10 +75,9 @@ void add_friction(Fluid& fluid)
     const FluidTerms terms = terms_of(fluid, 0);
     lend_solids(fluid, field::velocity_sum, field::velocity);
     for_solids(fluid.particles, [](Store& solids) { clear(solids, Fields<ViscousForce>{}); });
-    const auto friction = [](const auto& loops) { return loops.friction; };
-    run(fluid, n.fluid_solid, to_fluid(fluid), terms, friction);
-    run(fluid, n.wall_fluid, to_walls(fluid), terms, friction);
-    run(fluid, n.body_fluid, to_bodies(fluid), terms, friction);
+    run<NoSlip::Friction>(fluid, n.fluid_solid, to_fluid(fluid), terms);
+    run<NoSlip::Friction>(fluid, n.wall_fluid, to_walls(fluid), terms);
+    run<NoSlip::Friction>(fluid, n.body_fluid, to_bodies(fluid), terms);
 }
 
 // The part of the density rate that solids make, and the end of gaps where there is no room for
@@ -91,8 +88,7 @@ void update_solid_rates(Fluid& fluid)
     const FluidNeighbours& n = fluid.neighbours;
     const FluidParameters& f = fluid.parameters;
     clear(store, SolidContinuity::Writes{});
-    run(fluid, n.fluid_solid, to_fluid(fluid), terms_of(fluid, 0),
-        [](const auto& loops) { return loops.solid_rates; });
+    run<pass::SolidRates>(fluid, n.fluid_solid, to_fluid(fluid), terms_of(fluid, 0));
     const real touching = with_formulation(fluid, [&](auto, const auto& kernel) {
         return sum_beside_plane(kernel, f.spacing, f.dimensions);
     });
@@ -124,7 +120,7 @@ void update_rates(Fluid& fluid)
     const FluidTerms terms = terms_of(fluid, 0);
     load_fluid(fluid, Fields<Velocity>{});
     load_solids(fluid, Fields<Velocity>{});
-    clear(store, Fields<DensityRate, ViscousForce>{});
+    clear(store, Union<Continuity::Writes, StageWrites<stage::Rates>>{});
     const bool sticks = sticks_to_solids(fluid) && fluid.particles.solids() > 0;
     if (sticks) {
         mirror_velocities(fluid);
@@ -132,8 +128,7 @@ void update_rates(Fluid& fluid)
     if (const auto* eddies = held<EddyViscosity>(fluid.effects.viscosity)) {
         update_turbulence(fluid, *eddies, sticks);
     }
-    run(fluid, fluid.neighbours.fluid_fluid, to_fluid(fluid), terms,
-        [](const auto& loops) { return loops.fluid_rates; });
+    run<pass::FluidRates>(fluid, fluid.neighbours.fluid_fluid, to_fluid(fluid), terms);
     if (sticks) {
         add_friction(fluid);
     }

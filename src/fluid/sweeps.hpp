@@ -103,14 +103,15 @@ inline Destination to_bodies(Fluid& fluid)
     return {fluid.particles.body, fluid.neighbours.body};
 }
 
-/// Runs one of the pair loops over all blocks of a list; `which` names it.
-void run(Fluid& fluid, const PairList& pairs, const Destination& to, const FluidTerms& terms,
-         const auto& which)
+/// Runs the loop of a pass over all blocks of a list.
+template <class Pass>
+void run(Fluid& fluid, const PairList& pairs, const Destination& to, const FluidTerms& terms)
 {
     const auto sweep = [&]<class Real, class Formulation>(PairData<Real>& data, Formulation,
                                                           const auto& kernel) {
         using Loops = PairLoops<Real, Formulation>;
-        const auto loop = which(std::get<Loops>(fluid_loops(fluid.instruction_set)));
+        constexpr auto pass = static_cast<std::size_t>(pass_index<Pass, AllPasses>);
+        const auto loop = std::get<Loops>(fluid_loops(fluid.instruction_set)).loop[pass];
         const typename Loops::View view{pairs.blocks().data(),
                                         data.records.data(),
                                         to.store.pointers(),

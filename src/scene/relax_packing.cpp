@@ -24,6 +24,10 @@ constexpr double emptiness = 1.2; // of a place whose nearest particle is as far
 constexpr int rounds = 100;
 constexpr double gain = 0.1;     // of the descent, at twice of which it is unstable
 constexpr double momentum = 0.9; // share of a way that the next round goes on with
+// Places are rounded to so much, from the middle of the fluid on, after every round, which would
+// otherwise make the rounding of numbers grow: that depends on where the scene lies and how it is
+// turned.
+constexpr double unit = 0x1p-20; // spacings
 
 std::size_t at(Index row)
 {
@@ -79,19 +83,21 @@ public:
     // Whether a way from a point leads to an empty place before it leads to a solid.
     bool is_open(const Vec3& from, const Vec3& way, double support) const
     {
-        for (double s = reach_; s < support + reach_ / 2; s += reach_ / 2) {
-            double nearest = reach_;
-            std::size_t which = points_.size();
+        // On a lattice many distances are equal but for rounding: a solid goes before fluid.
+        const double equal = 1e-6 * reach_;
+        for (double s = reach_; s < support + reach_ / 2 - equal; s += reach_ / 2) {
+            double fluid = reach_ - equal;
+            double solid = reach_ - equal;
             const Vec3 place = from + s * way;
             for_cells_about(grid_, place, [&](std::size_t k) {
-                const double distance = (points_[k] - place).norm();
-                if (distance < nearest) {
-                    nearest = distance;
-                    which = k;
-                }
+                double& nearest = k < fluid_ ? fluid : solid;
+                nearest = std::min(nearest, (points_[k] - place).norm());
             });
-            if (which >= fluid_) {
-                return which == points_.size();
+            if (solid < reach_ - equal && solid <= fluid + equal) {
+                return false;
+            }
+            if (!(fluid < reach_ - equal)) {
+                return true;
             }
         }
         return false;
@@ -218,9 +224,24 @@ Vec3 force_on(const Packing& packing, const Kernel& kernel, double volume, const
     return force;
 }
 
+Vec3 middle_of_blocks(const Scene& scene)
+{
+    Bounds box;
+    for (const FluidBlock& block : scene.fluid->blocks) {
+        box.add(bounds({&block.shape, block.centre, block.rotation, scene.dimensions}));
+    }
+    return (box.min + box.max) / 2;
+}
+
+Vec3 rounded(const Vec3& place, const Vec3& origin, double dp)
+{
+    const Vec3 units = (place - origin) / (unit * dp);
+    return origin + unit * dp * units.array().round().matrix();
+}
+
 // Where one round takes the particles that move.
 void descend(const Packing& packing, const FreeSpace& space, const Kernel& kernel,
-             const Scene& scene, std::vector<Vec3>& moved)
+             const Scene& scene, const Vec3& origin, std::vector<Vec3>& moved)
 {
     const double dp = scene.spacing;
     const double volume = std::pow(dp, scene.dimensions);
@@ -238,6 +259,7 @@ void descend(const Packing& packing, const FreeSpace& space, const Kernel& kerne
             step_off(space, solids, (least + 1e-6) * dp, p);
             p = is_near() ? packing.points[at(i)] : p; // in a corner
         }
+        p = rounded(p, origin, dp);
         const bool strays = (p - packing.start[at(i)]).norm() > farthest * dp;
         moved[at(i)] = strays ? packing.points[at(i)] : p;
     });
@@ -258,6 +280,7 @@ void relax_packing(const Scene& scene, Filling& filling)
     const FreeSpace space(scene);
     find_surfaces(scene, space, packing);
     const Vec3 down = scene.gravity.normalized();
+    const Vec3 middle = middle_of_blocks(scene);
     std::vector<Vec3> moved(at(packing.moving));
     std::vector<Vec3> listed;
     for (int round = 0; round < rounds; ++round) {
@@ -269,7 +292,7 @@ void relax_packing(const Scene& scene, Filling& filling)
             make_lists(packing, kernel.support + skin * dp);
             listed.assign(packing.points.begin(), packing.points.begin() + packing.moving);
         }
-        descend(packing, space, kernel, scene, moved);
+        descend(packing, space, kernel, scene, middle, moved);
         for (std::size_t k = 0; k < moved.size(); ++k) {
             packing.way[k] = moved[k] - packing.points[k];
             packing.depth[k] += down.dot(packing.way[k]);

@@ -111,7 +111,7 @@ struct Passed {
     double impacts = 0;
 };
 
-void pass(Simulation& sim, Passed& passed)
+void count_step(Simulation& sim, Passed& passed)
 {
     const double before = sim.clock.time;
     step(sim);
@@ -296,13 +296,13 @@ std::optional<Development> measure_development(Simulation& sim, Simulation& agai
     cut_no_step(sim);
     Passed passed;
     try {
-        pass(sim, passed);
+        count_step(sim, passed);
         const Spent before = spent(sim);
         while (!finished(sim.clock, sim.scene)) {
             if (!goes_on()) {
                 return {};
             }
-            pass(sim, passed);
+            count_step(sim, passed);
         }
         const auto steps = static_cast<double>(sim.clock.step);
         if (steps <= first) {

@@ -2,6 +2,7 @@
 // Collisions of fluid particles, for splashes.
 #pragma once
 
+#include "hyoryu/fluid/stage.hpp"
 #include "hyoryu/fluid/wall.hpp"
 
 namespace hyoryu {
@@ -13,6 +14,10 @@ namespace hyoryu {
 struct ParticleCollision {
     static constexpr std::string_view name = "particle_collision";
     using Writes = Fields<>;
+    struct Sum {
+        static void call(const auto&, const auto& terms, const auto& f) { f(terms.collision); }
+    };
+    using Passes = PassList<Sum>;
     real restitution = 0; // e [1]
 
     /// For particles of this mass over a step.

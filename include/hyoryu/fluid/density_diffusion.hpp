@@ -2,8 +2,8 @@
 // Density diffusion: smooths the acoustic noise of the weakly compressible pressure.
 #pragma once
 
-#include "hyoryu/core/sweep.hpp"
 #include "hyoryu/fluid/parameters.hpp"
+#include "hyoryu/fluid/stage.hpp"
 
 namespace hyoryu {
 
@@ -13,6 +13,7 @@ namespace hyoryu {
 /// water. Source: Fourtakas, Dominguez, Vacondio & Rogers (2019), linear equation of state.
 struct DensityDiffusion {
     static constexpr std::string_view name = "density_diffusion";
+    using Stage = stage::Forces;
     using Reads = Fields<Volume, Pressure>;
     using Writes = Fields<DiffusionRate>;
     real strength = 0;         // 2 delta h c0 [m2/s]
@@ -54,6 +55,16 @@ struct RenormalisedDiffusion {
     static constexpr std::string_view name = "renormalised_diffusion";
     using Reads = Fields<Volume, Pressure, Velocity>;
     using Writes = Fields<DiffusionRate>;
+    using Columns = Union<Writes, DensityGradient::Writes>;
+    struct Sum {
+        static void call(const auto&, const auto& terms, const auto& f)
+        {
+            if (const auto* own = std::get_if<RenormalisedDiffusion>(&terms.effects.diffusion)) {
+                f(*own);
+            }
+        }
+    };
+    using Passes = PassList<PassOf<DensityGradient>, Sum>;
     real strength = 0; // 2 delta h c0 [m2/s]
     EquationOfState eos;
 

@@ -12,10 +12,13 @@
 #include "hyoryu/fluid/parting.hpp"
 #include "hyoryu/fluid/pressure.hpp"
 #include "hyoryu/fluid/shifting.hpp"
+#include "hyoryu/fluid/stage.hpp"
 #include "hyoryu/fluid/turbulence.hpp"
 #include "hyoryu/fluid/viscosity.hpp"
 #include "hyoryu/fluid/wall.hpp"
 
+#include <tuple>
+#include <utility>
 #include <variant>
 
 namespace hyoryu {
@@ -31,6 +34,13 @@ struct FluidEffects {
     std::variant<Off, Cavitation> cavitation;       // where density moves on
 };
 
+/// The slots side by side: whatever is done for every effect goes over them.
+inline auto slots_of(auto& effects)
+{
+    auto& [diffusion, viscosity, shifting, slip, collision, cavitation] = effects;
+    return std::tie(diffusion, viscosity, shifting, slip, collision, cavitation);
+}
+
 /// The effect if the slot holds it and it is part of this build; null otherwise.
 template <class Effect, class... Effects>
 constexpr const Effect* held(const std::variant<Effects...>& slot)
@@ -41,5 +51,112 @@ constexpr const Effect* held(const std::variant<Effects...>& slot)
         return nullptr;
     }
 }
+
+/// f(effect) for the effect that a slot holds, `Off` and effects that are not built left out.
+// Unlike std::visit it has no way to throw, whose code the instruction sets would share.
+template <class... Effects>
+void with_held(const std::variant<Effects...>& slot, const auto& f)
+{
+    const auto try_one = [&]<class Effect>(const Effect* effect) {
+        if constexpr (is_built<Effect> && !std::is_same_v<Effect, Off>) {
+            if (effect != nullptr) {
+                f(*effect);
+            }
+        }
+    };
+    (try_one(std::get_if<Effects>(&slot)), ...);
+}
+
+/// f(effect) for every effect that is held.
+void for_each_effect(const FluidEffects& effects, const auto& f)
+{
+    std::apply([&](const auto&... slot) { (with_held(slot, f), ...); }, slots_of(effects));
+}
+
+/// Whether the pair term of an effect is summed in a stage.
+template <class Effect, class Stage>
+concept InStage = is_built<Effect> && requires
+{
+    requires std::is_same_v<typename Effect::Stage, Stage>;
+};
+
+/// f(terms...) with the effects of a stage that are held, slot by slot.
+template <class Stage, std::size_t k = 0, class... Slots>
+void with_terms_of(const std::tuple<Slots...>& slots, const auto& f, const auto&... found)
+{
+    if constexpr (k == sizeof...(Slots)) {
+        f(found...);
+    } else {
+        bool held_one = false;
+        const auto try_one = [&]<class Effect>(const Effect* effect) {
+            if constexpr (InStage<Effect, Stage>) {
+                if (effect != nullptr) {
+                    held_one = true;
+                    with_terms_of<Stage, k + 1>(slots, f, found..., *effect);
+                }
+            }
+        };
+        [&]<class... Effects>(const std::variant<Effects...>& slot) {
+            (try_one(std::get_if<Effects>(&slot)), ...);
+        }(std::get<k>(slots));
+        if (!held_one) {
+            with_terms_of<Stage, k + 1>(slots, f, found...);
+        }
+    }
+}
+
+namespace detail {
+template <class Effect>
+struct PassesOf {
+    using type = PassList<>;
+};
+template <class Effect>
+requires(is_built<Effect>) && requires
+{
+    typename Effect::Passes;
+}
+struct PassesOf<Effect> {
+    using type = typename Effect::Passes;
+};
+template <class Slots>
+struct PassesOfSlots;
+template <class... Effects>
+struct PassesOfSlots<std::variant<Effects...>> : JoinedPasses<typename PassesOf<Effects>::type...> {
+};
+template <class Tuple>
+struct PassesOfAll;
+template <class... Slots>
+struct PassesOfAll<std::tuple<Slots&...>> : JoinedPasses<typename PassesOfSlots<Slots>::type...> {
+};
+
+template <class Effect, class Stage>
+struct WritesOf {
+    using type = Fields<>;
+};
+template <class Effect, class Stage>
+requires(InStage<Effect, Stage>) struct WritesOf<Effect, Stage> {
+    using type = typename Effect::Writes;
+};
+template <class Slot, class Stage>
+struct WritesOfSlot;
+template <class... Effects, class Stage>
+struct WritesOfSlot<std::variant<Effects...>, Stage> {
+    using type = Union<typename WritesOf<Effects, Stage>::type...>;
+};
+template <class Tuple, class Stage>
+struct WritesOfAll;
+template <class... Slots, class Stage>
+struct WritesOfAll<std::tuple<Slots&...>, Stage> {
+    using type = Union<typename WritesOfSlot<Slots, Stage>::type...>;
+};
+using AllSlots = decltype(slots_of(std::declval<FluidEffects&>()));
+} // namespace detail
+
+/// The passes of all effects that are built.
+using EffectPasses = typename detail::PassesOfAll<detail::AllSlots>::type;
+
+/// What the effects of a stage write, whichever are held.
+template <class Stage>
+using StageWrites = typename detail::WritesOfAll<detail::AllSlots, Stage>::type;
 
 } // namespace hyoryu

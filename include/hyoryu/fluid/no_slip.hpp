@@ -2,7 +2,7 @@
 // Walls and bodies to which the fluid sticks.
 #pragma once
 
-#include "hyoryu/core/sweep.hpp"
+#include "hyoryu/fluid/stage.hpp"
 
 namespace hyoryu {
 
@@ -13,6 +13,17 @@ struct NoSlip {
     static constexpr std::string_view name = "no_slip";
     using Reads = Fields<Velocity>;
     using Writes = Fields<ShepardSum, VelocitySum, OffsetSum>;
+    using Columns = Union<Writes, Fields<Depth>>;
+    static constexpr bool needs_solids = true;
+    /// Viscous forces between the fluid and the solids to which it sticks.
+    struct Friction {
+        static void call(const auto&, const auto& terms, const auto& f)
+        {
+            with_held(terms.effects.viscosity, [&](const auto& v) { f(v.at_wall()); });
+        }
+    };
+    struct Mirror; // sums this term
+    using Passes = PassList<Mirror, Friction>;
 
     template <class N>
     void operator()(const Pair<N>& ij, const auto&, const auto& j, auto& sum) const
@@ -22,6 +33,8 @@ struct NoSlip {
         sum[field::offset_sum] += ij.w * ij.r;
     }
 };
+
+struct NoSlip::Mirror : PassOf<NoSlip> {};
 
 /// v_w = u - (d_w/d_f) (<v> - u): the mean velocity <v> of the fluid before a solid particle of
 /// velocity u, continued in a straight line through u on the surface. d_w is the depth of the

@@ -6,6 +6,7 @@
 #include "hyoryu/fluid/effects.hpp"
 #include "hyoryu/fluid/formulation.hpp"
 
+#include <array>
 #include <tuple>
 
 namespace hyoryu {
@@ -21,28 +22,78 @@ struct FluidTerms {
     SolidBackstop collision;
 };
 
-/// The loops of a formulation in the number Real, each over one block of lists.
+/// The passes that belong to no effect, each with the terms that it sums together; those of a stage
+/// take in the terms of the effects that name it.
+namespace pass {
+
+/// solid <- fluid: the pressure before a solid
+struct Extrapolation {
+    static void call(const auto&, const FluidTerms& terms, const auto& f)
+    {
+        f(terms.extrapolation);
+    }
+};
+/// fluid <- fluid: pressure and what belongs to it
+struct FluidForces {
+    template <class Formulation>
+    static void call(Formulation, const FluidTerms& terms, const auto& f)
+    {
+        with_terms_of<stage::Forces>(slots_of(terms.effects), [&](const auto&... more) {
+            f(typename Formulation::FluidPressure{}, more...);
+        });
+    }
+};
+/// fluid <- solid: pressure and backstop
+struct SolidForces {
+    template <class Formulation>
+    static void call(Formulation, const FluidTerms& terms, const auto& f)
+    {
+        f(typename Formulation::SolidPressure{}, terms.backstop);
+    }
+};
+/// solid <- fluid: the reaction of pressure and backstop
+struct SolidLoads {
+    static void call(const auto&, const FluidTerms& terms, const auto& f)
+    {
+        f(WallPressureForce{}, terms.backstop);
+    }
+};
+/// body <- solid and back: pressure in thin films
+using FilmForces = PassOf<WallPressureForce>;
+/// fluid <- fluid: continuity, viscosity and what else depends on velocities
+struct FluidRates {
+    static void call(const auto&, const FluidTerms& terms, const auto& f)
+    {
+        with_terms_of<stage::Rates>(slots_of(terms.effects),
+                                    [&](const auto&... more) { f(Continuity{}, more...); });
+    }
+};
+/// fluid <- solid: continuity
+using SolidRates = PassOf<SolidContinuity>;
+/// fluid <- fluid and solid: crowding
+struct Crowding {
+    static void call(const auto&, const FluidTerms& terms, const auto& f)
+    {
+        with_terms_of<stage::Crowding>(slots_of(terms.effects), f);
+    }
+};
+
+} // namespace pass
+
+using AllPasses = JoinedPasses<
+    PassList<pass::Extrapolation, pass::FluidForces, pass::SolidForces, pass::SolidLoads,
+             pass::FilmForces, pass::FluidRates, pass::SolidRates, pass::Crowding>,
+    EffectPasses>::type;
+
+/// The loops of a formulation in the number Real, one for each pass, each over one block of lists.
 template <class Real, class Formulation = Sph>
 struct PairLoops {
     using View = SweepView<Stored, Real, typename Formulation::PairKernel>;
     using Row = RecordRow<Stored, Real>;
     using Loop = void (*)(const View& view, Index block, Row* local, const FluidTerms& terms);
 
-    int lanes = 1;                // of a pack
-    Loop extrapolation = nullptr; // solid <- fluid: the pressure before a solid
-    Loop fluid_forces = nullptr;  // fluid <- fluid: pressure and diffusion
-    Loop solid_forces = nullptr;  // fluid <- solid: pressure and backstop
-    Loop solid_loads = nullptr;   // solid <- fluid: pressure and backstop
-    Loop film_forces = nullptr;   // body <- solid and back: pressure in thin films
-    Loop fluid_rates = nullptr;   // fluid <- fluid: continuity and viscosity
-    Loop solid_rates = nullptr;   // fluid <- solid: continuity
-    Loop shifting = nullptr;      // fluid <- fluid or solid: crowding
-    Loop collision = nullptr;     // fluid <- fluid: collisions of splashes
-    Loop gradient = nullptr;      // fluid <- fluid: gradient of the density
-    Loop diffusion = nullptr;     // fluid <- fluid: diffusion that knows it
-    Loop mirror = nullptr;        // solid <- fluid: the velocity before a solid
-    Loop friction = nullptr;      // fluid <- solid and back: viscosity with that velocity mirrored
-    Loop strain = nullptr;        // fluid <- fluid or solid: rate of strain
+    int lanes = 1; // of a pack
+    std::array<Loop, static_cast<std::size_t>(AllPasses::count)> loop{};
 };
 
 /// Of every formulation, in either precision.

@@ -2,7 +2,7 @@
 // Particle shifting: evens out the places of the particles of confined flows.
 #pragma once
 
-#include "hyoryu/core/sweep.hpp"
+#include "hyoryu/fluid/stage.hpp"
 
 namespace hyoryu {
 
@@ -12,6 +12,7 @@ namespace hyoryu {
 /// velocity.
 struct Shifting {
     static constexpr std::string_view name = "shifting";
+    using Stage = stage::Crowding;
     using Reads = Fields<Volume>;
     using Writes = Fields<ShiftGradient>;
     real coefficient = 8; // C [1]

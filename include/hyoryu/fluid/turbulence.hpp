@@ -2,7 +2,7 @@
 // Sub-particle-scale turbulence: an eddy viscosity from the rate of strain.
 #pragma once
 
-#include "hyoryu/core/sweep.hpp"
+#include "hyoryu/fluid/stage.hpp"
 
 namespace hyoryu {
 
@@ -37,8 +37,11 @@ inline real eddy_viscosity(const Vec3& strain, const Vec3& mixed_strain, real le
 /// free surface into a force.
 struct EddyViscosity {
     static constexpr std::string_view name = "eddy_viscosity";
+    using Stage = stage::Rates;
     using Reads = Fields<Velocity, Volume, Pressure>;
     using Writes = Fields<ViscousForce>;
+    using Columns = Union<Writes, StrainRate::Writes, Fields<TurbulentViscosity>>;
+    using Passes = PassList<PassOf<StrainRate>>;
     real rho0 = 1000; // [kg/m3]
     real kappa = 0;   // 2 (d + 2) nu [m2/s]
     real h = 1;       // [m]

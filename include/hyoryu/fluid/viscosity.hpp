@@ -2,7 +2,7 @@
 // Viscosity in the pair form of Monaghan & Gingold, artificial and laminar alike.
 #pragma once
 
-#include "hyoryu/core/sweep.hpp"
+#include "hyoryu/fluid/stage.hpp"
 
 namespace hyoryu {
 
@@ -13,6 +13,7 @@ namespace hyoryu {
 /// (1983); equivalence nu = alpha h c0 / (2 (d + 2)): Monaghan (2005), sec. 8.
 struct Viscosity {
     static constexpr std::string_view name = "viscosity";
+    using Stage = stage::Rates;
     using Reads = Fields<Velocity, Volume>;
     using Writes = Fields<ViscousForce>;
     real rho0 = 1000; // [kg/m3]
@@ -36,6 +37,7 @@ struct Viscosity {
 /// angular momentum: for flows between walls. Source: Morris, Fox & Zhu (1997), eq. 22.
 struct MorrisViscosity {
     static constexpr std::string_view name = "morris_viscosity";
+    using Stage = stage::Rates;
     using Reads = Fields<Velocity, Volume>;
     using Writes = Fields<ViscousForce>;
     real mu = 0; // rho0 nu [Pa s]
