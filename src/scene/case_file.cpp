@@ -3,7 +3,7 @@
 
 #include "hyoryu/core/input_file.hpp"
 
-#include "reader.hpp"
+#include "keys_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -76,27 +76,6 @@ TomlNode parse_document(const std::string& text, Reading& reading)
     return root;
 }
 
-Scene read_scene(TableReader& root)
-{
-    Scene scene;
-    scene.file = root.reading().file;
-    scene.dimensions = static_cast<int>(root.integer("dimensions"));
-    root.reading().dimensions = scene.dimensions;
-    read_general(root, scene);
-    read_fluid(root.table("fluid"), scene);
-    read_walls(root, scene);
-    read_bodies(root, scene);
-    read_contact(root.table("contact"), scene);
-    read_gauges(root, scene);
-    read_output(root.table("output"), scene);
-    if (!root.has("fluid") && !root.has("body")) {
-        root.error("", "the case has nothing to simulate",
-                   "add [fluid] with [[fluid.block]], or [[body]]");
-    }
-    root.finish();
-    return scene;
-}
-
 } // namespace
 
 Scene parse_case(const std::string& text, const std::filesystem::path& file,
@@ -105,7 +84,10 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
     Reading reading{.file = file, .lines = lines_of(text), .overrides = overrides};
     const TomlNode document = parse_document(text, reading);
     TableReader root(reading, &document, "", "");
-    Scene scene = read_scene(root);
+    Scene scene;
+    scene.file = file;
+    keys_of(root, scene);
+    root.finish();
     throw_if_any(reading);
     return scene;
 }

@@ -4,7 +4,7 @@
 #include "hyoryu/scene/parameter.hpp"
 
 #include "hyoryu/scene/reader_hint.hpp"
-#include "parameter_table.hpp"
+#include "keys.hpp"
 
 #include <fmt/format.h>
 

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Reading a table of the case file by the table of keys: every value is checked for type, unit and
-// bounds when it is asked for, every mistake is noted with its place, and nothing is left unread.
+// Reading a table of the case file as its keys are declared: every value is checked for type, unit
+// and bounds, every mistake is noted with its place, and nothing is left unread.
 #pragma once
 
-#include "hyoryu/scene/toml_document.hpp"
+#include "keys.hpp"
 
 #include "hyoryu/core/error.hpp"
-#include "hyoryu/scene/parameter.hpp"
+#include "hyoryu/scene/scene.hpp"
+#include "hyoryu/scene/toml_document.hpp"
 
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace hyoryu {
 
-/// What the parts of the reader share.
+/// What the tables of a case share while it is read.
 struct Reading {
     std::filesystem::path file;
     std::vector<std::string> lines;
@@ -34,44 +32,159 @@ struct Reading {
     void error(const TomlNode& node, std::string key, std::string what, std::string hint = {});
 };
 
-/// One table of the file, or its absence, which gives the defaults.
-class TableReader {
+/// A value of the file, or an element of one, that is read by the rule of its key.
+struct Asked {
+    Reading& reading;
+    const TomlNode& node;
+    const Parameter& rule;
+    std::string key; // full path
+
+    /// Notes a mistake, and is false.
+    bool refuse(std::string what, std::string hint = {}) const
+    {
+        reading.error(node, key, std::move(what), std::move(hint));
+        return false;
+    }
+    /// "expected a text, found the number 3"
+    bool refuse_kind(std::string_view expected) const;
+};
+
+// Each reads a member: false if the value is mistaken, which is noted.
+bool read(const Asked& asked, double& member);
+bool read(const Asked& asked, std::int64_t& member);
+bool read(const Asked& asked, bool& member);
+bool read(const Asked& asked, std::string& member); // one of the choices, if there are some
+bool read(const Asked& asked, Vec3& member);
+bool read(const Asked& asked, Quat& member);
+
+/// The elements of a list of the right length, else none.
+const TomlArray* elements(const Asked& asked, std::string_view what);
+
+/// The elements up to the first mistake; of texts all that are sound.
+template <class T>
+bool read(const Asked& asked, std::vector<T>& member)
+{
+    constexpr bool texts = std::same_as<T, std::string>;
+    const TomlArray* items = elements(asked, texts                           ? "texts"
+                                             : std::same_as<T, std::int64_t> ? "whole numbers"
+                                             : std::same_as<T, Vec3>         ? "lists of 3 numbers"
+                                                                             : "numbers");
+    bool sound = items != nullptr;
+    member.clear();
+    for (std::size_t k = 0; items != nullptr && (sound || texts) && k < items->size(); ++k) {
+        T value{};
+        if (read(
+                {asked.reading, (*items)[k], asked.rule, asked.key + '[' + std::to_string(k) + ']'},
+                value)) {
+            member.push_back(value);
+        } else {
+            sound = false;
+        }
+    }
+    return sound;
+}
+template <class T, std::size_t n>
+bool read(const Asked& asked, std::array<T, n>& member)
+{
+    std::vector<T> values;
+    const bool sound = read(asked, values);
+    std::copy_n(values.begin(), std::min(n, values.size()), member.begin());
+    return sound;
+}
+template <class T>
+bool read(const Asked& asked, std::optional<T>& member)
+{
+    T value;
+    const bool sound = read(asked, value);
+    member = sound ? std::optional(value) : member;
+    return sound;
+}
+template <std::integral T>
+bool read(const Asked& asked, T& member)
+{
+    auto value = static_cast<std::int64_t>(member);
+    const bool sound = read(asked, value);
+    member = static_cast<T>(value);
+    return sound;
+}
+
+/// One table of the file, or its absence, which leaves every member as it is; so does a mistake.
+class TableReader : public KeyWords<TableReader> {
 public:
+    static constexpr bool writes = false;
+
     /// `path` is where the table stands ("body[2]"), `schema` its name in the table of keys
-    /// ("body[]").
-    TableReader(Reading& reading, const TomlNode* node, std::string path, std::string schema);
+    /// ("body[]"), `number` which of its kind it is, from 1 on.
+    TableReader(Reading& reading, const TomlNode* node, std::string path, std::string schema,
+                std::size_t number = 1);
 
     bool present() const { return node_ != nullptr; }
     bool has(std::string_view key) const;
+    /// The value of a key, or none.
+    const TomlNode* find(std::string_view key) const;
+    /// Whether a key is there and without mistake.
+    bool sound(std::string_view key) const;
+    /// Number of elements of a list that is sound.
+    std::size_t count(std::string_view key) const;
     Place place() const { return node_ != nullptr ? node_->place : Place{}; }
-    const std::string& path() const { return path_; }
+    std::size_t number_of_table() const { return number_; }
     Reading& reading() const { return reading_; }
 
-    // The value of a key, else its default; nothing if it has neither or is mistaken.
-    std::optional<double> find_number(std::string_view key);
-    std::optional<Vec3> find_vector(std::string_view key);
+    // Visits keys; see `KeyWords`.
 
-    // The same where nothing else can be done than to go on with zeros until the mistakes are told.
-    double number(std::string_view key) { return find_number(key).value_or(0); }
-    Vec3 vector(std::string_view key) { return find_vector(key).value_or(Vec3(0, 0, 0)); }
-    std::int64_t integer(std::string_view key);
-    bool flag(std::string_view key);
-    std::string text(std::string_view key);
-    /// One of the choices; empty if mistaken: then keys that belong to a choice are not judged.
-    std::string choice(std::string_view key);
-    std::vector<double> numbers(std::string_view key);
-    std::vector<Vec3> vectors(std::string_view key);
-    std::vector<std::int64_t> integers(std::string_view key);
-    std::vector<std::string> texts(std::string_view key);
-
-    /// A vector in space: its y is zero in two dimensions.
-    std::optional<Vec3> find_planar(std::string_view key);
-    Vec3 planar(std::string_view key) { return find_planar(key).value_or(Vec3(0, 0, 0)); }
-    /// The unit vector along it; a mistake if it has no direction.
-    std::optional<Vec3> find_direction(std::string_view key);
-
-    TableReader table(std::string_view key);
-    std::vector<TableReader> tables(std::string_view key);
+    template <class T>
+    void key(const Parameter& rule, T& member, Default fallback)
+    {
+        const TomlNode* node = ask(rule.key, fallback);
+        if (node != nullptr && read({reading_, *node, rule, full(rule.key)}, member)) {
+            sound_.push_back(rule.key);
+        }
+    }
+    template <class T>
+    void planar(std::string_view name, T& member, std::string_view unit, std::string_view meaning,
+                Default fallback = {}, int shortest = 3)
+    {
+        vector(name, member, unit, meaning, fallback, shortest);
+        if constexpr (std::same_as<T, Vec3>) {
+            member.y() = reading_.dimensions == 2 ? 0.0 : member.y();
+        } else if (member) {
+            member->y() = reading_.dimensions == 2 ? 0.0 : member->y();
+        }
+    }
+    void direction(std::string_view name, Vec3& member, std::string_view meaning,
+                   Default fallback = {});
+    bool pick(const Parameter& rule, std::size_t& index, Default fallback);
+    template <class What, class... Context>
+    void table(std::string_view name, std::string_view /*meaning*/, What&& what,
+               Context&&... context)
+    {
+        TableReader inner = inside(name);
+        if constexpr (!is_optional<What>) {
+            visit_keys(inner, what, context...);
+        } else if (inner.present()) {
+            visit_keys(inner, what.emplace(), context...);
+        }
+        inner.finish();
+    }
+    template <class T, class... Context>
+    void tables(std::string_view name, std::string_view /*meaning*/, std::vector<T>& list,
+                Context&&... context)
+    {
+        for (TableReader& inner : each_inside(name)) {
+            T item;
+            if constexpr (requires { item.place; }) {
+                item.place = inner.place();
+            }
+            keys_of(inner, item, context...);
+            inner.finish();
+            list.push_back(std::move(item));
+        }
+    }
+    template <class Rule, class... Arguments>
+    void rule(Rule&& check, Arguments&&... arguments)
+    {
+        check(*this, arguments...);
+    }
 
     /// Notes a mistake at the value of a key, or at the table if the key is not there.
     void error(std::string_view key, std::string what, std::string hint = {});
@@ -87,15 +200,11 @@ public:
 
 private:
     const Parameter& parameter(std::string_view key) const;
-    const TomlNode* ask(std::string_view key);
-    const TomlArray* ask_list(std::string_view key, std::string_view elements);
+    const TomlNode* ask(std::string_view key, Default fallback);
+    TableReader inside(std::string_view key);
+    std::vector<TableReader> each_inside(std::string_view key);
     std::string full(std::string_view key) const;
-    std::optional<double> to_number(const TomlNode& node, const Parameter& rule,
-                                    const std::string& key);
-    std::optional<std::int64_t> to_integer(const TomlNode& node, const Parameter& rule,
-                                           const std::string& key);
-    bool is_choice(const TomlNode& node, const std::string& value, const Parameter& rule,
-                   const std::string& key);
+
     void report_unknown(const TomlEntry& entry);
     void report_unused(const TomlEntry& entry);
 
@@ -103,7 +212,9 @@ private:
     const TomlNode* node_;
     std::string path_;
     std::string schema_;
+    std::size_t number_;
     std::vector<std::string> asked_;
+    std::vector<std::string> sound_;
     std::string chosen_; // `shape = "box"`: why other keys have no meaning
     bool abandoned_ = false;
 };

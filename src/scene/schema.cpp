@@ -2,7 +2,7 @@
 // The table of keys as a JSON Schema, in the draft-04 subset that editors of TOML know.
 #include "hyoryu/scene/parameter.hpp"
 
-#include "parameter_table.hpp"
+#include "keys.hpp"
 
 #include <fmt/format.h>
 
@@ -100,7 +100,7 @@ std::string object_schema(std::string_view prefix)
         if (!parameter.key.starts_with(prefix)) {
             continue;
         }
-        const std::string_view name = parameter.key.substr(prefix.size());
+        const std::string_view name = std::string_view(parameter.key).substr(prefix.size());
         if (name.find('.') != std::string_view::npos) {
             continue;
         }

@@ -29,13 +29,12 @@ enum class ValueKind {
 
 /// One key of the case file.
 struct Parameter {
-    std::string_view key; // full path; arrays of tables as "body[]", for instance "body[].size"
+    std::string key; // full path; arrays of tables as "body[]", for instance "body[].size"
     ValueKind kind;
-    std::string_view unit;   // SI unit of a dimensional number, "" if it has none
-    std::string_view bounds; // in words a user reads: "> 0", "0 .. 1", "2 or 3"
-    std::string_view
-        fallback; // the default, as it would be typed; "" if none, "required" if it must be there
-    std::string_view meaning;                   // one sentence
+    std::string_view unit = {};   // SI unit of a dimensional number, "" if it has none
+    std::string_view bounds = {}; // in words a user reads: "> 0", "0 .. 1", "2 or 3"
+    std::string fallback = {}; // the default as typed; "" if none, "required" if it must be there
+    std::string_view meaning = {};              // one sentence
     std::vector<std::string_view> choices = {}; // of a choice or of the elements of `texts`
     double minimum = -1e300;                    // of each number
     double maximum = 1e300;

@@ -68,8 +68,8 @@ struct DomainSettings {
     std::array<bool, 3> periodic{}; // x y z
 };
 
-enum class ViscosityModel { none, artificial, laminar, sps };
-enum class DiffusionModel { none, fourtakas, molteni, antuono };
+enum class ViscosityModel { artificial, laminar, sps, none };
+enum class DiffusionModel { fourtakas, molteni, antuono, none };
 
 /// A region that is filled with fluid particles at the start.
 struct FluidBlock {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// The keys of contact.
+#pragma once
+
+#include "keys_names.hpp"
+
+#include "hyoryu/scene/reader_hint.hpp"
+
+#include <set>
+
+namespace hyoryu {
+
+inline bool same_pair(const MaterialPair& a, const MaterialPair& b)
+{
+    return a.materials == b.materials ||
+           (a.materials[0] == b.materials[1] && a.materials[1] == b.materials[0]);
+}
+
+inline void choose_method(TableReader& table, bool springs, const PenaltyParameters& penalty,
+                          ContactSettings& contact)
+{
+    if (springs) {
+        contact.penalty = penalty;
+        if (table.has("law")) {
+            table.error("law", "has no meaning with method = \"penalty\"",
+                        "laws are of the impulse method: leave `law` out");
+        }
+        if (table.has("locating_share")) {
+            table.error("locating_share", "has no meaning with method = \"penalty\"",
+                        "the penalty method locates no impacts: leave `locating_share` out");
+        }
+    } else if (const TomlNode* node = table.find("penalty");
+               node != nullptr && node->table() != nullptr &&
+               table.sound("method") == table.has("method")) {
+        table.error("penalty", "has no meaning with method = \"impulse\"",
+                    "leave the table out, or write method = \"penalty\"");
+    }
+}
+
+inline void find_materials(TableReader& /*table*/, const Scene& scene,
+                           std::set<std::string>& materials)
+{
+    for (const Wall& wall : scene.walls) {
+        materials.insert(wall.material);
+    }
+    for (const BodySettings& body : scene.bodies) {
+        materials.insert(body.material);
+    }
+    materials.erase("");
+}
+
+inline void check_pair(TableReader& table, const MaterialPair& pair, const ContactSettings& contact,
+                       const std::set<std::string>& materials)
+{
+    if (!table.sound("materials")) {
+        return;
+    }
+    const std::vector<std::string_view> known(materials.begin(), materials.end());
+    for (std::size_t k = 0; k < pair.materials.size(); ++k) {
+        if (materials.count(pair.materials[k]) == 0) {
+            const std::string near = did_you_mean(pair.materials[k], known);
+            table.error_at(
+                "materials", k,
+                fmt::format("no wall or body has the material \"{}\"", pair.materials[k]),
+                near.empty() && !known.empty() ? "named are: " + quoted_list(known) : near);
+        }
+    }
+    const bool again = std::ranges::any_of(
+        contact.pairs, [&](const MaterialPair& other) { return same_pair(pair, other); });
+    if (again && !pair.materials[0].empty()) {
+        table.error("materials", "this pair stands in the case already");
+    }
+}
+
+void keys_of(auto& keys, Is<PenaltyParameters> auto& penalty)
+{
+    keys.positive("stiffness", penalty.stiffness, "N/m",
+                  "Stiffness of a pair of particles; in 2-D per metre of width.");
+    keys.not_negative("damping", penalty.damping, "N s/m",
+                      "Damping of a pair of particles along the line between them, and across it "
+                      "up to the friction; in 2-D per metre of width.");
+    keys.positive("step", penalty.step, "s",
+                  "Longest sub-step of the explicit integration; a step of the bodies is split "
+                  "into equal ones.");
+}
+
+void keys_of(auto& keys, Is<MaterialPair> auto& pair, const ContactSettings& contact,
+             const std::set<std::string>& materials)
+{
+    keys.text_list("materials", pair.materials, 2,
+                   "The two materials, as walls and bodies name them.", required);
+    keys.rule(check_pair, pair, contact, materials);
+    keys.rule(inherit, pair.restitution, contact.restitution);
+    keys.rule(inherit, pair.friction, contact.friction);
+    keys.fraction("restitution", pair.restitution,
+                  "Part of the approach speed that the pair keeps after an impact.",
+                  "contact.restitution");
+    keys.not_negative("friction", pair.friction, "", "Dynamic friction coefficient of the pair.",
+                      "contact.friction");
+    keys.positive("stiffness", pair.stiffness, "N/m",
+                  "Contact stiffness, used only by the impact force formulae of the report.");
+}
+
+void keys_of(auto& keys, Is<ContactSettings> auto& contact, const Scene& scene)
+{
+    bool springs = contact.penalty.has_value();
+    keys.choice("method", springs, {"impulse", "penalty"},
+                "\"impulse\" solves for the impulses that keep bodies apart, with friction; "
+                "\"penalty\" puts springs between particles, the baseline to compare with.");
+    if (keys.shows(!springs)) {
+        keys.choice("law", contact.law, {"coupled", "paper", "simultaneous"},
+                    "What an impact does, by the impulse method. \"coupled\": all contacts that "
+                    "approach together, round after round, with the circular Coulomb cone; "
+                    "\"paper\": the uncoupled equations (1)-(6) of the Iwate paper, which can "
+                    "gain energy; \"simultaneous\": all touching contacts at once (Moreau).");
+        keys.not_negative(
+            "locating_share", contact.locating_share, "",
+            "Part of the fluid's cost that locating impacts in time may take in a step, by the "
+            "impulse method, beside a small allowance for each body. Beyond it the bodies with "
+            "most impacts are advanced without location first; contacts.csv says of each contact "
+            "whether it was located.");
+    }
+    keys.fraction("restitution", contact.restitution,
+                  "Part of the approach speed that a pair keeps after an impact, unless "
+                  "contact.pair names the pair. The penalty method has no use for it: there it "
+                  "follows from stiffness and damping.");
+    keys.not_negative("friction", contact.friction, "",
+                      "Dynamic friction coefficient, unless contact.pair names the pair.");
+    PenaltyParameters penalty = contact.penalty.value_or(PenaltyParameters{});
+    if (keys.shows(springs)) {
+        keys.table("penalty", "The penalty method, with method = \"penalty\".", penalty);
+    }
+    keys.rule(choose_method, springs, penalty, contact);
+    std::set<std::string> materials;
+    keys.rule(find_materials, scene, materials);
+    keys.tables("pair", "The contact of two materials.", contact.pairs, contact, materials);
+}
+
+} // namespace hyoryu

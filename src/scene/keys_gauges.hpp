@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// The keys of gauges.
+#pragma once
+
+#include "keys_names.hpp"
+
+#include "hyoryu/scene/gauge_columns.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
+
+#include <map>
+
+namespace hyoryu {
+
+/// The columns of gauges.csv so far, and the line of the gauge that has each.
+using GaugeColumns = std::map<std::string, int>;
+
+inline void find_face(TableReader& table, bool& face)
+{
+    face = table.has("area") || table.has("normal");
+}
+
+inline void check_place(TableReader& table, const Gauge& gauge)
+{
+    if (table.count("at") == 2 && gauge.type != GaugeType::elevation) {
+        table.error("at", "expected 3 numbers, found 2");
+    }
+}
+
+inline void find_target(TableReader& table, const Gauge& gauge, const Scene& scene)
+{
+    std::vector<std::string_view> names;
+    for (const Wall& wall : scene.walls) {
+        names.push_back(wall.name);
+    }
+    for (const BodySettings& body : scene.bodies) {
+        names.push_back(body.name);
+    }
+    if (table.sound("on") && std::find(names.begin(), names.end(), gauge.on) == names.end()) {
+        const std::string near = did_you_mean(gauge.on, names);
+        constexpr std::size_t most_listed = 10;
+        names.resize(std::min(names.size(), most_listed));
+        table.error("on", fmt::format("no wall or body is named \"{}\"", gauge.on),
+                    near.empty() && !names.empty() ? "there are: " + quoted_list(names) : near);
+    }
+}
+
+inline void check_gauge(TableReader& table, const Gauge& gauge, const Scene& scene,
+                        GaugeColumns& columns)
+{
+    if (!scene.fluid && table.sound("type") && gauge.type != GaugeType::force) {
+        const auto type = std::get<std::string>(table.find("type")->value);
+        table.error("type", fmt::format("\"{}\" has no meaning in a case without fluid", type),
+                    "only gauges of type \"force\" have");
+    }
+    check_name(table, "name", gauge.name);
+    for (const Table::Head& head : gauge_columns(gauge, scene.dimensions)) {
+        const auto [earlier, is_new] = columns.emplace(head.name, gauge.place.line);
+        if (!is_new) {
+            table.error("name", head.name == "time"
+                                    ? "is taken: \"time\" is the first column of gauges.csv"
+                                    : fmt::format("the column \"{}\" stands twice, first of "
+                                                  "the gauge in line {}",
+                                                  head.name, earlier->second));
+            break;
+        }
+    }
+}
+
+/// What the readings of a gauge are filtered by.
+void filter_keys(auto& keys, Is<Gauge> auto& gauge)
+{
+    const auto filtered = [&] { return gauge.filter != GaugeFilter::none; };
+    if (keys.shows(filtered())) {
+        keys.choice("filter", gauge.filter, {"none", "mean", "median", "exponential"},
+                    "A column of filtered readings beside the raw ones, named NAME_mean and so "
+                    "on: mean or median of the last `window` seconds, or the mean with weights "
+                    "that fall as exp(-age/window).");
+    }
+    if (keys.applies(filtered())) {
+        keys.positive("window", gauge.window, "s", "Window of the filter.", needed);
+    }
+}
+
+/// Where a gauge measures.
+void gauge_place_keys(auto& keys, Is<Gauge> auto& gauge)
+{
+    keys.planar("at", gauge.at, "m",
+                "Where it measures: a point, the x and y of the vertical line of an elevation "
+                "gauge, or any point of the plane of a flux gauge.",
+                needed, 2);
+    keys.rule(check_place, gauge);
+}
+
+/// The face of a pressure gauge and the plane of a flux gauge.
+void gauge_face_keys(auto& keys, Is<Gauge> auto& gauge)
+{
+    bool face = gauge.area > 0;
+    keys.rule(find_face, face);
+    const bool pressure = gauge.type == GaugeType::pressure;
+    if (keys.applies(pressure) && keys.shows(face)) {
+        keys.positive("area", gauge.area, "",
+                      "Area of the face of a pressure sensor, over which it averages [m2]; its "
+                      "length [m] in 2-D. Without it the pressure is that at a point.",
+                      face ? needed : no_default);
+    }
+    const bool flux = gauge.type == GaugeType::flux;
+    if (keys.applies(flux || (pressure && face))) {
+        keys.direction("normal", gauge.normal,
+                       "Direction that the face of a pressure sensor looks in, or in which a flux "
+                       "counts as positive; of any length.",
+                       face ? needed : no_default);
+    }
+}
+
+void keys_of(auto& keys, Is<Gauge> auto& gauge, const Scene& scene, GaugeColumns& columns)
+{
+    keys.rule(number_name, "gauge", gauge.name);
+    keys.text("name", gauge.name, "Name of the column; unique.", "gauge.1, gauge.2 ...");
+    const bool known = keys.choice(
+        "type", gauge.type, {"elevation", "pressure", "velocity", "force", "front", "flux"},
+        "What is measured: the water level over a place (at), pressure or velocity at a point "
+        "(at), the force of the fluid on a wall or body with the impulses of fluid and contact "
+        "(on), how far the water has come along an axis (axis), or the volume that passes a plane "
+        "in a second (at, normal).",
+        required);
+    const bool force = gauge.type == GaugeType::force;
+    const bool front = gauge.type == GaugeType::front;
+    const bool placed = known && !force && !front;
+    if (keys.writes) {
+        filter_keys(keys, gauge);
+    } else if (keys.applies(placed)) {
+        gauge_place_keys(keys, gauge);
+    }
+    gauge_face_keys(keys, gauge);
+    if (keys.writes && placed) {
+        gauge_place_keys(keys, gauge);
+    }
+    if (keys.applies(known && force)) {
+        keys.text("on", gauge.on, "The wall or body on which forces are measured, by its name.",
+                  needed);
+        keys.rule(find_target, gauge, scene);
+    }
+    if (keys.applies(known && front)) {
+        keys.choice("axis", gauge.axis, {"x", "y", "z"},
+                    "The axis along which the front is followed.");
+    }
+    if (!keys.writes) {
+        filter_keys(keys, gauge);
+    }
+    keys.rule(check_gauge, gauge, scene, columns);
+}
+
+} // namespace hyoryu

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// The keys of the whole case: time, resolution, domain and output.
+#pragma once
+
+#include "keys_bodies.hpp"
+#include "keys_contact.hpp"
+#include "keys_fluid.hpp"
+#include "keys_gauges.hpp"
+#include "keys_walls.hpp"
+
+namespace hyoryu {
+
+// Spacings in the shortest period: 2.5 supports of the widest kernel, 2 h of 2 spacings.
+inline constexpr int least_period = 10;
+
+// A period holds a whole number of spacings, so that the lattice of the start goes on across it,
+// and a tile of the neighbour search (see `tile_ratio`), below which a particle would meet its own
+// image.
+inline void check_period(TableReader& table, const Scene& scene, const DomainSettings& domain,
+                         int axis, std::string_view name)
+{
+    const double length = domain.max[axis] - domain.min[axis];
+    const double cells = length / scene.spacing;
+    if (!(length > 0 && scene.spacing > 0)) {
+        return; // already an error
+    }
+    if (std::abs(cells - std::round(cells)) > 1e-6 * cells) {
+        table.error("periodic",
+                    fmt::format("along {} the domain is {:.6g} spacings long", name, cells),
+                    "a period must be a whole number of `particles.spacing`");
+    }
+    if (cells < least_period) {
+        table.error("periodic",
+                    fmt::format("along {} the domain is {:.6g} spacings long", name, cells),
+                    fmt::format("a period must be at least {} spacings", least_period));
+    }
+    if (scene.gravity[axis] != 0) {
+        table.error("periodic", fmt::format("`gravity` points along {}", name),
+                    "what falls without end has no hydrostatic pressure; turn one of them");
+    }
+}
+
+inline void check_title(TableReader& root, const std::string& title)
+{
+    if (const std::string fault = label_fault(title); !fault.empty()) {
+        root.error("title", "cannot be shown: " + fault, "one line of plain text");
+    }
+}
+
+inline void set_dimensions(TableReader& root, int dimensions)
+{
+    root.reading().dimensions = dimensions;
+}
+
+/// Without a direction of gravity that is known, none is judged by it.
+inline void forget_mistaken(TableReader& root, Vec3& gravity)
+{
+    if (root.has("gravity") && !root.sound("gravity")) {
+        gravity = Vec3(0, 0, 0);
+    }
+}
+
+inline void check_time(TableReader& table, const TimeSettings& time)
+{
+    if (time.recover && time.step) {
+        table.error("recover", "has no meaning beside a fixed `time.step`",
+                    "leave `time.step` out for an adaptive step, which can be halved");
+    }
+    if (time.step && time.end > 0 && *time.step > time.end) {
+        table.error("step",
+                    fmt::format("{} s is longer than the run of {} s", *time.step, time.end));
+    }
+}
+
+inline void find_periods(TableReader& table, const std::vector<std::string>& names,
+                         const Scene& scene, DomainSettings& domain)
+{
+    constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+    for (const std::string& name : names) {
+        const auto found = std::find(axes.begin(), axes.end(), name);
+        const bool flat = scene.dimensions == 2 && name == "y";
+        if (found == axes.end() || flat) {
+            table.error("periodic", fmt::format("\"{}\" is no direction of this case", name),
+                        scene.dimensions == 2 ? "there are \"x\" and \"z\""
+                                              : "there are \"x\", \"y\" and \"z\"");
+            continue;
+        }
+        const auto axis = static_cast<std::size_t>(found - axes.begin());
+        domain.periodic[axis] = true;
+        check_period(table, scene, domain, static_cast<int>(axis), name);
+    }
+}
+
+inline void expect_something(TableReader& root)
+{
+    if (!root.has("fluid") && !root.has("body")) {
+        root.error("", "the case has nothing to simulate",
+                   "add [fluid] with [[fluid.block]], or [[body]]");
+    }
+}
+
+void keys_of(auto& keys, Is<TimeSettings> auto& time)
+{
+    keys.positive("end", time.end, "s", "Simulated time at which the run ends.", required);
+    keys.positive("step", time.step, "s",
+                  "A fixed time step; without it every step is as long as the limits of sound "
+                  "speed, viscosity and force allow.");
+    keys.positive("cfl", time.cfl, "",
+                  "Factor on the limits of the adaptive time step; smaller is safer and slower.");
+    if (keys.shows(time.recover)) {
+        keys.flag("recover", time.recover,
+                  "When the numbers go wrong, goes back to the last frame and on with half the "
+                  "time step, at most five times. What was written since is taken back, and "
+                  "`run.log` says so.");
+    }
+    keys.rule(check_time, time);
+}
+
+void keys_of(auto& keys, Is<DomainSettings> auto& domain, const Scene& scene)
+{
+    keys.planar("min", domain.min, "m", "Lower corner of the domain.", required);
+    keys.planar("max", domain.max, "m", "Upper corner of the domain.", required);
+    keys.rule(check_corners, domain.min, domain.max);
+    std::vector<std::string> periods;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (domain.periodic[axis]) {
+            periods.emplace_back(1, "xyz"[axis]);
+        }
+    }
+    if (keys.shows(!periods.empty())) {
+        keys.texts("periodic", periods, {},
+                   "Directions, of \"x\", \"y\", \"z\", in which the domain repeats itself: what "
+                   "leaves on one side enters on the other. For scenes without bodies and moving "
+                   "walls.");
+    }
+    keys.rule(find_periods, periods, scene, domain);
+}
+
+void keys_of(auto& keys, Is<OutputSettings> auto& output, const Scene& scene)
+{
+    keys.rule(inherit, output.every, scene.time.end / 100);
+    keys.positive("every", output.every, "s", "Simulated time between two frames.",
+                  "time.end / 100");
+    keys.not_negative("history_every", output.history_every, "s",
+                      "Simulated time between two rows of the CSV histories; 0 is every step.");
+    keys.rule(inherit, output.gauge_every, output.history_every);
+    keys.not_negative("gauge_every", output.gauge_every, "s",
+                      "Simulated time between two rows of gauges.csv; 0 is every step.",
+                      "output.history_every");
+    keys.texts("fields", output.fields,
+               {"velocity", "pressure", "density", "volume", "id", "kind", "body"},
+               "What each particle of a frame carries besides its place; an empty list is the "
+               "default set.");
+    keys.positive("checkpoint_every", output.checkpoint_every, "s",
+                  "Wall-clock time between two checkpoints, from which `run --resume` goes on.");
+}
+
+/// What holds everywhere in the case.
+void general_keys(auto& keys, Is<Scene> auto& scene)
+{
+    keys.text("title", scene.title, "A line that names the case in reports and pictures.");
+    keys.rule(check_title, scene.title);
+    keys.integer("dimensions", scene.dimensions, 2, 3, "2 or 3",
+                 "3, or 2 for a case in the x-z plane whose masses and forces are per metre of "
+                 "width and whose y components are read and ignored.");
+    keys.rule(set_dimensions, scene.dimensions);
+    keys.planar("gravity", scene.gravity, "m/s2", "Acceleration of gravity; z is up.");
+    keys.rule(forget_mistaken, scene.gravity);
+    constexpr double unbounded = 1e300;
+    keys.integer("seed", scene.seed, 0, unbounded, ">= 0",
+                 "Seed of everything random; the same seed gives the same bits.");
+    keys.table("time", "How long is simulated, and in which steps.", scene.time);
+    keys.table("particles", "The resolution.", [&](auto& particles) {
+        particles.positive(
+            "spacing", scene.spacing, "m",
+            "Distance between the particles of fluid and walls at the start: the resolution of "
+            "the run.",
+            required);
+        particles.choice(
+            "precision", scene.precision, {"single", "double"},
+            "The number of the arithmetic between pairs of particles; state and bodies are double "
+            "in either case. \"double\" is for verification and takes about twice the time.");
+    });
+    keys.table("domain",
+               "The box outside which particles leave the run; without it the bounds of the scene.",
+               scene.domain, scene);
+}
+
+void keys_of(auto& keys, Is<Scene> auto& scene)
+{
+    general_keys(keys, scene);
+    keys.table("fluid", "The water; without this table no fluid is simulated at all.", scene.fluid);
+    keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
+                scene.gravity.norm());
+    keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,
+                scene);
+    keys.rule(check_bodies, scene.bodies);
+    keys.table("contact", "How bodies hit each other and the walls.", scene.contact, scene);
+    GaugeColumns columns{{"time", 0}};
+    keys.tables("gauge", "An instrument: columns of gauges.csv.", scene.gauges, scene, columns);
+    keys.table("output", "What is written, and how often.", scene.output, scene);
+    keys.rule(expect_something);
+}
+
+} // namespace hyoryu

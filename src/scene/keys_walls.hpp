@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// The keys of walls and of how they move.
+#pragma once
+
+#include "keys_shapes.hpp"
+
+#include "hyoryu/scene/piston.hpp"
+
+namespace hyoryu {
+
+/// How a wall moves.
+enum class MotionWay { none, velocity, table, points, piston };
+
+/// The wave of [wall.motion.piston].
+struct SolitaryWave {
+    double height = 0; // [m]
+    double depth = 0;  // of the water at rest [m]
+};
+
+// Rounding of a path that passes through the origin at time 0 [m].
+inline constexpr double at_origin = 1e-12;
+
+inline void flatten(Motion& motion, int dimensions)
+{
+    for (Vec3& place : motion.places) {
+        place.y() = dimensions == 2 ? 0 : place.y();
+    }
+}
+
+inline void find_way(TableReader& table, MotionWay& way)
+{
+    const bool points = table.has("times") || table.has("places");
+    const int ways = (table.has("velocity") ? 1 : 0) + (table.has("table") ? 1 : 0) +
+                     (table.has("piston") ? 1 : 0) + (points ? 1 : 0);
+    if (ways > 1) {
+        table.error(table.has("velocity") ? "velocity"
+                    : table.has("table")  ? "table"
+                                          : "times",
+                    "give one of `velocity`, `table`, `piston`, or `times` and `places`");
+        table.abandon();
+        way = MotionWay::none;
+    } else {
+        way = table.has("table")    ? MotionWay::table
+              : table.has("piston") ? MotionWay::piston
+              : points              ? MotionWay::points
+                                    : MotionWay::velocity;
+    }
+}
+
+inline void load_path(TableReader& table, const std::string& file, Motion& motion)
+{
+    const auto path = path_of_file(table, "table", file);
+    if (!path) {
+        return;
+    }
+    constexpr std::array<NumberColumn, 4> columns{
+        {{"time", "s"}, {"x", "m"}, {"y", "m"}, {"z", "m"}}};
+    const NumberTable numbers = read_number_table(*path, columns);
+    for (const std::string& fault : numbers.faults) {
+        table.error("table", fault, "columns are time, x, y, z in s and m");
+    }
+    for (std::size_t k = 0; k < numbers.rows.size(); ++k) {
+        const std::vector<double>& row = numbers.rows[k];
+        if (k > 0 && row[0] <= motion.times.back()) {
+            table.error("table",
+                        fmt::format("{}:{}: time {} does not follow {}", path->string(),
+                                    numbers.lines[k], row[0], motion.times.back()),
+                        "times must ascend");
+            break;
+        }
+        motion.times.push_back(row[0]);
+        motion.places.emplace_back(row[1], row[2], row[3]);
+    }
+    if (numbers.faults.empty() && numbers.rows.size() < 2) {
+        table.error("table", fmt::format("{}: has {} rows of numbers, a path needs two",
+                                         path->string(), numbers.rows.size()));
+    }
+    flatten(motion, table.reading().dimensions);
+    if (motion.times.size() < 2) {
+        return;
+    }
+    const Vec3 start = displacement(motion, 0);
+    for (Vec3& place : motion.places) {
+        place -= start;
+    }
+}
+
+inline void check_path(TableReader& table, Motion& motion)
+{
+    flatten(motion, table.reading().dimensions);
+    if (!table.sound("times") || !table.sound("places")) {
+        return;
+    }
+    if (motion.times.size() != motion.places.size()) {
+        table.error("places", fmt::format("has {} points for {} times", motion.places.size(),
+                                          motion.times.size()));
+        return;
+    }
+    const auto unsorted = std::adjacent_find(motion.times.begin(), motion.times.end(),
+                                             [](double a, double b) { return b <= a; });
+    if (unsorted != motion.times.end()) {
+        table.error_at("times", static_cast<std::size_t>(unsorted + 1 - motion.times.begin()),
+                       "times must ascend");
+    } else if (displacement(motion, 0).norm() > at_origin) {
+        table.error("places", "the path is not at [0, 0, 0] at time 0",
+                    "places are displacements from where the wall stands then");
+    }
+}
+
+inline void move_as_piston(TableReader& table, const SolitaryWave& wave, Motion& motion,
+                           double gravity)
+{
+    if (!table.sound("solitary_height") || !table.sound("depth")) {
+        return;
+    }
+    if (gravity > 0) {
+        motion = solitary_piston(wave.height, wave.depth, gravity);
+    } else {
+        table.error("depth", "there are no waves without `gravity`");
+    }
+}
+
+void keys_of(auto& keys, Is<PlaneWall> auto& plane)
+{
+    keys.planar("point", plane.point, "m", "A point of a plane.");
+    keys.direction("normal", plane.normal,
+                   "Direction from a plane into the free space, of any length.");
+}
+
+void keys_of(auto& keys, Is<BasinWall> auto& basin)
+{
+    keys.planar("min", basin.min, "m", "Lower corner of a basin or box.", needed);
+    keys.planar("max", basin.max, "m", "Upper corner of a basin or box.", needed);
+    keys.rule(check_corners, basin.min, basin.max);
+    keys.flags("open", basin.open, {"-x", "+x", "-y", "+y", "-z", "+z"},
+               "Sides of a basin without a wall.");
+    keys.positive("thickness", basin.thickness, "m",
+                  "Of the sides of a basin as bodies meet them, from outside and on their rims "
+                  "too; by default 2 fluid.smoothing_ratio spacings rounded up to whole ones, "
+                  "without a fluid three; the penalty method takes two spacings.",
+                  "that of the rows of wall particles");
+}
+
+void keys_of(auto& keys, Is<SolitaryWave> auto& wave, auto& motion, double gravity)
+{
+    keys.positive("solitary_height", wave.height, "m", "Height of the wave.", needed);
+    keys.positive("depth", wave.depth, "m", "Depth of the water at rest.", needed);
+    keys.rule(move_as_piston, wave, motion, gravity);
+}
+
+void keys_of(auto& keys, Is<Motion> auto& motion, double gravity)
+{
+    MotionWay way = motion.times.empty() ? MotionWay::velocity : MotionWay::points;
+    keys.rule(find_way, way);
+    if (keys.applies(way == MotionWay::velocity)) {
+        keys.planar("velocity", motion.velocity, "m/s", "Constant velocity.");
+    }
+    if (keys.applies(way == MotionWay::table)) {
+        std::string file;
+        keys.text("table", file,
+                  "CSV file of a path, relative to the case file: columns time, x, y, z in s and "
+                  "m, a header line or none. The wall follows it by monotone cubics, starts where "
+                  "it stands in the case whatever place the file has at time 0, and rests "
+                  "outside.",
+                  needed);
+        keys.rule(load_path, file, motion);
+    }
+    if (keys.applies(way == MotionWay::points)) {
+        keys.path("times", motion.times, "s",
+                  "Times of a path within the case file, ascending; with places.");
+        keys.path("places", motion.places, "m",
+                  "Displacements at the times, [x, y, z] each, from where the wall stands at "
+                  "time 0.");
+        keys.rule(check_path, motion);
+    }
+    if (keys.applies(way == MotionWay::piston)) {
+        SolitaryWave wave;
+        keys.table("piston",
+                   "The motion along +x of a paddle that makes a solitary wave (Goring 1978), "
+                   "from time 0 on.",
+                   wave, motion, gravity);
+    }
+}
+
+/// The shape of a wall with what belongs to it.
+void geometry_keys(auto& keys, Is<Wall> auto& wall)
+{
+    constexpr std::size_t round = 2;
+    constexpr std::size_t solid = 3;
+    constexpr ShapeWords words{"Lower corner of a basin or box.",
+                               "Upper corner of a basin or box.",
+                               "Edge lengths of a box, instead of min and max.",
+                               "Radius of a sphere, cylinder or round basin.",
+                               "Length of a cylinder, along x before rotation.",
+                               "STL or OBJ file of a mesh, relative to the case file."};
+    const auto* held = std::get_if<SolidWall>(&wall.geometry);
+    std::size_t kind = held != nullptr ? solid + held->shape.index() : wall.geometry.index();
+    const bool known = keys.alternatives(
+        "shape", kind, {"plane", "basin", "round_basin", "box", "sphere", "cylinder", "mesh"},
+        "plane: point and normal; basin: the inside of a box; round_basin: the inside of a "
+        "sphere, of a circle in two dimensions; box: min and max, or size and position; sphere, "
+        "cylinder and mesh as for bodies.",
+        required, [&](std::size_t k) {
+            keys.select(wall.geometry, std::min(k, solid));
+            if (auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
+                keys_of(keys, *plane);
+            } else if (auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
+                keys_of(keys, *basin);
+            } else if (auto* block = std::get_if<SolidWall>(&wall.geometry)) {
+                keys.select(block->shape, k - solid);
+                placed_keys(keys, block->shape, block->centre, words);
+            }
+        });
+    if (keys.applies(known && kind == round)) {
+        keys.select(wall.geometry, round);
+        auto& basin = std::get<RoundWall>(wall.geometry);
+        keys.positive("radius", basin.radius, "m", words.radius, needed);
+        keys.planar("position", basin.centre, "m", "", no_default);
+    }
+    if (keys.applies(known && kind >= solid)) {
+        keys.select(wall.geometry, solid);
+        rotation_keys(keys, std::get<SolidWall>(wall.geometry).rotation,
+                      "Rotation about the centre of the shape.");
+    }
+}
+
+void keys_of(auto& keys, Is<Wall> auto& wall, double gravity)
+{
+    keys.rule(number_name, "wall", wall.name);
+    keys.text("name", wall.name, "Name in results; unique among walls and bodies.",
+              "wall.1, wall.2 ...");
+    keys.rule(check_name, "name", wall.name);
+    keys.rule(claim_name, wall.name);
+    geometry_keys(keys, wall);
+    keys.text("material", wall.material, "Name of its material, for contact.pair.");
+    keys.rule(check_material, wall.material);
+    keys.table("motion", "How the wall moves; without it the wall stands still.", wall.motion,
+               gravity);
+}
+
+} // namespace hyoryu
