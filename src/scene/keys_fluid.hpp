@@ -8,19 +8,6 @@
 
 namespace hyoryu {
 
-inline constexpr auto set_if = [](TableReader& /*table*/, bool on, double value,
-                                  std::optional<double>& member) {
-    if (on) {
-        member = value;
-    }
-};
-inline constexpr auto forget_if_mistaken = [](TableReader& table, std::string_view key,
-                                              auto& member, auto none) {
-    if (table.has(key) && !table.sound(key)) {
-        member = none;
-    }
-};
-
 // An expression of the place alone.
 inline void check_field(TableReader& table, std::string_view key, const std::string& text)
 {
@@ -39,17 +26,17 @@ inline void check_field(TableReader& table, std::string_view key, const std::str
 
 inline void check_slip(TableReader& table, const FluidSettings& fluid)
 {
-    if (fluid.sticks && fluid.viscosity == ViscosityModel::none) {
+    if (fluid.walls.sticks && std::holds_alternative<Off>(fluid.effects.viscosity)) {
         table.error("walls", "has no meaning without viscosity",
                     "give `fluid.viscosity` another model than \"none\"");
     }
 }
 
-inline void check_shifting(TableReader& table, const FluidSettings& fluid)
+inline void expect_sph(TableReader& table, FormulationKind formulation, std::string_view effect)
 {
-    if (fluid.shifting && fluid.formulation == FormulationKind::mps) {
+    if (formulation == FormulationKind::mps) {
         table.error("model", "is written for the kernel of SPH",
-                    "leave shifting out with formulation = \"mps\"");
+                    fmt::format("leave {} out with formulation = \"mps\"", effect));
     }
 }
 
@@ -74,107 +61,55 @@ inline void expect_block(TableReader& table)
     }
 }
 
-void viscosity_keys(auto& keys, Is<FluidSettings> auto& fluid)
+/// The models of a slot, by their names in the case.
+template <class... Models>
+std::vector<std::string_view> model_names(const std::variant<Models...>& /*choice*/)
 {
-    keys.choice("model", fluid.viscosity, {"artificial", "laminar", "sps", "none"},
-                "\"artificial\" damps with `alpha`, \"laminar\" takes a physical viscosity "
-                "(`kinematic`), \"sps\" adds an eddy viscosity to that, \"none\" is inviscid.");
-    keys.rule(forget_if_mistaken, "model", fluid.viscosity, ViscosityModel::none);
-    const auto is = [&](ViscosityModel model) { return fluid.viscosity == model; };
-    if (keys.applies(is(ViscosityModel::artificial))) {
-        keys.not_negative(
-            "alpha", fluid.alpha, "",
-            "Coefficient of the artificial viscosity; 0.01 to 0.1 for dam breaks and bores.");
-    }
-    if (keys.applies(is(ViscosityModel::laminar) || is(ViscosityModel::sps))) {
-        keys.not_negative(
-            "kinematic", fluid.kinematic_viscosity, "m2/s",
-            "Kinematic viscosity of the laminar model; 1e-6 m2/s is water at 20 degrees.");
-    }
-    if (keys.applies(is(ViscosityModel::laminar))) {
-        keys.choice("form", fluid.morris, {"central", "morris"},
-                    "Of the laminar model. \"central\" acts along the line between particles and "
-                    "is right at free surfaces; \"morris\" is exact in a shear along rows of "
-                    "particles, for flows between walls.");
-    }
-    if (keys.applies(is(ViscosityModel::sps))) {
-        keys.not_negative("smagorinsky", fluid.smagorinsky, "",
-                          "Cs of \"sps\": eddies have the length Cs times the particle spacing.");
-    }
-}
-
-void diffusion_keys(auto& keys, Is<FluidSettings> auto& fluid)
-{
-    keys.choice("model", fluid.diffusion, {"fourtakas", "molteni", "antuono", "none"},
-                "\"fourtakas\" corrects for the hydrostatic part and suits deep still water, "
-                "\"molteni\" does not, \"antuono\" corrects for any gradient by two sums more, "
-                "\"none\" switches it off.");
-    keys.rule(forget_if_mistaken, "model", fluid.diffusion, DiffusionModel::none);
-    if (keys.applies(fluid.diffusion != DiffusionModel::none)) {
-        keys.not_negative("delta", fluid.delta, "", "Coefficient of the density diffusion.");
-    }
-}
-
-void shifting_keys(auto& keys, Is<FluidSettings> auto& fluid)
-{
-    bool on = fluid.shifting.has_value();
-    double coefficient = fluid.shifting.value_or(8);
-    keys.choice("model", on, {"none", "sun"},
-                "\"sun\" moves particles from where they are dense, for flows without a free "
-                "surface, which it would make swell; \"none\" switches it off.");
-    if (keys.applies(on)) {
-        keys.not_negative("coefficient", coefficient, "",
-                          "Strength of the shifting: C in -C h |v|max dt times the crowding.");
-    }
-    keys.rule(set_if, on, coefficient, fluid.shifting);
-    keys.rule(check_shifting, fluid);
-}
-
-void collision_keys(auto& keys, Is<FluidSettings> auto& fluid)
-{
-    bool on = fluid.collision.has_value();
-    double restitution = fluid.collision.value_or(0);
-    keys.choice("model", on, {"none", "dynamic"},
-                "\"dynamic\" stops fluid particles that approach each other closer than a "
-                "spacing, which calms splashes and takes energy; \"none\" switches it off.");
-    if (keys.applies(on)) {
-        keys.fraction("restitution", restitution,
-                      "Share of their approach that they fly apart with.");
-    }
-    keys.rule(set_if, on, restitution, fluid.collision);
-}
-
-void cavitation_keys(auto& keys, Is<FluidSettings> auto& fluid)
-{
-    bool on = fluid.cavitation.has_value();
-    double pressure = fluid.cavitation.value_or(0);
-    keys.choice("model", on, {"none", "void"},
-                "\"void\" lets a void open where the pressure would fall below that of the void, "
-                "as in a closed tank that is shaken; \"none\": the fluid bears tension.");
-    if (keys.applies(on)) {
-        keys.not_positive("pressure", pressure, "Pa",
-                          "Pressure of the void over that of the air: 0 where there is no air, "
-                          "about -99000 for water under the atmosphere.");
-    }
-    keys.rule(set_if, on, pressure, fluid.cavitation);
-}
-
-void effect_keys(auto& keys, Is<FluidSettings> auto& fluid)
-{
-    const auto table = [&](std::string_view name, std::string_view meaning, auto&& what) {
-        keys.effect(name, meaning, [&](auto& inside) { what(inside, fluid); });
+    const auto name = []<class Model>() -> std::string_view {
+        if constexpr (std::same_as<Model, Off>) {
+            return "none";
+        } else {
+            return Model::model;
+        }
     };
-    table("viscosity", "Internal friction of the fluid.",
-          [](auto& inside, auto& f) { viscosity_keys(inside, f); });
-    keys.rule(check_slip, fluid);
-    table("density_diffusion", "Smoothing of density, which keeps pressure free of noise.",
-          [](auto& inside, auto& f) { diffusion_keys(inside, f); });
-    table("shifting", "Evening out of the particles' places.",
-          [](auto& inside, auto& f) { shifting_keys(inside, f); });
-    table("collision", "Collisions of fluid particles, for splashes.",
-          [](auto& inside, auto& f) { collision_keys(inside, f); });
-    table("cavitation", "Voids that open where the fluid is pulled.",
-          [](auto& inside, auto& f) { cavitation_keys(inside, f); });
+    return {name.template operator()<Models>()...};
+}
+
+/// What the models of a slot say of themselves, as one sentence.
+template <class... Models>
+std::string_view models_text(const SlotTable& table, const std::variant<Models...>& /*choice*/)
+{
+    static const std::string text = [&] {
+        std::string all;
+        const auto add = [&]<class Model>() {
+            if constexpr (!std::same_as<Model, Off>) {
+                all +=
+                    fmt::format("{}\"{}\" {}", all.empty() ? "" : ", ", Model::model, Model::says);
+            }
+        };
+        (add.template operator()<Models>(), ...);
+        return all.append(table.none);
+    }();
+    return text;
+}
+
+/// The model of a slot with its keys.
+void model_keys(auto& keys, const SlotTable& table, auto& choice, FormulationKind formulation)
+{
+    std::size_t index = choice.index();
+    const auto declare = [&]<class Model>(Model& model) {
+        if constexpr (!std::same_as<std::remove_const_t<Model>, Off>) {
+            Model::keys(keys, model);
+        }
+        if constexpr (requires { Model::for_sph_alone; }) {
+            keys.rule(expect_sph, formulation, table.key);
+        }
+    };
+    keys.alternatives("model", index, model_names(choice), models_text(table, choice), {},
+                      [&](std::size_t k) {
+                          keys.select(choice, k);
+                          std::visit(declare, choice);
+                      });
 }
 
 void keys_of(auto& keys, Is<FluidBlock> auto& block)
@@ -233,14 +168,17 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid)
     constexpr double most = 2.0;
     keys.between("smoothing_ratio", fluid.smoothing_ratio, least, most, "1.2 .. 2.0",
                  "Smoothing length over particle spacing: more is smoother and slower.");
+    // The first slot's table is listed before what else is said of walls.
     keys.heading("viscosity", "Internal friction of the fluid.");
-    keys.choice("walls", fluid.sticks, {"free_slip", "no_slip"},
-                "Along walls and bodies the fluid slips freely, or it sticks to them by its "
-                "viscosity.");
+    SlipSettings::keys(keys, fluid.walls);
     keys.planar("acceleration", fluid.acceleration, "m/s2",
                 "What drives the fluid besides gravity, for instance the pressure gradient of a "
                 "channel, over the density: walls and bodies do not feel it as a pressure.");
-    effect_keys(keys, fluid);
+    each_slot(fluid.effects, [&](const SlotTable& table, auto& choice, auto /*slot*/) {
+        keys.effect(table.key, table.meaning,
+                    [&](auto& inside) { model_keys(inside, table, choice, fluid.formulation); });
+    });
+    keys.rule(check_slip, fluid);
     keys.tables("block", "A region filled with fluid at the start.", fluid.blocks);
     keys.rule(expect_block);
 }

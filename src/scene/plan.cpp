@@ -96,52 +96,6 @@ FluidParameters fluid_parameters(const Scene& scene, double speed)
     return f;
 }
 
-FluidEffects fluid_effects(const Scene& scene, const FluidParameters& f)
-{
-    const FluidSettings& settings = *scene.fluid;
-    FluidEffects effects;
-    if (settings.diffusion != DiffusionModel::none && settings.delta > 0) {
-        const double strength = 2 * settings.delta * f.h * f.eos.c0;
-        const Vec3 hydrostatic = settings.diffusion == DiffusionModel::fourtakas
-                                     ? Vec3(f.eos.rho0 / sq(f.eos.c0) * scene.gravity)
-                                     : Vec3(Vec3::Zero());
-        if (settings.diffusion == DiffusionModel::antuono) {
-            effects.diffusion = RenormalisedDiffusion{strength, f.eos};
-        } else {
-            effects.diffusion = DensityDiffusion{strength, f.eos, hydrostatic};
-        }
-    }
-    double kappa = 0;
-    if (settings.viscosity == ViscosityModel::artificial) {
-        kappa = artificial_kappa(settings.alpha, f.h, f.eos.c0);
-    } else {
-        kappa = laminar_kappa(settings.kinematic_viscosity, scene.dimensions);
-    }
-    if (settings.viscosity == ViscosityModel::sps && settings.smagorinsky > 0) {
-        effects.viscosity =
-            EddyViscosity{f.eos.rho0, kappa, f.h, static_cast<real>(scene.dimensions + 2),
-                          settings.smagorinsky * f.spacing};
-    } else if (settings.viscosity == ViscosityModel::laminar && settings.morris && kappa > 0) {
-        effects.viscosity = MorrisViscosity{f.eos.rho0 * settings.kinematic_viscosity};
-    } else if (settings.viscosity != ViscosityModel::none && kappa > 0) {
-        effects.viscosity = Viscosity{f.eos.rho0, kappa, f.h};
-    }
-    if (settings.sticks && !std::holds_alternative<Off>(effects.viscosity)) {
-        effects.slip = NoSlip{};
-    }
-    if (settings.collision) {
-        effects.collision = ParticleCollision{*settings.collision};
-    }
-    if (settings.cavitation) {
-        effects.cavitation = Cavitation{f.eos.density(*settings.cavitation)};
-    }
-    if (settings.shifting && *settings.shifting > 0) {
-        const Kernel kernel = make_kernel(f.h, f.spacing, f.dimensions);
-        effects.shifting = Shifting{*settings.shifting, 1 / kernel(Vec<real>{f.spacing, 0, 0}).w};
-    }
-    return effects;
-}
-
 // Collects effects as on or off with one reason for either.
 class Census {
 public:
@@ -162,6 +116,45 @@ private:
 std::optional<std::string> when(const bool holds, std::string why)
 {
     return holds ? std::optional(std::move(why)) : std::nullopt;
+}
+
+// Each model of a slot; those of one name are one effect.
+template <class... Models>
+void list_slot(const std::variant<Models...>& choice, bool runs, const std::string& off,
+               Census& census)
+{
+    Plan::Effect held;
+    const auto tell = [&]<class Model>(const Model& model) {
+        if constexpr (!std::same_as<Model, Off>) {
+            held = {std::string(Model::name), model.why()};
+        }
+    };
+    std::visit(tell, choice);
+    std::string_view last = Off::name;
+    for (const std::string_view name : {Models::name...}) {
+        if (name != last && name != Off::name) {
+            census.add(std::string(name), when(runs && name == held.name, held.why), off);
+            last = name;
+        }
+    }
+}
+
+// Friction at solids, and what drives the fluid.
+void list_walls_and_drive(const Scene& scene, const Plan& plan, Census& census)
+{
+    const bool fluid = plan.fluid.has_value();
+    const std::string none = "the scene has no fluid";
+    const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
+    census.add("no_slip",
+               when(solids && !std::holds_alternative<Off>(plan.effects.slip),
+                    "`fluid.walls` is \"no_slip\": friction at walls and bodies"),
+               !fluid   ? none
+               : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
+                        : "the fluid meets no wall and no body");
+    census.add("drive",
+               when(fluid && scene.fluid->acceleration.norm() > 0,
+                    "`fluid.acceleration` drives the fluid"),
+               fluid ? "`fluid.acceleration` is zero" : none);
 }
 
 void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
@@ -185,59 +178,14 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                when(surfaces, "the fluid meets walls or bodies: what would pass their exact "
                               "surfaces is held, and they feel it"),
                fluid ? "the scene has no wall and no body" : none);
-    const bool viscous = !std::holds_alternative<Off>(plan.effects.viscosity);
-    const ViscosityModel model = fluid ? scene.fluid->viscosity : ViscosityModel::none;
-    census.add("artificial_viscosity",
-               when(viscous && model == ViscosityModel::artificial,
-                    fluid ? fmt::format("`fluid.viscosity.model` is \"artificial\", alpha = {}",
-                                        scene.fluid->alpha)
-                          : ""),
-               fluid ? "`fluid.viscosity` asks for another model or for none" : none);
-    census.add("laminar_viscosity",
-               when(viscous && model == ViscosityModel::laminar,
-                    fluid
-                        ? fmt::format("`fluid.viscosity.model` is \"laminar\", kinematic = {} m2/s",
-                                      scene.fluid->kinematic_viscosity)
-                        : ""),
-               fluid ? "`fluid.viscosity` asks for another model or for none" : none);
-    census.add("sps_turbulence",
-               when(viscous && model == ViscosityModel::sps,
-                    fluid ? fmt::format("`fluid.viscosity.model` is \"sps\", kinematic = {} m2/s, "
-                                        "smagorinsky = {}",
-                                        scene.fluid->kinematic_viscosity, scene.fluid->smagorinsky)
-                          : ""),
-               fluid ? "`fluid.viscosity` asks for another model or for none" : none);
-    census.add("no_slip",
-               when(solids && !std::holds_alternative<Off>(plan.effects.slip),
-                    "`fluid.walls` is \"no_slip\": friction at walls and bodies"),
-               !fluid   ? none
-               : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
-                        : "the fluid meets no wall and no body");
-    census.add("drive",
-               when(fluid && scene.fluid->acceleration.norm() > 0,
-                    "`fluid.acceleration` drives the fluid"),
-               fluid ? "`fluid.acceleration` is zero" : none);
-    census.add("density_diffusion",
-               when(!std::holds_alternative<Off>(plan.effects.diffusion),
-                    fluid && scene.fluid->diffusion == DiffusionModel::antuono
-                        ? "`fluid.density_diffusion` asks for it, with renormalised gradients"
-                        : "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise"),
-               fluid ? "`fluid.density_diffusion.model` is \"none\"" : none);
-    census.add("shifting",
-               when(!std::holds_alternative<Off>(plan.effects.shifting),
-                    "`fluid.shifting.model` is \"sun\": evens out the particles' places"),
-               fluid ? "`fluid.shifting.model` is \"none\"" : none);
-    census.add("particle_collision",
-               when(!std::holds_alternative<Off>(plan.effects.collision),
-                    "`fluid.collision.model` is \"dynamic\": calms splashes"),
-               fluid ? "`fluid.collision.model` is \"none\"" : none);
-    census.add("cavitation",
-               when(!std::holds_alternative<Off>(plan.effects.cavitation),
-                    fluid && scene.fluid->cavitation
-                        ? fmt::format("`fluid.cavitation.model` is \"void\": opens below {} Pa",
-                                      *scene.fluid->cavitation)
-                        : ""),
-               fluid ? "`fluid.cavitation.model` is \"none\": the fluid bears tension" : none);
+    const FluidChoices choices = fluid ? scene.fluid->effects : FluidChoices{};
+    each_slot(choices, [&](const SlotTable& table, const auto& choice, auto slot) {
+        const bool runs = !std::holds_alternative<Off>(plan.effects.*slot);
+        list_slot(choice, runs, fluid ? std::string(table.off) : none, census);
+        if (table.key == "viscosity") { // of which friction is
+            list_walls_and_drive(scene, plan, census);
+        }
+    });
     const bool periodic =
         scene.domain && std::ranges::any_of(scene.domain->periodic, std::identity{});
     census.add("periodic", when(periodic, "`domain.periodic` names directions"),
@@ -369,7 +317,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
         plan.counts.body = plan.counts.drawn;
         plan.expected_speed = expected_speed(scene, filling);
         plan.fluid = fluid_parameters(scene, plan.expected_speed);
-        plan.effects = fluid_effects(scene, *plan.fluid);
+        plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->walls, *plan.fluid);
         Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
         const auto limits =
             fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));

@@ -263,7 +263,7 @@ void fill_walls(const Scene& scene, Filling& filling)
             if (in_period(scene, p) && crowd.add(p)) {
                 filling.wall.push_back(p);
                 filling.wall_owner.push_back(static_cast<std::int32_t>(w));
-                if (scene.fluid->sticks) {
+                if (scene.fluid->walls.sticks) {
                     filling.wall_depth.push_back(depth_behind(scene.walls[w], p, scene.dimensions));
                 }
             }

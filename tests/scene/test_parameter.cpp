@@ -99,9 +99,9 @@ TEST(Parameters, DefaultsOfTheSceneAreThoseOfTheTable)
     };
     EXPECT_EQ(number("time.cfl"), TimeSettings{}.cfl);
     EXPECT_EQ(number("fluid.density"), FluidSettings{}.density);
-    EXPECT_EQ(number("fluid.viscosity.alpha"), FluidSettings{}.alpha);
-    EXPECT_EQ(number("fluid.viscosity.kinematic"), FluidSettings{}.kinematic_viscosity);
-    EXPECT_EQ(number("fluid.density_diffusion.delta"), FluidSettings{}.delta);
+    EXPECT_EQ(number("fluid.viscosity.alpha"), ArtificialViscosity{}.alpha);
+    EXPECT_EQ(number("fluid.viscosity.kinematic"), LaminarViscosity{}.kinematic);
+    EXPECT_EQ(number("fluid.density_diffusion.delta"), FourtakasDiffusion{}.delta);
     EXPECT_EQ(number("fluid.smoothing_ratio"), FluidSettings{}.smoothing_ratio);
     EXPECT_EQ(number("contact.restitution"), ContactSettings{}.restitution);
     EXPECT_EQ(number("contact.friction"), ContactSettings{}.friction);

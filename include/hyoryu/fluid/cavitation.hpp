@@ -3,6 +3,9 @@
 #pragma once
 
 #include "hyoryu/core/particles.hpp"
+#include "hyoryu/fluid/parameters.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -24,6 +27,31 @@ struct Cavitation {
         const real with_void = rho - cavity;
         rho = std::max(with_void, density);
         cavity = rho - with_void;
+    }
+};
+
+/// Cavitation, as the user chooses it.
+struct VoidCavitation {
+    static constexpr std::string_view name = Cavitation::name;
+    static constexpr std::string_view model = "void";
+    static constexpr std::string_view says =
+        "lets a void open where the pressure would fall below that of the void, as in a closed "
+        "tank that is shaken";
+    double pressure = 0; // of the void [Pa]
+
+    static void keys(auto& keys, auto& chosen)
+    {
+        keys.not_positive("pressure", chosen.pressure, "Pa",
+                          "Pressure of the void over that of the air: 0 where there is no air, "
+                          "about -99000 for water under the atmosphere.");
+    }
+    std::string why() const
+    {
+        return fmt::format("`fluid.cavitation.model` is \"void\": opens below {} Pa", pressure);
+    }
+    void fill(auto& slot, const FluidParameters& f) const
+    {
+        slot = Cavitation{f.eos.density(pressure)};
     }
 };
 

@@ -5,6 +5,8 @@
 #include "hyoryu/fluid/stage.hpp"
 #include "hyoryu/fluid/wall.hpp"
 
+#include <string>
+
 namespace hyoryu {
 
 /// Fluid particles closer than one spacing and still approaching exchange the impulse that stops
@@ -24,6 +26,27 @@ struct ParticleCollision {
     SolidBackstop term(real spacing, real mass, real dt) const
     {
         return {spacing, dt > 0 ? (1 + restitution) * mass / (2 * dt) : 0};
+    }
+};
+
+/// Collisions, as the user chooses them.
+struct DynamicCollision {
+    static constexpr std::string_view name = ParticleCollision::name;
+    static constexpr std::string_view model = "dynamic";
+    static constexpr std::string_view says =
+        "stops fluid particles that approach each other closer than a spacing, which calms "
+        "splashes and takes energy";
+    double restitution = 0; // [1]
+
+    static void keys(auto& keys, auto& chosen)
+    {
+        keys.fraction("restitution", chosen.restitution,
+                      "Share of their approach that they fly apart with.");
+    }
+    std::string why() const { return "`fluid.collision.model` is \"dynamic\": calms splashes"; }
+    void fill(auto& slot, const FluidParameters& /*fluid*/) const
+    {
+        slot = ParticleCollision{restitution};
     }
 };
 

@@ -5,6 +5,8 @@
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/stage.hpp"
 
+#include <string>
+
 namespace hyoryu {
 
 /// D_i = -2 delta h c0 sum_j V_j [(rho_j - rho_i) - rhoH_ji] F(r), rhoH_ji = (rho0/c0^2) g . (r_j -
@@ -74,6 +76,55 @@ struct RenormalisedDiffusion {
         const N linear = 0.5 * dot(i[field::velocity] + j[field::velocity], ij.r);
         const N difference = (j[field::pressure] - i[field::pressure] + linear) * (1 / sq(eos.c0));
         sum[field::diffusion_rate] += -strength * j[field::volume] * difference * ij.f;
+    }
+};
+
+/// What every density diffusion is chosen by.
+struct DiffusionSettings {
+    static constexpr std::string_view name = "density_diffusion"; // in the plan
+    double delta = 0.1;                                           // [1]
+
+    static void keys(auto& keys, auto& chosen)
+    {
+        keys.not_negative("delta", chosen.delta, "", "Coefficient of the density diffusion.");
+    }
+    std::string why() const
+    {
+        return "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise";
+    }
+    void fill_with(auto& slot, const FluidParameters& f, const Vec3& hydrostatic) const
+    {
+        if (delta > 0) {
+            slot = DensityDiffusion{2 * delta * f.h * f.eos.c0, f.eos, hydrostatic};
+        }
+    }
+};
+struct FourtakasDiffusion : DiffusionSettings {
+    static constexpr std::string_view model = "fourtakas";
+    static constexpr std::string_view says =
+        "corrects for the hydrostatic part and suits deep still water";
+    void fill(auto& slot, const FluidParameters& f) const
+    {
+        fill_with(slot, f, f.eos.rho0 / sq(f.eos.c0) * f.gravity);
+    }
+};
+struct MolteniDiffusion : DiffusionSettings {
+    static constexpr std::string_view model = "molteni";
+    static constexpr std::string_view says = "does not";
+    void fill(auto& slot, const FluidParameters& f) const { fill_with(slot, f, Vec3::Zero()); }
+};
+struct AntuonoDiffusion : DiffusionSettings {
+    static constexpr std::string_view model = "antuono";
+    static constexpr std::string_view says = "corrects for any gradient by two sums more";
+    std::string why() const
+    {
+        return "`fluid.density_diffusion` asks for it, with renormalised gradients";
+    }
+    void fill(auto& slot, const FluidParameters& f) const
+    {
+        if (delta > 0) {
+            slot = RenormalisedDiffusion{2 * delta * f.h * f.eos.c0, f.eos};
+        }
     }
 };
 

@@ -159,4 +159,65 @@ using EffectPasses = typename detail::PassesOfAll<detail::AllSlots>::type;
 template <class Stage>
 using StageWrites = typename detail::WritesOfAll<detail::AllSlots, Stage>::type;
 
+/// What the user chooses for the slots: the models of each, of which the first is the default. A
+/// model has a `name` in the plan, the `model` that stands in the case file and what it `says` of
+/// itself there, its `keys`, the reason `why` it runs, and the term that it puts into the slot.
+struct FluidChoices {
+    std::variant<ArtificialViscosity, LaminarViscosity, SpsViscosity, Off> viscosity;
+    std::variant<FourtakasDiffusion, MolteniDiffusion, AntuonoDiffusion, Off> diffusion;
+    std::variant<Off, SunShifting> shifting;
+    std::variant<Off, DynamicCollision> collision;
+    std::variant<Off, VoidCavitation> cavitation;
+};
+
+/// The table of a slot in the case file.
+struct SlotTable {
+    std::string_view key; // of [fluid]
+    std::string_view meaning;
+    std::string_view none; // what is said of the model "none", after the others
+    std::string_view off;  // why no model runs
+};
+
+/// Calls `visit(table, choice, slot)` for each slot that has a table, in the order of the manual.
+template <class Visit>
+void each_slot(auto& choices, Visit&& visit)
+{
+    visit(SlotTable{"viscosity", "Internal friction of the fluid.", ", \"none\" is inviscid.",
+                    "`fluid.viscosity` asks for another model or for none"},
+          choices.viscosity, &FluidEffects::viscosity);
+    visit(SlotTable{"density_diffusion",
+                    "Smoothing of density, which keeps pressure free of noise.",
+                    ", \"none\" switches it off.", "`fluid.density_diffusion.model` is \"none\""},
+          choices.diffusion, &FluidEffects::diffusion);
+    visit(SlotTable{"shifting", "Evening out of the particles' places.",
+                    "; \"none\" switches it off.", "`fluid.shifting.model` is \"none\""},
+          choices.shifting, &FluidEffects::shifting);
+    visit(SlotTable{"collision", "Collisions of fluid particles, for splashes.",
+                    "; \"none\" switches it off.", "`fluid.collision.model` is \"none\""},
+          choices.collision, &FluidEffects::collision);
+    visit(SlotTable{"cavitation", "Voids that open where the fluid is pulled.",
+                    "; \"none\": the fluid bears tension.",
+                    "`fluid.cavitation.model` is \"none\": the fluid bears tension"},
+          choices.cavitation, &FluidEffects::cavitation);
+}
+
+/// The effects of a fluid that the user has chosen.
+inline FluidEffects chosen_effects(const FluidChoices& choices, const SlipSettings& walls,
+                                   const FluidParameters& fluid)
+{
+    FluidEffects effects;
+    each_slot(choices, [&](const SlotTable& /*table*/, const auto& choice, auto slot) {
+        const auto fill = [&]<class Model>(const Model& model) {
+            if constexpr (!std::same_as<Model, Off>) {
+                model.fill(effects.*slot, fluid);
+            }
+        };
+        std::visit(fill, choice);
+    });
+    if (walls.sticks && !std::holds_alternative<Off>(effects.viscosity)) {
+        effects.slip = NoSlip{};
+    }
+    return effects;
+}
+
 } // namespace hyoryu

@@ -48,4 +48,16 @@ inline Vec3 mirrored_velocity(const Vec3& u, const Vec3& mean_velocity, const Ve
     return u - (depth / before) * (mean_velocity - u);
 }
 
+/// How the fluid meets walls and bodies, as the user chooses it.
+struct SlipSettings {
+    bool sticks = false;
+
+    static void keys(auto& keys, auto& chosen)
+    {
+        keys.choice("walls", chosen.sticks, {"free_slip", "no_slip"},
+                    "Along walls and bodies the fluid slips freely, or it sticks to them by its "
+                    "viscosity.");
+    }
+};
+
 } // namespace hyoryu

@@ -2,7 +2,11 @@
 // Particle shifting: evens out the places of the particles of confined flows.
 #pragma once
 
+#include "hyoryu/core/kernel.hpp"
+#include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/stage.hpp"
+
+#include <string>
 
 namespace hyoryu {
 
@@ -23,6 +27,34 @@ struct Shifting {
     {
         const N w = sq(N(ij.w * w_scale));
         sum[field::shift_gradient] += (j[field::volume] * (1 + 0.2 * (w * w))) * ij.f * ij.r;
+    }
+};
+
+/// Shifting, as the user chooses it.
+struct SunShifting {
+    static constexpr std::string_view name = Shifting::name;
+    static constexpr std::string_view model = "sun";
+    static constexpr std::string_view says = "moves particles from where they are dense, for "
+                                             "flows without a free surface, which it would make "
+                                             "swell";
+    static constexpr bool for_sph_alone = true; // its kernel is that of SPH
+    double coefficient = 8;                     // [1]
+
+    static void keys(auto& keys, auto& chosen)
+    {
+        keys.not_negative("coefficient", chosen.coefficient, "",
+                          "Strength of the shifting: C in -C h |v|max dt times the crowding.");
+    }
+    std::string why() const
+    {
+        return "`fluid.shifting.model` is \"sun\": evens out the particles' places";
+    }
+    void fill(auto& slot, const FluidParameters& f) const
+    {
+        if (coefficient > 0) {
+            const Kernel kernel = make_kernel(f.h, f.spacing, f.dimensions);
+            slot = Shifting{coefficient, 1 / kernel(Vec<real>{f.spacing, 0, 0}).w};
+        }
     }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hyoryu/fluid/stage.hpp"
+#include "hyoryu/fluid/viscosity.hpp"
 
 namespace hyoryu {
 
@@ -57,6 +58,38 @@ struct EddyViscosity {
         const N both = kappa + share * (i[field::pressure] + j[field::pressure]);
         const N mu = rho0 * both * approach / (ij.distance_squared + 0.01 * sq(h));
         sum[field::viscous_force] += (i[field::volume] * j[field::volume]) * mu * ij.f * ij.r;
+    }
+};
+
+/// The eddy viscosity over a kinematic one, as the user chooses it.
+struct SpsViscosity {
+    static constexpr std::string_view name = "sps_turbulence"; // in the plan
+    static constexpr std::string_view model = "sps";
+    static constexpr std::string_view says = "adds an eddy viscosity to that";
+    double kinematic = 1e-6;   // [m2/s]
+    double smagorinsky = 0.12; // Cs [1]
+
+    static void keys(auto& keys, auto& chosen)
+    {
+        LaminarViscosity::kinematic_key(keys, chosen.kinematic);
+        keys.not_negative("smagorinsky", chosen.smagorinsky, "",
+                          "Cs of \"sps\": eddies have the length Cs times the particle spacing.");
+    }
+    std::string why() const
+    {
+        return fmt::format(
+            "`fluid.viscosity.model` is \"sps\", kinematic = {} m2/s, smagorinsky = {}", kinematic,
+            smagorinsky);
+    }
+    void fill(auto& slot, const FluidParameters& f) const
+    {
+        const real kappa = laminar_kappa(kinematic, f.dimensions);
+        if (smagorinsky > 0) {
+            slot = EddyViscosity{f.eos.rho0, kappa, f.h, static_cast<real>(f.dimensions + 2),
+                                 smagorinsky * f.spacing};
+        } else if (kappa > 0) {
+            slot = Viscosity{f.eos.rho0, kappa, f.h};
+        }
     }
 };
 

@@ -2,7 +2,10 @@
 // Viscosity in the pair form of Monaghan & Gingold, artificial and laminar alike.
 #pragma once
 
+#include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/stage.hpp"
+
+#include <fmt/format.h>
 
 namespace hyoryu {
 
@@ -62,5 +65,68 @@ inline real laminar_kappa(real nu, int dimensions)
 {
     return 2 * (dimensions + 2) * nu;
 }
+
+/// The artificial viscosity, as the user chooses it.
+struct ArtificialViscosity {
+    static constexpr std::string_view name = "artificial_viscosity"; // in the plan
+    static constexpr std::string_view model = "artificial";
+    static constexpr std::string_view says = "damps with `alpha`";
+    double alpha = 0.02; // [1]
+
+    static void keys(auto& keys, auto& chosen)
+    {
+        keys.not_negative(
+            "alpha", chosen.alpha, "",
+            "Coefficient of the artificial viscosity; 0.01 to 0.1 for dam breaks and bores.");
+    }
+    std::string why() const
+    {
+        return fmt::format("`fluid.viscosity.model` is \"artificial\", alpha = {}", alpha);
+    }
+    void fill(auto& slot, const FluidParameters& f) const
+    {
+        if (const real kappa = artificial_kappa(alpha, f.h, f.eos.c0); kappa > 0) {
+            slot = Viscosity{f.eos.rho0, kappa, f.h};
+        }
+    }
+};
+
+/// The laminar viscosity, as the user chooses it.
+struct LaminarViscosity {
+    static constexpr std::string_view name = "laminar_viscosity"; // in the plan
+    static constexpr std::string_view model = "laminar";
+    static constexpr std::string_view says = "takes a physical viscosity (`kinematic`)";
+    double kinematic = 1e-6; // [m2/s]
+    bool morris = false;     // the form of `MorrisViscosity`
+
+    static void kinematic_key(auto& keys, auto& kinematic)
+    {
+        keys.not_negative(
+            "kinematic", kinematic, "m2/s",
+            "Kinematic viscosity of the laminar model; 1e-6 m2/s is water at 20 degrees.");
+    }
+    static void keys(auto& keys, auto& chosen)
+    {
+        kinematic_key(keys, chosen.kinematic);
+        keys.choice("form", chosen.morris, {"central", "morris"},
+                    "Of the laminar model. \"central\" acts along the line between particles and "
+                    "is right at free surfaces; \"morris\" is exact in a shear along rows of "
+                    "particles, for flows between walls.");
+    }
+    std::string why() const
+    {
+        return fmt::format("`fluid.viscosity.model` is \"laminar\", kinematic = {} m2/s",
+                           kinematic);
+    }
+    void fill(auto& slot, const FluidParameters& f) const
+    {
+        const real kappa = laminar_kappa(kinematic, f.dimensions);
+        if (kappa > 0 && morris) {
+            slot = MorrisViscosity{f.eos.rho0 * kinematic};
+        } else if (kappa > 0) {
+            slot = Viscosity{f.eos.rho0, kappa, f.h};
+        }
+    }
+};
 
 } // namespace hyoryu

@@ -5,6 +5,7 @@
 
 #include "hyoryu/core/motion.hpp"
 #include "hyoryu/core/types.hpp"
+#include "hyoryu/fluid/effects.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/rigid/law.hpp"
 
@@ -68,9 +69,6 @@ struct DomainSettings {
     std::array<bool, 3> periodic{}; // x y z
 };
 
-enum class ViscosityModel { artificial, laminar, sps, none };
-enum class DiffusionModel { fourtakas, molteni, antuono, none };
-
 /// A region that is filled with fluid particles at the start.
 struct FluidBlock {
     Shape shape;
@@ -90,19 +88,10 @@ struct FluidSettings {
     FormulationKind formulation = FormulationKind::sph;
     double density = 1000.0;           // rho_0 [kg/m3]
     std::optional<double> sound_speed; // c_0 [m/s]; none: 10 x the largest expected speed
-    ViscosityModel viscosity = ViscosityModel::artificial;
-    double alpha = 0.02;               // of the artificial viscosity [1]
-    double kinematic_viscosity = 1e-6; // of the laminar viscosity and of sps [m2/s]
-    bool morris = false;               // the form of the laminar viscosity
-    double smagorinsky = 0.12;         // Cs of sps [1]
-    bool sticks = false;               // to walls and bodies
-    Vec3 acceleration{0, 0, 0};        // besides gravity [m/s2]
-    DiffusionModel diffusion = DiffusionModel::fourtakas;
-    double delta = 0.1;               // of the density diffusion [1]
-    std::optional<double> shifting;   // its coefficient [1]; none: off
-    std::optional<double> collision;  // restitution of its particles [1]; none: off
-    std::optional<double> cavitation; // pressure of the void [Pa]; none: it bears tension
-    double smoothing_ratio = 1.5;     // h / spacing [1]
+    SlipSettings walls;
+    Vec3 acceleration{0, 0, 0}; // besides gravity [m/s2]
+    FluidChoices effects;
+    double smoothing_ratio = 1.5; // h / spacing [1]
     std::vector<FluidBlock> blocks;
 };
 
