@@ -18,14 +18,13 @@ MAY_INCLUDE = {
     "scene": {"core", "fluid", "rigid", "coupling", "geometry"},
     "sim": {"core", "fluid", "rigid", "coupling", "scene"},
     "io": {"core"},
-    "verify": {"core", "scene", "sim", "io"},
+    "assess": {"core", "scene", "io", "report"},
     "report": {"core", "scene", "io"},
-    "study": {"core", "scene", "io", "verify", "report"},
     "bench": {"core", "fluid", "rigid", "coupling", "scene", "sim", "io"},
     "view": {"core", "io"},
     "vtk": {"core", "io", "geometry", "view"},
-    "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "verify",
-            "report", "study", "bench", "view"},
+    "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "assess",
+            "report", "bench", "view"},
 }
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')

@@ -7,12 +7,12 @@
 #include "study_figures.hpp"
 #include "study_runs.hpp"
 
+#include "hyoryu/assess/study_page.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
-#include "hyoryu/study/page.hpp"
 
 #include <fmt/format.h>
 

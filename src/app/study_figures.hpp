@@ -2,7 +2,7 @@
 // The pictures of a study.
 #pragma once
 
-#include "hyoryu/study/result.hpp"
+#include "hyoryu/assess/study_result.hpp"
 
 #include <filesystem>
 #include <string>

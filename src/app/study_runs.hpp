@@ -2,7 +2,7 @@
 // The runs of a study as processes of this program.
 #pragma once
 
-#include "hyoryu/study/study.hpp"
+#include "hyoryu/assess/study.hpp"
 
 #include <filesystem>
 #include <string>

@@ -6,12 +6,12 @@
 #include "stop_request.hpp"
 #include "verify_figures.hpp"
 
+#include "hyoryu/assess/verify_report.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
-#include "hyoryu/verify/report.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // The figures of benchmarks, drawn from what the runs wrote.
 #pragma once
 
-#include "hyoryu/verify/verdict.hpp"
+#include "hyoryu/assess/verdict.hpp"
 
 #include <filesystem>
 #include <map>

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// A study: a case, the keys that are swept, and what is measured. Plain data, read from a TOML file
+// (docs/study.md explains the keys).
+#pragma once
+
+#include "hyoryu/assess/benchmark.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+/// What is varied: a key of the case, or anything that overrides of the case can say.
+struct StudySweep {
+    enum class Finest { smallest, largest, none };
+    std::string key;                  // of the case, or `threads`; may be empty
+    std::string name;                 // of the value in expressions; the last part of the key
+    std::vector<RunParameter> values; // numbers or texts
+    std::vector<std::string> set;     // overrides with `${...}`, for every value
+    std::vector<std::vector<std::string>> choices; // overrides for each value; may be empty
+    Finest finest = Finest::smallest; // which end of the numbers is meant to be the most accurate
+    const std::string& label() const { return key.empty() ? name : key; }
+    bool numeric() const;
+    /// Numbers of which one end is meant to be the most accurate: an order has a meaning.
+    bool ordered() const { return numeric() && finest != Finest::none; }
+};
+
+/// The key of a sweep over the threads of a run, which no case has.
+inline constexpr const char* threads_key = "threads";
+
+/// A measured number and what it ought to be.
+struct StudyQuantity {
+    enum class Against {
+        expected,  // an expression
+        reference, // a series
+        finest     // the value of the finest run of the sweep
+    };
+    std::string name;
+    std::string unit;
+    Quantity quantity;
+    Against against = Against::expected;
+    std::string expected;
+    Series reference;
+    /// Expression of what errors are divided by; empty: the magnitude of what is expected.
+    std::string scale;
+};
+
+struct Study {
+    enum class Mode { one_at_a_time, grid };
+    std::string title;
+    std::filesystem::path file, case_file;
+    Mode mode = Mode::one_at_a_time;
+    std::vector<std::string> set; // overrides of the case in all runs
+    int repeats = 1;              // of each run, for wall times
+    /// Expression of the columns of the summary: what a run costs, the same on every machine
+    /// of one instruction set, to whose registers lists are filled up; empty: pair interactions, or
+    /// steps where there are none.
+    std::string cost;
+    Constants constants;
+    std::map<std::string, std::string> columns;
+    std::vector<StudySweep> sweeps;
+    std::vector<StudyQuantity> quantities;
+};
+
+/// Throws CaseError with every mistake of the file.
+Study read_study(const std::filesystem::path& file);
+
+/// One run: its overrides, its parameters by the names of the sweeps, and which value each sweep
+/// has in it (-1: that of the case).
+struct StudyRun {
+    BenchmarkRun run;
+    std::vector<int> value_of;
+    int threads = 0; // 0: as the command says
+};
+/// All combinations of the values, or one sweep at a time. Throws FormulaError for an override that
+/// cannot be evaluated.
+std::vector<StudyRun> runs_of(const Study& study);
+
+/// Constants, derived columns and parameters, for the expressions of a run. Throws FormulaError.
+Scope scope_of(const Study& study, const BenchmarkRun& run);
+
+/// The runs that differ in this sweep only from the first of them, in the order from coarse to
+/// fine where the sweep is numeric: one list for each combination of the other sweeps.
+std::vector<std::vector<std::size_t>>
+series_of(const Study& study, const std::vector<StudyRun>& runs, std::size_t sweep);
+
+} // namespace hyoryu

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// What came out of benchmarks, and whether it is good enough.
+#pragma once
+
+#include "hyoryu/assess/measure.hpp"
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+enum class Verdict {
+    pass,
+    fail,  // also a run that stopped with an error
+    xfail, // failed as known, and not by more than the bound of that
+    xpass, // passed although it is marked as known to fail: the mark is stale, so it counts as FAIL
+    measured, // not judged in this run
+};
+std::string to_string(Verdict verdict);
+bool counts_as_failure(Verdict verdict);
+
+struct CheckResult {
+    std::string check;
+    Verdict verdict = Verdict::fail;
+    Comparison comparison = Comparison::equal;
+    double expected = 0;
+    double got = 0;     // NaN if nothing could be measured
+    double allowed = 0; // absolute difference; of no meaning for a bound
+    /// How far a known failure may be off [unit of the value]; NaN where none is known.
+    double known_within = std::numeric_limits<double>::quiet_NaN();
+    std::string note; // why nothing could be measured, or why it is known to fail
+    std::string because;
+    std::optional<Against> against;
+};
+
+/// What a run cost.
+struct RunCost {
+    double wall_seconds = 0;   // of everything, most of it writing where a case is small
+    double solver_seconds = 0; // within the steps
+    double steps = 0;
+    double simulated_seconds = 0;
+    double microseconds_per_step() const { return steps > 0 ? 1e6 * solver_seconds / steps : 0; }
+};
+
+/// From the summary of a run that came to its end. Throws IoError.
+RunCost read_cost(RunFiles& files);
+
+struct RunResult {
+    BenchmarkRun run;
+    RunCost cost;
+    std::string error; // why the run stopped; empty if it came to its end
+    std::vector<CheckResult> checks;
+};
+
+struct BenchmarkResult {
+    Benchmark benchmark;
+    std::vector<RunResult> runs;
+};
+
+/// A run that was made, with the numbers that its expressions know and what it wrote.
+struct MadeRun {
+    const BenchmarkRun& run;
+    Scope scope;
+    RunFiles files;
+};
+
+/// Measures and judges one check in one run that came to its end. `other`: the run that
+/// `check.same_as` names; null where it names none.
+CheckResult judge(const Check& check, MadeRun& made, MadeRun* other = nullptr);
+
+/// All checks of a run from the results that it wrote to `results`, beside those of the runs before
+/// it; they fail if `error` says why it stopped. Throws IoError if the summary cannot be read, and
+/// FormulaError if a check names a run that the benchmark does not have.
+RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
+                    const std::filesystem::path& results, const std::string& error);
+
+/// Judged checks by what their expected numbers come from.
+struct Held {
+    int judged = 0, pass = 0;
+};
+
+/// Checks by their verdicts.
+struct Tally {
+    int pass = 0, fail = 0, xfail = 0, xpass = 0, measured = 0;
+    std::array<Held, 5> against; // by `Against`
+    Held unstated;               // the file does not say what they are held against
+};
+Tally tally(const std::vector<BenchmarkResult>& results);
+
+} // namespace hyoryu

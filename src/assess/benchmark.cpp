@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Finding, reading and selecting benchmarks.
+#include "hyoryu/assess/benchmark.hpp"
+
+#include "hyoryu/core/input_file.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
+#include "reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* file_name = "verify.toml";
+constexpr std::array<std::string_view, 3> tiers{"quick", "nightly", "release"};
+
+Benchmark read_root(Section& root)
+{
+    Benchmark benchmark;
+    for (const char* key : {"title", "group", "source"}) {
+        root.require(key);
+    }
+    benchmark.title = root.label("title");
+    benchmark.group = root.label("group");
+    benchmark.also = root.texts("also");
+    benchmark.source = root.text("source");
+    benchmark.uncertainty = root.text("uncertainty");
+    const Tier tier = read_tier(root, Tier::quick);
+    benchmark.constants = read_constants(root);
+    benchmark.columns = read_columns(root);
+    benchmark.runs = read_runs(root, benchmark.constants, tier);
+    benchmark.checks = read_checks(root, benchmark);
+    benchmark.figures = read_figures(root, benchmark.runs);
+    benchmark.tables = read_summary_tables(root, benchmark);
+    root.finish();
+    return benchmark;
+}
+
+/// Why a name selects nothing.
+[[noreturn]] void refuse_name(const std::string& name, const std::vector<Benchmark>& benchmarks)
+{
+    std::set<std::string> known;
+    for (const Benchmark& benchmark : benchmarks) {
+        known.insert({benchmark.name, benchmark.group});
+        known.insert(benchmark.also.begin(), benchmark.also.end());
+    }
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    const std::string near = did_you_mean(name, names);
+    throw CaseError(fmt::format("no benchmark and no group is named \"{}\"", name),
+                    near.empty() ? "there are: " + quoted_list(names) : near);
+}
+
+bool is_named(const Benchmark& benchmark, const std::string& name)
+{
+    return benchmark.name == name || benchmark.group == name ||
+           std::ranges::find(benchmark.also, name) != benchmark.also.end();
+}
+
+void keep_runs_of(Tier tier, Benchmark& benchmark)
+{
+    std::erase_if(benchmark.runs, [tier](const BenchmarkRun& run) { return run.tier > tier; });
+}
+
+} // namespace
+
+OpenedFile open_toml(const fs::path& file)
+{
+    OpenedFile opened{{.file = file, .lines = {}, .mistakes = {}}, {}};
+    const std::string why = why_unreadable(file, largest_text);
+    if (!why.empty()) {
+        opened.file.error({}, "", "the file " + why);
+        throw CaseError(opened.file.mistakes);
+    }
+    const std::string whole = bytes_of_file(file);
+    std::istringstream lines(whole);
+    for (std::string line; std::getline(lines, line);) {
+        opened.file.lines.push_back(line);
+    }
+    try {
+        opened.document = parse_toml(whole);
+    } catch (const TomlFault& fault) {
+        opened.file.error(fault.place, "", fault.what, fault.hint);
+        throw CaseError(opened.file.mistakes);
+    }
+    return opened;
+}
+
+Constants read_constants(Section& root)
+{
+    Constants constants;
+    Scope scope;
+    for (const TomlEntry* entry : root.entries("constants")) {
+        const std::string key = "constants." + entry->key;
+        const std::string text = checked_expression(root.file(), entry->node, key);
+        try {
+            scope.numbers[entry->key] = evaluate(text, scope);
+        } catch (const FormulaError& fault) {
+            root.file().error(entry->node.place, key, fault.what());
+        }
+        constants.emplace_back(entry->key, text);
+    }
+    return constants;
+}
+
+std::map<std::string, std::string> read_columns(Section& root)
+{
+    std::map<std::string, std::string> columns;
+    for (const TomlEntry* entry : root.entries("columns")) {
+        columns[entry->key] = checked_expression(root.file(), entry->node, "columns." + entry->key);
+    }
+    return columns;
+}
+
+std::string to_string(Tier tier)
+{
+    return std::string(tiers[static_cast<std::size_t>(tier)]);
+}
+
+std::optional<Tier> tier_of(const std::string& name)
+{
+    const auto* at = std::find(tiers.begin(), tiers.end(), name);
+    return at == tiers.end() ? std::nullopt : std::optional(static_cast<Tier>(at - tiers.begin()));
+}
+
+Tier read_tier(Section& section, Tier fallback)
+{
+    const std::string name = section.text("tier", to_string(fallback));
+    const auto tier = tier_of(name);
+    if (!tier) {
+        section.error("tier",
+                      fmt::format("unknown \"{}\", expected one of {}", name, quoted_list(tiers)));
+    }
+    return tier.value_or(fallback);
+}
+
+Benchmark read_benchmark(const fs::path& folder)
+{
+    OpenedFile opened = open_toml(folder / file_name);
+    BenchmarkFile& file = opened.file;
+    Section root(file, opened.document, "");
+    Benchmark benchmark = read_root(root);
+    if (benchmark.runs.empty() && file.mistakes.empty()) {
+        root.error("run", "makes no run", "leave it out to run the case as it is");
+    }
+    if (!file.mistakes.empty()) {
+        throw CaseError(file.mistakes);
+    }
+    benchmark.folder = folder;
+    benchmark.name = fs::absolute(folder).lexically_normal().filename().string();
+    return benchmark;
+}
+
+std::vector<Benchmark> read_benchmarks(const fs::path& cases)
+{
+    std::set<fs::path> folders;
+    std::error_code fault;
+    for (const auto& entry : fs::directory_iterator(cases, fault)) {
+        if (fs::exists(entry.path() / file_name)) {
+            folders.insert(entry.path());
+        }
+    }
+    std::vector<Benchmark> benchmarks;
+    std::vector<Diagnostic> mistakes;
+    for (const fs::path& folder : folders) {
+        try {
+            benchmarks.push_back(read_benchmark(folder));
+        } catch (const CaseError& error) { // mistakes of all files are told together
+            mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
+        }
+    }
+    if (!mistakes.empty()) {
+        throw CaseError(mistakes);
+    }
+    return benchmarks;
+}
+
+std::vector<Benchmark> select(std::vector<Benchmark> benchmarks,
+                              const std::vector<std::string>& names, Tier tier)
+{
+    for (const std::string& name : names) {
+        Tier lowest = Tier::release;
+        bool found = false;
+        for (const Benchmark& benchmark : benchmarks) {
+            for (const BenchmarkRun& run : benchmark.runs) {
+                if (is_named(benchmark, name)) {
+                    lowest = std::min(lowest, run.tier);
+                    found = true;
+                }
+            }
+        }
+        if (!found) {
+            refuse_name(name, benchmarks);
+        }
+        if (lowest > tier) {
+            throw CaseError(
+                fmt::format("\"{}\" has no run in the tier \"{}\"", name, to_string(tier)),
+                fmt::format("add --tier {}", to_string(lowest)));
+        }
+    }
+    std::erase_if(benchmarks, [&](Benchmark& benchmark) {
+        keep_runs_of(tier, benchmark);
+        const auto fits = [&](const std::string& name) { return is_named(benchmark, name); };
+        return benchmark.runs.empty() ||
+               (!names.empty() && std::none_of(names.begin(), names.end(), fits));
+    });
+    return benchmarks;
+}
+
+} // namespace hyoryu

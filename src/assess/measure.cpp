@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: MIT
+// One number out of many.
+#include "hyoryu/assess/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+Samples within(const Quantity& quantity, const Scope& scope, const Samples& all)
+{
+    const double infinite = std::numeric_limits<double>::infinity();
+    const double from = quantity.from.empty() ? -infinite : evaluate(quantity.from, scope);
+    const double until = quantity.until.empty() ? infinite : evaluate(quantity.until, scope);
+    Samples kept;
+    for (std::size_t k = 0; k < all.t.size(); ++k) {
+        if (all.t[k] >= from && all.t[k] <= until) {
+            kept.t.push_back(all.t[k]);
+            kept.values.push_back(all.values[k]);
+        }
+    }
+    return kept;
+}
+
+/// The value at a time between two rows; nothing outside of them.
+std::optional<double> interpolate(const Samples& s, double time)
+{
+    // A row that is later by rounding of the clock is still that row.
+    const double last = s.t.back();
+    const double slack = 1e-12 * std::max(1.0, std::abs(last));
+    if (time < s.t.front() - slack || time > last + slack) {
+        return std::nullopt;
+    }
+    const auto above = std::lower_bound(s.t.begin(), s.t.end(), time);
+    const auto k = static_cast<std::size_t>(above - s.t.begin());
+    if (above == s.t.end()) {
+        return s.values.back();
+    }
+    if (k == 0) {
+        return s.values.front();
+    }
+    const double share = (time - s.t[k - 1]) / (s.t[k] - s.t[k - 1]);
+    return s.values[k - 1] + share * (s.values[k] - s.values[k - 1]);
+}
+
+Measured at_time(const Samples& s, double time)
+{
+    if (const auto value = interpolate(s, time)) {
+        return {*value, ""};
+    }
+    return {none, fmt::format("t = {} s is not within the rows, {} to {} s", time, s.t.front(),
+                              s.t.back())};
+}
+
+struct Extremum {
+    double t = 0;
+    double value = 0;
+};
+
+/// The apex of the parabola through three rows.
+Extremum apex(const Samples& s, std::size_t k)
+{
+    const double a = s.t[k - 1] - s.t[k];
+    const double b = s.t[k + 1] - s.t[k];
+    const double slope_a = (s.values[k - 1] - s.values[k]) / a;
+    const double slope_b = (s.values[k + 1] - s.values[k]) / b;
+    const double curvature = (slope_b - slope_a) / (b - a);
+    const double slope = slope_a - curvature * a;
+    const double shift = -slope / (2 * curvature);
+    return {s.t[k] + shift, s.values[k] + (slope + curvature * shift) * shift};
+}
+
+/// The `index`-th local maximum; `sign` -1: minimum.
+std::optional<Extremum> extremum(const Samples& s, int index, double sign)
+{
+    int seen = 0;
+    for (std::size_t k = 1; k + 1 < s.values.size(); ++k) {
+        const double value = sign * s.values[k];
+        if (value > sign * s.values[k - 1] && value >= sign * s.values[k + 1] && ++seen == index) {
+            return apex(s, k);
+        }
+    }
+    return std::nullopt;
+}
+
+Measured crossing(const Samples& s, double level, int index)
+{
+    int seen = 0;
+    for (std::size_t k = 1; k < s.values.size(); ++k) {
+        const double before = s.values[k - 1] - level;
+        const double after = s.values[k] - level;
+        if ((before < 0) != (after < 0) && ++seen == index) {
+            return {s.t[k - 1] + (s.t[k] - s.t[k - 1]) * before / (before - after), ""};
+        }
+    }
+    return {none, fmt::format("it passes {} only {} times", level, seen)};
+}
+
+double integral(const Samples& s)
+{
+    double sum = 0;
+    for (std::size_t k = 1; k < s.t.size(); ++k) {
+        sum += (s.t[k] - s.t[k - 1]) * (s.values[k] + s.values[k - 1]) / 2;
+    }
+    return sum;
+}
+
+/// Times at which the values pass the level.
+std::vector<double> passes(const Samples& s, double level)
+{
+    std::vector<double> times;
+    for (int index = 1;; ++index) {
+        const Measured next = crossing(s, level, index);
+        if (std::isnan(next.value)) {
+            return times;
+        }
+        times.push_back(next.value);
+    }
+}
+
+Measured period(const Samples& s, double level)
+{
+    const std::vector<double> times = passes(s, level);
+    if (times.size() < 3) {
+        return {none, fmt::format("it passes {} only {} times", level, times.size())};
+    }
+    return {2 * (times.back() - times.front()) / static_cast<double>(times.size() - 1), ""};
+}
+
+/// The farthest point from the level between each two passes.
+std::vector<Extremum> swings(const Samples& s, double level)
+{
+    const std::vector<double> times = passes(s, level);
+    std::vector<Extremum> all;
+    for (std::size_t pass = 1; pass < times.size(); ++pass) {
+        Extremum farthest;
+        for (std::size_t k = 0; k < s.t.size(); ++k) {
+            const double distance = std::abs(s.values[k] - level);
+            if (s.t[k] > times[pass - 1] && s.t[k] < times[pass] && distance > farthest.value) {
+                farthest = {s.t[k], distance};
+            }
+        }
+        if (farthest.value > 0) {
+            all.push_back(farthest);
+        }
+    }
+    return all;
+}
+
+Measured decay(const Samples& s, double level)
+{
+    const std::vector<Extremum> all = swings(s, level);
+    if (all.size() < 2) {
+        return {none, "fewer than two extrema"};
+    }
+    const auto n = static_cast<double>(all.size());
+    double t_mean = 0;
+    double y_mean = 0;
+    for (const Extremum& e : all) {
+        t_mean += e.t / n;
+        y_mean += std::log(e.value) / n;
+    }
+    double ty = 0;
+    double tt = 0;
+    for (const Extremum& e : all) {
+        ty += (e.t - t_mean) * (std::log(e.value) - y_mean);
+        tt += (e.t - t_mean) * (e.t - t_mean);
+    }
+    return {-ty / tt, ""};
+}
+
+double largest_gain(const std::vector<double>& values)
+{
+    double lowest = values.front();
+    double gain = 0;
+    for (const double value : values) {
+        lowest = std::min(lowest, value);
+        gain = std::max(gain, value - lowest);
+    }
+    return gain;
+}
+
+Measured number_of_extremum(const Quantity& quantity, const Samples& s)
+{
+    const double sign = quantity.measure == Measure::trough ? -1 : 1;
+    const auto found = extremum(s, quantity.index, sign);
+    if (!found) {
+        return {none, fmt::format("there is no {} number {}", sign > 0 ? "peak" : "trough",
+                                  quantity.index)};
+    }
+    return {quantity.measure == Measure::peak_time ? found->t : found->value, ""};
+}
+
+Measured row_of(const Quantity& quantity, const Samples& s)
+{
+    const auto row = static_cast<std::size_t>(quantity.index) - 1;
+    if (row >= s.values.size()) {
+        return {none, fmt::format("there are only {} rows", s.values.size())};
+    }
+    return {s.values[row], ""};
+}
+
+double total(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double number_of_all(Measure measure, const std::vector<double>& values)
+{
+    const auto [min, max] = std::minmax_element(values.begin(), values.end());
+    switch (measure) {
+    case Measure::first:
+        return values.front();
+    case Measure::last:
+        return values.back();
+    case Measure::min:
+        return *min;
+    case Measure::max:
+        return *max;
+    case Measure::mean:
+        return total(values) / static_cast<double>(values.size());
+    case Measure::sum:
+        return total(values);
+    case Measure::range:
+        return *max - *min;
+    case Measure::drift:
+        return values.back() - values.front();
+    case Measure::gain:
+        return largest_gain(values);
+    case Measure::growth:
+        return *std::max_element(values.begin(), values.end()) / values.front();
+    default:
+        return none; // not of the values alone
+    }
+}
+
+Measured error_of(Measure measure, const std::vector<double>& differences)
+{
+    double squares = 0;
+    double largest = 0;
+    for (const double d : differences) {
+        if (std::isnan(d)) {
+            return {none, "the values or the expected ones are not all numbers"};
+        }
+        squares += d * d;
+        largest = std::max(largest, std::abs(d));
+    }
+    const auto n = static_cast<double>(differences.size());
+    return {measure == Measure::rms_error ? std::sqrt(squares / n) : largest, ""};
+}
+
+} // namespace
+
+Measured measure(const Quantity& quantity, const Scope& scope, const Samples& samples)
+{
+    const Samples s = within(quantity, scope, samples);
+    if (quantity.measure == Measure::count) {
+        return {static_cast<double>(s.values.size()), ""};
+    }
+    if (s.values.empty()) {
+        return {none, "no row fits"};
+    }
+    switch (quantity.measure) {
+    case Measure::at:
+        return at_time(s, evaluate(quantity.time, scope));
+    case Measure::row:
+        return row_of(quantity, s);
+    case Measure::peak:
+    case Measure::peak_time:
+    case Measure::trough:
+        return number_of_extremum(quantity, s);
+    case Measure::integral:
+        return {integral(s), ""};
+    case Measure::period:
+    case Measure::decay: {
+        const double level = quantity.level.empty() ? number_of_all(Measure::mean, s.values)
+                                                    : evaluate(quantity.level, scope);
+        return quantity.measure == Measure::period ? period(s, level) : decay(s, level);
+    }
+    case Measure::crossing:
+        return crossing(s, evaluate(quantity.level, scope), quantity.index);
+    default:
+        return {number_of_all(quantity.measure, s.values), ""};
+    }
+}
+
+Measured error_from(const Quantity& quantity, const std::string& expected, const Scope& scope,
+                    RunFiles& files)
+{
+    Series difference = quantity.series;
+    difference.value = fmt::format("({}) - ({})", quantity.series.value, expected);
+    const Samples s = within(quantity, scope, samples(difference, scope, files));
+    return s.values.empty() ? Measured{none, "no row fits"} : error_of(quantity.measure, s.values);
+}
+
+Measured error_from(const Quantity& quantity, const Series& reference, const Scope& scope,
+                    RunFiles& files)
+{
+    return error_from(quantity, samples(reference, scope, files), scope, files);
+}
+
+Measured error_from(const Quantity& quantity, const Samples& reference, const Scope& scope,
+                    RunFiles& files)
+{
+    const Samples run = samples(quantity.series, scope, files);
+    const Samples right = within(quantity, scope, reference);
+    if (run.values.empty() || right.values.empty()) {
+        return {none, "no row fits"};
+    }
+    std::vector<double> differences;
+    for (std::size_t k = 0; k < right.t.size(); ++k) {
+        const auto value = interpolate(run, right.t[k]);
+        if (!value) {
+            return {none,
+                    fmt::format("the run has no value at t = {} s of the reference", right.t[k])};
+        }
+        differences.push_back(*value - right.values[k]);
+    }
+    return error_of(quantity.measure, differences);
+}
+
+Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& files)
+{
+    const Samples run = samples(quantity.series, scope, files);
+    const Samples lower = within(quantity, scope, samples(quantity.band->lower, scope, files));
+    Series above = quantity.band->lower;
+    above.value = quantity.band->upper;
+    const Samples upper = within(quantity, scope, samples(above, scope, files));
+    if (run.values.empty() || lower.values.empty()) {
+        return {none, "no row fits"};
+    }
+    double inside = 0;
+    for (std::size_t k = 0; k < lower.t.size(); ++k) {
+        const auto value = interpolate(run, lower.t[k]);
+        if (!value) {
+            return {none, fmt::format("the run has no value at t = {} s of the band", lower.t[k])};
+        }
+        inside += *value >= lower.values[k] && *value <= upper.values[k] ? 1 : 0;
+    }
+    return {inside / static_cast<double>(lower.t.size()), ""};
+}
+
+} // namespace hyoryu

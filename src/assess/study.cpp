@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+// Reading a study and listing its runs.
+#include "hyoryu/assess/study.hpp"
+
+#include "hyoryu/assess/read.hpp"
+#include "hyoryu/core/input_file.hpp"
+#include "hyoryu/core/name.hpp"
+#include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/reader_hint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+namespace hyoryu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Each is planned before the first one starts, and is a process: more would take weeks.
+constexpr int most_runs = 10000;
+
+constexpr std::array<std::string_view, 2> modes{"one_at_a_time", "grid"};
+constexpr std::array<std::string_view, 3> ends{"smallest", "largest", "none"};
+
+// The index of the text among the known ones; a mistake is noted, and the first taken.
+template <std::size_t N>
+std::size_t read_choice(Section& section, std::string_view key,
+                        const std::array<std::string_view, N>& known)
+{
+    const std::string text = section.text(key, std::string(known[0]));
+    const auto* at = std::find(known.begin(), known.end(), text);
+    if (at == known.end()) {
+        section.error(key,
+                      fmt::format("unknown \"{}\", expected one of {}", text, quoted_list(known)));
+        return 0;
+    }
+    return static_cast<std::size_t>(at - known.begin());
+}
+
+bool is_count(const RunParameter& value)
+{
+    const auto* number = std::get_if<double>(&value);
+    return number != nullptr && *number >= 1 && *number <= 4096 && std::floor(*number) == *number;
+}
+
+void check_label(Section& section, std::string_view key, const Place& place,
+                 const std::string& text)
+{
+    const std::string fault = label_fault(text);
+    if (!fault.empty()) {
+        section.file().error(place, section.full(key), "cannot be shown: " + fault);
+    }
+}
+
+void read_values(Section& section, StudySweep& sweep)
+{
+    for (const TomlNode* node : section.items("values")) {
+        if (const auto value = parameter_of(*node)) {
+            if (const auto* text = std::get_if<std::string>(&*value)) {
+                check_label(section, "values", node->place, *text);
+            }
+            sweep.values.push_back(*value);
+        } else {
+            section.file().error(
+                node->place, section.full("values"),
+                fmt::format("expected a number or a text, found {}", found(*node)));
+        }
+    }
+    if (sweep.values.empty() && section.has("values")) {
+        section.error("values", "is empty: give the values to try");
+    }
+}
+
+// `choices`: a name and a list of overrides for each.
+void read_choices(Section& section, StudySweep& sweep)
+{
+    for (const TomlEntry* entry : section.entries("choices")) {
+        check_label(section, "choices", entry->place, entry->key);
+        sweep.values.emplace_back(entry->key);
+        sweep.choices.emplace_back();
+        const TomlArray* items = entry->node.array();
+        const TomlArray none;
+        for (const TomlNode& item : items != nullptr ? *items : none) {
+            if (const auto* text = std::get_if<std::string>(&item.value)) {
+                sweep.choices.back().push_back(*text);
+            } else {
+                items = nullptr;
+                break;
+            }
+        }
+        if (items == nullptr) {
+            section.file().error(entry->node.place, section.full("choices." + entry->key),
+                                 "expected a list of texts, overrides of the case as in `set`");
+        }
+    }
+}
+
+void check_name(Section& section, const StudySweep& sweep)
+{
+    const bool is_name =
+        !sweep.name.empty() && std::isdigit(static_cast<unsigned char>(sweep.name[0])) == 0 &&
+        std::ranges::all_of(sweep.name,
+                            [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    if (!is_name) {
+        section.error("name", fmt::format("\"{}\" cannot stand in an expression", sweep.name),
+                      "letters, digits and _");
+    }
+}
+
+StudySweep read_sweep(Section& section)
+{
+    StudySweep sweep;
+    const bool has_choices = section.has("choices");
+    if (has_choices == section.has("values")) {
+        section.error("", "give one of `values` and `choices`");
+    }
+    if (!has_choices && !section.has("set") && !section.has("key")) {
+        section.error("", "says nothing to vary", "give `key`, or `set` with a `name`");
+    }
+    sweep.key = section.text("key");
+    sweep.set = section.texts("set");
+    const auto dot = sweep.key.find_last_of('.');
+    sweep.name =
+        section.text("name", dot == std::string::npos ? sweep.key : sweep.key.substr(dot + 1));
+    if (has_choices) {
+        read_choices(section, sweep);
+    }
+    if (!has_choices || section.has("values")) {
+        read_values(section, sweep);
+    }
+    if (has_choices && !sweep.key.empty()) {
+        section.error("key", "has no meaning with `choices`, which say what they set");
+    }
+    sweep.finest = static_cast<StudySweep::Finest>(read_choice(section, "finest", ends));
+    if (sweep.key == threads_key && !std::ranges::all_of(sweep.values, is_count)) {
+        section.error("values", "expected whole numbers of threads, 1 to 4096");
+    }
+    if (!sweep.key.empty() || section.has("name")) {
+        check_name(section, sweep);
+    } else {
+        section.require("name");
+    }
+    section.finish();
+    return sweep;
+}
+
+// Exactly one of `expected`, `reference` and `against = "finest"`.
+void read_expectation(Section& section, StudyQuantity& quantity)
+{
+    quantity.expected = section.expression("expected");
+    int given = quantity.expected.empty() ? 0 : 1;
+    if (auto reference = section.table("reference")) {
+        quantity.against = StudyQuantity::Against::reference;
+        quantity.reference = read_series(*reference, "value");
+        reference->require("file");
+        reference->finish();
+        given += 1;
+    }
+    if (section.has("against")) {
+        constexpr std::array<std::string_view, 1> known{"finest"};
+        read_choice(section, "against", known);
+        quantity.against = StudyQuantity::Against::finest;
+        given += 1;
+    }
+    if (given != 1) {
+        section.error("", "give one of `expected`, `reference` and `against = \"finest\"`");
+    }
+    const bool error_measure = is_error_measure(quantity.quantity.measure);
+    if (error_measure && quantity.against == StudyQuantity::Against::finest) {
+        section.error("measure", "is a difference already; give `expected` or `reference`");
+    }
+    if (quantity.quantity.measure == Measure::share_within) {
+        section.error("measure", "is no quantity with an error");
+    }
+}
+
+StudyQuantity read_study_quantity(Section& section)
+{
+    StudyQuantity quantity;
+    section.require("name");
+    quantity.name = section.label("name");
+    quantity.unit = section.label("unit");
+    if (section.has("name") && quantity.name.empty()) {
+        section.error("name", "is empty");
+    }
+    quantity.quantity = read_quantity(section);
+    read_expectation(section, quantity);
+    quantity.scale = section.expression("scale");
+    section.finish();
+    return quantity;
+}
+
+template <class T, class Name>
+void refuse_doubles(Section& root, std::string_view key, const std::vector<T>& all, Name name)
+{
+    std::set<std::string> seen;
+    for (const T& one : all) {
+        if (!seen.insert(name(one)).second) {
+            root.error(key, fmt::format("\"{}\" stands twice", name(one)));
+        }
+    }
+    if (all.empty()) {
+        root.error(key, fmt::format("is missing: a study needs at least one [[{}]]", key));
+    }
+}
+
+Study read_root(Section& root, const fs::path& folder)
+{
+    Study study;
+    for (const char* key : {"title", "case"}) {
+        root.require(key);
+    }
+    study.title = root.label("title");
+    study.case_file = (folder / root.text("case")).lexically_normal();
+    study.mode = static_cast<Study::Mode>(read_choice(root, "mode", modes));
+    study.set = root.texts("set");
+    study.repeats = static_cast<int>(root.integer("repeats", 1));
+    study.cost = root.expression("cost");
+    study.constants = read_constants(root);
+    study.columns = read_columns(root);
+    for (Section& section : root.tables("sweep")) {
+        study.sweeps.push_back(read_sweep(section));
+    }
+    for (Section& section : root.tables("quantity")) {
+        study.quantities.push_back(read_study_quantity(section));
+    }
+    if (study.repeats < 1 || study.repeats > 1000) {
+        root.error("repeats", "expected 1 to 1000");
+    }
+    refuse_doubles(root, "sweep", study.sweeps, [](const StudySweep& s) { return s.name; });
+    refuse_doubles(root, "quantity", study.quantities,
+                   [](const StudyQuantity& q) { return q.name; });
+    root.finish();
+    return study;
+}
+
+std::string text_of(const RunParameter& value)
+{
+    const auto* number = std::get_if<double>(&value);
+    return number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(value);
+}
+
+// A text as TOML, so that no value is taken for something else.
+std::string toml_of(const RunParameter& value)
+{
+    const auto* text = std::get_if<std::string>(&value);
+    return text != nullptr ? fmt::format("\"{}\"", *text) : text_of(value);
+}
+
+std::string file_name(std::string name)
+{
+    std::ranges::replace_if(
+        name,
+        [](unsigned char c) {
+            return std::isalnum(c) == 0 && c != '.' && c != '=' && c != '-' && c != '_' && c != ',';
+        },
+        '_');
+    return name;
+}
+
+// The overrides of one sweep in a run whose parameters are complete.
+void apply(const StudySweep& sweep, std::size_t value, const Scope& scope, StudyRun& run)
+{
+    const RunParameter& taken = sweep.values[value];
+    if (sweep.key == threads_key) {
+        run.threads = static_cast<int>(std::get<double>(taken));
+    } else if (!sweep.key.empty()) {
+        run.run.set.push_back(sweep.key + "=" + toml_of(taken));
+    }
+    for (const std::string& text : sweep.set) {
+        run.run.set.push_back(expanded(text, run.run, scope));
+    }
+    if (!sweep.choices.empty()) {
+        for (const std::string& text : sweep.choices[value]) {
+            run.run.set.push_back(expanded(text, run.run, scope));
+        }
+    }
+}
+
+StudyRun run_with(const Study& study, const std::vector<int>& value_of)
+{
+    StudyRun run{.run = {.name = "", .set = {}}, .value_of = value_of};
+    for (std::size_t k = 0; k < study.sweeps.size(); ++k) {
+        if (value_of[k] >= 0) {
+            const StudySweep& sweep = study.sweeps[k];
+            const RunParameter& value = sweep.values[static_cast<std::size_t>(value_of[k])];
+            run.run.name += (run.run.name.empty() ? "" : ",") + sweep.name + "=" + text_of(value);
+            run.run.parameters.emplace_back(sweep.name, value);
+        }
+    }
+    run.run.name = file_name(run.run.name);
+    const Scope scope = scope_of(study, run.run);
+    for (const std::string& text : study.set) {
+        run.run.set.push_back(expanded(text, run.run, scope));
+    }
+    for (std::size_t k = 0; k < study.sweeps.size(); ++k) {
+        if (value_of[k] >= 0) {
+            apply(study.sweeps[k], static_cast<std::size_t>(value_of[k]), scope, run);
+        }
+    }
+    return run;
+}
+
+// How many processes the study would start. Counted before they are listed.
+double count_runs(const Study& study)
+{
+    const bool grid = study.mode == Study::Mode::grid;
+    double count = grid ? 1 : 0;
+    for (const StudySweep& sweep : study.sweeps) {
+        const auto values = static_cast<double>(sweep.values.size());
+        count = grid ? count * values : count + values;
+    }
+    return count * study.repeats;
+}
+
+void check_count(Section& root, const Study& study)
+{
+    const double count = count_runs(study);
+    if (count > most_runs) {
+        root.error("sweep",
+                   fmt::format("asks for {:.10g} runs, at most {} are made", count, most_runs),
+                   "fewer values or repeats, or mode = \"one_at_a_time\"");
+    }
+}
+
+// Overrides that cannot be evaluated, and values whose runs would share a folder.
+void check_runs(Section& root, const Study& study)
+{
+    try {
+        std::set<std::string> names;
+        for (const StudyRun& run : runs_of(study)) {
+            if (!names.insert(run.run.name).second) {
+                root.error("sweep", fmt::format("the run \"{}\" stands twice", run.run.name),
+                           "give every value once");
+            }
+        }
+    } catch (const FormulaError& fault) {
+        root.error("sweep", fault.what());
+    }
+}
+
+} // namespace
+
+bool StudySweep::numeric() const
+{
+    return std::ranges::all_of(
+        values, [](const RunParameter& v) { return std::holds_alternative<double>(v); });
+}
+
+Study read_study(const fs::path& file)
+{
+    OpenedFile opened = open_toml(file);
+    Section root(opened.file, opened.document, "");
+    Study study = read_root(root, file.parent_path());
+    const std::string why = why_unreadable(study.case_file, largest_text);
+    if (root.has("case") && !why.empty()) {
+        root.error("case", fmt::format("the file `{}` {}", study.case_file.string(), why),
+                   "the path is relative to the study");
+    }
+    if (opened.file.mistakes.empty()) {
+        check_count(root, study);
+    }
+    if (opened.file.mistakes.empty()) {
+        check_runs(root, study);
+    }
+    if (!opened.file.mistakes.empty()) {
+        throw CaseError(opened.file.mistakes);
+    }
+    study.file = file;
+    return study;
+}
+
+std::vector<StudyRun> runs_of(const Study& study)
+{
+    const std::vector<int> of_case(study.sweeps.size(), -1);
+    std::vector<std::vector<int>> all;
+    if (study.mode == Study::Mode::grid) {
+        all = {of_case};
+    }
+    for (std::size_t k = 0; k < study.sweeps.size(); ++k) {
+        std::vector<std::vector<int>> longer;
+        const std::vector<std::vector<int>> begun =
+            study.mode == Study::Mode::grid ? all : std::vector<std::vector<int>>{of_case};
+        for (std::vector<int> values : begun) {
+            for (std::size_t v = 0; v < study.sweeps[k].values.size(); ++v) {
+                values[k] = static_cast<int>(v);
+                longer.push_back(values);
+            }
+        }
+        if (study.mode == Study::Mode::grid) {
+            all = std::move(longer);
+        } else {
+            all.insert(all.end(), longer.begin(), longer.end());
+        }
+    }
+    std::vector<StudyRun> runs;
+    for (const std::vector<int>& values : all) {
+        runs.push_back(run_with(study, values));
+    }
+    return runs;
+}
+
+Scope scope_of(const Study& study, const BenchmarkRun& run)
+{
+    Benchmark names;
+    names.constants = study.constants;
+    names.columns = study.columns;
+    return scope_of(names, run);
+}
+
+std::vector<std::vector<std::size_t>>
+series_of(const Study& study, const std::vector<StudyRun>& runs, std::size_t sweep)
+{
+    std::map<std::vector<int>, std::vector<std::size_t>> by_others;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (runs[k].value_of[sweep] >= 0) {
+            std::vector<int> others = runs[k].value_of;
+            others[sweep] = -1;
+            by_others[others].push_back(k);
+        }
+    }
+    const StudySweep& s = study.sweeps[sweep];
+    const auto value = [&](std::size_t k) {
+        const auto index = static_cast<std::size_t>(runs[k].value_of[sweep]);
+        const double number = std::get<double>(s.values[index]);
+        return s.finest == StudySweep::Finest::smallest ? -number : number;
+    };
+    std::vector<std::vector<std::size_t>> all;
+    for (auto& [others, list] : by_others) {
+        if (s.numeric()) {
+            std::ranges::sort(list, {}, value);
+        }
+        all.push_back(list);
+    }
+    return all;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// A study as Markdown and as one page of HTML.
+#include "hyoryu/assess/study_page.hpp"
+
+#include "hyoryu/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::string_view style =
+    "body{font:15px/1.5 sans-serif;max-width:68em;margin:2em auto;padding:0 1em;color:#1a1a1a}"
+    "table{border-collapse:collapse;margin:1em 0;font-size:14px}"
+    "th,td{border:1px solid #ccc;padding:.25em .6em;text-align:left}"
+    "th{background:#f2f2f2}.n{text-align:right}img{max-width:100%}";
+
+// RFC 4648, section 4.
+std::string base64(const std::string& bytes)
+{
+    constexpr std::string_view letters =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t k = 0; k < bytes.size(); k += 3) {
+        const auto byte = [&](std::size_t m) -> unsigned {
+            return k + m < bytes.size() ? static_cast<unsigned char>(bytes[k + m]) : 0;
+        };
+        const unsigned bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for (std::size_t m = 0; m < 4; ++m) {
+            const bool there = k + m <= bytes.size();
+            text += there ? letters[bits >> (18 - 6 * m) & 63] : '=';
+        }
+    }
+    return text;
+}
+
+std::string read_bytes(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream && bytes.empty()) {
+        throw IoError(fmt::format("cannot read `{}`", file.string()));
+    }
+    return bytes;
+}
+
+// A file `case.toml` is known by its folder, also where it is named from within.
+std::string name_of_case(const std::filesystem::path& file)
+{
+    return file.filename() == "case.toml" ? std::filesystem::absolute(file)
+                                                .lexically_normal()
+                                                .parent_path()
+                                                .filename()
+                                                .string()
+                                          : file.filename().string();
+}
+
+std::string how_measured(const StudyResult& result, const StudyInfo& info)
+{
+    return fmt::format(
+        "Case {}. Errors are relative. Cost: {}, the same on every machine of one instruction set; "
+        "wall time: median of {} repeat(s) within the steps, rounds of all runs in turn, {} "
+        "thread(s), {} run(s) side by "
+        "side. Hyoryu {} ({}), {}.",
+        name_of_case(result.study.case_file), result.work_unit, result.study.repeats, info.threads,
+        info.jobs, info.version, info.commit, info.build);
+}
+
+std::string markdown_row(const std::vector<std::string>& cells)
+{
+    std::string row = "|";
+    for (const std::string& text : cells) {
+        row += ' ';
+        for (const char letter : text) { // a bar would end the cell
+            row += letter == '|' ? "\\|" : std::string(1, letter);
+        }
+        row += " |";
+    }
+    return row + "\n";
+}
+
+std::string markdown_table(const HtmlTable& table)
+{
+    std::vector<std::string> heads;
+    std::vector<std::string> rules;
+    for (const HtmlTable::Head& head : table.heads) {
+        heads.push_back(head.text);
+        rules.emplace_back(head.align == HtmlTable::Align::right ? "---:" : "---");
+    }
+    std::string text = markdown_row(heads) + markdown_row(rules);
+    for (const auto& row : table.rows) {
+        text += markdown_row(row);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string study_markdown(const StudyResult& result, const StudyInfo& info,
+                           const std::vector<std::string>& pictures)
+{
+    std::string text =
+        fmt::format("# {}\n\n{}\n\n", result.study.title, how_measured(result, info));
+    for (const std::string& picture : pictures) {
+        text += fmt::format("![{0}]({0})\n\n", picture);
+    }
+    for (const StudyTable& table : study_tables(result)) {
+        text += fmt::format("## {}\n\n{}\n", table.title, markdown_table(table.table));
+    }
+    return text;
+}
+
+std::string study_page(const StudyResult& result, const StudyInfo& info,
+                       const std::vector<std::filesystem::path>& pictures)
+{
+    std::string text = fmt::format(
+        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
+        "<meta charset=\"utf-8\"/>\n<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n"
+        "<h1>{0}</h1>\n{2}",
+        escaped(result.study.title), style, html_paragraph(how_measured(result, info)));
+    for (const auto& picture : pictures) {
+        text += fmt::format("<p><img alt=\"{}\" src=\"data:image/png;base64,{}\"/></p>\n",
+                            escaped(picture.stem().string()), base64(read_bytes(picture)));
+    }
+    for (const StudyTable& table : study_tables(result)) {
+        text += fmt::format("<h2>{}</h2>\n{}", escaped(table.title), html_table(table.table));
+    }
+    return text + "</body>\n</html>\n";
+}
+
+} // namespace hyoryu

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/assess/verdict.hpp"
+
+#include "hyoryu/assess/read.hpp"
+#include "hyoryu/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// The quantity in the words of the run: every `${...}` replaced.
+Quantity in(const MadeRun& made, Quantity quantity)
+{
+    quantity.series = expanded(quantity.series, made.run, made.scope);
+    if (quantity.band) {
+        quantity.band->lower = expanded(quantity.band->lower, made.run, made.scope);
+    }
+    return quantity;
+}
+
+/// What the run is held against, over time: a file, or the same quantity in another run.
+Samples reference_of(const Check& check, MadeRun& made, MadeRun* other)
+{
+    if (other != nullptr) {
+        return samples(in(*other, check.quantity).series, other->scope, other->files);
+    }
+    return samples(expanded(*check.reference, made.run, made.scope), made.scope, made.files);
+}
+
+/// The number that the measure should give.
+Measured expected_of(const Check& check, MadeRun& made, MadeRun* other)
+{
+    if (!check.reference && other == nullptr) {
+        return {evaluate(check.expected, made.scope), ""};
+    }
+    return measure(check.quantity, other != nullptr ? other->scope : made.scope,
+                   reference_of(check, made, other));
+}
+
+Measured error_of(const Check& check, const Quantity& quantity, MadeRun& made, MadeRun* other)
+{
+    if (!check.reference && other == nullptr) {
+        return error_from(quantity, check.expected, made.scope, made.files);
+    }
+    return error_from(quantity, reference_of(check, made, other), made.scope, made.files);
+}
+
+/// Fills in what was expected and what came out.
+void take(const Check& check, MadeRun& made, MadeRun* other, CheckResult& result)
+{
+    const Quantity quantity = in(made, check.quantity);
+    Measured got;
+    if (is_error_measure(quantity.measure)) {
+        got = error_of(check, quantity, made, other);
+    } else {
+        got = quantity.band
+                  ? share_within(quantity, made.scope, made.files)
+                  : measure(quantity, made.scope, samples(quantity.series, made.scope, made.files));
+        const Measured expected = expected_of(check, made, other);
+        result.expected = expected.value;
+        result.note = expected.why.empty() ? "" : "reference: " + expected.why;
+    }
+    result.got = got.value;
+    if (!got.why.empty()) {
+        result.note = got.why;
+    }
+    result.allowed = check.tolerance.empty() ? check.relative * std::abs(result.expected)
+                                             : evaluate(check.tolerance, made.scope);
+}
+
+/// How far it is off, in the unit of the value; not positive within a bound. NaN if nothing could
+/// be measured.
+double distance_off(const CheckResult& result)
+{
+    switch (result.comparison) {
+    case Comparison::at_most:
+        return result.got - result.expected;
+    case Comparison::at_least:
+        return result.expected - result.got;
+    case Comparison::equal:
+        break;
+    }
+    return std::abs(result.got - result.expected);
+}
+
+bool is_good(const CheckResult& result)
+{
+    // A NaN is never good: each comparison with it is false.
+    return distance_off(result) <= (result.comparison == Comparison::equal ? result.allowed : 0.0);
+}
+
+/// "off by 0.021 (4.1 %)", by the numbers of this run.
+std::string distance_text(const CheckResult& result)
+{
+    const double off = distance_off(result);
+    std::string text = fmt::format("off by {:.3g}", off);
+    if (result.expected != 0) {
+        text += fmt::format(" ({:.2g} %)", 100 * off / std::abs(result.expected));
+    }
+    return text;
+}
+
+/// The verdict of a check that is known to fail, and the note that says by how much it does.
+void judge_known_failure(const Check& check, const Scope& scope, CheckResult& result)
+{
+    result.known_within = evaluate(check.xfail_within, scope);
+    if (is_good(result)) {
+        result.verdict = Verdict::xpass;
+        result.note = fmt::format("passes now, take away its xfail: {}", check.xfail);
+        return;
+    }
+    const bool within = distance_off(result) <= result.known_within;
+    result.verdict = within ? Verdict::xfail : Verdict::fail;
+    if (result.note.empty()) {
+        result.note = fmt::format("{}, {} {:.3g}: {}", distance_text(result),
+                                  within ? "known up to" : "MORE THAN THE KNOWN",
+                                  result.known_within, check.xfail);
+    }
+}
+
+/// What was measured, with its verdict in that run.
+CheckResult verdict_on(const Check& check, const MadeRun& made, const MadeRun* other,
+                       CheckResult result)
+{
+    const bool is_other = other != nullptr && other->run.name == made.run.name;
+    if (is_other || !matches(check.judged, made.run.name)) {
+        result.verdict = Verdict::measured;
+        return result;
+    }
+    if (!check.xfail.empty() && matches(check.xfail_runs, made.run.name)) {
+        judge_known_failure(check, made.scope, result);
+    } else {
+        result.verdict = is_good(result) ? Verdict::pass : Verdict::fail;
+    }
+    return result;
+}
+
+} // namespace
+
+RunCost read_cost(RunFiles& files)
+{
+    const CsvTable& summary = files.table("summary");
+    const auto number = [&](const char* name) {
+        const auto* column = summary.find(name);
+        return column != nullptr ? column->numbers.front() : 0;
+    };
+    double solver_seconds = 0;
+    for (const CsvTable::Column& column : summary.columns) {
+        solver_seconds += column.name.starts_with("stages.") ? column.numbers.front() : 0;
+    }
+    return {.wall_seconds = number("wall_seconds"),
+            .solver_seconds = solver_seconds,
+            .steps = number("steps"),
+            .simulated_seconds = number("simulated_seconds")};
+}
+
+std::string to_string(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::pass:
+        return "PASS";
+    case Verdict::xfail:
+        return "XFAIL";
+    case Verdict::xpass:
+        return "XPASS";
+    case Verdict::measured:
+        return "measured";
+    case Verdict::fail:
+        break;
+    }
+    return "FAIL";
+}
+
+bool counts_as_failure(Verdict verdict)
+{
+    return verdict == Verdict::fail || verdict == Verdict::xpass;
+}
+
+CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
+{
+    CheckResult result{.check = check.name,
+                       .comparison = check.comparison,
+                       .got = none,
+                       .because = check.because,
+                       .against = check.against};
+    // A check that cannot be made as it is written is no known failure.
+    try {
+        take(check, made, other, result);
+        return verdict_on(check, made, other, result);
+    } catch (const FormulaError& fault) {
+        result.note = fault.what();
+    } catch (const IoError& fault) { // the run did not write the file that the check asks for
+        result.note = fault.what();
+    }
+    return result;
+}
+
+namespace {
+
+// What is said of a check of a run that did not end as it should.
+CheckResult unmade(const Check& check, const std::string& error)
+{
+    return {.check = check.name,
+            .comparison = check.comparison,
+            .expected = none,
+            .got = none,
+            .allowed = none,
+            .note = error.empty() ? "the run did not stop" : "the run stopped: " + error,
+            .because = check.because,
+            .against = check.against};
+}
+
+// The run that the check names, opened once; null where it names none.
+MadeRun* other_of(const Check& check, const Benchmark& benchmark, const MadeRun& made,
+                  const std::filesystem::path& runs, std::map<std::string, MadeRun>& opened)
+{
+    if (check.same_as.empty()) {
+        return nullptr;
+    }
+    const std::string name = expanded(check.same_as, made.run, made.scope);
+    const BenchmarkRun* run = find_run(benchmark, name);
+    if (run == nullptr) {
+        throw FormulaError(fmt::format("no run is named \"{}\"", name));
+    }
+    MadeRun other{*run, scope_of(benchmark, *run), {runs / name, benchmark.folder}};
+    return &opened.try_emplace(name, std::move(other)).first->second;
+}
+
+// Whether a run that is to stop did, and said why.
+CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
+{
+    CheckResult result{.check = "stops and says why",
+                       .expected = none,
+                       .got = none,
+                       .allowed = none,
+                       .note = error.empty() ? "it came to its end" : error,
+                       .because = fmt::format("\"{}\"", run.stops)};
+    result.against = Against::itself;
+    result.verdict = error.find(run.stops) != std::string::npos ? Verdict::pass : Verdict::fail;
+    return result;
+}
+
+} // namespace
+
+RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
+                    const std::filesystem::path& results, const std::string& error)
+{
+    RunResult result{.run = run, .cost = {}, .error = error, .checks = {}};
+    MadeRun made{run, scope_of(benchmark, run), {results, benchmark.folder}};
+    if (!run.stops.empty()) {
+        result.checks.push_back(stop_as_asked(run, error));
+    }
+    const bool good =
+        run.stops.empty() ? error.empty() : result.checks.front().verdict == Verdict::pass;
+    if (good) {
+        result.cost = read_cost(made.files);
+    }
+    std::map<std::string, MadeRun> others;
+    for (const Check& check : benchmark.checks) {
+        if (!matches(check.runs, run.name)) {
+            continue;
+        }
+        if (good) {
+            MadeRun* other = other_of(check, benchmark, made, results.parent_path(), others);
+            result.checks.push_back(judge(check, made, other));
+        } else {
+            result.checks.push_back(unmade(check, error));
+        }
+    }
+    return result;
+}
+
+Tally tally(const std::vector<BenchmarkResult>& results)
+{
+    Tally count;
+    for (const BenchmarkResult& result : results) {
+        for (const RunResult& run : result.runs) {
+            // A run without checks still fails if it stopped.
+            count.fail += run.checks.empty() && !run.error.empty() ? 1 : 0;
+            for (const CheckResult& check : run.checks) {
+                if (check.verdict != Verdict::measured) {
+                    Held& held = check.against
+                                     ? count.against[static_cast<std::size_t>(*check.against)]
+                                     : count.unstated;
+                    held.judged += 1;
+                    held.pass += check.verdict == Verdict::pass ? 1 : 0;
+                }
+                count.pass += check.verdict == Verdict::pass ? 1 : 0;
+                count.fail += check.verdict == Verdict::fail ? 1 : 0;
+                count.xfail += check.verdict == Verdict::xfail ? 1 : 0;
+                count.xpass += check.verdict == Verdict::xpass ? 1 : 0;
+                count.measured += check.verdict == Verdict::measured ? 1 : 0;
+            }
+        }
+    }
+    return count;
+}
+
+} // namespace hyoryu

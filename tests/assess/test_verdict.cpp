@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// Verdicts, and what they add up to.
+#include "hyoryu/assess/verify_report.hpp"
+#include "io/results_fixture.hpp"
+
+#include <fmt/format.h>
+
+#include <tuple>
+
+namespace hyoryu {
+namespace {
+
+using testing::put_text_into;
+
+class Verdicts : public testing::ResultsTest {
+protected:
+    void SetUp() override
+    {
+        ResultsTest::SetUp();
+        put_text_into(folder / "bodies.csv", "time,x\n0,0\n1,10\n");
+        put_text_into(folder / "summary.json",
+                      R"({"steps": 100, "wall_seconds": 9, "simulated_seconds": 1,
+                                 "stages": {"bodies": 0.4, "books": 0.1}})");
+    }
+
+    /// A check that finds 10.
+    static Check check(const std::string& expected, const std::string& tolerance)
+    {
+        Check result;
+        result.name = "x";
+        result.runs = result.judged = result.xfail_runs = {"*"};
+        result.quantity.series.value = "x";
+        result.quantity.measure = Measure::last;
+        result.expected = expected;
+        result.tolerance = tolerance;
+        return result;
+    }
+
+    CheckResult judged(const Check& check) const
+    {
+        MadeRun made{run, {}, {folder, folder}};
+        return judge(check, made);
+    }
+
+    /// The same with the parameters of the run as numbers.
+    CheckResult judged_with_numbers(const Check& check) const
+    {
+        MadeRun made{run, scope_of({}, run), {folder, folder}};
+        return judge(check, made);
+    }
+
+    const BenchmarkRun run{.name = "a", .set = {}, .tier = Tier::quick, .parameters = {{"n", 2.0}}};
+};
+
+TEST_F(Verdicts, PassWithinTheToleranceAndFailBeyond)
+{
+    EXPECT_EQ(judged(check("9.5", "0.5")).verdict, Verdict::pass);
+    EXPECT_EQ(judged(check("9.5", "0.49")).verdict, Verdict::fail);
+    Check relative = check("8", "");
+    relative.relative = 0.25;
+    EXPECT_EQ(judged(relative).verdict, Verdict::pass);
+    relative.relative = 0.24;
+    EXPECT_EQ(judged(relative).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, BoundsAreOneSided)
+{
+    Check bound = check("10.5", "");
+    bound.comparison = Comparison::at_most;
+    EXPECT_EQ(judged(bound).verdict, Verdict::pass);
+    bound.comparison = Comparison::at_least;
+    EXPECT_EQ(judged(bound).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, AKnownFailureIsToldAndAStaleOneCountsAsFailure)
+{
+    Check known = check("0", "1");
+    known.xfail = "not solved yet";
+    known.xfail_within = "5*n";
+    EXPECT_EQ(judged_with_numbers(known).verdict, Verdict::xfail);
+    EXPECT_EQ(judged_with_numbers(known).note, "off by 10, known up to 10: not solved yet");
+    EXPECT_FALSE(counts_as_failure(Verdict::xfail));
+    known = check("10", "1");
+    known.xfail = "not solved yet";
+    known.xfail_within = "1";
+    EXPECT_EQ(judged(known).verdict, Verdict::xpass);
+    EXPECT_TRUE(counts_as_failure(Verdict::xpass));
+    known.xfail_runs = {"b"};
+    EXPECT_EQ(judged(known).verdict, Verdict::pass);
+}
+
+TEST_F(Verdicts, AKnownFailureHasABound)
+{
+    Check known = check("8", "1"); // 10 is measured
+    known.xfail = "not solved yet";
+    known.xfail_within = "1.99";
+    EXPECT_EQ(judged(known).verdict, Verdict::fail);
+    EXPECT_EQ(judged(known).note, "off by 2 (25 %), MORE THAN THE KNOWN 1.99: not solved yet");
+    known.xfail_within = "2";
+    EXPECT_EQ(judged(known).verdict, Verdict::xfail);
+    // Of a bound the distance beyond it counts.
+    for (const auto& [comparison, expected] :
+         {std::pair(Comparison::at_most, "8"), {Comparison::at_least, "12"}}) {
+        Check bound = check(expected, "");
+        bound.comparison = comparison;
+        bound.xfail = "not solved yet";
+        bound.xfail_within = "2";
+        EXPECT_EQ(judged(bound).verdict, Verdict::xfail);
+        bound.xfail_within = "1.99";
+        EXPECT_EQ(judged(bound).verdict, Verdict::fail);
+    }
+    // What cannot be measured, and what is not a number, is beyond every bound.
+    known.xfail_within = "1e9";
+    known.quantity.series.value = "x/0 - x/0";
+    EXPECT_EQ(judged(known).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, AreCountedByWhatTheyAreHeldAgainst)
+{
+    RunResult made{.run = run, .cost = {}, .error = "", .checks = {}};
+    const auto add = [&](std::optional<Against> against, Verdict verdict) {
+        made.checks.push_back({.check = "x", .verdict = verdict, .against = against});
+    };
+    add(Against::experiment, Verdict::pass);
+    add(Against::experiment, Verdict::xfail);
+    add(Against::conservation, Verdict::pass);
+    add(Against::itself, Verdict::measured); // not judged
+    EXPECT_EQ(against_line(tally({{.benchmark = {}, .runs = {made}}})),
+              "Checks held against an experiment: 2 (1 pass), an analytic solution: 0 (0 pass), "
+              "another program: 0 (0 pass), a conservation law: 1 (1 pass), "
+              "the program itself: 0 (0 pass)");
+    add(std::nullopt, Verdict::fail);
+    EXPECT_TRUE(against_line(tally({{.benchmark = {}, .runs = {made}}}))
+                    .ends_with(", what their file does not say: 1 (0 pass)"));
+}
+
+TEST_F(Verdicts, NothingMeasuredIsAFailureAndABrokenCheckIsNoKnownOne)
+{
+    Check missing = check("0", "100");
+    missing.quantity.measure = Measure::peak;
+    EXPECT_EQ(judged(missing).verdict, Verdict::fail);
+    EXPECT_FALSE(judged(missing).note.empty());
+    missing.quantity.series = {.value = "no_such_column"};
+    missing.xfail = "known";
+    EXPECT_EQ(judged(missing).verdict, Verdict::fail);
+    missing.quantity.series.file = "gauges"; // not written
+    EXPECT_EQ(judged(missing).verdict, Verdict::fail);
+}
+
+TEST_F(Verdicts, RunsThatAreOnlyMeasuredAreNotJudged)
+{
+    Check measured = check("0", "1");
+    measured.judged = {"b"};
+    EXPECT_EQ(judged(measured).verdict, Verdict::measured);
+    EXPECT_EQ(judged(measured).got, 10);
+}
+
+TEST_F(Verdicts, ARunIsHeldAgainstTheSameQuantityInAnother)
+{
+    Benchmark benchmark;
+    benchmark.folder = folder;
+    for (const auto& [name, scale, way] : {std::tuple("one", 1.0, "10"), {"two", 2.0, "20.5"}}) {
+        benchmark.runs.push_back({.name = name, .parameters = {{"L", scale}}});
+        std::filesystem::create_directories(folder / name);
+        put_text_into(folder / name / "bodies.csv", fmt::format("time,x\n0,0\n1,{}\n", way));
+        put_text_into(folder / name / "summary.json", "{}");
+    }
+    Check same = check("", "0.26");
+    same.same_as = "one";
+    same.quantity.series.value = "x/L"; // each by its own L: 10 and 10.25
+    Check along = same;
+    along.quantity.measure = Measure::largest_error;
+    benchmark.checks = {same, along};
+    const auto results = [&](std::size_t k) {
+        return judge_run(benchmark, benchmark.runs[k], folder / benchmark.runs[k].name, "").checks;
+    };
+    EXPECT_EQ(results(0)[0].verdict, Verdict::measured) << "it is the other's reference";
+    EXPECT_EQ(results(1)[0].verdict, Verdict::pass);
+    EXPECT_EQ(results(1)[0].expected, 10);
+    EXPECT_EQ(results(1)[1].got, 0.25);
+    benchmark.checks[0].tolerance = benchmark.checks[1].tolerance = "0.24";
+    EXPECT_EQ(results(1)[0].verdict, Verdict::fail);
+    EXPECT_EQ(results(1)[1].verdict, Verdict::fail);
+    std::filesystem::remove_all(folder / "one");
+    EXPECT_EQ(results(1)[0].verdict, Verdict::fail) << "without its reference";
+}
+
+TEST_F(Verdicts, AStoppedRunFailsAllItsChecksEvenKnownFailures)
+{
+    Benchmark benchmark;
+    benchmark.folder = folder;
+    benchmark.checks = {check("10", "1"), check("10", "1")};
+    benchmark.checks[1].xfail = "known";
+    const RunResult stopped = judge_run(benchmark, run, folder / "nowhere", "blew up");
+    const Tally count = tally({{benchmark, {stopped}}});
+    EXPECT_EQ(count.fail, 2);
+    EXPECT_NE(stopped.checks[1].note.find("blew up"), std::string::npos);
+    benchmark.checks.clear();
+    EXPECT_EQ(tally({{benchmark, {judge_run(benchmark, run, folder, "blew up")}}}).fail, 1);
+}
+
+TEST_F(Verdicts, ARunThatIsToStopMustStopAndSayWhy)
+{
+    Benchmark benchmark;
+    benchmark.folder = folder;
+    benchmark.checks = {check("10", "1")};
+    BenchmarkRun crushed = run;
+    crushed.stops = "no room";
+    const auto verdicts = [&](const std::string& error) {
+        return tally({{benchmark, {judge_run(benchmark, crushed, folder, error)}}});
+    };
+    EXPECT_EQ(verdicts("it leaves no room").pass, 2) << "the stop, and the check of what it wrote";
+    EXPECT_EQ(verdicts("").fail, 2) << "it came to its end";
+    EXPECT_EQ(verdicts("blew up").fail, 2) << "it stopped for something else";
+}
+
+TEST_F(Verdicts, AReportCountsThemAndNamesTheCost)
+{
+    Benchmark benchmark;
+    benchmark.name = "case";
+    benchmark.folder = folder;
+    benchmark.checks = {check("10", "1"), check("0", "1")};
+    benchmark.checks[1].name = "second";
+    SummaryTable table{.file = "proof.md", .title = "Proof", .text = "", .by = {"n"}, .items = {}};
+    table.items = {{.check = "second", .label = "way", .unit = "mm", .scale = 1000}};
+    benchmark.tables = {table};
+    const std::vector<BenchmarkResult> results{
+        {benchmark, {judge_run(benchmark, run, folder, "")}}};
+    EXPECT_EQ(summary_line(tally(results)), "1 passed, 1 failed");
+    EXPECT_NE(verify_json(results, {}).find("\"microseconds_per_step\": 5000.0"),
+              std::string::npos);
+    EXPECT_NE(verify_markdown(results, {}, {}).find("| a | x | 10 | 10 | 1 | PASS |"),
+              std::string::npos);
+    // Worst and rms error 10 m; 5000 us a step, half a second a second.
+    const std::string proof = summary_documents(results, {}).at("proof.md");
+    EXPECT_NE(proof.find("way [mm], asked 0: worst error"), std::string::npos);
+    EXPECT_NE(proof.find("| 2 | 1 | 1e+04 | 1e+04 | 5e+03 | 0.5 |"), std::string::npos);
+}
+
+} // namespace
+} // namespace hyoryu
