@@ -4,7 +4,6 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "stop_request.hpp"
-#include "study_figures.hpp"
 #include "study_runs.hpp"
 
 #include "hyoryu/assess/study_page.hpp"
@@ -103,16 +102,15 @@ void write_results(const StudyResult& result, const StudyInfo& info, const fs::p
 {
     write_text(folder / "study.csv", study_csv(result));
     write_text(folder / "study.json", study_json(result, info));
-    const StudyPictures pictures = draw_study(result, folder);
+    const StudyPictures pictures = draw_study(result);
     for (const std::string& note : pictures.notes) {
         fmt::print("{}\n", note);
     }
-    write_text(folder / "study.md", study_markdown(result, info, pictures.files));
-    std::vector<fs::path> files;
-    for (const std::string& file : pictures.files) {
-        files.push_back(folder / file);
+    for (const SvgFile& picture : pictures.files) {
+        write_text(folder / picture.name, picture.text);
     }
-    write_text(folder / "study.html", study_page(result, info, files));
+    write_text(folder / "study.md", study_markdown(result, info, pictures.files));
+    write_text(folder / "study.html", study_page(result, info, pictures.files));
 }
 
 void print_tables(const StudyResult& result)
@@ -144,7 +142,7 @@ bool is_of_study(const std::string& name)
     constexpr std::array<std::string_view, 6> names{"study.csv",  "study.json", "study.md",
                                                     "study.html", "runs",       "repeats"};
     return std::ranges::find(names, name) != names.end() ||
-           (name.starts_with("study_") && name.ends_with(".png"));
+           (name.starts_with("study_") && (name.ends_with(".svg") || name.ends_with(".png")));
 }
 
 // Nothing is removed before it is known that no file of the user's is in the way. With --force

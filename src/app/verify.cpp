@@ -4,7 +4,6 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "stop_request.hpp"
-#include "verify_figures.hpp"
 
 #include "hyoryu/assess/verify_report.hpp"
 #include "hyoryu/core/error.hpp"
@@ -73,8 +72,10 @@ Tier tier_asked(const std::string& name)
 /// What a verify writes directly into its folder, beside a folder for each benchmark.
 bool is_of_verify(const std::vector<Benchmark>& benchmarks, const std::string& name)
 {
+    // Earlier versions drew figures as PNG.
+    const std::string now = name.ends_with(".png") ? name.substr(0, name.size() - 3) + "svg" : name;
     const auto has_file = [&](const auto& items) {
-        return std::ranges::any_of(items, [&](const auto& item) { return item.file == name; });
+        return std::ranges::any_of(items, [&](const auto& item) { return item.file == now; });
     };
     return name == "verify.json" || name == "verify.md" ||
            std::ranges::any_of(benchmarks, [&](const Benchmark& benchmark) {
@@ -172,7 +173,13 @@ void write_reports(const VerifyOptions& options, const std::vector<BenchmarkResu
     for (const std::string& note : drawn.notes) {
         fmt::print("{}\n", note);
     }
-    write_text(options.folder / "verify.md", verify_markdown(results, info, drawn.files));
+    for (const auto& [benchmark, files] : drawn.files) {
+        for (const SvgFile& file : files) {
+            write_text(options.folder / file.name, file.text);
+            fmt::print("drawn: {}\n", (options.folder / file.name).string());
+        }
+    }
+    write_text(options.folder / "verify.md", verify_markdown(results, info, drawn));
 }
 
 } // namespace

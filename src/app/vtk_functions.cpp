@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `read_mesh`, `render` and `draw` of the program: found in the VTK module, which stands beside the
+// `read_mesh` and `render` of the program: found in the VTK module, which stands beside the
 // program or in ../lib/hyoryu.
 #include "build_info.hpp"
 #include "vtk/module.hpp"
@@ -63,11 +63,6 @@ RenderResult render(const fs::path& results, const RenderSettings& settings)
     RenderResult result;
     module_function<vtk_module::Render>(vtk_module::render_name)(results, settings, result);
     return result;
-}
-
-void draw(const Plot& plot, const fs::path& file)
-{
-    module_function<vtk_module::Draw>(vtk_module::draw_name)(plot, file);
 }
 
 } // namespace hyoryu

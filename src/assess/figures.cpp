@@ -13,12 +13,17 @@ namespace hyoryu {
 namespace {
 
 constexpr std::array<std::string_view, 4> styles{"line", "dashed", "points", "theory"};
+constexpr std::array drawn_styles{ChartLine::Style::line, ChartLine::Style::dashed,
+                                  ChartLine::Style::points, ChartLine::Style::theory};
 
-/// A plain file name with that end.
-std::string read_file_name(Section& section, std::string_view end)
+/// A plain file name with that end; `.png`, as figures once were, is taken for `.svg`.
+std::string read_file_name(Section& section, const std::string& end)
 {
     section.require("file");
-    const std::string name = section.text("file");
+    std::string name = section.text("file");
+    if (end == ".svg" && name.ends_with(".png")) {
+        name.replace(name.size() - end.size(), end.size(), end);
+    }
     if (section.has("file") &&
         (!name.ends_with(end) || name.find_first_of("/\\") != std::string::npos)) {
         section.error("file", fmt::format("expected a file name that ends in {}", end));
@@ -26,14 +31,16 @@ std::string read_file_name(Section& section, std::string_view end)
     return name;
 }
 
-std::vector<double> read_range(Section& panel, std::string_view key)
+std::optional<Range> read_range(Section& panel, std::string_view key)
 {
     const std::vector<double> range = panel.numbers(key);
-    if (panel.has(key) && (range.size() != 2 || !(range[0] < range[1]))) {
-        panel.error(key, "expected [lowest, highest]");
-        return {};
+    if (range.size() == 2 && range[0] < range[1]) {
+        return Range{range[0], range[1]};
     }
-    return range;
+    if (panel.has(key)) {
+        panel.error(key, "expected [lowest, highest]");
+    }
+    return std::nullopt;
 }
 
 Curve read_curve(Section& section, const std::vector<BenchmarkRun>& runs)
@@ -52,7 +59,7 @@ Curve read_curve(Section& section, const std::vector<BenchmarkRun>& runs)
         section.error(
             "style", fmt::format("unknown \"{}\", expected one of {}", style, quoted_list(styles)));
     } else {
-        curve.style = static_cast<Curve::Style>(at - styles.begin());
+        curve.style = drawn_styles[static_cast<std::size_t>(at - styles.begin())];
     }
     const auto is_it = [&](const BenchmarkRun& run) { return run.name == curve.run; };
     if (!curve.run.empty() && std::none_of(runs.begin(), runs.end(), is_it)) {
@@ -73,7 +80,7 @@ Panel read_panel(Section& section, const std::vector<BenchmarkRun>& runs)
     for (Section& curve : section.tables("curve")) {
         panel.curves.push_back(read_curve(curve, runs));
         const bool of_time_alone = panel.curves.back().run.empty() && !curve.has("file");
-        if (of_time_alone && panel.x_range.empty()) {
+        if (of_time_alone && !panel.x_range) {
             section.error("x_range", "is missing: a curve of t alone needs it");
         }
     }
@@ -108,7 +115,7 @@ std::vector<Figure> read_figures(Section& root, const std::vector<BenchmarkRun>&
     std::vector<Figure> figures;
     for (Section& section : root.tables("figure")) {
         Figure figure;
-        figure.file = read_file_name(section, ".png");
+        figure.file = read_file_name(section, ".svg");
         figure.title = section.label("title");
         for (Section& panel : section.tables("panel")) {
             figure.panels.push_back(read_panel(panel, runs));

@@ -414,6 +414,12 @@ Scope scope_of(const Study& study, const BenchmarkRun& run)
     return scope_of(names, run);
 }
 
+double number_in(const Study& study, const StudyRun& run, std::size_t sweep)
+{
+    const auto index = static_cast<std::size_t>(run.value_of[sweep]);
+    return std::get<double>(study.sweeps[sweep].values[index]);
+}
+
 std::vector<std::vector<std::size_t>>
 series_of(const Study& study, const std::vector<StudyRun>& runs, std::size_t sweep)
 {
@@ -427,8 +433,7 @@ series_of(const Study& study, const std::vector<StudyRun>& runs, std::size_t swe
     }
     const StudySweep& s = study.sweeps[sweep];
     const auto value = [&](std::size_t k) {
-        const auto index = static_cast<std::size_t>(runs[k].value_of[sweep]);
-        const double number = std::get<double>(s.values[index]);
+        const double number = number_in(study, runs[k], sweep);
         return s.finest == StudySweep::Finest::smallest ? -number : number;
     };
     std::vector<std::vector<std::size_t>> all;

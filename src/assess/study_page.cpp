@@ -2,12 +2,9 @@
 // A study as Markdown and as one page of HTML.
 #include "hyoryu/assess/study_page.hpp"
 
-#include "hyoryu/core/error.hpp"
-
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 
 namespace hyoryu {
 
@@ -17,36 +14,7 @@ constexpr std::string_view style =
     "body{font:15px/1.5 sans-serif;max-width:68em;margin:2em auto;padding:0 1em;color:#1a1a1a}"
     "table{border-collapse:collapse;margin:1em 0;font-size:14px}"
     "th,td{border:1px solid #ccc;padding:.25em .6em;text-align:left}"
-    "th{background:#f2f2f2}.n{text-align:right}img{max-width:100%}";
-
-// RFC 4648, section 4.
-std::string base64(const std::string& bytes)
-{
-    constexpr std::string_view letters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t k = 0; k < bytes.size(); k += 3) {
-        const auto byte = [&](std::size_t m) -> unsigned {
-            return k + m < bytes.size() ? static_cast<unsigned char>(bytes[k + m]) : 0;
-        };
-        const unsigned bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (std::size_t m = 0; m < 4; ++m) {
-            const bool there = k + m <= bytes.size();
-            text += there ? letters[bits >> (18 - 6 * m) & 63] : '=';
-        }
-    }
-    return text;
-}
-
-std::string read_bytes(const std::filesystem::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream && bytes.empty()) {
-        throw IoError(fmt::format("cannot read `{}`", file.string()));
-    }
-    return bytes;
-}
+    "th{background:#f2f2f2}.n{text-align:right}svg{max-width:100%;height:auto}";
 
 // A file `case.toml` is known by its folder, also where it is named from within.
 std::string name_of_case(const std::filesystem::path& file)
@@ -101,12 +69,12 @@ std::string markdown_table(const HtmlTable& table)
 } // namespace
 
 std::string study_markdown(const StudyResult& result, const StudyInfo& info,
-                           const std::vector<std::string>& pictures)
+                           const std::vector<SvgFile>& pictures)
 {
     std::string text =
         fmt::format("# {}\n\n{}\n\n", result.study.title, how_measured(result, info));
-    for (const std::string& picture : pictures) {
-        text += fmt::format("![{0}]({0})\n\n", picture);
+    for (const SvgFile& picture : pictures) {
+        text += fmt::format("![{0}]({0})\n\n", picture.name);
     }
     for (const StudyTable& table : study_tables(result)) {
         text += fmt::format("## {}\n\n{}\n", table.title, markdown_table(table.table));
@@ -115,16 +83,15 @@ std::string study_markdown(const StudyResult& result, const StudyInfo& info,
 }
 
 std::string study_page(const StudyResult& result, const StudyInfo& info,
-                       const std::vector<std::filesystem::path>& pictures)
+                       const std::vector<SvgFile>& pictures)
 {
     std::string text = fmt::format(
         "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
         "<meta charset=\"utf-8\"/>\n<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n"
         "<h1>{0}</h1>\n{2}",
         escaped(result.study.title), style, html_paragraph(how_measured(result, info)));
-    for (const auto& picture : pictures) {
-        text += fmt::format("<p><img alt=\"{}\" src=\"data:image/png;base64,{}\"/></p>\n",
-                            escaped(picture.stem().string()), base64(read_bytes(picture)));
+    for (const SvgFile& picture : pictures) {
+        text += picture.text;
     }
     for (const StudyTable& table : study_tables(result)) {
         text += fmt::format("<h2>{}</h2>\n{}", escaped(table.title), html_table(table.table));

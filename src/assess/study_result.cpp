@@ -143,10 +143,8 @@ void hold_against_finest(StudyResult& result, std::size_t quantity)
 
 double number_of(const StudyResult& result, std::size_t sweep, std::size_t run)
 {
-    const StudySweep& s = result.study.sweeps[sweep];
-    const auto index = static_cast<std::size_t>(result.runs[run].run.value_of[sweep]);
-    const double number = std::get<double>(s.values[index]);
-    return s.finest == StudySweep::Finest::smallest ? number : 1 / number;
+    const double number = number_in(result.study, result.runs[run].run, sweep);
+    return result.study.sweeps[sweep].finest == StudySweep::Finest::smallest ? number : 1 / number;
 }
 
 std::string others_of(const Study& study, const StudyRun& run, std::size_t sweep)

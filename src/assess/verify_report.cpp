@@ -283,7 +283,7 @@ std::string verify_json(const std::vector<BenchmarkResult>& results, const Verif
 }
 
 std::string verify_markdown(const std::vector<BenchmarkResult>& results, const VerifyInfo& info,
-                            const std::map<std::string, std::vector<std::string>>& figures)
+                            const DrawnFigures& figures)
 {
     std::string text =
         fmt::format("# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: "
@@ -293,10 +293,10 @@ std::string verify_markdown(const std::vector<BenchmarkResult>& results, const V
     text += markdown_overview(results);
     for (const BenchmarkResult& result : results) {
         text += markdown_section(result);
-        const auto drawn = figures.find(result.benchmark.name);
-        if (drawn != figures.end()) {
-            for (const std::string& file : drawn->second) {
-                text += fmt::format("![{}]({})\n\n", file, file);
+        const auto drawn = figures.files.find(result.benchmark.name);
+        if (drawn != figures.files.end()) {
+            for (const SvgFile& file : drawn->second) {
+                text += fmt::format("![{0}]({0})\n\n", file.name);
             }
         }
     }

@@ -3,6 +3,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/report/html.hpp"
+#include "hyoryu/report/svg.hpp"
 #include "sections.hpp"
 
 #include <fmt/format.h>
@@ -21,12 +22,7 @@ th, td { border: 1px solid #ccc; padding: 0.2em 0.6em; text-align: left; vertica
 th { background: #f0f0f0; } .n { text-align: right; font-variant-numeric: tabular-nums; }
 pre { font-size: 0.85em; background: #f6f6f6; padding: 0.8em; overflow-x: auto; }
 .grid { display: flex; flex-wrap: wrap; gap: 8px; }
-svg { max-width: 100%; height: auto; font: 11px system-ui, sans-serif; }
-svg .t { font-size: 12px; font-weight: 600; }
-svg .l { fill: none; stroke-width: 1.4; stroke-linejoin: round; }
-svg .r { stroke-dasharray: none; }
-svg .g { stroke: #e4e4e4; fill: none; } svg .f { stroke: #555; fill: none; }
-svg .w { stroke: #999; stroke-width: 1.4; fill: none; }
+svg { max-width: 100%; height: auto; }
 @media print { svg, tr { break-inside: avoid; } h2, h3 { break-after: avoid; } }
 )";
 
@@ -35,8 +31,8 @@ std::string page_of(const RunResults& run, const ReportSettings& settings)
     const std::string title = escaped(run.plan.at("title").get<std::string>());
     return fmt::format("<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" "
                        "lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
-                       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
-                       title, style) +
+                       "<style>{1}{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
+                       title, style, chart_style) +
            case_section(run) + run_section(run) + picture_section(run) +
            impact_section(run, settings.stiffness) + track_section(run) + gauge_section(run) +
            books_section(run) + plan_section(run) + cost_section(run) + "</body>\n</html>\n";

@@ -134,13 +134,6 @@ std::string drawn_track(const Track& track, const Layout& at, std::size_t k, std
                        at.x(track.x.back()) + 5, at.y(track.y.back()) - 4, escaped(name));
 }
 
-std::string svg_head(const Layout& at, const std::string& label)
-{
-    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-                       "width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\" aria-label=\"{2}\">\n",
-                       at.width, at.height, escaped(label));
-}
-
 std::string drawn_outline(const std::vector<Segment>& outline, const Layout& at,
                           std::string_view style)
 {
@@ -192,7 +185,7 @@ std::string svg_scene(const SceneView& scene, View view, const std::string& labe
         all.push_back({p.x, p.y, p.x + p.width, p.y + p.height});
     }
     const Layout at = layout_of(ranges_of(all, {}));
-    std::string text = svg_head(at, label);
+    std::string text = svg_head(at.width, at.height, label);
     for (const WaterPatch& p : scene.water) {
         text += fmt::format("<rect fill=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
                             "height=\"{:.1f}\"/>\n",
@@ -209,7 +202,7 @@ std::string svg_plan_view(const std::vector<Segment>& outline, const std::vector
 {
     const Layout at = layout_of(ranges_of(outline, tracks));
     const char* up = view == View::xy ? "y [m]" : "z [m]";
-    std::string text = svg_head(at, "tracks of the bodies");
+    std::string text = svg_head(at.width, at.height, "tracks of the bodies");
     text += svg_axes(at.area, at.x, at.y, "x [m]", up);
     text += drawn_outline(outline, at, "w");
     for (std::size_t k = 0; k < tracks.size(); ++k) {

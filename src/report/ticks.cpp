@@ -15,6 +15,29 @@ namespace {
 /// Round-off that a multiple of the step may have at the end of a range [steps].
 constexpr double slack = 1e-9;
 
+// An axis shorter than a decade has multiples of a step.
+std::vector<double> logarithmic_ticks(const Range& range, int at_most)
+{
+    const double ratio = range.high / range.low;
+    if (ratio < 4) {
+        return ticks(range, tick_step(range, at_most));
+    }
+    const std::vector<double> mantissas = ratio > 1e4  ? std::vector<double>{1}
+                                          : ratio > 25 ? std::vector<double>{1, 2, 5}
+                                                       : std::vector<double>{1, 1.5, 2, 3, 4, 5, 7};
+    std::vector<double> marks;
+    for (double decade = std::floor(std::log10(range.low)); decade <= std::log10(range.high);
+         ++decade) {
+        for (const double mantissa : mantissas) {
+            const double mark = mantissa * std::pow(10, decade);
+            if (mark >= range.low && mark <= range.high) {
+                marks.push_back(mark);
+            }
+        }
+    }
+    return marks;
+}
+
 } // namespace
 
 Range range_of(std::span<const std::vector<double>* const> columns)
@@ -84,6 +107,30 @@ std::string tick_label(double value, double step, int exponent)
     const double unit = std::pow(10.0, exponent);
     const int decimals = static_cast<int>(std::ceil(-std::log10(step / unit) - slack));
     return fmt::format("{:.{}f}", value / unit, std::max(decimals, 0));
+}
+
+double Scale::operator()(double value) const
+{
+    const double share = kind == Kind::logarithmic
+                             ? std::log(value / from.low) / std::log(from.high / from.low)
+                             : (value - from.low) / from.width();
+    return at_low + share * (at_high - at_low);
+}
+
+std::vector<Tick> ticks_of(const Scale& scale, int at_most)
+{
+    std::vector<Tick> marks;
+    if (scale.kind == Scale::Kind::logarithmic) {
+        for (const double value : logarithmic_ticks(scale.from, at_most)) {
+            marks.push_back({value, fmt::format("{:.6g}", value)});
+        }
+        return marks;
+    }
+    const double step = tick_step(scale.from, at_most);
+    for (const double value : ticks(scale.from, step)) {
+        marks.push_back({value, tick_label(value, step, axis_exponent(scale.from))});
+    }
+    return marks;
 }
 
 std::vector<std::size_t> rows_to_draw(const std::vector<double>& x, const std::vector<double>& y,

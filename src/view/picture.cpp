@@ -7,7 +7,6 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/results.hpp"
 #include "offscreen_window.hpp"
-#include "png.hpp"
 
 #include <vtkCallbackCommand.h>
 #include <vtkEDLShading.h>
@@ -16,8 +15,11 @@
 #include <vtkOpenGLFXAAPass.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
+#include <vtkPNGWriter.h>
 #include <vtkProperty.h>
 #include <vtkRenderStepsPass.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
 #include <vtk_glew.h>
 
 #include <fmt/format.h>
@@ -201,7 +203,20 @@ std::string Picture::png_of(const Moment& moment)
     show(moment);
     scene_->ResetCameraClippingRange();
     window_->Render();
-    return hyoryu::png_of(*window_);
+    vtkNew<vtkWindowToImageFilter> image;
+    image->SetInput(window_);
+    image->ReadFrontBufferOff();
+    image->ShouldRerenderOff();
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputConnection(image->GetOutputPort());
+    writer->WriteToMemoryOn();
+    writer->Write();
+    vtkUnsignedCharArray* const bytes = writer->GetResult();
+    if (bytes == nullptr || bytes->GetNumberOfValues() == 0) {
+        throw IoError("VTK gave no picture");
+    }
+    const auto* const begin = reinterpret_cast<const char*>(bytes->GetPointer(0));
+    return {begin, begin + bytes->GetNumberOfValues()};
 }
 
 } // namespace hyoryu

@@ -17,10 +17,4 @@ extern "C" {
     result = hyoryu::render(results, settings);
 }
 
-[[gnu::visibility("default")]] void hyoryu_module_draw(const hyoryu::Plot& plot,
-                                                       const std::filesystem::path& file)
-{
-    hyoryu::draw(plot, file);
-}
-
 } // extern "C"

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "hyoryu/geometry/mesh.hpp"
-#include "hyoryu/view/plot.hpp"
 #include "hyoryu/view/render.hpp"
 
 namespace hyoryu::vtk_module {
@@ -13,9 +12,7 @@ namespace hyoryu::vtk_module {
 using ReadMesh = void (*)(const std::filesystem::path& file, double scale, Mesh& mesh);
 using Render = void (*)(const std::filesystem::path& results, const RenderSettings& settings,
                         RenderResult& result);
-using Draw = void (*)(const Plot& plot, const std::filesystem::path& file);
 inline constexpr const char* read_mesh_name = "hyoryu_module_read_mesh";
 inline constexpr const char* render_name = "hyoryu_module_render";
-inline constexpr const char* draw_name = "hyoryu_module_draw";
 
 } // namespace hyoryu::vtk_module

@@ -212,15 +212,41 @@ TEST_F(StudyResults, TablesStandOnThePageWithoutMarksOfMarkdownInThem)
 {
     const StudyResult result = evaluated(study({sweep({0.2, 0.1, 0.05})}, last_x("10")),
                                          {{10.4, 125}, {10.1, 1000}, {10.025, 8000}});
-    const std::string text = study_markdown(result, {}, {"a.png"});
-    EXPECT_NE(text.find("![a.png](a.png)"), std::string::npos);
+    const std::string text = study_markdown(result, {}, {{"a.svg", ""}});
+    EXPECT_NE(text.find("![a.svg](a.svg)"), std::string::npos);
     EXPECT_NE(text.find("| 0.1 | 10.1 | 10 | 1 % | 1000 | 2 (1 to 3) |"), std::string::npos)
         << text;
-    put_text_into(folder / "a.png", "\xff\xff"
-                                    "Man");
-    const std::string page = study_page(result, {}, {folder / "a.png"});
-    EXPECT_NE(page.find("src=\"data:image/png;base64,//9NYW4=\""), std::string::npos);
+    const std::string page = study_page(result, {}, {{"a.svg", "<svg>a</svg>"}});
+    EXPECT_NE(page.find("<svg>a</svg>"), std::string::npos);
     EXPECT_EQ(page.find("http://", page.find("<body>")), std::string::npos);
+}
+
+TEST_F(StudyResults, APictureShowsTheErrorsOfEveryRunAgainstCostAndNumbers)
+{
+    StudySweep step = sweep({0.4, 0.2});
+    step.key = "time.step";
+    step.name = "step";
+    const StudyResult result =
+        evaluated(study({sweep({0.2, 0.1, 0.05}), step}, last_x("10")),
+                  {{10.4, 125}, {10.1, 1000}, {10.025, 8000}, {10.3, 250}, {10.2, 500}});
+    const StudyPictures pictures = draw_study(result);
+    ASSERT_EQ(pictures.files.size(), 1U);
+    EXPECT_EQ(pictures.files[0].name, "study_x.svg");
+    const std::string& svg = pictures.files[0].text;
+    for (const char* title : {"error against cost", "error against particles.spacing",
+                              "error against time.step", "order 2.00", "best for the cost"}) {
+        EXPECT_NE(svg.find(title), std::string::npos) << title;
+    }
+    // Five runs against the cost, three and two against their numbers, and an entry each of a
+    // legend: of two sweeps, and of two orders.
+    std::size_t dots = 0;
+    for (auto at = svg.find("h0"); at != std::string::npos; at = svg.find("h0", at + 1)) {
+        ++dots;
+    }
+    EXPECT_EQ(dots, 5U + 3 + 2 + 2 + 2);
+    const StudyResult exact = evaluated(study({sweep({2, 1})}, last_x("10")), {{10, 1}, {10, 2}});
+    EXPECT_TRUE(draw_study(exact).files.empty());
+    EXPECT_EQ(draw_study(exact).notes.size(), 1U);
 }
 
 } // namespace

@@ -91,7 +91,7 @@ paper = ["contact.law=paper"]
 """ + self.STUDY[self.STUDY.index("[[quantity]]"):].replace('expected = "1/(2*0.5*9.81)"', 'against = "finest"')
         done = self.study(text=text)
         if done.returncode == 0:
-            self.assertEqual(list((self.dir / "slide-results").glob("*.png")), [])
+            self.assertEqual(list((self.dir / "slide-results").glob("*.svg")), [])
             self.assertIn("no run has an error above zero", done.stdout + done.stderr)
             self.assertNotIn("the finest run", (self.dir / "slide-results/study.md").read_text())
         else:
@@ -123,6 +123,10 @@ paper = ["contact.law=paper"]
         page = xml.etree.ElementTree.fromstring(self.read("slide-results", "study.html"))
         self.assertEqual(page.tag.rpartition("}")[2], "html")
         self.assertNotIn(b"src=\"http", self.read("slide-results", "study.html"))
+        picture = xml.etree.ElementTree.fromstring(self.read("slide-results", "study_way.svg"))
+        self.assertEqual(picture.tag.rpartition("}")[2], "svg")
+        self.assertIn(b"![study_way.svg](study_way.svg)", self.read("slide-results", "study.md"))
+        self.assertIn(self.read("slide-results", "study_way.svg"), self.read("slide-results", "study.html"))
         self.assertIn("| quantity |", self.read("slide-results", "study.md").decode())
 
     def test_what_is_done_is_not_run_again_and_gives_the_same_table(self):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Benchmarks held to their references."""
 import json
+import xml.etree.ElementTree
 
 from program import ProgramTest, main
 
@@ -55,6 +56,38 @@ because = "round-off of a parabola"
         self.assertIn("| way |", (self.dir / "out" / "verify.md").read_text())
         self.assertTrue((self.dir / "out" / "free_fall" / "run" / "bodies.csv").exists())
         self.assertEqual(self.verify().returncode, 2, "a full folder was overwritten")
+        self.assertEqual(self.verify("--force").returncode, 0)
+
+    def test_a_figure_is_an_svg_whatever_its_name_says(self):
+        figure = """
+[[figure]]
+file = "way.png"
+title = "Fall & rise"
+[[figure.panel]]
+x_axis = "time [s]"
+y_axis = "way [m]"
+x_range = [0.0, 0.1]
+y_range = [0.0, 0.05]
+[[figure.panel.curve]]
+label = "exact"
+y = "9.81*t^2/2"
+style = "theory"
+[[figure.panel.curve]]
+label = "run"
+run = "run"
+y = "1 - z"
+style = "points"
+"""
+        self.benchmark(self.BENCHMARK + figure)
+        done = self.verify()
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("drawn: out/way.svg", done.stdout)
+        picture = xml.etree.ElementTree.parse(self.dir / "out" / "way.svg").getroot()
+        dots = [path.get("d").count("h0") for path in picture.iter() if path.get("class") == "p"]
+        self.assertEqual(sorted(dots), [1, 11], "the legend, and eleven rows of the run")
+        self.assertIn("![way.svg](way.svg)", (self.dir / "out" / "verify.md").read_text())
+        # A picture of an earlier version is replaced with the rest.
+        (self.dir / "out" / "way.png").write_text("")
         self.assertEqual(self.verify("--force").returncode, 0)
 
     def test_a_wrong_expectation_fails(self):

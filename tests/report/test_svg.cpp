@@ -140,6 +140,145 @@ TEST(Charts, BreakTheLineWhereThereIsNoNumber)
     EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+/// The numbers of all paths of a class, two a place; "h0" of a dot is none.
+std::vector<std::array<double, 2>> places_in(const std::string& svg, const std::string& kind)
+{
+    std::vector<std::array<double, 2>> places;
+    const std::string head = "class=\"" + kind + "\"";
+    for (auto at = svg.find(head); at != std::string::npos; at = svg.find(head, at + 1)) {
+        const std::size_t begin = svg.find(" d=\"", at) + 4;
+        const std::string d = svg.substr(begin, svg.find('"', begin) - begin);
+        for (auto pen = d.find_first_of("ML"); pen != std::string::npos;
+             pen = d.find_first_of("ML", pen + 1)) {
+            std::array<double, 2> place{};
+            EXPECT_EQ(std::sscanf(d.c_str() + pen + 1, "%lf %lf", &place[0], &place[1]), 2);
+            places.push_back(place);
+        }
+    }
+    return places;
+}
+
+/// The area of this chart is 64..364 by 22..222.
+Chart framed(ChartLine line, const Range& x, const Range& y)
+{
+    return {.lines = {std::move(line)}, .width = 376, .height = 260, .x_range = x, .y_range = y};
+}
+
+TEST(Charts, CutLinesAtTheEdgesOfTheirRanges)
+{
+    Dice dice(7);
+    for (int chart = 0; chart < 100; ++chart) {
+        ChartLine line;
+        for (int k = 0; k < 20; ++k) {
+            line.x.push_back(k);
+            line.y.push_back(dice.between(-30, 30));
+        }
+        const double low = dice.between(-20, 0), left = dice.between(0, 9);
+        const Range x{left, left + 7}, y{low, low + 20};
+        for (const auto& [u, v] : places_in(svg_chart(framed(line, x, y)), "l")) {
+            EXPECT_GE(u, 63.8);
+            EXPECT_LE(u, 364.2);
+            EXPECT_GE(v, 21.8);
+            EXPECT_LE(v, 222.2);
+        }
+        // A straight line from beyond one edge to beyond the other goes from edge to edge.
+        const double slope = dice.between(-1, 1);
+        const ChartLine across{
+            "", {x.low - 5, x.high + 9}, {y.low + 10 - 5 * slope, y.low + 10 + 16 * slope}};
+        const auto ends = places_in(svg_chart(framed(across, x, y)), "l");
+        ASSERT_EQ(ends.size(), 2U);
+        EXPECT_NEAR(ends[0][0], 64, 0.2);
+        EXPECT_NEAR(ends[1][0], 364, 0.2);
+        EXPECT_NEAR(ends[0][1], 122, 0.2);
+        EXPECT_NEAR(ends[1][1], 122 - 10 * 7 * slope, 0.2);
+        const ChartLine above{"", {x.low, x.high}, {y.high + 1, y.high + 2}};
+        EXPECT_TRUE(places_in(svg_chart(framed(above, x, y)), "l").empty());
+    }
+}
+
+TEST(Charts, LogarithmicAxesShowPowersAsStraightLinesAndLeaveOutTheRest)
+{
+    Dice dice(8);
+    for (int chart_ = 0; chart_ < 50; ++chart_) {
+        const double power = dice.between(-3, 3);
+        ChartLine line{.label = "", .x = {}, .y = {}, .style = ChartLine::Style::marked};
+        for (int k = 0; k < 6; ++k) {
+            line.x.push_back(std::pow(10, k * dice.between(0.7, 1.0)));
+            line.y.push_back(7 * std::pow(line.x.back(), power));
+            line.x.push_back(k % 2 == 0 ? -1.0 : 5.0);
+            line.y.push_back(k % 2 == 0 ? 5.0 : nan_);
+        }
+        const Chart chart{.lines = {line}, .axes = Scale::Kind::logarithmic};
+        const std::string svg = svg_chart(chart);
+        const auto places = places_in(svg, "p");
+        ASSERT_EQ(places.size(), 6U);
+        const double slope = (places[5][1] - places[0][1]) / (places[5][0] - places[0][0]);
+        for (const auto& [u, v] : places) {
+            EXPECT_NEAR(v, places[0][1] + slope * (u - places[0][0]), 0.2);
+        }
+        const auto path = places_in(svg, "l");
+        EXPECT_EQ(path, places) << "one line through all that have a logarithm";
+        EXPECT_EQ(svg.find("nan"), std::string::npos);
+        EXPECT_EQ(svg.find("inf"), std::string::npos);
+    }
+    const Chart nothing{.lines = {{"", {-1, 0}, {-1, 0}}}, .axes = Scale::Kind::logarithmic};
+    EXPECT_TRUE(places_in(svg_chart(nothing), "l").empty());
+}
+
+TEST(Ticks, OfALogarithmicScaleLieWithinItAndAreAtMostAFew)
+{
+    Dice dice(9);
+    for (int axis = 0; axis < 200; ++axis) {
+        const double low = std::pow(10, dice.between(-9, 9));
+        const Scale scale{
+            {low, low * std::pow(10, dice.between(0.05, 8))}, 0, 300, Scale::Kind::logarithmic};
+        const std::vector<Tick> marks = ticks_of(scale, 6);
+        EXPECT_GE(marks.size(), 2U) << scale.from.low << " to " << scale.from.high;
+        EXPECT_LE(marks.size(), 13U);
+        for (const Tick& tick : marks) {
+            EXPECT_GE(scale(tick.value), -1e-6);
+            EXPECT_LE(scale(tick.value), 300 + 1e-6);
+            EXPECT_NEAR(std::stod(tick.label), tick.value, 1e-5 * tick.value);
+        }
+    }
+}
+
+TEST(Charts, StylesAreLinesDotsOrBoth)
+{
+    using Style = ChartLine::Style;
+    const auto drawn = [](Style style, const char* kind) {
+        const ChartLine line{"", {0, 1, 2}, {1, 2, 1}, style};
+        return places_in(svg_chart({.lines = {line}}), kind).size();
+    };
+    for (const Style style : {Style::varied, Style::line, Style::dashed, Style::theory}) {
+        EXPECT_EQ(drawn(style, "l"), 3U);
+        EXPECT_EQ(drawn(style, "p"), 0U);
+    }
+    EXPECT_EQ(drawn(Style::points, "l"), 0U);
+    EXPECT_EQ(drawn(Style::points, "p"), 3U);
+    EXPECT_EQ(drawn(Style::marked, "l"), 3U);
+    EXPECT_EQ(drawn(Style::marked, "p"), 3U);
+    // Theory is black and takes no colour from the line after it.
+    const ChartLine theory{"", {0, 1}, {1, 2}, Style::theory},
+        line{"", {0, 1}, {1, 2}, Style::line};
+    const std::string svg = svg_chart({.lines = {theory, line}});
+    EXPECT_EQ(count(svg, "stroke=\"#000000\""), 1U);
+    EXPECT_EQ(count(svg, "stroke=\"#0072b2\""), 1U);
+}
+
+TEST(Charts, StandSideBySideInAFigure)
+{
+    const Chart chart{.title = "left & right", .lines = {{"", {0, 1}, {0, 1}}}, .width = 300};
+    const std::string svg = svg_figure("three <charts>", {chart, chart, chart});
+    EXPECT_NE(svg.find("viewBox=\"0 0 900 284\""), std::string::npos);
+    EXPECT_EQ(count(svg, "left &amp; right"), 3U);
+    EXPECT_EQ(count(svg, "three &lt;charts&gt;"), 2U); // to be seen, and to be read out
+    for (const char* place : {"translate(0 24)", "translate(300 24)", "translate(600 24)"}) {
+        EXPECT_EQ(count(svg, place), 1U);
+    }
+    EXPECT_EQ(count(svg, "<svg"), 1U);
+}
+
 TEST(Html, TextIsEscaped)
 {
     EXPECT_EQ(escaped("<a href=\"x\">'&'</a>"),

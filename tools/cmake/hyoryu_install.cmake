@@ -44,5 +44,5 @@ set(CPACK_DEBIAN_VTK_PACKAGE_NAME hyoryu-vtk)
 # Program and module are of one build. The driver draws where there is no screen.
 set(CPACK_DEBIAN_VTK_PACKAGE_DEPENDS "hyoryu (= ${PROJECT_VERSION}), libgl1-mesa-dri")
 set(CPACK_DEBIAN_VTK_PACKAGE_RECOMMENDS ffmpeg)
-set(CPACK_COMPONENT_VTK_DESCRIPTION "Meshes, figures and pictures for hyoryu: what needs VTK.")
+set(CPACK_COMPONENT_VTK_DESCRIPTION "Meshes and pictures for hyoryu: what needs VTK.")
 include(CPack)

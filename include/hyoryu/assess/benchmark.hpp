@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hyoryu/assess/formula.hpp"
+#include "hyoryu/report/svg.hpp"
 #include "hyoryu/scene/scene.hpp"
 
 #include <filesystem>
@@ -130,22 +131,21 @@ struct Check {
 };
 
 struct Curve {
-    enum class Style { line, dashed, points, theory };
     std::string label;
     std::string run;     // results that it shows; empty: a reference or an expression of t alone
     Series series;       // of the vertical axis
     std::string x = "t"; // expression of the horizontal axis
-    Style style = Style::line;
+    ChartLine::Style style = ChartLine::Style::line;
 };
 
 struct Panel {
     std::string title, x_axis, y_axis;
-    std::vector<double> x_range, y_range; // empty: of the curves
+    std::optional<Range> x_range, y_range; // none: of the curves
     std::vector<Curve> curves;
 };
 
 struct Figure {
-    std::string file; // PNG in the output folder
+    std::string file; // SVG in the output folder
     std::string title;
     std::vector<Panel> panels; // side by side
 };

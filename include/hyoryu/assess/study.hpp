@@ -77,6 +77,9 @@ struct StudyRun {
 /// cannot be evaluated.
 std::vector<StudyRun> runs_of(const Study& study);
 
+/// What a sweep of numbers has in a run that it varies.
+double number_in(const Study& study, const StudyRun& run, std::size_t sweep);
+
 /// Constants, derived columns and parameters, for the expressions of a run. Throws FormulaError.
 Scope scope_of(const Study& study, const BenchmarkRun& run);
 

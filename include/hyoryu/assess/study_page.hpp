@@ -4,8 +4,8 @@
 
 #include "hyoryu/assess/study_result.hpp"
 #include "hyoryu/report/html.hpp"
+#include "hyoryu/report/svg.hpp"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,11 +29,20 @@ struct StudyTable {
 };
 std::vector<StudyTable> study_tables(const StudyResult& result);
 
-/// The tables for a terminal or a document, and as one page with the pictures inside it, which
-/// needs neither network nor scripts. Throws IoError if a picture cannot be read.
+/// A picture for each quantity: the error against the work with the staircase of the best settings,
+/// and against each number that is swept; more than three charts fill further files. Notes say
+/// which could not be drawn.
+struct StudyPictures {
+    std::vector<SvgFile> files;
+    std::vector<std::string> notes;
+};
+StudyPictures draw_study(const StudyResult& result);
+
+/// The tables as a document beside the pictures, and as one page with the pictures inside it, which
+/// needs neither network nor scripts.
 std::string study_markdown(const StudyResult& result, const StudyInfo& info,
-                           const std::vector<std::string>& pictures);
+                           const std::vector<SvgFile>& pictures);
 std::string study_page(const StudyResult& result, const StudyInfo& info,
-                       const std::vector<std::filesystem::path>& pictures);
+                       const std::vector<SvgFile>& pictures);
 
 } // namespace hyoryu

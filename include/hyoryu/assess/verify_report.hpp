@@ -3,7 +3,9 @@
 #pragma once
 
 #include "hyoryu/assess/verdict.hpp"
+#include "hyoryu/report/svg.hpp"
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -36,9 +38,19 @@ std::string summary_line(const Tally& tally);
 std::string against_line(const Tally& tally);
 
 std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info);
-/// `figures`: pictures in the same folder, by benchmark.
+
+struct DrawnFigures {
+    std::map<std::string, std::vector<SvgFile>> files; // by benchmark
+    std::vector<std::string> notes;                    // which could not be drawn, and why
+};
+/// Draws every figure whose runs are all among the results. `folder`: the output folder, in which
+/// the results of a run stand in <benchmark>/<run>.
+DrawnFigures draw_figures(const std::vector<BenchmarkResult>& results,
+                          const std::filesystem::path& folder);
+
+/// `figures`: of the same folder.
 std::string verify_markdown(const std::vector<BenchmarkResult>& results, const VerifyInfo& info,
-                            const std::map<std::string, std::vector<std::string>>& figures);
+                            const DrawnFigures& figures);
 
 /// The documents that the summary tables make up, by file name.
 std::map<std::string, std::string> summary_documents(const std::vector<BenchmarkResult>& results,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Charts as inline SVG.
+// Charts as SVG: inline on a page, or side by side in a file of their own.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hyoryu {
@@ -31,16 +33,24 @@ std::string tick_label(double value, double step, int exponent);
 int axis_exponent(const Range& range);
 
 /// From numbers to places in the picture; `at_low` may be above `at_high`, as pixels count
-/// downward.
+/// downward. What has no logarithm has no finite place on a logarithmic scale.
 struct Scale {
-    Range from;
+    enum class Kind { linear, logarithmic };
+    Range from;        // positive for a logarithmic scale
     double at_low = 0; // [pixels]
     double at_high = 0;
-    double operator()(double value) const
-    {
-        return at_low + (value - from.low) / from.width() * (at_high - at_low);
-    }
+    Kind kind = Kind::linear;
+    double operator()(double value) const;
 };
+
+/// What an axis marks.
+struct Tick {
+    double value = 0;
+    std::string label;
+};
+/// At most `at_most` round numbers of a linear scale. Of a logarithmic one powers of ten, with more
+/// numbers between them the fewer they are.
+std::vector<Tick> ticks_of(const Scale& scale, int at_most);
 
 /// The rows that draw the same picture as all rows: first, lowest, highest and last of each of
 /// `bins` equal parts of the abscissa, so that no peak is lost; all rows if they are few. Rows
@@ -59,9 +69,23 @@ std::string svg_axes(const PlotArea& area, const Scale& x, const Scale& y,
 /// Colour and dashes of the k-th line: they differ in print without colour as well.
 std::string svg_stroke(std::size_t k);
 
+/// The begin of a picture of that size [pixels]; `label` is for readers who cannot see it.
+std::string svg_head(double width, double height, const std::string& label);
+/// The rules by which a page draws what stands in its pictures.
+extern const std::string_view chart_style;
+
 struct ChartLine {
+    enum class Style {
+        varied, // dashes tell the lines apart, colours as well
+        line,
+        dashed,
+        points,
+        marked, // a line with a point at each value
+        theory  // black; no colour is used up
+    };
     std::string label; // in the legend; empty: not there
     std::vector<double> x, y;
+    Style style = Style::varied;
 };
 
 struct Chart {
@@ -69,9 +93,20 @@ struct Chart {
     std::vector<ChartLine> lines;
     double width = 420; // [pixels]
     double height = 260;
+    Scale::Kind axes = Scale::Kind::linear;          // of both
+    std::optional<Range> x_range = {}, y_range = {}; // none: those of the lines
 };
 
-/// Lines on axes; NaN is a gap.
+/// Lines on axes, cut off at the edges of the ranges. NaN is a gap; logarithmic axes leave out what
+/// is not positive.
 std::string svg_chart(const Chart& chart);
+
+/// A file with a picture, which needs no other file.
+struct SvgFile {
+    std::string name;
+    std::string text;
+};
+/// Charts side by side below a title, on white.
+std::string svg_figure(const std::string& title, const std::vector<Chart>& charts);
 
 } // namespace hyoryu
