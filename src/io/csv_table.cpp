@@ -3,6 +3,7 @@
 
 #include "csv.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
 
 #include <fmt/format.h>
 
@@ -42,6 +43,15 @@ std::vector<CsvTable::Column> named_columns(std::string_view header, std::string
     return columns;
 }
 
+const CsvTable::Column& column_of(const CsvTable& table, std::string_view column)
+{
+    const CsvTable::Column* found = table.find(column);
+    if (found == nullptr) {
+        throw IoError(fmt::format("`{}` has no column `{}`", table.file.string(), column));
+    }
+    return *found;
+}
+
 } // namespace
 
 const CsvTable::Column* CsvTable::find(std::string_view name) const
@@ -51,10 +61,32 @@ const CsvTable::Column* CsvTable::find(std::string_view name) const
     return at == columns.end() ? nullptr : &*at;
 }
 
+const std::vector<double>& numbers_of(const CsvTable& table, std::string_view column)
+{
+    const CsvTable::Column& found = column_of(table, column);
+    if (!found.texts.empty()) {
+        throw IoError(fmt::format("`{}`: column `{}` holds something else than numbers",
+                                  table.file.string(), column));
+    }
+    return found.numbers;
+}
+
+std::vector<std::string> texts_of(const CsvTable& table, std::string_view column)
+{
+    const CsvTable::Column& found = column_of(table, column);
+    std::vector<std::string> texts = found.texts;
+    texts.resize(table.rows);
+    for (std::size_t row = 0; row < table.rows; ++row) {
+        // Rows before the first text keep only their number.
+        texts[row] = texts[row].empty() ? cell(found.numbers[row]) : texts[row];
+    }
+    return texts;
+}
+
 CsvTable read_csv(const std::filesystem::path& file)
 {
     const std::string text = file_text(file);
-    CsvTable table;
+    CsvTable table{.file = file};
     std::string_view before;
     for (const std::string_view line : whole_lines(text)) {
         if (line.starts_with('#') || line.empty()) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Energy and momentum over time, and how well their books close.
-#include "columns.hpp"
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/svg.hpp"
 #include "sections.hpp"
@@ -22,7 +21,7 @@ constexpr std::array energy_names{"fluid_kinetic", "fluid_potential", "fluid_int
 
 const Values& column(const RunResults& run, const std::string& name)
 {
-    return numbers_of(run.energy, name, "energy.csv");
+    return numbers_of(run.energy, name);
 }
 
 Values change(const Values& values)

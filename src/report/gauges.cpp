@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Gauges as small plots: the components of one reading share a plot, every unit has its own.
-#include "columns.hpp"
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/svg.hpp"
 #include "sections.hpp"
@@ -55,7 +54,7 @@ bool is_mean_of_contact(const std::string& column, const std::string& gauge)
 std::vector<Chart> charts_of(const RunResults& run, const std::string& gauge)
 {
     std::vector<Chart> charts;
-    const std::vector<double>& time = numbers_of(*run.gauges, "time", "gauges.csv");
+    const std::vector<double>& time = numbers_of(*run.gauges, "time");
     for (const CsvTable::Column& column : run.gauges->columns) {
         if (gauge_of(column.name, run.gauge_names) != gauge ||
             is_mean_of_contact(column.name, gauge)) {
@@ -72,7 +71,7 @@ std::vector<Chart> charts_of(const RunResults& run, const std::string& gauge)
                               .lines = {}});
         }
         charts.back().lines.push_back(
-            {reading.component, time, numbers_of(*run.gauges, column.name, "gauges.csv")});
+            {reading.component, time, numbers_of(*run.gauges, column.name)});
     }
     return charts;
 }

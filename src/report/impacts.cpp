@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/report/impacts.hpp"
 
-#include "columns.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,10 +19,10 @@ struct VectorColumns {
     Vec3 at(std::size_t row) const { return {x[row], y[row], z[row]}; }
 };
 
-VectorColumns vectors_of(const CsvTable& table, const std::string& stem, const std::string& file)
+VectorColumns vectors_of(const CsvTable& table, const std::string& stem)
 {
-    return {numbers_of(table, stem + "x", file), numbers_of(table, stem + "y", file),
-            numbers_of(table, stem + "z", file)};
+    return {numbers_of(table, stem + "x"), numbers_of(table, stem + "y"),
+            numbers_of(table, stem + "z")};
 }
 
 using Rows = std::vector<const Impact*>;
@@ -114,18 +112,17 @@ ContactLaw law_of(const DeclaredContact& declared, const std::string& body,
 
 std::vector<Impact> read_contacts(const CsvTable& contacts, const DeclaredContact& declared)
 {
-    const std::string file = "contacts.csv";
-    const auto& time = numbers_of(contacts, "time", file);
-    const auto& speed = numbers_of(contacts, "approach_speed", file);
-    const auto& impulse = numbers_of(contacts, "normal_impulse", file);
-    const auto& energy = numbers_of(contacts, "energy_lost", file);
-    const auto& mass = numbers_of(contacts, "effective_mass", file);
-    const VectorColumns point = vectors_of(contacts, "", file);
-    const VectorColumns normal = vectors_of(contacts, "n", file);
-    const VectorColumns tangential = vectors_of(contacts, "tangential_impulse_", file);
-    const std::vector<std::string> a = texts_of(contacts, "a", file);
-    const std::vector<std::string> b = texts_of(contacts, "b", file);
-    const std::vector<std::string> kind = texts_of(contacts, "kind", file);
+    const auto& time = numbers_of(contacts, "time");
+    const auto& speed = numbers_of(contacts, "approach_speed");
+    const auto& impulse = numbers_of(contacts, "normal_impulse");
+    const auto& energy = numbers_of(contacts, "energy_lost");
+    const auto& mass = numbers_of(contacts, "effective_mass");
+    const VectorColumns point = vectors_of(contacts, "");
+    const VectorColumns normal = vectors_of(contacts, "n");
+    const VectorColumns tangential = vectors_of(contacts, "tangential_impulse_");
+    const std::vector<std::string> a = texts_of(contacts, "a");
+    const std::vector<std::string> b = texts_of(contacts, "b");
+    const std::vector<std::string> kind = texts_of(contacts, "kind");
     std::vector<Impact> rows;
     for (std::size_t k = 0; k < contacts.rows; ++k) {
         rows.push_back({.kind = kind[k] == "impact" ? Impact::Kind::impact : Impact::Kind::resting,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "columns.hpp"
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/plan_view.hpp"
 #include "sections.hpp"
@@ -17,10 +16,9 @@ std::vector<Track> tracks_of(const RunResults& run, View view)
     if (!run.bodies) {
         return tracks;
     }
-    const std::string file = "bodies.csv";
-    const std::vector<std::string> names = texts_of(*run.bodies, "body", file);
-    const auto& x = numbers_of(*run.bodies, "x", file);
-    const auto& y = numbers_of(*run.bodies, view == View::xy ? "y" : "z", file);
+    const std::vector<std::string> names = texts_of(*run.bodies, "body");
+    const auto& x = numbers_of(*run.bodies, "x");
+    const auto& y = numbers_of(*run.bodies, view == View::xy ? "y" : "z");
     std::map<std::string, std::size_t> place;
     for (std::size_t row = 0; row < run.bodies->rows; ++row) {
         const auto [at, is_new] = place.emplace(names[row], tracks.size());

@@ -20,10 +20,17 @@ struct CsvTable {
     };
     std::vector<Column> columns;
     std::size_t rows = 0;
+    std::filesystem::path file = {}; // where it was read from, for messages
 
     /// The column of that name, or none.
     const Column* find(std::string_view name) const;
 };
+
+/// The numbers of a column. Throws IoError if the table lacks it or a cell holds no number.
+const std::vector<double>& numbers_of(const CsvTable& table, std::string_view column);
+/// The cells as texts, also where every one of them reads as a number. Throws IoError if the table
+/// lacks the column.
+std::vector<std::string> texts_of(const CsvTable& table, std::string_view column);
 
 /// Reads a whole file; the first line that is no comment names the columns. A torn last line is no
 /// row. Throws IoError if the file cannot be read, names no columns, or has a row of another
