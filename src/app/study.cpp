@@ -116,23 +116,7 @@ void write_results(const StudyResult& result, const StudyInfo& info, const fs::p
 void print_tables(const StudyResult& result)
 {
     for (const StudyTable& table : study_tables(result)) {
-        fmt::print("\n{}\n", table.title);
-        std::vector<std::size_t> widths;
-        for (std::size_t c = 0; c < table.table.heads.size(); ++c) {
-            std::size_t width = table.table.heads[c].text.size();
-            for (const auto& row : table.table.rows) {
-                width = std::max(width, row[c].size());
-            }
-            widths.push_back(width);
-            fmt::print("{:<{}}  ", table.table.heads[c].text, width);
-        }
-        fmt::print("\n");
-        for (const auto& row : table.table.rows) {
-            for (std::size_t c = 0; c < row.size(); ++c) {
-                fmt::print("{:<{}}  ", row[c], widths[c]);
-            }
-            fmt::print("\n");
-        }
+        fmt::print("\n{}\n{}", table.title, terminal_table(table.table));
     }
 }
 

@@ -2,6 +2,8 @@
 // A study as Markdown and as one page of HTML.
 #include "hyoryu/assess/study_page.hpp"
 
+#include "hyoryu/report/html.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -36,34 +38,6 @@ std::string how_measured(const StudyResult& result, const StudyInfo& info)
         "side. Hyoryu {} ({}), {}.",
         name_of_case(result.study.case_file), result.work_unit, result.study.repeats, info.threads,
         info.jobs, info.version, info.commit, info.build);
-}
-
-std::string markdown_row(const std::vector<std::string>& cells)
-{
-    std::string row = "|";
-    for (const std::string& text : cells) {
-        row += ' ';
-        for (const char letter : text) { // a bar would end the cell
-            row += letter == '|' ? "\\|" : std::string(1, letter);
-        }
-        row += " |";
-    }
-    return row + "\n";
-}
-
-std::string markdown_table(const HtmlTable& table)
-{
-    std::vector<std::string> heads;
-    std::vector<std::string> rules;
-    for (const HtmlTable::Head& head : table.heads) {
-        heads.push_back(head.text);
-        rules.emplace_back(head.align == HtmlTable::Align::right ? "---:" : "---");
-    }
-    std::string text = markdown_row(heads) + markdown_row(rules);
-    for (const auto& row : table.rows) {
-        text += markdown_row(row);
-    }
-    return text;
 }
 
 } // namespace

@@ -13,7 +13,7 @@ namespace hyoryu {
 
 namespace {
 
-using Align = HtmlTable::Align;
+using Align = TextTable::Align;
 using nlohmann::ordered_json;
 
 std::string number(double value)
@@ -56,12 +56,12 @@ bool has_column_a_sweep(const Study& study)
     return study.mode == Study::Mode::grid || study.sweeps.size() == 1;
 }
 
-std::vector<HtmlTable::Head> heads_of_settings(const Study& study)
+std::vector<TextTable::Head> heads_of_settings(const Study& study)
 {
     if (!has_column_a_sweep(study)) {
         return {{"setting", Align::left}, {"value", Align::right}};
     }
-    std::vector<HtmlTable::Head> heads;
+    std::vector<TextTable::Head> heads;
     for (const StudySweep& sweep : study.sweeps) {
         heads.push_back({sweep.label(), Align::right});
     }

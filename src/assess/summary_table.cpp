@@ -2,9 +2,9 @@
 // Worst and rms errors over runs that share some parameters.
 #include "hyoryu/assess/verify_report.hpp"
 #include "hyoryu/io/results.hpp"
+#include "hyoryu/report/table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,12 +82,14 @@ Errors errors_of(const std::vector<const RunResult*>& runs, const SummaryTable::
     return result;
 }
 
-/// "worst | rms" of one check over the runs of a row.
-std::string cells_of(const Group& group, const SummaryTable::Item& item)
+/// Worst and rms error of one check over the runs of a row.
+void append_errors(const Group& group, const SummaryTable::Item& item,
+                   std::vector<std::string>& row)
 {
     const std::vector<double> errors = errors_of(group.runs, item).errors;
     if (errors.empty()) {
-        return " | |";
+        row.insert(row.end(), {"", ""});
+        return;
     }
     const double worst = *std::max_element(errors.begin(), errors.end(), [](double a, double b) {
         return std::isnan(b) || std::abs(a) < std::abs(b);
@@ -97,11 +99,11 @@ std::string cells_of(const Group& group, const SummaryTable::Item& item)
         squares += error * error;
     }
     const double rms = std::sqrt(squares / static_cast<double>(errors.size()));
-    return fmt::format(" {:.2g} | {:.2g} |", worst, rms);
+    row.insert(row.end(), {fmt::format("{:.2g}", worst), fmt::format("{:.2g}", rms)});
 }
 
-/// "us/step | solver seconds a simulated second" of the runs of a row that came to their end.
-std::string cost_cells(const Group& group)
+/// Cost of the runs of a row that came to their end.
+void append_cost(const Group& group, std::vector<std::string>& row)
 {
     RunCost sum;
     for (const RunResult* run : group.runs) {
@@ -109,11 +111,11 @@ std::string cost_cells(const Group& group)
         sum.steps += run->cost.steps;
         sum.simulated_seconds += run->cost.simulated_seconds;
     }
-    if (sum.simulated_seconds <= 0) {
-        return " | |";
-    }
-    return fmt::format(" {:.3g} | {:.3g} |", sum.microseconds_per_step(),
-                       sum.solver_seconds / sum.simulated_seconds);
+    const auto text = [&](double number) {
+        return sum.simulated_seconds > 0 ? fmt::format("{:.3g}", number) : std::string();
+    };
+    row.push_back(text(sum.microseconds_per_step()));
+    row.push_back(text(sum.solver_seconds / sum.simulated_seconds));
 }
 
 /// "restitution, asked 0.75: worst error".
@@ -134,37 +136,38 @@ std::string title_of(const std::vector<Group>& groups, const SummaryTable::Item&
                : fmt::format("{}{}, asked {:.4g} to {:.4g}", item.label, unit, *low, *high);
 }
 
-std::string header_of(const SummaryTable& table, const std::vector<Group>& groups)
+std::vector<TextTable::Head> heads_of(const SummaryTable& table, const std::vector<Group>& groups)
 {
-    std::string names = "|";
-    std::string rule = "|";
+    std::vector<TextTable::Head> heads;
     for (const std::string& by : table.by) {
-        names += fmt::format(" {} |", by);
-        rule += "---|";
+        heads.push_back({by});
     }
-    names += " runs |";
-    rule += "---|";
+    heads.push_back({"runs"});
     for (const SummaryTable::Item& item : table.items) {
-        names += fmt::format(" {}: worst error | rms |", title_of(groups, item));
-        rule += "---|---|";
+        heads.push_back({title_of(groups, item) + ": worst error"});
+        heads.push_back({"rms"});
     }
-    return names + " us/step | solver s per s |\n" + rule + "---|---|\n";
+    heads.push_back({"us/step"});
+    heads.push_back({"solver s per s"});
+    return heads;
 }
 
 std::string table_text(const BenchmarkResult& result, const SummaryTable& table)
 {
     const std::vector<Group> groups = groups_of(result, table);
-    std::string text = table.preface.empty() ? "" : table.preface + "\n\n";
-    text += fmt::format("## {}\n\n{}\n\n", table.title, table.text);
-    text += header_of(table, groups);
+    TextTable shown{heads_of(table, groups), {}};
     for (const Group& group : groups) {
-        text += fmt::format("| {} | {} |", fmt::join(group.key, " | "), group.runs.size());
+        std::vector<std::string> row = group.key;
+        row.push_back(std::to_string(group.runs.size()));
         for (const SummaryTable::Item& item : table.items) {
-            text += cells_of(group, item);
+            append_errors(group, item, row);
         }
-        text += cost_cells(group) + "\n";
+        append_cost(group, row);
+        shown.rows.push_back(std::move(row));
     }
-    return text + "\n";
+    return fmt::format("{}{}## {}\n\n{}\n\n{}\n", table.preface,
+                       table.preface.empty() ? "" : "\n\n", table.title, table.text,
+                       markdown_table(shown));
 }
 
 } // namespace

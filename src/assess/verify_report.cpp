@@ -2,11 +2,14 @@
 // All checks, one line each.
 #include "hyoryu/assess/verify_report.hpp"
 
+#include "hyoryu/report/table.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace hyoryu {
 
@@ -87,28 +90,6 @@ ordered_json json_of(const RunResult& run)
     return json;
 }
 
-/// Bars would end a cell of a Markdown table.
-std::string in_cell(const std::string& text)
-{
-    std::string safe;
-    for (const char letter : text) {
-        if (letter == '|') {
-            safe += '\\';
-        }
-        safe += letter == '\n' ? ' ' : letter;
-    }
-    return safe;
-}
-
-std::string markdown_row(const RunResult& run, const CheckResult& check, bool first)
-{
-    const std::string note = check.note.empty() ? check.because : check.note;
-    return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n",
-                       in_cell(first ? run.run.name : ""), in_cell(check.check),
-                       expected_text(check), number_text(check.got, 8), tolerance_text(check),
-                       to_string(check.verdict), in_cell(note), first ? cost_text(run.cost) : "");
-}
-
 /// Where the section of a benchmark stands in its document, as GitHub names it.
 std::string anchor(const Benchmark& benchmark)
 {
@@ -131,28 +112,38 @@ std::string markdown_section(const BenchmarkResult& result)
     if (!result.benchmark.uncertainty.empty()) {
         text += fmt::format("Uncertainty of the reference: {}\n\n", result.benchmark.uncertainty);
     }
-    text += "| run | check | expected | got | tolerance | verdict | why | cost |\n"
-            "|---|---|---|---|---|---|---|---|\n";
+    TextTable table{
+        {{"run"}, {"check"}, {"expected"}, {"got"}, {"tolerance"}, {"verdict"}, {"why"}, {"cost"}},
+        {}};
     for (const RunResult& run : result.runs) {
-        bool first = true;
+        std::string name = run.run.name;
+        std::string cost = cost_text(run.cost);
         for (const CheckResult& check : run.checks) {
-            text += markdown_row(run, check, first);
-            first = false;
+            table.rows.push_back(
+                {std::exchange(name, ""), check.check, expected_text(check),
+                 number_text(check.got, 8), tolerance_text(check), to_string(check.verdict),
+                 check.note.empty() ? check.because : check.note, std::exchange(cost, "")});
         }
         if (run.checks.empty()) {
-            text += fmt::format("| {} | | | | | {} | {} | {} |\n", in_cell(run.run.name),
-                                run.error.empty() ? "" : "FAIL", in_cell(run.error),
-                                cost_text(run.cost));
+            table.rows.push_back(
+                {name, "", "", "", "", run.error.empty() ? "" : "FAIL", run.error, cost});
         }
     }
-    return text + "\n";
+    return text + markdown_table(table) + "\n";
 }
 
 /// One line a case: what came out and what it cost.
 std::string markdown_overview(const std::vector<BenchmarkResult>& results)
 {
-    std::string text = "| case | group | tier | runs | passed | failed | known to fail | cost |\n"
-                       "|---|---|---|---|---|---|---|---|\n";
+    TextTable table{{{"case"},
+                     {"group"},
+                     {"tier"},
+                     {"runs"},
+                     {"passed"},
+                     {"failed"},
+                     {"known to fail"},
+                     {"cost"}},
+                    {}};
     for (const BenchmarkResult& result : results) {
         const Tally count = tally({result});
         Tier lowest = Tier::release;
@@ -161,12 +152,13 @@ std::string markdown_overview(const std::vector<BenchmarkResult>& results)
             lowest = std::min(lowest, run.run.tier);
             seconds += run.cost.wall_seconds;
         }
-        text += fmt::format("| [{}](#{}) | {} | {} | {} | {} | {} | {} | {:.3g} s |\n",
-                            result.benchmark.name, anchor(result.benchmark), result.benchmark.group,
-                            to_string(lowest), result.runs.size(), count.pass,
-                            count.fail + count.xpass, count.xfail, seconds);
+        table.rows.push_back(
+            {fmt::format("[{}](#{})", result.benchmark.name, anchor(result.benchmark)),
+             result.benchmark.group, to_string(lowest), std::to_string(result.runs.size()),
+             std::to_string(count.pass), std::to_string(count.fail + count.xpass),
+             std::to_string(count.xfail), fmt::format("{:.3g} s", seconds)});
     }
-    return text + "\n";
+    return markdown_table(table) + "\n";
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/svg.hpp"
+#include "hyoryu/report/table.hpp"
 #include "sections.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ namespace hyoryu {
 
 namespace {
 
-using Align = HtmlTable::Align;
+using Align = TextTable::Align;
 
 constexpr std::size_t most_rows = 20;
 
@@ -42,7 +43,7 @@ std::string blow_table(const RunResults& run, const ContactGroup& group)
     const auto unit = [&](const char* what, const char* of) {
         return fmt::format("{} [{}]", what, run.per_width(of));
     };
-    HtmlTable table{.heads = {{"time [s]", Align::right},
+    TextTable table{.heads = {{"time [s]", Align::right},
                               {between ? "bodies" : "body"},
                               {"approach speed [m/s]", Align::right},
                               {unit("impulse", "N s"), Align::right},

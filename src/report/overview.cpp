@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sections of words and tables: case, plan, run, cost.
 #include "hyoryu/report/html.hpp"
+#include "hyoryu/report/table.hpp"
 #include "sections.hpp"
 
 #include <fmt/format.h>
@@ -12,11 +13,11 @@ namespace hyoryu {
 namespace {
 
 using nlohmann::ordered_json;
-using Align = HtmlTable::Align;
+using Align = TextTable::Align;
 
 std::string effect_table(const ordered_json& effects)
 {
-    HtmlTable table{.heads = {{"effect"}, {"why"}}, .rows = {}};
+    TextTable table{.heads = {{"effect"}, {"why"}}, .rows = {}};
     for (const ordered_json& effect : effects) {
         table.rows.push_back(
             {effect.at("name").get<std::string>(), effect.at("why").get<std::string>()});
@@ -134,7 +135,7 @@ std::string forecast_table(const RunResults& run)
         return {};
     }
     const ordered_json& cost = run.summary.at("cost");
-    HtmlTable table{
+    TextTable table{
         .heads = {{"asked"}, {"why"}, {"foretold", Align::right}, {"measured", Align::right}},
         .rows = {}};
     const auto cell = [](const ordered_json& value, double factor, const char* unit) {
@@ -177,7 +178,7 @@ std::string forecast_table(const RunResults& run)
 std::string cost_section(const RunResults& run)
 {
     const double wall = number(run.summary.at("wall_seconds"));
-    HtmlTable table{
+    TextTable table{
         .heads = {{"stage"}, {"time [s]", Align::right}, {"share of wall time", Align::right}},
         .rows = {}};
     const auto add = [&](const std::string& stage, double seconds) {

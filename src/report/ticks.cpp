@@ -15,27 +15,45 @@ namespace {
 /// Round-off that a multiple of the step may have at the end of a range [steps].
 constexpr double slack = 1e-9;
 
-// An axis shorter than a decade has multiples of a step.
-std::vector<double> logarithmic_ticks(const Range& range, int at_most)
+/// Multiples of powers of ten within the range, of each `stride`-th decade.
+std::vector<double> marks_in_decades(const Range& range, const std::vector<double>& multiples,
+                                     int stride)
 {
-    const double ratio = range.high / range.low;
-    if (ratio < 4) {
-        return ticks(range, tick_step(range, at_most));
-    }
-    const std::vector<double> mantissas = ratio > 1e4  ? std::vector<double>{1}
-                                          : ratio > 25 ? std::vector<double>{1, 2, 5}
-                                                       : std::vector<double>{1, 1.5, 2, 3, 4, 5, 7};
     std::vector<double> marks;
-    for (double decade = std::floor(std::log10(range.low)); decade <= std::log10(range.high);
+    const int last = static_cast<int>(std::floor(std::log10(range.high)));
+    for (int decade = static_cast<int>(std::floor(std::log10(range.low))); decade <= last;
          ++decade) {
-        for (const double mantissa : mantissas) {
-            const double mark = mantissa * std::pow(10, decade);
-            if (mark >= range.low && mark <= range.high) {
+        for (const double multiple : multiples) {
+            const double mark = multiple * std::pow(10, decade);
+            if (decade % stride == 0 && mark >= range.low && mark <= range.high) {
                 marks.push_back(mark);
             }
         }
     }
     return marks;
+}
+
+// An axis shorter than a decade has multiples of a step.
+std::vector<double> logarithmic_ticks(const Range& range, int at_most)
+{
+    if (range.high < 4 * range.low) {
+        return ticks(range, tick_step(range, at_most));
+    }
+    const auto fits = [&](const std::vector<double>& marks) {
+        return marks.size() <= static_cast<std::size_t>(at_most);
+    };
+    for (const std::vector<double>& multiples :
+         {std::vector<double>{1, 1.5, 2, 3, 4, 5, 7}, {1, 2, 5}, {1, 3}}) {
+        const std::vector<double> marks = marks_in_decades(range, multiples, 1);
+        if (fits(marks)) {
+            return marks;
+        }
+    }
+    int stride = 1;
+    while (!fits(marks_in_decades(range, {1}, stride))) {
+        ++stride;
+    }
+    return marks_in_decades(range, {1}, stride);
 }
 
 } // namespace

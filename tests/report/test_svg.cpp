@@ -2,6 +2,7 @@
 // Scales and ticks against numbers worked out by hand, and what must survive thinning.
 #include "dice.hpp"
 #include "hyoryu/report/html.hpp"
+#include "hyoryu/report/table.hpp"
 #include "hyoryu/report/plan_view.hpp"
 #include "hyoryu/report/svg.hpp"
 
@@ -234,7 +235,7 @@ TEST(Ticks, OfALogarithmicScaleLieWithinItAndAreAtMostAFew)
             {low, low * std::pow(10, dice.between(0.05, 8))}, 0, 300, Scale::Kind::logarithmic};
         const std::vector<Tick> marks = ticks_of(scale, 6);
         EXPECT_GE(marks.size(), 2U) << scale.from.low << " to " << scale.from.high;
-        EXPECT_LE(marks.size(), 13U);
+        EXPECT_LE(marks.size(), 6U);
         for (const Tick& tick : marks) {
             EXPECT_GE(scale(tick.value), -1e-6);
             EXPECT_LE(scale(tick.value), 300 + 1e-6);
@@ -285,7 +286,7 @@ TEST(Html, TextIsEscaped)
               "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
     EXPECT_EQ(escaped("漂流"), "漂流");
     EXPECT_EQ(escaped(std::string("a\x01z\n")), "a\xEF\xBF\xBDz\n");
-    const HtmlTable table{.heads = {{"<h>"}}, .rows = {{"a&b"}}};
+    const TextTable table{.heads = {{"<h>"}}, .rows = {{"a&b"}}};
     EXPECT_NE(html_table(table).find("<th>&lt;h&gt;</th>"), std::string::npos);
     EXPECT_NE(html_table(table).find("<td>a&amp;b</td>"), std::string::npos);
 }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "hyoryu/assess/study_result.hpp"
-#include "hyoryu/report/html.hpp"
 #include "hyoryu/report/svg.hpp"
+#include "hyoryu/report/table.hpp"
 
 #include <string>
 #include <vector>
@@ -25,7 +25,7 @@ std::string study_json(const StudyResult& result, const StudyInfo& info);
 /// The tables of the study: runs by error and cost, orders and fits, cheapest settings.
 struct StudyTable {
     std::string title;
-    HtmlTable table;
+    TextTable table;
 };
 std::vector<StudyTable> study_tables(const StudyResult& result);
 

@@ -48,8 +48,8 @@ struct Tick {
     double value = 0;
     std::string label;
 };
-/// At most `at_most` round numbers of a linear scale. Of a logarithmic one powers of ten, with more
-/// numbers between them the fewer they are.
+/// At most `at_most` (>= 4) round numbers; of a logarithmic scale powers of ten, with round numbers
+/// between them where there is room.
 std::vector<Tick> ticks_of(const Scale& scale, int at_most);
 
 /// The rows that draw the same picture as all rows: first, lowest, highest and last of each of
