@@ -54,24 +54,31 @@ constexpr std::array<std::string_view, 3> fluid_models{"gravity", "artificial_vi
                                                        "density_diffusion"};
 constexpr std::array<std::string_view, 2> timber_models{"gravity", "contact"};
 
-constexpr StudyCoverage still_water_covers{.study = "hydrostatic_tank/study",
-                                           .dimensions = 2,
-                                           .fewest_spacings = 10,
-                                           .most_spacings = 40,
-                                           .effects = still_water_effects,
-                                           .models = fluid_models};
-constexpr StudyCoverage bore_covers{.study = "debris_flood/study",
-                                    .dimensions = 3,
-                                    .most_bodies = 9,
-                                    .fewest_spacings = 8,
-                                    .most_spacings = 12.5,
-                                    .effects = bore_effects,
-                                    .models = fluid_models};
-constexpr StudyCoverage timber_covers{.study = "falling_timber/study",
-                                      .dimensions = 3,
-                                      .most_bodies = 1,
-                                      .effects = timber_effects,
-                                      .models = timber_models};
+} // namespace
+
+const StudyCoverage still_water_study{.study = "hydrostatic_tank/study",
+                                      .dimensions = 2,
+                                      .fewest_spacings = 10,
+                                      .most_spacings = 40,
+                                      .effects = still_water_effects,
+                                      .models = fluid_models,
+                                      .rungs = still_water};
+const StudyCoverage bore_study{.study = "debris_flood/study",
+                               .dimensions = 3,
+                               .most_bodies = 9,
+                               .fewest_spacings = 8,
+                               .most_spacings = 12.5,
+                               .effects = bore_effects,
+                               .models = fluid_models,
+                               .rungs = bore};
+const StudyCoverage timber_study{.study = "falling_timber/study",
+                                 .dimensions = 3,
+                                 .most_bodies = 1,
+                                 .effects = timber_effects,
+                                 .models = timber_models,
+                                 .rungs = timber};
+
+namespace {
 
 // The finest runs but one of the debris flood, against the finest.
 constexpr double impulse_in_water = 0.32;
@@ -165,14 +172,14 @@ ExpectedError pressure_at_rest(const Scene& scene, const Plan& plan, double dept
                            .error = error_at(still_water, k),
                            .why = fmt::format("c0 = {:.3g} sqrt(g H)", k),
                            .halving = not_studied,
-                           .study = std::string(still_water_covers.study)};
+                           .study = std::string(still_water_study.study)};
     if (const auto halved = halved_at(still_water, k, still_water.back().number)) {
         expected.halving = fmt::format("fluid.sound_speed = {:.3g}: {:.2g} times the cost",
                                        plan.fluid->eos.c0 * *halved / k, *halved / k);
     } else if (std::isfinite(expected.error)) {
         expected.halving = "nothing that was studied: its floor is near";
     }
-    return unless_covered(std::move(expected), not_covered(still_water_covers, scene, plan, depth));
+    return unless_covered(std::move(expected), not_covered(still_water_study, scene, plan, depth));
 }
 
 ExpectedError arrival_of_bore(const Scene& scene, const Plan& plan, double depth)
@@ -182,13 +189,13 @@ ExpectedError arrival_of_bore(const Scene& scene, const Plan& plan, double depth
                            .error = error_at(bore, n),
                            .why = fmt::format("{:.3g} spacings in the depth", n),
                            .halving = not_studied,
-                           .study = std::string(bore_covers.study)};
+                           .study = std::string(bore_study.study)};
     if (const auto halved = halved_at(bore, n, bore.back().number)) {
         expected.halving =
             fmt::format("particles.spacing = {:.3g}: {:.2g} times the cost", depth / *halved,
                         std::pow(*halved / n, scene.dimensions + 1));
     }
-    return unless_covered(std::move(expected), not_covered(bore_covers, scene, plan, depth));
+    return unless_covered(std::move(expected), not_covered(bore_study, scene, plan, depth));
 }
 
 double longest_edge(const BodySettings& body, int dimensions)
@@ -206,7 +213,7 @@ ExpectedError motion_in_water()
                                "between the two finest runs",
                                100 * impulse_in_water),
             .halving = not_studied,
-            .study = std::string(bore_covers.study),
+            .study = std::string(bore_study.study),
             .not_covered = {"no study of it has converged"}};
 }
 
@@ -219,7 +226,7 @@ ExpectedError motion_of(const Scene& scene, const Plan& plan, double length)
                            .error = penalty_error,
                            .why = "springs of the penalty method",
                            .halving = "contact.method = \"impulse\"; no step, spacing or stiffness",
-                           .study = std::string(timber_covers.study)};
+                           .study = std::string(timber_study.study)};
     if (!scene.contact.penalty) {
         // The scale of time of a body that tilts is sqrt(L/g).
         const double step = plan.first_step * std::sqrt(timber_length / length);
@@ -231,40 +238,10 @@ ExpectedError motion_of(const Scene& scene, const Plan& plan, double length)
         // On all rungs it is small beside any error of the water.
         expected.halving = std::isnan(expected.error) ? not_studied : "not needed";
     }
-    return unless_covered(std::move(expected), not_covered(timber_covers, scene, plan, 0));
+    return unless_covered(std::move(expected), not_covered(timber_study, scene, plan, 0));
 }
 
 } // namespace
-
-std::span<const StudiedRung> still_water_rungs()
-{
-    return still_water;
-}
-
-std::span<const StudiedRung> bore_rungs()
-{
-    return bore;
-}
-
-std::span<const StudiedRung> timber_rungs()
-{
-    return timber;
-}
-
-const StudyCoverage& still_water_coverage()
-{
-    return still_water_covers;
-}
-
-const StudyCoverage& bore_coverage()
-{
-    return bore_covers;
-}
-
-const StudyCoverage& timber_coverage()
-{
-    return timber_covers;
-}
 
 std::vector<std::string> not_covered(const StudyCoverage& coverage, const Scene& scene,
                                      const Plan& plan, double depth)

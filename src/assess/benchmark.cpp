@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* file_name = "verify.toml";
-constexpr std::array<std::string_view, 3> tiers{"quick", "nightly", "release"};
 
 Benchmark read_root(Section& root)
 {
@@ -35,9 +34,8 @@ Benchmark read_root(Section& root)
     benchmark.source = root.text("source");
     benchmark.uncertainty = root.text("uncertainty");
     const Tier tier = read_tier(root, Tier::quick);
-    benchmark.constants = read_constants(root);
-    benchmark.columns = read_columns(root);
-    benchmark.runs = read_runs(root, benchmark.constants, tier);
+    benchmark.definitions = read_definitions(root);
+    benchmark.runs = read_runs(root, benchmark.definitions, tier);
     benchmark.checks = read_checks(root, benchmark);
     benchmark.figures = read_figures(root, benchmark.runs);
     benchmark.tables = read_summary_tables(root, benchmark);
@@ -78,7 +76,7 @@ OpenedFile open_toml(const fs::path& file)
     const std::string why = why_unreadable(file, largest_text);
     if (!why.empty()) {
         opened.file.error({}, "", "the file " + why);
-        throw CaseError(opened.file.mistakes);
+        opened.file.expect_no_mistakes();
     }
     const std::string whole = bytes_of_file(file);
     std::istringstream lines(whole);
@@ -89,14 +87,14 @@ OpenedFile open_toml(const fs::path& file)
         opened.document = parse_toml(whole);
     } catch (const TomlFault& fault) {
         opened.file.error(fault.place, "", fault.what, fault.hint);
-        throw CaseError(opened.file.mistakes);
+        opened.file.expect_no_mistakes();
     }
     return opened;
 }
 
-Constants read_constants(Section& root)
+Definitions read_definitions(Section& root)
 {
-    Constants constants;
+    Definitions definitions;
     Scope scope;
     for (const TomlEntry* entry : root.entries("constants")) {
         const std::string key = "constants." + entry->key;
@@ -106,40 +104,31 @@ Constants read_constants(Section& root)
         } catch (const FormulaError& fault) {
             root.file().error(entry->node.place, key, fault.what());
         }
-        constants.emplace_back(entry->key, text);
+        definitions.constants.emplace_back(entry->key, text);
     }
-    return constants;
-}
-
-std::map<std::string, std::string> read_columns(Section& root)
-{
-    std::map<std::string, std::string> columns;
     for (const TomlEntry* entry : root.entries("columns")) {
-        columns[entry->key] = checked_expression(root.file(), entry->node, "columns." + entry->key);
+        definitions.columns[entry->key] =
+            checked_expression(root.file(), entry->node, "columns." + entry->key);
     }
-    return columns;
+    return definitions;
 }
 
 std::string to_string(Tier tier)
 {
-    return std::string(tiers[static_cast<std::size_t>(tier)]);
+    return std::string(tier_names[static_cast<std::size_t>(tier)]);
 }
 
 std::optional<Tier> tier_of(const std::string& name)
 {
-    const auto* at = std::find(tiers.begin(), tiers.end(), name);
-    return at == tiers.end() ? std::nullopt : std::optional(static_cast<Tier>(at - tiers.begin()));
+    const auto* at = std::ranges::find(tier_names, name);
+    return at == tier_names.end() ? std::nullopt
+                                  : std::optional(static_cast<Tier>(at - tier_names.begin()));
 }
 
 Tier read_tier(Section& section, Tier fallback)
 {
-    const std::string name = section.text("tier", to_string(fallback));
-    const auto tier = tier_of(name);
-    if (!tier) {
-        section.error("tier",
-                      fmt::format("unknown \"{}\", expected one of {}", name, quoted_list(tiers)));
-    }
-    return tier.value_or(fallback);
+    const auto tier = section.choice("tier", tier_names);
+    return tier ? static_cast<Tier>(*tier) : fallback;
 }
 
 Benchmark read_benchmark(const fs::path& folder)
@@ -151,9 +140,7 @@ Benchmark read_benchmark(const fs::path& folder)
     if (benchmark.runs.empty() && file.mistakes.empty()) {
         root.error("run", "makes no run", "leave it out to run the case as it is");
     }
-    if (!file.mistakes.empty()) {
-        throw CaseError(file.mistakes);
-    }
+    file.expect_no_mistakes();
     benchmark.folder = folder;
     benchmark.name = fs::absolute(folder).lexically_normal().filename().string();
     return benchmark;

@@ -14,76 +14,27 @@ namespace hyoryu {
 
 namespace {
 
-struct MeasureName {
-    std::string_view name;
-    Measure measure;
-};
-constexpr std::array measures{
-    MeasureName{"at", Measure::at},
-    MeasureName{"first", Measure::first},
-    MeasureName{"last", Measure::last},
-    MeasureName{"min", Measure::min},
-    MeasureName{"max", Measure::max},
-    MeasureName{"mean", Measure::mean},
-    MeasureName{"sum", Measure::sum},
-    MeasureName{"count", Measure::count},
-    MeasureName{"range", Measure::range},
-    MeasureName{"drift", Measure::drift},
-    MeasureName{"gain", Measure::gain},
-    MeasureName{"growth", Measure::growth},
-    MeasureName{"row", Measure::row},
-    MeasureName{"peak", Measure::peak},
-    MeasureName{"peak_time", Measure::peak_time},
-    MeasureName{"trough", Measure::trough},
-    MeasureName{"crossing", Measure::crossing},
-    MeasureName{"integral", Measure::integral},
-    MeasureName{"period", Measure::period},
-    MeasureName{"decay", Measure::decay},
-    MeasureName{"share_within", Measure::share_within},
-    MeasureName{"rms_error", Measure::rms_error},
-    MeasureName{"largest_error", Measure::largest_error},
-};
+// In the order of `Measure`.
+constexpr std::array<std::string_view, 23> measures{
+    "at",     "first", "last",         "min",       "max",          "mean",
+    "sum",    "count", "range",        "drift",     "gain",         "growth",
+    "row",    "peak",  "peak_time",    "trough",    "crossing",     "integral",
+    "period", "decay", "share_within", "rms_error", "largest_error"};
 
 constexpr std::array<std::string_view, 5> against_names{"experiment", "analytic", "program",
                                                         "conservation", "itself"};
 
-Measure read_measure(Section& check)
-{
-    check.require("measure");
-    const std::string name = check.text("measure", "last");
-    std::vector<std::string_view> names;
-    for (const MeasureName& known : measures) {
-        if (known.name == name) {
-            return known.measure;
-        }
-        names.push_back(known.name);
-    }
-    const std::string near = did_you_mean(name, names);
-    check.error("measure", fmt::format("unknown \"{}\"", name),
-                near.empty() ? "there are: " + quoted_list(names) : near);
-    return Measure::last;
-}
-
 /// Exactly one of `expected`, `at_most`, `at_least`, `reference` and `same_as`.
-void read_expectation(Section& section, Check& check)
+void read_expected(Section& section, Check& check)
 {
-    int given = 0;
-    const auto take = [&](std::string_view key, Comparison comparison) {
-        const std::string text = section.expression(key);
-        if (!text.empty()) {
-            check.expected = text;
+    int given = read_expectation(section, check.expected);
+    for (const auto& [key, comparison] :
+         {std::pair("at_most", Comparison::at_most), std::pair("at_least", Comparison::at_least)}) {
+        if (const std::string bound = section.expression(key); !bound.empty()) {
+            check.expected.formula = bound;
             check.comparison = comparison;
             given += 1;
         }
-    };
-    take("expected", Comparison::equal);
-    take("at_most", Comparison::at_most);
-    take("at_least", Comparison::at_least);
-    if (auto reference = section.table("reference")) {
-        check.reference = read_series(*reference, "value");
-        reference->require("file");
-        reference->finish();
-        given += 1;
     }
     check.same_as = section.text("same_as");
     given += check.same_as.empty() ? 0 : 1;
@@ -128,7 +79,7 @@ void find_same(Section& section, const Check& check, const Benchmark& benchmark)
         if (!matches(check.runs, run.name)) {
             continue;
         }
-        const std::string name = expanded(check.same_as, run, scope_of(benchmark, run));
+        const std::string name = expanded(check.same_as, run, scope_of(benchmark.definitions, run));
         const BenchmarkRun* other = find_run(benchmark, name);
         if (other == nullptr) {
             section.error("same_as", fmt::format("no run is named \"{}\"", name));
@@ -143,25 +94,15 @@ void find_same(Section& section, const Check& check, const Benchmark& benchmark)
 /// What the expected number comes from.
 std::optional<Against> read_against(Section& section, std::optional<Against> fallback)
 {
-    const std::string name = section.text("against");
-    if (!section.has("against")) {
-        return fallback;
-    }
-    const auto against = against_of(name);
-    if (!against) {
-        const std::string near = did_you_mean(name, against_names);
-        section.error("against", fmt::format("unknown \"{}\"", name),
-                      near.empty() ? "there are: " + quoted_list(against_names) : near);
-    }
-    return against;
+    const auto against = section.choice("against", against_names);
+    return against ? static_cast<Against>(*against) : fallback;
 }
 
 /// Why it is known to fail, where, and how far it may be off there.
 void read_known_failure(Section& section, const std::vector<BenchmarkRun>& runs, Check& check)
 {
     check.xfail = section.text("xfail");
-    check.xfail_runs = section.has("xfail_runs") ? read_patterns(section, "xfail_runs", runs)
-                                                 : std::vector<std::string>{"*"};
+    check.xfail_runs = read_patterns(section, "xfail_runs", runs);
     check.xfail_within = section.expression("xfail_within");
     for (const char* key : {"xfail_runs", "xfail_within"}) {
         if (section.has(key) && check.xfail.empty()) {
@@ -182,12 +123,10 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
     section.require("name");
     check.name = section.label("name");
     check.place = section.place();
-    check.runs =
-        section.has("runs") ? read_patterns(section, "runs", runs) : std::vector<std::string>{"*"};
-    check.judged = section.has("judged") ? read_patterns(section, "judged", runs)
-                                         : std::vector<std::string>{"*"};
+    check.runs = read_patterns(section, "runs", runs);
+    check.judged = read_patterns(section, "judged", runs);
     check.quantity = read_quantity(section);
-    read_expectation(section, check);
+    read_expected(section, check);
     read_tolerance(section, check);
     read_known_failure(section, runs, check);
     check.against = read_against(section, check.same_as.empty() ? against : Against::itself);
@@ -208,7 +147,9 @@ Quantity read_quantity(Section& check)
 {
     Quantity quantity;
     quantity.series = read_series(check, "value");
-    quantity.measure = read_measure(check);
+    check.require("measure");
+    const auto measure = check.choice("measure", measures);
+    quantity.measure = measure ? static_cast<Measure>(*measure) : Measure::last;
     if (auto band = check.table("band")) {
         quantity.band = Band{read_series(*band, "lower"), band->expression("upper")};
         band->require("file");
@@ -238,19 +179,6 @@ Quantity read_quantity(Section& check)
 std::string to_string(Against against)
 {
     return std::string(against_names[static_cast<std::size_t>(against)]);
-}
-
-std::optional<Against> against_of(const std::string& name)
-{
-    const auto* at = std::ranges::find(against_names, name);
-    return at == against_names.end()
-               ? std::nullopt
-               : std::optional(static_cast<Against>(at - against_names.begin()));
-}
-
-bool is_error_measure(Measure measure)
-{
-    return measure == Measure::rms_error || measure == Measure::largest_error;
 }
 
 namespace {
@@ -299,6 +227,17 @@ Series read_series(Section& section, std::string_view key)
         series.where[entry->key] = text.value_or("");
     }
     return series;
+}
+
+int read_expectation(Section& section, Expectation& expected)
+{
+    expected.formula = section.expression("expected");
+    if (auto reference = section.table("reference")) {
+        expected.reference = read_series(*reference, "value");
+        reference->require("file");
+        reference->finish();
+    }
+    return (expected.formula.empty() ? 0 : 1) + (expected.reference ? 1 : 0);
 }
 
 std::vector<Check> read_checks(Section& root, const Benchmark& benchmark)

@@ -53,14 +53,7 @@ Curve read_curve(Section& section, const std::vector<BenchmarkRun>& runs)
     if (section.has("x")) {
         curve.x = section.expression("x");
     }
-    const std::string style = section.text("style", "line");
-    const auto* at = std::find(styles.begin(), styles.end(), style);
-    if (at == styles.end()) {
-        section.error(
-            "style", fmt::format("unknown \"{}\", expected one of {}", style, quoted_list(styles)));
-    } else {
-        curve.style = drawn_styles[static_cast<std::size_t>(at - styles.begin())];
-    }
+    curve.style = drawn_styles[section.choice("style", styles).value_or(0)];
     const auto is_it = [&](const BenchmarkRun& run) { return run.name == curve.run; };
     if (!curve.run.empty() && std::none_of(runs.begin(), runs.end(), is_it)) {
         section.error("run", fmt::format("no run is named \"{}\"", curve.run));

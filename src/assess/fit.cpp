@@ -48,30 +48,28 @@ std::size_t different(const std::vector<double>& values)
     return std::set<double>(values.begin(), values.end()).size();
 }
 
-struct Line {
-    double slope = 0, offset = 0, deviation = 0; // deviation: of the slope
-};
+} // namespace
 
-Line fit_line(const Points& p)
+Line fit_line(std::span<const double> x, std::span<const double> y)
 {
-    const auto n = static_cast<double>(p.x.size());
+    const auto n = static_cast<double>(x.size());
     double mx = 0;
     double my = 0;
-    for (std::size_t k = 0; k < p.x.size(); ++k) {
-        mx += p.x[k] / n;
-        my += p.y[k] / n;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        mx += x[k] / n;
+        my += y[k] / n;
     }
     double xx = 0;
     double xy = 0;
-    for (std::size_t k = 0; k < p.x.size(); ++k) {
-        xx += (p.x[k] - mx) * (p.x[k] - mx);
-        xy += (p.x[k] - mx) * (p.y[k] - my);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        xx += (x[k] - mx) * (x[k] - mx);
+        xy += (x[k] - mx) * (y[k] - my);
     }
     Line line{xy / xx, my - xy / xx * mx, none};
-    if (p.x.size() > 2) {
+    if (x.size() > 2) {
         double squares = 0;
-        for (std::size_t k = 0; k < p.x.size(); ++k) {
-            const double off = p.y[k] - line.offset - line.slope * p.x[k];
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            const double off = y[k] - line.offset - line.slope * x[k];
             squares += off * off;
         }
         line.deviation = std::sqrt(squares / (n - 2) / xx);
@@ -79,15 +77,13 @@ Line fit_line(const Points& p)
     return line;
 }
 
-} // namespace
-
 std::optional<Power> fit_power(std::span<const double> x, std::span<const double> y)
 {
     const Points points = logarithms(x, y);
     if (different(points.x) < 2) {
         return std::nullopt;
     }
-    const Line line = fit_line(points);
+    const Line line = fit_line(points.x, points.y);
     const int n = static_cast<int>(points.x.size());
     const double wide = n > 2 ? student(n - 2) * line.deviation : none;
     return Power{line.slope, line.slope - wide, line.slope + wide, n};
@@ -108,7 +104,7 @@ std::optional<PowerWithFloor> fit_power_with_floor(std::span<const double> x,
         for (double& y_log : above.y) {
             y_log = std::log(std::exp(y_log) - floor);
         }
-        const Line line = fit_line(above);
+        const Line line = fit_line(above.x, above.y);
         double squares = 0;
         for (std::size_t m = 0; m < points.x.size(); ++m) {
             const double model = std::exp(line.offset + line.slope * points.x[m]) + floor;

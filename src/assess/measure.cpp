@@ -2,6 +2,8 @@
 // One number out of many.
 #include "hyoryu/assess/measure.hpp"
 
+#include "hyoryu/assess/fit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -92,17 +94,30 @@ std::optional<Extremum> extremum(const Samples& s, int index, double sign)
     return std::nullopt;
 }
 
-Measured crossing(const Samples& s, double level, int index)
+/// Times at which the values pass the level.
+std::vector<double> passes(const Samples& s, double level)
 {
-    int seen = 0;
+    std::vector<double> times;
     for (std::size_t k = 1; k < s.values.size(); ++k) {
         const double before = s.values[k - 1] - level;
         const double after = s.values[k] - level;
-        if ((before < 0) != (after < 0) && ++seen == index) {
-            return {s.t[k - 1] + (s.t[k] - s.t[k - 1]) * before / (before - after), ""};
+        if ((before < 0) != (after < 0)) {
+            times.push_back(s.t[k - 1] + (s.t[k] - s.t[k - 1]) * before / (before - after));
         }
     }
-    return {none, fmt::format("it passes {} only {} times", level, seen)};
+    return times;
+}
+
+Measured too_few(std::size_t passes, double level)
+{
+    return {none, fmt::format("it passes {} only {} times", level, passes)};
+}
+
+Measured crossing(const Samples& s, double level, int index)
+{
+    const std::vector<double> times = passes(s, level);
+    const auto k = static_cast<std::size_t>(index);
+    return k <= times.size() ? Measured{times[k - 1], ""} : too_few(times.size(), level);
 }
 
 double integral(const Samples& s)
@@ -114,24 +129,11 @@ double integral(const Samples& s)
     return sum;
 }
 
-/// Times at which the values pass the level.
-std::vector<double> passes(const Samples& s, double level)
-{
-    std::vector<double> times;
-    for (int index = 1;; ++index) {
-        const Measured next = crossing(s, level, index);
-        if (std::isnan(next.value)) {
-            return times;
-        }
-        times.push_back(next.value);
-    }
-}
-
 Measured period(const Samples& s, double level)
 {
     const std::vector<double> times = passes(s, level);
     if (times.size() < 3) {
-        return {none, fmt::format("it passes {} only {} times", level, times.size())};
+        return too_few(times.size(), level);
     }
     return {2 * (times.back() - times.front()) / static_cast<double>(times.size() - 1), ""};
 }
@@ -162,20 +164,12 @@ Measured decay(const Samples& s, double level)
     if (all.size() < 2) {
         return {none, "fewer than two extrema"};
     }
-    const auto n = static_cast<double>(all.size());
-    double t_mean = 0;
-    double y_mean = 0;
+    std::vector<double> t, y;
     for (const Extremum& e : all) {
-        t_mean += e.t / n;
-        y_mean += std::log(e.value) / n;
+        t.push_back(e.t);
+        y.push_back(std::log(e.value));
     }
-    double ty = 0;
-    double tt = 0;
-    for (const Extremum& e : all) {
-        ty += (e.t - t_mean) * (std::log(e.value) - y_mean);
-        tt += (e.t - t_mean) * (e.t - t_mean);
-    }
-    return {-ty / tt, ""};
+    return {-fit_line(t, y).slope, ""};
 }
 
 double largest_gain(const std::vector<double>& values)
@@ -258,6 +252,49 @@ Measured error_of(Measure measure, const std::vector<double>& differences)
     return {measure == Measure::rms_error ? std::sqrt(squares / n) : largest, ""};
 }
 
+/// Values of a run at the times of other rows, or why it has none there.
+struct ValuesAt {
+    std::vector<double> values;
+    std::string why;
+};
+
+ValuesAt values_at(const Samples& run, const Samples& rows, const char* of)
+{
+    if (run.values.empty() || rows.values.empty()) {
+        return {{}, "no row fits"};
+    }
+    ValuesAt found;
+    for (const double time : rows.t) {
+        const auto value = interpolate(run, time);
+        if (!value) {
+            return {{}, fmt::format("the run has no value at t = {} s of the {}", time, of)};
+        }
+        found.values.push_back(*value);
+    }
+    return found;
+}
+
+Measured measured(const Quantity& quantity, MadeRun& made)
+{
+    return quantity.band
+               ? share_within(quantity, made.scope, made.files)
+               : measure(quantity, made.scope, samples(quantity.series, made.scope, made.files));
+}
+
+/// What the run is held against, over time: the same quantity in another run, or a file.
+std::optional<Samples> reference_of(const Quantity& quantity, const Expectation& expected,
+                                    MadeRun& made, MadeRun* other)
+{
+    if (other != nullptr) {
+        return samples(expanded(quantity.series, other->run, other->scope), other->scope,
+                       other->files);
+    }
+    return expected.reference
+               ? std::optional(samples(expanded(*expected.reference, made.run, made.scope),
+                                       made.scope, made.files))
+               : std::nullopt;
+}
+
 } // namespace
 
 Measured measure(const Quantity& quantity, const Scope& scope, const Samples& samples)
@@ -302,51 +339,62 @@ Measured error_from(const Quantity& quantity, const std::string& expected, const
     return s.values.empty() ? Measured{none, "no row fits"} : error_of(quantity.measure, s.values);
 }
 
-Measured error_from(const Quantity& quantity, const Series& reference, const Scope& scope,
-                    RunFiles& files)
-{
-    return error_from(quantity, samples(reference, scope, files), scope, files);
-}
-
 Measured error_from(const Quantity& quantity, const Samples& reference, const Scope& scope,
                     RunFiles& files)
 {
-    const Samples run = samples(quantity.series, scope, files);
     const Samples right = within(quantity, scope, reference);
-    if (run.values.empty() || right.values.empty()) {
-        return {none, "no row fits"};
+    ValuesAt found = values_at(samples(quantity.series, scope, files), right, "reference");
+    for (std::size_t k = 0; k < found.values.size(); ++k) {
+        found.values[k] -= right.values[k];
     }
-    std::vector<double> differences;
-    for (std::size_t k = 0; k < right.t.size(); ++k) {
-        const auto value = interpolate(run, right.t[k]);
-        if (!value) {
-            return {none,
-                    fmt::format("the run has no value at t = {} s of the reference", right.t[k])};
-        }
-        differences.push_back(*value - right.values[k]);
-    }
-    return error_of(quantity.measure, differences);
+    return found.why.empty() ? error_of(quantity.measure, found.values) : Measured{none, found.why};
+}
+
+bool is_error_measure(Measure measure)
+{
+    return measure == Measure::rms_error || measure == Measure::largest_error;
 }
 
 Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& files)
 {
-    const Samples run = samples(quantity.series, scope, files);
     const Samples lower = within(quantity, scope, samples(quantity.band->lower, scope, files));
     Series above = quantity.band->lower;
     above.value = quantity.band->upper;
     const Samples upper = within(quantity, scope, samples(above, scope, files));
-    if (run.values.empty() || lower.values.empty()) {
-        return {none, "no row fits"};
-    }
+    const ValuesAt found = values_at(samples(quantity.series, scope, files), lower, "band");
     double inside = 0;
-    for (std::size_t k = 0; k < lower.t.size(); ++k) {
-        const auto value = interpolate(run, lower.t[k]);
-        if (!value) {
-            return {none, fmt::format("the run has no value at t = {} s of the band", lower.t[k])};
-        }
-        inside += *value >= lower.values[k] && *value <= upper.values[k] ? 1 : 0;
+    for (std::size_t k = 0; k < found.values.size(); ++k) {
+        const double value = found.values[k];
+        inside += value >= lower.values[k] && value <= upper.values[k] ? 1 : 0;
     }
-    return {inside / static_cast<double>(lower.t.size()), ""};
+    return found.why.empty() ? Measured{inside / static_cast<double>(lower.t.size()), ""}
+                             : Measured{none, found.why};
+}
+
+Compared compare(const Quantity& quantity, const Expectation& expected, MadeRun& made,
+                 MadeRun* other)
+{
+    Quantity own = quantity;
+    own.series = expanded(quantity.series, made.run, made.scope);
+    if (own.band) {
+        own.band->lower = expanded(own.band->lower, made.run, made.scope);
+    }
+    const std::optional<Samples> reference = reference_of(quantity, expected, made, other);
+    if (is_error_measure(own.measure)) {
+        const Measured error = reference
+                                   ? error_from(own, *reference, made.scope, made.files)
+                                   : error_from(own, expected.formula, made.scope, made.files);
+        return {error.value, 0, error.why};
+    }
+    const Measured got = measured(own, made);
+    Measured right{none, ""};
+    if (reference) {
+        right = measure(quantity, other != nullptr ? other->scope : made.scope, *reference);
+        right.why = right.why.empty() ? "" : "reference: " + right.why;
+    } else if (!expected.formula.empty()) {
+        right.value = evaluate(expected.formula, made.scope);
+    }
+    return {got.value, right.value, got.why.empty() ? right.why : got.why};
 }
 
 } // namespace hyoryu

@@ -32,11 +32,9 @@ std::vector<Axis> read_grid(Section& run)
         const TomlArray* items = entry->node.array();
         const TomlArray single{entry->node};
         for (const TomlNode& item : items != nullptr ? *items : single) {
-            if (const auto value = parameter_of(item)) {
+            const std::string key = run.full("grid." + entry->key);
+            if (const auto value = read_parameter(run.file(), item, key)) {
                 axis.values.push_back(*value);
-            } else {
-                run.file().error(item.place, run.full("grid." + entry->key),
-                                 fmt::format("expected a number or a text, found {}", found(item)));
             }
         }
         axes.push_back(std::move(axis));
@@ -56,16 +54,17 @@ std::vector<Axis> read_grid(Section& run)
 /// Every combination of the values; the last axis runs fastest.
 std::vector<Parameters> combinations(const std::vector<Axis>& axes)
 {
-    std::vector<Parameters> all(1);
+    std::vector<int> counts;
     for (const Axis& axis : axes) {
-        std::vector<Parameters> longer;
-        for (const Parameters& begun : all) {
-            for (const RunParameter& value : axis.values) {
-                longer.push_back(begun);
-                longer.back().emplace_back(axis.name, value);
-            }
+        counts.push_back(static_cast<int>(axis.values.size()));
+    }
+    std::vector<Parameters> all;
+    for (const std::vector<int>& place : grid_of(counts)) {
+        all.emplace_back();
+        for (std::size_t k = 0; k < axes.size(); ++k) {
+            all.back().emplace_back(axes[k].name,
+                                    axes[k].values[static_cast<std::size_t>(place[k])]);
         }
-        all = std::move(longer);
     }
     return all;
 }
@@ -188,24 +187,41 @@ bool fits(std::string_view pattern, std::string_view name)
 
 } // namespace
 
-std::optional<RunParameter> parameter_of(const TomlNode& node)
+std::optional<RunParameter> read_parameter(BenchmarkFile& file, const TomlNode& node,
+                                           const std::string& key)
 {
-    if (const auto* text = std::get_if<std::string>(&node.value)) {
-        return *text;
+    if (auto text = value_in<std::string>(node)) {
+        return std::move(*text);
     }
-    if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
-        return static_cast<double>(*integer);
+    if (const auto number = value_in<double>(node)) {
+        return *number;
     }
-    const auto* number = std::get_if<double>(&node.value);
-    return number != nullptr ? std::optional<RunParameter>(*number) : std::nullopt;
+    file.error(node.place, key, fmt::format("expected a number or a text, found {}", found(node)));
+    return std::nullopt;
 }
 
-std::vector<BenchmarkRun> read_runs(Section& root, const Constants& constants, Tier tier)
+std::vector<std::vector<int>> grid_of(const std::vector<int>& counts)
+{
+    std::vector<std::vector<int>> all(1);
+    for (const int count : counts) {
+        std::vector<std::vector<int>> longer;
+        for (const std::vector<int>& begun : all) {
+            for (int k = 0; k < count; ++k) {
+                longer.push_back(begun);
+                longer.back().push_back(k);
+            }
+        }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+std::vector<BenchmarkRun> read_runs(Section& root, const Definitions& definitions, Tier tier)
 {
     const std::vector<std::string> common = root.texts("set");
     std::vector<BenchmarkRun> runs;
     for (Section& section : root.tables("run")) {
-        append_run(section, constants, tier, common, runs);
+        append_run(section, definitions.constants, tier, common, runs);
     }
     for (const BenchmarkRun& run : runs) {
         if (run.name.empty() || run.name.front() == '.' ||
@@ -224,6 +240,9 @@ std::vector<std::string> read_patterns(Section& section, std::string_view key,
                                        const std::vector<BenchmarkRun>& runs)
 {
     std::vector<std::string> patterns = section.texts(key);
+    if (!section.has(key)) {
+        return {"*"};
+    }
     for (const std::string& pattern : patterns) {
         const auto is_fit = [&](const BenchmarkRun& run) { return fits(pattern, run.name); };
         // Without a run the mistake in their place has been told.
@@ -253,10 +272,10 @@ const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name
     return at == benchmark.runs.end() ? nullptr : &*at;
 }
 
-Scope scope_of(const Benchmark& benchmark, const BenchmarkRun& run)
+Scope scope_of(const Definitions& definitions, const BenchmarkRun& run)
 {
-    Scope scope = with_parameters(benchmark.constants, run.parameters);
-    scope.columns = benchmark.columns;
+    Scope scope = with_parameters(definitions.constants, run.parameters);
+    scope.columns = definitions.columns;
     return scope;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hyoryu/assess/section.hpp"
+#include "section.hpp"
 
 #include "hyoryu/assess/formula.hpp"
 #include "hyoryu/core/name.hpp"
@@ -22,15 +22,6 @@ const TomlTable& table_of(const TomlNode& node)
     return node.table() != nullptr ? *node.table() : empty_table;
 }
 
-std::optional<double> number_of(const TomlNode& node)
-{
-    if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
-        return static_cast<double>(*integer);
-    }
-    const auto* number = std::get_if<double>(&node.value);
-    return number != nullptr ? std::optional(*number) : std::nullopt;
-}
-
 } // namespace
 
 void BenchmarkFile::error(const Place& place, std::string key, std::string what, std::string hint)
@@ -46,6 +37,13 @@ void BenchmarkFile::error(const Place& place, std::string key, std::string what,
         mistake.source = lines[static_cast<std::size_t>(place.line) - 1];
     }
     mistakes.push_back(std::move(mistake));
+}
+
+void BenchmarkFile::expect_no_mistakes() const
+{
+    if (!mistakes.empty()) {
+        throw CaseError(mistakes);
+    }
 }
 
 Section::Section(BenchmarkFile& file, const TomlNode& node, std::string path)
@@ -96,18 +94,38 @@ void Section::require(std::string_view key)
     }
 }
 
-std::string Section::text(std::string_view key, std::string fallback)
+template <class T>
+T Section::value(std::string_view key, T fallback, std::string_view expected)
 {
     const TomlEntry* entry = ask(key);
     if (entry == nullptr) {
         return fallback;
     }
-    const auto* value = std::get_if<std::string>(&entry->node.value);
-    if (value == nullptr) {
-        mistyped(*entry, "a text");
-        return fallback;
+    auto value = value_in<T>(entry->node);
+    if (!value) {
+        mistyped(*entry, expected);
     }
-    return *value;
+    return std::move(value).value_or(std::move(fallback));
+}
+
+template <class T>
+std::vector<T> Section::list(std::string_view key, std::string_view expected)
+{
+    std::vector<T> values;
+    for (const TomlNode* item : items(key, fmt::format("a list of {}s", expected))) {
+        if (auto value = value_in<T>(*item)) {
+            values.push_back(std::move(*value));
+        } else {
+            file_->error(item->place, full(key),
+                         fmt::format("expected a {}, found {}", expected, found(*item)));
+        }
+    }
+    return values;
+}
+
+std::string Section::text(std::string_view key, std::string fallback)
+{
+    return value<std::string>(key, std::move(fallback), "a text");
 }
 
 std::string Section::label(std::string_view key, std::string fallback)
@@ -122,75 +140,38 @@ std::string Section::label(std::string_view key, std::string fallback)
 
 double Section::number(std::string_view key, double fallback)
 {
-    const TomlEntry* entry = ask(key);
-    if (entry == nullptr) {
-        return fallback;
-    }
-    const auto value = number_of(entry->node);
-    if (!value) {
-        mistyped(*entry, "a number");
-    }
-    return value.value_or(fallback);
+    return value<double>(key, fallback, "a number");
 }
 
 std::int64_t Section::integer(std::string_view key, std::int64_t fallback)
 {
-    const TomlEntry* entry = ask(key);
-    if (entry == nullptr) {
-        return fallback;
-    }
-    const auto* value = std::get_if<std::int64_t>(&entry->node.value);
-    if (value == nullptr) {
-        mistyped(*entry, "a whole number");
-        return fallback;
-    }
-    return *value;
+    return value<std::int64_t>(key, fallback, "a whole number");
 }
 
 std::vector<std::string> Section::texts(std::string_view key)
 {
-    const TomlEntry* entry = ask(key);
-    std::vector<std::string> values;
-    if (entry == nullptr) {
-        return values;
-    }
-    const TomlArray* items = entry->node.array();
-    if (items == nullptr) {
-        mistyped(*entry, "a list of texts");
-        return values;
-    }
-    for (const TomlNode& item : *items) {
-        if (const auto* value = std::get_if<std::string>(&item.value)) {
-            values.push_back(*value);
-        } else {
-            file_->error(item.place, full(key),
-                         fmt::format("expected a text, found {}", found(item)));
-        }
-    }
-    return values;
+    return list<std::string>(key, "text");
 }
 
 std::vector<double> Section::numbers(std::string_view key)
 {
-    const TomlEntry* entry = ask(key);
-    std::vector<double> values;
-    if (entry == nullptr) {
-        return values;
+    return list<double>(key, "number");
+}
+
+std::optional<std::size_t> Section::choice(std::string_view key,
+                                           std::span<const std::string_view> names)
+{
+    const std::string name = text(key);
+    const auto at = std::ranges::find(names, name);
+    if (at != names.end()) {
+        return static_cast<std::size_t>(at - names.begin());
     }
-    const TomlArray* items = entry->node.array();
-    if (items == nullptr) {
-        mistyped(*entry, "a list of numbers");
-        return values;
+    if (has(key)) {
+        const std::string near = did_you_mean(name, names);
+        error(key, fmt::format("unknown \"{}\"", name),
+              near.empty() ? "there are: " + quoted_list(names) : near);
     }
-    for (const TomlNode& item : *items) {
-        if (const auto value = number_of(item)) {
-            values.push_back(*value);
-        } else {
-            file_->error(item.place, full(key),
-                         fmt::format("expected a number, found {}", found(item)));
-        }
-    }
-    return values;
+    return std::nullopt;
 }
 
 std::string Section::expression(std::string_view key)
@@ -207,35 +188,25 @@ std::optional<Section> Section::table(std::string_view key)
 
 std::vector<Section> Section::tables(std::string_view key)
 {
-    const TomlEntry* entry = ask(key);
     std::vector<Section> sections;
-    if (entry == nullptr) {
-        return sections;
-    }
-    const TomlArray* items = entry->node.array();
-    if (items == nullptr) {
-        mistyped(*entry, fmt::format("a list of tables [[{}]]", full(key)));
-        return sections;
-    }
-    for (std::size_t k = 0; k < items->size(); ++k) {
-        sections.emplace_back(*file_, (*items)[k], fmt::format("{}[{}]", full(key), k));
+    for (const TomlNode* item : items(key, fmt::format("a list of tables [[{}]]", full(key)))) {
+        sections.emplace_back(*file_, *item, fmt::format("{}[{}]", full(key), sections.size()));
     }
     return sections;
 }
 
-std::vector<const TomlNode*> Section::items(std::string_view key)
+std::vector<const TomlNode*> Section::items(std::string_view key, std::string_view expected)
 {
     const TomlEntry* entry = ask(key);
     std::vector<const TomlNode*> result;
     if (entry == nullptr) {
         return result;
     }
-    const TomlArray* items = entry->node.array();
-    if (items == nullptr) {
-        mistyped(*entry, "a list");
+    if (entry->node.array() == nullptr) {
+        mistyped(*entry, expected);
         return result;
     }
-    for (const TomlNode& item : *items) {
+    for (const TomlNode& item : *entry->node.array()) {
         result.push_back(&item);
     }
     return result;
@@ -275,11 +246,8 @@ void Section::finish()
 
 std::optional<std::string> scalar_text(const TomlNode& node)
 {
-    if (const auto* text = std::get_if<std::string>(&node.value)) {
-        return *text;
-    }
-    const auto number = number_of(node);
-    return number ? std::optional(cell(*number)) : std::nullopt;
+    const auto number = value_in<double>(node);
+    return number ? std::optional(cell(*number)) : value_in<std::string>(node);
 }
 
 std::string checked_expression(BenchmarkFile& file, const TomlNode& node, const std::string& key)

@@ -2,11 +2,10 @@
 // Reading a study and listing its runs.
 #include "hyoryu/assess/study.hpp"
 
-#include "hyoryu/assess/read.hpp"
 #include "hyoryu/core/input_file.hpp"
 #include "hyoryu/core/name.hpp"
 #include "hyoryu/io/results.hpp"
-#include "hyoryu/scene/reader_hint.hpp"
+#include "reader.hpp"
 
 #include <fmt/format.h>
 
@@ -28,21 +27,6 @@ constexpr int most_runs = 10000;
 constexpr std::array<std::string_view, 2> modes{"one_at_a_time", "grid"};
 constexpr std::array<std::string_view, 3> ends{"smallest", "largest", "none"};
 
-// The index of the text among the known ones; a mistake is noted, and the first taken.
-template <std::size_t N>
-std::size_t read_choice(Section& section, std::string_view key,
-                        const std::array<std::string_view, N>& known)
-{
-    const std::string text = section.text(key, std::string(known[0]));
-    const auto* at = std::find(known.begin(), known.end(), text);
-    if (at == known.end()) {
-        section.error(key,
-                      fmt::format("unknown \"{}\", expected one of {}", text, quoted_list(known)));
-        return 0;
-    }
-    return static_cast<std::size_t>(at - known.begin());
-}
-
 bool is_count(const RunParameter& value)
 {
     const auto* number = std::get_if<double>(&value);
@@ -61,15 +45,11 @@ void check_label(Section& section, std::string_view key, const Place& place,
 void read_values(Section& section, StudySweep& sweep)
 {
     for (const TomlNode* node : section.items("values")) {
-        if (const auto value = parameter_of(*node)) {
+        if (const auto value = read_parameter(section.file(), *node, section.full("values"))) {
             if (const auto* text = std::get_if<std::string>(&*value)) {
                 check_label(section, "values", node->place, *text);
             }
             sweep.values.push_back(*value);
-        } else {
-            section.file().error(
-                node->place, section.full("values"),
-                fmt::format("expected a number or a text, found {}", found(*node)));
         }
     }
     if (sweep.values.empty() && section.has("values")) {
@@ -137,7 +117,7 @@ StudySweep read_sweep(Section& section)
     if (has_choices && !sweep.key.empty()) {
         section.error("key", "has no meaning with `choices`, which say what they set");
     }
-    sweep.finest = static_cast<StudySweep::Finest>(read_choice(section, "finest", ends));
+    sweep.finest = static_cast<StudySweep::Finest>(section.choice("finest", ends).value_or(0));
     if (sweep.key == threads_key && !std::ranges::all_of(sweep.values, is_count)) {
         section.error("values", "expected whole numbers of threads, 1 to 4096");
     }
@@ -151,28 +131,14 @@ StudySweep read_sweep(Section& section)
 }
 
 // Exactly one of `expected`, `reference` and `against = "finest"`.
-void read_expectation(Section& section, StudyQuantity& quantity)
+void read_expected(Section& section, StudyQuantity& quantity)
 {
-    quantity.expected = section.expression("expected");
-    int given = quantity.expected.empty() ? 0 : 1;
-    if (auto reference = section.table("reference")) {
-        quantity.against = StudyQuantity::Against::reference;
-        quantity.reference = read_series(*reference, "value");
-        reference->require("file");
-        reference->finish();
-        given += 1;
-    }
-    if (section.has("against")) {
-        constexpr std::array<std::string_view, 1> known{"finest"};
-        read_choice(section, "against", known);
-        quantity.against = StudyQuantity::Against::finest;
-        given += 1;
-    }
-    if (given != 1) {
+    constexpr std::array<std::string_view, 1> known{"finest"};
+    quantity.against_finest = section.choice("against", known) || section.has("against");
+    if (read_expectation(section, quantity.expected) + (quantity.against_finest ? 1 : 0) != 1) {
         section.error("", "give one of `expected`, `reference` and `against = \"finest\"`");
     }
-    const bool error_measure = is_error_measure(quantity.quantity.measure);
-    if (error_measure && quantity.against == StudyQuantity::Against::finest) {
+    if (is_error_measure(quantity.quantity.measure) && quantity.against_finest) {
         section.error("measure", "is a difference already; give `expected` or `reference`");
     }
     if (quantity.quantity.measure == Measure::share_within) {
@@ -190,7 +156,7 @@ StudyQuantity read_study_quantity(Section& section)
         section.error("name", "is empty");
     }
     quantity.quantity = read_quantity(section);
-    read_expectation(section, quantity);
+    read_expected(section, quantity);
     quantity.scale = section.expression("scale");
     section.finish();
     return quantity;
@@ -218,12 +184,11 @@ Study read_root(Section& root, const fs::path& folder)
     }
     study.title = root.label("title");
     study.case_file = (folder / root.text("case")).lexically_normal();
-    study.mode = static_cast<Study::Mode>(read_choice(root, "mode", modes));
+    study.mode = static_cast<Study::Mode>(root.choice("mode", modes).value_or(0));
     study.set = root.texts("set");
     study.repeats = static_cast<int>(root.integer("repeats", 1));
     study.cost = root.expression("cost");
-    study.constants = read_constants(root);
-    study.columns = read_columns(root);
+    study.definitions = read_definitions(root);
     for (Section& section : root.tables("sweep")) {
         study.sweeps.push_back(read_sweep(section));
     }
@@ -238,12 +203,6 @@ Study read_root(Section& root, const fs::path& folder)
                    [](const StudyQuantity& q) { return q.name; });
     root.finish();
     return study;
-}
-
-std::string text_of(const RunParameter& value)
-{
-    const auto* number = std::get_if<double>(&value);
-    return number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(value);
 }
 
 // A text as TOML, so that no value is taken for something else.
@@ -295,7 +254,7 @@ StudyRun run_with(const Study& study, const std::vector<int>& value_of)
         }
     }
     run.run.name = file_name(run.run.name);
-    const Scope scope = scope_of(study, run.run);
+    const Scope scope = scope_of(study.definitions, run.run);
     for (const std::string& text : study.set) {
         run.run.set.push_back(expanded(text, run.run, scope));
     }
@@ -347,6 +306,12 @@ void check_runs(Section& root, const Study& study)
 
 } // namespace
 
+std::string text_of(const RunParameter& value)
+{
+    const auto* number = std::get_if<double>(&value);
+    return number != nullptr ? fmt::format("{}", *number) : std::get<std::string>(value);
+}
+
 bool StudySweep::numeric() const
 {
     return std::ranges::all_of(
@@ -369,49 +334,30 @@ Study read_study(const fs::path& file)
     if (opened.file.mistakes.empty()) {
         check_runs(root, study);
     }
-    if (!opened.file.mistakes.empty()) {
-        throw CaseError(opened.file.mistakes);
-    }
+    opened.file.expect_no_mistakes();
     study.file = file;
     return study;
 }
 
 std::vector<StudyRun> runs_of(const Study& study)
 {
-    const std::vector<int> of_case(study.sweeps.size(), -1);
     std::vector<std::vector<int>> all;
-    if (study.mode == Study::Mode::grid) {
-        all = {of_case};
-    }
+    std::vector<int> counts;
     for (std::size_t k = 0; k < study.sweeps.size(); ++k) {
-        std::vector<std::vector<int>> longer;
-        const std::vector<std::vector<int>> begun =
-            study.mode == Study::Mode::grid ? all : std::vector<std::vector<int>>{of_case};
-        for (std::vector<int> values : begun) {
-            for (std::size_t v = 0; v < study.sweeps[k].values.size(); ++v) {
-                values[k] = static_cast<int>(v);
-                longer.push_back(values);
-            }
+        counts.push_back(static_cast<int>(study.sweeps[k].values.size()));
+        for (int value = 0; study.mode == Study::Mode::one_at_a_time && value < counts[k];
+             ++value) {
+            all.emplace_back(study.sweeps.size(), -1)[k] = value;
         }
-        if (study.mode == Study::Mode::grid) {
-            all = std::move(longer);
-        } else {
-            all.insert(all.end(), longer.begin(), longer.end());
-        }
+    }
+    if (study.mode == Study::Mode::grid) {
+        all = grid_of(counts);
     }
     std::vector<StudyRun> runs;
     for (const std::vector<int>& values : all) {
         runs.push_back(run_with(study, values));
     }
     return runs;
-}
-
-Scope scope_of(const Study& study, const BenchmarkRun& run)
-{
-    Benchmark names;
-    names.constants = study.constants;
-    names.columns = study.columns;
-    return scope_of(names, run);
 }
 
 double number_in(const Study& study, const StudyRun& run, std::size_t sweep)

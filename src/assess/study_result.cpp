@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/assess/study_result.hpp"
 
-#include "hyoryu/assess/read.hpp"
 #include "hyoryu/core/error.hpp"
 
 #include <fmt/format.h>
@@ -15,33 +14,6 @@ namespace hyoryu {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-// The value, and what it ought to be where that is known from this run alone.
-void measure_value(const StudyQuantity& q, const BenchmarkRun& run, const Scope& scope,
-                   RunFiles& files, StudyValue& v)
-{
-    Quantity quantity = q.quantity;
-    quantity.series = expanded(quantity.series, run, scope);
-    const Series reference = expanded(q.reference, run, scope);
-    Measured got;
-    if (is_error_measure(quantity.measure)) {
-        got = q.against == StudyQuantity::Against::reference
-                  ? error_from(quantity, reference, scope, files)
-                  : error_from(quantity, q.expected, scope, files);
-        v.expected = 0;
-    } else {
-        got = measure(quantity, scope, samples(quantity.series, scope, files));
-        if (q.against == StudyQuantity::Against::expected) {
-            v.expected = evaluate(q.expected, scope);
-        } else if (q.against == StudyQuantity::Against::reference) {
-            const Measured right = measure(quantity, scope, samples(reference, scope, files));
-            v.expected = right.value;
-            v.why = right.why;
-        }
-    }
-    v.value = got.value;
-    v.why = got.why.empty() ? v.why : got.why;
-}
 
 void set_error(const StudyQuantity& q, const Scope& scope, StudyValue& v)
 {
@@ -59,25 +31,25 @@ void set_error(const StudyQuantity& q, const Scope& scope, StudyValue& v)
     v.error = std::abs(v.value - v.expected) / scale;
 }
 
-StudyValue value_in(const Study& study, const StudyQuantity& q, const StudyRunResult& run,
-                    RunFiles& files)
+StudyValue value_in(const StudyQuantity& q, const std::string& error, MadeRun& made)
 {
-    StudyValue v{.value = none, .expected = none, .error = none, .finest = {}, .why = run.error};
-    if (!run.error.empty()) {
+    StudyValue v{.value = none, .expected = none, .error = none, .finest = {}, .why = error};
+    if (!error.empty()) {
         return v;
     }
-    const Scope scope = scope_of(study, run.run.run);
-    measure_value(q, run.run.run, scope, files, v);
-    if (q.against != StudyQuantity::Against::finest && std::isfinite(v.value)) {
-        set_error(q, scope, v);
+    const Compared found = compare(q.quantity, q.expected, made);
+    v.value = found.got;
+    v.expected = found.expected;
+    v.why = found.why;
+    if (!q.against_finest && std::isfinite(v.value)) {
+        set_error(q, made.scope, v);
     }
     return v;
 }
 
-double work_of(const Study& study, const StudyRun& run, RunFiles& files, const std::string& column)
+double work_of(const std::string& expression, MadeRun& made)
 {
-    const std::string text = study.cost.empty() ? column : study.cost;
-    return evaluate(text, scope_of(study, run.run), files.table("summary")).front();
+    return evaluate(expression, made.scope, made.files.table("summary")).front();
 }
 
 std::size_t finest_value(const StudySweep& sweep)
@@ -136,7 +108,7 @@ void hold_against_finest(StudyResult& result, std::size_t quantity)
         }
         v.expected = result.runs[finest].values[quantity].value;
         if (std::isfinite(v.value) && std::isfinite(v.expected)) {
-            set_error(q, scope_of(result.study, run.run.run), v);
+            set_error(q, scope_of(result.study.definitions, run.run.run), v);
         }
     }
 }
@@ -153,10 +125,8 @@ std::string others_of(const Study& study, const StudyRun& run, std::size_t sweep
     for (std::size_t k = 0; k < study.sweeps.size(); ++k) {
         if (k != sweep && run.value_of[k] >= 0) {
             const auto& value = study.sweeps[k].values[static_cast<std::size_t>(run.value_of[k])];
-            const auto* number = std::get_if<double>(&value);
             text += fmt::format("{}{}={}", text.empty() ? "" : ", ", study.sweeps[k].name,
-                                number != nullptr ? fmt::format("{}", *number)
-                                                  : std::get<std::string>(value));
+                                text_of(value));
         }
     }
     return text;
@@ -211,7 +181,7 @@ StudySeries analyse(const StudyResult& result, std::size_t sweep, std::size_t qu
     series.to_floor = fit_power_with_floor(h, error);
     series.by_work = fit_power(work, error);
     series.floor = fit_power_with_floor(work, error);
-    if (study.quantities[quantity].against == StudyQuantity::Against::finest) {
+    if (study.quantities[quantity].against_finest) {
         series.extrapolation = extrapolation(result, series, h);
     }
     return series;
@@ -225,11 +195,12 @@ StudyResult evaluate_study(const Study& study, const std::vector<std::filesystem
 {
     const std::vector<StudyRun> runs = runs_of(study);
     StudyResult result{study, study.cost.empty() ? "steps" : study.cost, {}, {}};
-    std::vector<RunFiles> files;
+    std::vector<MadeRun> made;
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        files.emplace_back(folders[k], study.file.parent_path());
-        if (study.cost.empty() && errors[k].empty() &&
-            work_of(study, runs[k], files[k], "pair_interactions") > 0) {
+        made.push_back({runs[k].run,
+                        scope_of(study.definitions, runs[k].run),
+                        {folders[k], study.file.parent_path()}});
+        if (study.cost.empty() && errors[k].empty() && work_of("pair_interactions", made[k]) > 0) {
             result.work_unit = "pair_interactions";
         }
     }
@@ -237,16 +208,16 @@ StudyResult evaluate_study(const Study& study, const std::vector<std::filesystem
         StudyRunResult run{.run = runs[k], .error = errors[k], .cost = {}, .walls = walls[k]};
         run.work = none;
         if (run.error.empty()) {
-            run.cost = read_cost(files[k]);
-            run.work = work_of(study, runs[k], files[k], result.work_unit);
+            run.cost = read_cost(made[k].files);
+            run.work = work_of(result.work_unit, made[k]);
         }
         for (const StudyQuantity& q : study.quantities) {
-            run.values.push_back(value_in(study, q, run, files[k]));
+            run.values.push_back(value_in(q, run.error, made[k]));
         }
         result.runs.push_back(std::move(run));
     }
     for (std::size_t q = 0; q < study.quantities.size(); ++q) {
-        if (study.quantities[q].against == StudyQuantity::Against::finest) {
+        if (study.quantities[q].against_finest) {
             hold_against_finest(result, q);
         }
     }

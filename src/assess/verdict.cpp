@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/assess/verdict.hpp"
 
-#include "hyoryu/assess/read.hpp"
 #include "hyoryu/core/error.hpp"
 
 #include <fmt/format.h>
@@ -16,66 +15,6 @@ namespace hyoryu {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// The quantity in the words of the run: every `${...}` replaced.
-Quantity in(const MadeRun& made, Quantity quantity)
-{
-    quantity.series = expanded(quantity.series, made.run, made.scope);
-    if (quantity.band) {
-        quantity.band->lower = expanded(quantity.band->lower, made.run, made.scope);
-    }
-    return quantity;
-}
-
-/// What the run is held against, over time: a file, or the same quantity in another run.
-Samples reference_of(const Check& check, MadeRun& made, MadeRun* other)
-{
-    if (other != nullptr) {
-        return samples(in(*other, check.quantity).series, other->scope, other->files);
-    }
-    return samples(expanded(*check.reference, made.run, made.scope), made.scope, made.files);
-}
-
-/// The number that the measure should give.
-Measured expected_of(const Check& check, MadeRun& made, MadeRun* other)
-{
-    if (!check.reference && other == nullptr) {
-        return {evaluate(check.expected, made.scope), ""};
-    }
-    return measure(check.quantity, other != nullptr ? other->scope : made.scope,
-                   reference_of(check, made, other));
-}
-
-Measured error_of(const Check& check, const Quantity& quantity, MadeRun& made, MadeRun* other)
-{
-    if (!check.reference && other == nullptr) {
-        return error_from(quantity, check.expected, made.scope, made.files);
-    }
-    return error_from(quantity, reference_of(check, made, other), made.scope, made.files);
-}
-
-/// Fills in what was expected and what came out.
-void take(const Check& check, MadeRun& made, MadeRun* other, CheckResult& result)
-{
-    const Quantity quantity = in(made, check.quantity);
-    Measured got;
-    if (is_error_measure(quantity.measure)) {
-        got = error_of(check, quantity, made, other);
-    } else {
-        got = quantity.band
-                  ? share_within(quantity, made.scope, made.files)
-                  : measure(quantity, made.scope, samples(quantity.series, made.scope, made.files));
-        const Measured expected = expected_of(check, made, other);
-        result.expected = expected.value;
-        result.note = expected.why.empty() ? "" : "reference: " + expected.why;
-    }
-    result.got = got.value;
-    if (!got.why.empty()) {
-        result.note = got.why;
-    }
-    result.allowed = check.tolerance.empty() ? check.relative * std::abs(result.expected)
-                                             : evaluate(check.tolerance, made.scope);
-}
 
 /// How far it is off, in the unit of the value; not positive within a bound. NaN if nothing could
 /// be measured.
@@ -194,7 +133,12 @@ CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
                        .against = check.against};
     // A check that cannot be made as it is written is no known failure.
     try {
-        take(check, made, other, result);
+        const Compared found = compare(check.quantity, check.expected, made, other);
+        result.got = found.got;
+        result.expected = found.expected;
+        result.note = found.why;
+        result.allowed = check.tolerance.empty() ? check.relative * std::abs(result.expected)
+                                                 : evaluate(check.tolerance, made.scope);
         return verdict_on(check, made, other, result);
     } catch (const FormulaError& fault) {
         result.note = fault.what();
@@ -231,7 +175,7 @@ MadeRun* other_of(const Check& check, const Benchmark& benchmark, const MadeRun&
     if (run == nullptr) {
         throw FormulaError(fmt::format("no run is named \"{}\"", name));
     }
-    MadeRun other{*run, scope_of(benchmark, *run), {runs / name, benchmark.folder}};
+    MadeRun other{*run, scope_of(benchmark.definitions, *run), {runs / name, benchmark.folder}};
     return &opened.try_emplace(name, std::move(other)).first->second;
 }
 
@@ -255,7 +199,7 @@ RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
                     const std::filesystem::path& results, const std::string& error)
 {
     RunResult result{.run = run, .cost = {}, .error = error, .checks = {}};
-    MadeRun made{run, scope_of(benchmark, run), {results, benchmark.folder}};
+    MadeRun made{run, scope_of(benchmark.definitions, run), {results, benchmark.folder}};
     if (!run.stops.empty()) {
         result.checks.push_back(stop_as_asked(run, error));
     }

@@ -37,7 +37,7 @@ ChartLine line_of(const Benchmark& benchmark, const Panel& panel, const Curve& c
                   const fs::path& folder)
 {
     const BenchmarkRun* run = find_run(benchmark, curve.run);
-    const Scope scope = scope_of(benchmark, run != nullptr ? *run : BenchmarkRun{});
+    const Scope scope = scope_of(benchmark.definitions, run != nullptr ? *run : BenchmarkRun{});
     if (run == nullptr && !curve.series.file.ends_with(".csv")) {
         const CsvTable times = times_over(*panel.x_range);
         return {curve.label, evaluate(curve.x, scope, times),

@@ -63,19 +63,19 @@ protected:
 TEST_F(Accuracy, RungsAreThoseOfTheKeptStudies)
 {
     const auto still = kept("hydrostatic_tank/study", "\"pressure, rms error\"");
-    for (const StudiedRung& rung : still_water_rungs()) {
+    for (const StudiedRung& rung : still_water_study.rungs) {
         const std::string run = fmt::format("k={}", rung.number);
         ASSERT_TRUE(still.contains(run)) << run;
         EXPECT_NEAR(rung.error, still.at(run), 1e-3 * rung.error) << run;
     }
     const auto bore = kept("debris_flood/study", "bore reaches the house");
-    for (const StudiedRung& rung : bore_rungs()) {
+    for (const StudiedRung& rung : bore_study.rungs) {
         const std::string run = fmt::format("spacing={}", 2.5 / rung.number);
         ASSERT_TRUE(bore.contains(run)) << run;
         EXPECT_NEAR(rung.error, bore.at(run), 3e-3 * rung.error) << run;
     }
     const auto timber = kept("falling_timber/study", "C before the left end lands");
-    for (const StudiedRung& rung : timber_rungs()) {
+    for (const StudiedRung& rung : timber_study.rungs) {
         const std::string run = fmt::format("step={},method=impulse", rung.number);
         ASSERT_TRUE(timber.contains(run)) << run;
         EXPECT_NEAR(rung.error, timber.at(run), 1e-3 * rung.error) << run;
@@ -136,8 +136,7 @@ std::vector<std::string> effects_of(const StudyCoverage& coverage)
 
 TEST_F(Accuracy, C8CoverageIsThatOfTheCaseOfTheStudy)
 {
-    for (const StudyCoverage& coverage :
-         {still_water_coverage(), bore_coverage(), timber_coverage()}) {
+    for (const StudyCoverage& coverage : {still_water_study, bore_study, timber_study}) {
         EXPECT_EQ(effects_of(coverage),
                   std::vector<std::string>(coverage.effects.begin(), coverage.effects.end()))
             << coverage.study;
@@ -145,8 +144,8 @@ TEST_F(Accuracy, C8CoverageIsThatOfTheCaseOfTheStudy)
             EXPECT_NE(std::ranges::find(coverage.effects, model), coverage.effects.end()) << model;
         }
     }
-    EXPECT_EQ(bore_coverage().fewest_spacings, bore_rungs().front().number);
-    EXPECT_EQ(bore_coverage().most_spacings, bore_rungs().back().number);
+    EXPECT_EQ(bore_study.fewest_spacings, bore_study.rungs.front().number);
+    EXPECT_EQ(bore_study.most_spacings, bore_study.rungs.back().number);
 }
 
 TEST_F(Accuracy, C8NothingIsPromisedOfWetContact)

@@ -48,7 +48,7 @@ TEST_F(BenchmarkFiles, AGridMakesEveryCombinationInTheOrderOfTheFile)
     EXPECT_EQ(benchmark.runs[2].name, "coupled-2");
     EXPECT_EQ(benchmark.runs[2].set,
               (std::vector<std::string>{"contact.law=coupled", "body[0].spacing=0.01"}));
-    EXPECT_EQ(scope_of(benchmark, benchmark.runs[3]).numbers.at("n"), 2);
+    EXPECT_EQ(scope_of(benchmark.definitions, benchmark.runs[3]).numbers.at("n"), 2);
 }
 
 TEST_F(BenchmarkFiles, ACheckSaysWhatItIsHeldAgainst)
@@ -87,8 +87,8 @@ TEST_F(BenchmarkFiles, AParameterReplacesAConstantAndWhatFollowsFromIt)
 {
     const Benchmark benchmark = read(head + "[constants]\nh = 1\ndouble = \"2*h\"\n[[run]]\n"
                                             "name = \"high\"\ngrid = { h = 5 }\n");
-    EXPECT_EQ(scope_of(benchmark, benchmark.runs[0]).numbers.at("double"), 10);
-    EXPECT_EQ(scope_of(benchmark, {}).numbers.at("double"), 2);
+    EXPECT_EQ(scope_of(benchmark.definitions, benchmark.runs[0]).numbers.at("double"), 10);
+    EXPECT_EQ(scope_of(benchmark.definitions, {}).numbers.at("double"), 2);
 }
 
 TEST_F(BenchmarkFiles, WithoutRunsTheCaseRunsOnceAsItIs)

@@ -114,7 +114,8 @@ TEST_F(Measures, ErrorsFromExpressionsAndFromReferences)
     EXPECT_DOUBLE_EQ(error_from(quantity, "3", {}, files).value, std::sqrt(10.0 / 4));
     const Series reference{.file = "reference.csv", .where = {{"case", "one"}}, .value = "x"};
     // At 0.5 the run is 1.5, at 1.5 it is 3.5.
-    EXPECT_DOUBLE_EQ(error_from(quantity, reference, {}, files).value, std::sqrt(0.0625 / 2));
+    EXPECT_DOUBLE_EQ(error_from(quantity, samples(reference, {}, files), {}, files).value,
+                     std::sqrt(0.0625 / 2));
 }
 
 TEST_F(Measures, IntegralIsThatOfTheTrapezoids)

@@ -68,7 +68,7 @@ TEST_F(StudyFiles, OneSweepAtATimeLeavesTheOthersAsInTheCase)
     EXPECT_EQ(runs[1].run.set, (Texts{"time.end=1", "time.step=0.01"}));
     EXPECT_EQ(runs[3].run.set, (Texts{"time.end=1", "contact.law=\"paper\""}));
     EXPECT_EQ(runs[3].value_of, (std::vector<int>{-1, 1}));
-    EXPECT_EQ(scope_of(study, runs[1].run).numbers.at("step"), 0.01);
+    EXPECT_EQ(scope_of(study.definitions, runs[1].run).numbers.at("step"), 0.01);
 }
 
 TEST_F(StudyFiles, AGridMakesEveryCombinationTheLastSweepFastest)
@@ -120,12 +120,13 @@ TEST_F(StudyFiles, ThreadsAreSweptWithoutAKeyOfTheCase)
 TEST_F(StudyFiles, AQuantityIsHeldAgainstOneThing)
 {
     const std::string quantity = "[[quantity]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\n";
-    EXPECT_EQ(read(head + step + quantity + "against = \"finest\"\n").quantities[0].against,
-              StudyQuantity::Against::finest);
+    EXPECT_TRUE(
+        read(head + step + quantity + "against = \"finest\"\n").quantities[0].against_finest);
     put_text_into(folder / "a.csv", "x\n1\n");
     const auto with_reference =
         read(head + step + quantity + "reference = { file = \"a.csv\", value = \"x\" }\n");
-    EXPECT_EQ(with_reference.quantities[0].against, StudyQuantity::Against::reference);
+    EXPECT_TRUE(with_reference.quantities[0].expected.reference);
+    EXPECT_FALSE(with_reference.quantities[0].against_finest);
     EXPECT_NE(mistake(head + step + quantity).find("give one of `expected`"), std::string::npos);
     EXPECT_NE(mistake(head + step + quantity + "expected = 1\nagainst = \"finest\"\n")
                   .find("give one of `expected`"),

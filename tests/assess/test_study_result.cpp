@@ -24,36 +24,31 @@ struct Wrote {
 
 class StudyResults : public testing::ResultsTest {
 protected:
-    static StudySweep sweep(std::vector<double> values)
+    static StudySweep sweep(const std::vector<double>& values,
+                            const std::string& key = "particles.spacing")
     {
         StudySweep s;
-        s.key = "particles.spacing";
-        s.name = "spacing";
+        s.key = key;
+        s.name = key.substr(key.find('.') + 1);
         s.values.assign(values.begin(), values.end());
         return s;
     }
 
     static StudyQuantity last_x(const std::string& expected)
     {
-        StudyQuantity q;
-        q.name = "x";
-        q.unit = "m";
-        q.quantity.series.value = "x";
-        q.quantity.measure = Measure::last;
-        q.expected = expected;
-        q.against =
-            expected.empty() ? StudyQuantity::Against::finest : StudyQuantity::Against::expected;
-        return q;
+        return {.name = "x",
+                .unit = "m",
+                .quantity = {.series = {.value = "x"}, .measure = Measure::last},
+                .expected = {.formula = expected},
+                .against_finest = expected.empty()};
     }
 
     static Study study(std::vector<StudySweep> sweeps, const StudyQuantity& quantity)
     {
-        Study s;
-        s.title = "A | study";
-        s.case_file = "cases/drop/case.toml";
-        s.sweeps = std::move(sweeps);
-        s.quantities = {quantity};
-        return s;
+        return {.title = "A | study",
+                .case_file = "cases/drop/case.toml",
+                .sweeps = std::move(sweeps),
+                .quantities = {quantity}};
     }
 
     std::filesystem::path write(std::size_t k, const Wrote& wrote) const
@@ -133,9 +128,7 @@ TEST_F(StudyResults, WithoutAnExactAnswerTheFinestRunStandsForItAndTheLimitIsTol
 TEST_F(StudyResults, ErrorsAgainstDifferentRunsAreNotRanked)
 {
     // Spacing 2 and 1, then the factor 0.6 and 0.3 at a spacing whose error it does not see.
-    StudySweep factor = sweep({0.6, 0.3});
-    factor.key = "time.cfl";
-    factor.name = "cfl";
+    const StudySweep factor = sweep({0.6, 0.3}, "time.cfl");
     const StudyResult result = evaluated(study({sweep({4, 2, 1}), factor}, last_x("")),
                                          {{80, 1}, {95, 8}, {100, 64}, {95, 8}, {95.1, 16}});
     EXPECT_NEAR(result.runs[3].values[0].error, 0.1 / 95.1, 1e-12);
@@ -223,9 +216,7 @@ TEST_F(StudyResults, TablesStandOnThePageWithoutMarksOfMarkdownInThem)
 
 TEST_F(StudyResults, APictureShowsTheErrorsOfEveryRunAgainstCostAndNumbers)
 {
-    StudySweep step = sweep({0.4, 0.2});
-    step.key = "time.step";
-    step.name = "step";
+    const StudySweep step = sweep({0.4, 0.2}, "time.step");
     const StudyResult result =
         evaluated(study({sweep({0.2, 0.1, 0.05}), step}, last_x("10")),
                   {{10.4, 125}, {10.1, 1000}, {10.025, 8000}, {10.3, 250}, {10.2, 500}});

@@ -31,7 +31,7 @@ protected:
         result.runs = result.judged = result.xfail_runs = {"*"};
         result.quantity.series.value = "x";
         result.quantity.measure = Measure::last;
-        result.expected = expected;
+        result.expected.formula = expected;
         result.tolerance = tolerance;
         return result;
     }

@@ -19,7 +19,7 @@ void read_as_study(const std::filesystem::path& file)
             series_of(study, runs, sweep);
         }
         for (const StudyRun& run : runs) {
-            scope_of(study, run.run);
+            scope_of(study.definitions, run.run);
         }
     } catch (const CaseError&) {
         return;
@@ -31,7 +31,7 @@ void read_as_benchmark(const std::filesystem::path& folder)
     try {
         const Benchmark benchmark = read_benchmark(folder);
         for (const BenchmarkRun& run : benchmark.runs) {
-            scope_of(benchmark, run);
+            scope_of(benchmark.definitions, run);
         }
     } catch (const CaseError&) {
         return;

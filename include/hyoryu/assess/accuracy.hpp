@@ -21,6 +21,12 @@ struct ExpectedError {
     std::vector<std::string> not_covered; // how the scene differs from what was studied
 };
 
+/// A rung of a study: the number that is turned and the error there.
+struct StudiedRung {
+    double number = 0;
+    double error = 0; // [1]
+};
+
 /// What the runs of a study had in common with each other: it says nothing of a scene beyond.
 struct StudyCoverage {
     std::string_view study; // folder below docs/studies, also that of the case below cases
@@ -30,11 +36,11 @@ struct StudyCoverage {
     double most_spacings = infinity;
     std::span<const std::string_view> effects; // names in the plan of its case, but for gauges
     std::span<const std::string_view> models;  // those of them without which it says nothing
+    std::span<const StudiedRung> rungs;        // what docs/studies holds, from low to high numbers
 };
-/// Of still water, of the bore and of the timber.
-const StudyCoverage& still_water_coverage();
-const StudyCoverage& bore_coverage();
-const StudyCoverage& timber_coverage();
+/// Pressure of still water against c0/sqrt(g H), SPH; arrival of a bore against spacings in the
+/// depth; motion of the timber of 1 m against the step [s].
+extern const StudyCoverage still_water_study, bore_study, timber_study;
 
 /// How a scene differs from what a study covers, in words; empty if it covers the scene. `depth`:
 /// of the water [m]; 0 without water.
@@ -47,16 +53,5 @@ std::vector<ExpectedError> expected_errors(const Scene& scene, const Filling& fi
 
 /// For a terminal.
 std::string expected_errors_text(const std::vector<ExpectedError>& errors);
-
-/// A rung of a study: the number that is turned and the error there.
-struct StudiedRung {
-    double number = 0;
-    double error = 0; // [1]
-};
-/// Pressure of still water against c0/sqrt(g H), SPH; arrival of a bore against spacings in the
-/// depth; motion of the timber of 1 m against the step [s]: what docs/studies holds.
-std::span<const StudiedRung> still_water_rungs();
-std::span<const StudiedRung> bore_rungs();
-std::span<const StudiedRung> timber_rungs();
 
 } // namespace hyoryu

@@ -7,10 +7,12 @@
 #include "hyoryu/report/svg.hpp"
 #include "hyoryu/scene/scene.hpp"
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,11 +24,20 @@ enum class Tier { quick, nightly, release };
 std::string to_string(Tier tier);
 std::optional<Tier> tier_of(const std::string& name);
 
+/// As the files name them.
+inline constexpr std::array<std::string_view, 3> tier_names{"quick", "nightly", "release"};
+
 /// A parameter of a run: a number, usable in expressions, or a text.
 using RunParameter = std::variant<double, std::string>;
 
 /// Numbers, or expressions of the constants before them.
 using Constants = std::vector<std::pair<std::string, std::string>>;
+
+/// What the expressions of a file know besides the parameters of a run.
+struct Definitions {
+    Constants constants;
+    std::map<std::string, std::string> columns; // derived columns: expressions of other columns
+};
 
 /// One run of the case.
 struct BenchmarkRun {
@@ -48,7 +59,7 @@ struct Series {
     std::string value;                        // expression
 };
 
-/// One number of a series.
+/// One number of a series, as `measure` names it.
 enum class Measure {
     at,    // at the time `time`, linear between rows
     first, // row
@@ -74,6 +85,8 @@ enum class Measure {
     rms_error,     // root mean square of the difference from a series
     largest_error, // largest absolute difference from a series
 };
+/// Whether it is the difference from something expected.
+bool is_error_measure(Measure measure);
 
 /// Two bounds over time, for instance percentiles of repeated experiments.
 struct Band {
@@ -93,6 +106,12 @@ struct Quantity {
     std::string until; // only rows until this time [s]; may be empty
 };
 
+/// What a measured number ought to be.
+struct Expectation {
+    std::string formula;             // expression; of rows for the error measures
+    std::optional<Series> reference; // taken instead
+};
+
 /// How a measured number is judged against the expected one.
 enum class Comparison { equal, at_most, at_least };
 
@@ -106,7 +125,6 @@ enum class Against {
 };
 /// As `against` of verify.toml names it.
 std::string to_string(Against against);
-std::optional<Against> against_of(const std::string& name);
 
 struct Check {
     std::string name;
@@ -115,10 +133,9 @@ struct Check {
     std::vector<std::string> judged; // patterns of the runs in which it is judged as well
     Quantity quantity;
     Comparison comparison = Comparison::equal;
-    std::string expected;            // expression; of rows for the error measures
-    std::optional<Series> reference; // taken instead of `expected`
-    /// Taken instead of `expected`: the run in which the same quantity, with the parameters of that
-    /// run, is what is expected; holds `${...}` as the names of runs do.
+    Expectation expected;
+    /// Taken instead of what is expected: the run in which the same quantity, with the parameters
+    /// of that run, is what is expected; holds `${...}` as the names of runs do.
     std::string same_as;
     std::string tolerance; // expression: absolute, in the unit of the value; empty: relative
     double relative = 0;   // part of the expected value
@@ -174,8 +191,7 @@ struct Benchmark {
     std::vector<std::string> also; // other groups that it belongs to
     std::string source;            // of the reference
     std::string uncertainty;       // of the reference, in words; may be empty
-    Constants constants;
-    std::map<std::string, std::string> columns; // derived columns: expressions of other columns
+    Definitions definitions;
     std::vector<BenchmarkRun> runs;
     std::vector<Check> checks;
     std::vector<Figure> figures;
@@ -198,7 +214,7 @@ const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name
 
 /// Constants, derived columns and the numbers among the run's parameters; a parameter replaces the
 /// constant of its name. Throws FormulaError.
-Scope scope_of(const Benchmark& benchmark, const BenchmarkRun& run);
+Scope scope_of(const Definitions& definitions, const BenchmarkRun& run);
 
 /// The text with every `${...}` replaced by the run's parameter of that name if it is a text, else
 /// by the number that the expression gives. Throws FormulaError.

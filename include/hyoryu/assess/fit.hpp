@@ -8,6 +8,14 @@
 
 namespace hyoryu {
 
+/// The line through points by least squares.
+struct Line {
+    double slope = 0, offset = 0;
+    double deviation = 0; // of the slope; NaN for two points
+};
+/// Needs two different abscissae.
+Line fit_line(std::span<const double> x, std::span<const double> y);
+
 /// The power p of y = C x^p by least squares of the logarithms, with its interval of 95 %
 /// confidence (Student's t with n - 2 degrees of freedom); NaN bounds for two points.
 struct Power {

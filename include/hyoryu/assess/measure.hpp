@@ -52,15 +52,31 @@ struct Measured {
 Measured measure(const Quantity& quantity, const Scope& scope, const Samples& samples);
 
 /// Root mean square or largest absolute difference of the quantity from an expression of its rows,
-/// or from a reference series at the times of the reference, between which the run is linear.
+/// or from reference samples at their times, between which the run is linear.
 Measured error_from(const Quantity& quantity, const std::string& expected, const Scope& scope,
-                    RunFiles& files);
-Measured error_from(const Quantity& quantity, const Series& reference, const Scope& scope,
                     RunFiles& files);
 Measured error_from(const Quantity& quantity, const Samples& reference, const Scope& scope,
                     RunFiles& files);
 
 /// Share of the rows of the band, 0 to 1, in which the run, linear between its rows, lies within.
 Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& files);
+
+/// A run that was made, with the numbers that its expressions know and what it wrote.
+struct MadeRun {
+    const BenchmarkRun& run;
+    Scope scope;
+    RunFiles files;
+};
+
+/// What a quantity is in a run, and what it ought to be there.
+struct Compared {
+    double got = 0;      // NaN if it cannot be measured
+    double expected = 0; // NaN if nothing is; of an error measure zero
+    std::string why;     // there is no number of one of the two; empty if there is
+};
+/// By the expectation, or by the same quantity in another run, with the parameters of that run.
+/// `${...}` stands for what it is in each run. Throws FormulaError and IoError.
+Compared compare(const Quantity& quantity, const Expectation& expected, MadeRun& made,
+                 MadeRun* other = nullptr);
 
 } // namespace hyoryu

@@ -26,22 +26,19 @@ struct StudySweep {
     bool ordered() const { return numeric() && finest != Finest::none; }
 };
 
+/// As names of runs and legends have it.
+std::string text_of(const RunParameter& value);
+
 /// The key of a sweep over the threads of a run, which no case has.
 inline constexpr const char* threads_key = "threads";
 
 /// A measured number and what it ought to be.
 struct StudyQuantity {
-    enum class Against {
-        expected,  // an expression
-        reference, // a series
-        finest     // the value of the finest run of the sweep
-    };
     std::string name;
     std::string unit;
     Quantity quantity;
-    Against against = Against::expected;
-    std::string expected;
-    Series reference;
+    Expectation expected;
+    bool against_finest = false; // held against the finest run of the sweep instead
     /// Expression of what errors are divided by; empty: the magnitude of what is expected.
     std::string scale;
 };
@@ -57,8 +54,7 @@ struct Study {
     /// of one instruction set, to whose registers lists are filled up; empty: pair interactions, or
     /// steps where there are none.
     std::string cost;
-    Constants constants;
-    std::map<std::string, std::string> columns;
+    Definitions definitions;
     std::vector<StudySweep> sweeps;
     std::vector<StudyQuantity> quantities;
 };
@@ -79,9 +75,6 @@ std::vector<StudyRun> runs_of(const Study& study);
 
 /// What a sweep of numbers has in a run that it varies.
 double number_in(const Study& study, const StudyRun& run, std::size_t sweep);
-
-/// Constants, derived columns and parameters, for the expressions of a run. Throws FormulaError.
-Scope scope_of(const Study& study, const BenchmarkRun& run);
 
 /// The runs that differ in this sweep only from the first of them, in the order from coarse to
 /// fine where the sweep is numeric: one list for each combination of the other sweeps.

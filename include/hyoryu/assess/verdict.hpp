@@ -60,13 +60,6 @@ struct BenchmarkResult {
     std::vector<RunResult> runs;
 };
 
-/// A run that was made, with the numbers that its expressions know and what it wrote.
-struct MadeRun {
-    const BenchmarkRun& run;
-    Scope scope;
-    RunFiles files;
-};
-
 /// Measures and judges one check in one run that came to its end. `other`: the run that
 /// `check.same_as` names; null where it names none.
 CheckResult judge(const Check& check, MadeRun& made, MadeRun* other = nullptr);

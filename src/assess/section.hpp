@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading one table of a benchmark file: every mistake is noted with its place.
+// Reading one table of a benchmark or study file: every mistake is noted with its place.
 #pragma once
 
 #include "hyoryu/core/error.hpp"
@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct BenchmarkFile {
     std::vector<Diagnostic> mistakes;
 
     void error(const Place& place, std::string key, std::string what, std::string hint = {});
+    /// Throws CaseError with all of them if there are any.
+    void expect_no_mistakes() const;
 };
 
 class Section {
@@ -39,13 +42,16 @@ public:
     std::int64_t integer(std::string_view key, std::int64_t fallback);
     std::vector<std::string> texts(std::string_view key);
     std::vector<double> numbers(std::string_view key);
+    /// The place of the text among the names; none, which is no mistake, if it is not there.
+    std::optional<std::size_t> choice(std::string_view key,
+                                      std::span<const std::string_view> names);
     /// A number, or a text that is an expression (its syntax is checked); empty if not there.
     std::string expression(std::string_view key);
     /// The sub-table and the elements of a list of tables; none if not there.
     std::optional<Section> table(std::string_view key);
     std::vector<Section> tables(std::string_view key);
     /// The elements of a list of anything.
-    std::vector<const TomlNode*> items(std::string_view key);
+    std::vector<const TomlNode*> items(std::string_view key, std::string_view expected = "a list");
     /// The entries of a table whose keys are free, in the order of the file.
     std::vector<const TomlEntry*> entries(std::string_view key);
 
@@ -60,12 +66,30 @@ public:
 private:
     const TomlEntry* ask(std::string_view key);
     void mistyped(const TomlEntry& entry, std::string_view expected);
+    template <class T>
+    T value(std::string_view key, T fallback, std::string_view expected);
+    template <class T>
+    std::vector<T> list(std::string_view key, std::string_view expected);
 
     BenchmarkFile* file_;
     TomlNode node_;
     std::string path_;
     std::vector<std::string> asked_;
 };
+
+/// What the node holds as a text, a whole number or, also of a whole one, a number; nothing for
+/// anything else.
+template <class T>
+std::optional<T> value_in(const TomlNode& node)
+{
+    if constexpr (std::is_same_v<T, double>) {
+        if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
+            return static_cast<double>(*integer);
+        }
+    }
+    const auto* value = std::get_if<T>(&node.value);
+    return value != nullptr ? std::optional<T>(*value) : std::nullopt;
+}
 
 /// The text of a number or of a text; nothing for anything else.
 std::optional<std::string> scalar_text(const TomlNode& node);
