@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -39,7 +40,10 @@ namespace {
 /// Columns evaluated so far; a deque, because the addresses of its elements stay.
 class Columns {
 public:
-    Columns(const Scope& scope, const CsvTable& table) : scope_(scope), table_(table) {}
+    Columns(const Scope& scope, const CsvTable& table, const std::vector<std::size_t>& rows)
+        : scope_(scope), table_(table), rows_(rows)
+    {
+    }
 
     std::vector<double> of(const std::string& text)
     {
@@ -56,7 +60,7 @@ public:
             numbers[k] = constant ? number->second : 0;
             sources.push_back(constant ? nullptr : &named(formula.names()[k]));
         }
-        std::vector<double> values(table_.rows);
+        std::vector<double> values(rows_.size());
         for (std::size_t row = 0; row < values.size(); ++row) {
             for (std::size_t k = 0; k < numbers.size(); ++k) {
                 numbers[k] = sources[k] != nullptr ? (*sources[k])[row] : numbers[k];
@@ -71,23 +75,27 @@ private:
     const std::vector<double>& named(const std::string& name)
     {
         if (const auto* column = table_.find(name == "t" ? "time" : name)) {
+            std::vector<double>& numbers = columns_.emplace_back();
+            for (const std::size_t row : rows_) {
+                numbers.push_back(column->numbers[row]);
+            }
             const auto is_number = [](double x) { return !std::isnan(x); };
-            if (!column->texts.empty() &&
-                std::none_of(column->numbers.begin(), column->numbers.end(), is_number)) {
+            if (!column->texts.empty() && std::ranges::none_of(numbers, is_number)) {
                 throw FormulaError(fmt::format("the column \"{}\" holds texts", name));
             }
-            return column->numbers;
+            return numbers;
         }
         const auto derived = scope_.columns.find(name);
         if (derived == scope_.columns.end()) {
             refuse_name(name, scope_, &table_);
         }
-        return derived_.emplace_back(of(derived->second));
+        return columns_.emplace_back(of(derived->second));
     }
 
     const Scope& scope_;
     const CsvTable& table_;
-    std::deque<std::vector<double>> derived_;
+    const std::vector<std::size_t>& rows_;
+    std::deque<std::vector<double>> columns_;
     int depth_ = 0;
 };
 
@@ -107,9 +115,17 @@ double evaluate(const std::string& text, const Scope& scope)
     return formula.value(numbers);
 }
 
+std::vector<double> evaluate(const std::string& text, const Scope& scope, const CsvTable& table,
+                             const std::vector<std::size_t>& rows)
+{
+    return Columns(scope, table, rows).of(text);
+}
+
 std::vector<double> evaluate(const std::string& text, const Scope& scope, const CsvTable& table)
 {
-    return Columns(scope, table).of(text);
+    std::vector<std::size_t> rows(table.rows);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    return evaluate(text, scope, table, rows);
 }
 
 } // namespace hyoryu

@@ -13,6 +13,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace hyoryu {
 
@@ -43,42 +45,23 @@ CsvTable read_summary(const fs::path& file)
     return table;
 }
 
-bool holds(const CsvTable::Column& column, std::size_t row, const std::string& wanted)
+/// The rows that hold the wanted cells.
+std::vector<std::size_t> rows_where(const CsvTable& table,
+                                    const std::map<std::string, std::string>& where)
 {
-    return column.texts.empty() ? cell(column.numbers[row]) == wanted : column.texts[row] == wanted;
-}
-
-/// The rows that hold the wanted cells. Filtered before anything is computed: expressions then see
-/// one body at a time.
-CsvTable rows_where(const CsvTable& table, const std::map<std::string, std::string>& where)
-{
-    std::vector<const CsvTable::Column*> judged;
+    std::vector<std::size_t> rows(table.rows);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
     for (const auto& [name, wanted] : where) {
-        judged.push_back(table.find(name));
-        if (judged.back() == nullptr) {
+        const CsvTable::Column* column = table.find(name);
+        if (column == nullptr) {
             throw FormulaError(fmt::format("`where`: there is no column \"{}\"", name));
         }
+        std::erase_if(rows, [&, &text = wanted](std::size_t row) {
+            return text !=
+                   (column->texts.empty() ? cell(column->numbers[row]) : column->texts[row]);
+        });
     }
-    CsvTable kept;
-    for (const CsvTable::Column& column : table.columns) {
-        kept.columns.push_back({column.name, {}, {}});
-    }
-    for (std::size_t row = 0; row < table.rows; ++row) {
-        bool fits = true;
-        std::size_t k = 0;
-        for (const auto& [name, wanted] : where) {
-            fits = fits && holds(*judged[k++], row, wanted);
-        }
-        for (std::size_t c = 0; fits && c < kept.columns.size(); ++c) {
-            const CsvTable::Column& from = table.columns[c];
-            kept.columns[c].numbers.push_back(from.numbers[row]);
-            if (!from.texts.empty()) {
-                kept.columns[c].texts.push_back(from.texts[row]);
-            }
-        }
-        kept.rows += fits ? 1 : 0;
-    }
-    return kept;
+    return rows;
 }
 
 /// Every `stride`-th number from the `first`-th on.
@@ -161,25 +144,21 @@ Samples samples(const Series& series, const Scope& scope, RunFiles& files)
         return files.frame(series.frame.empty() ? std::numeric_limits<double>::quiet_NaN()
                                                 : evaluate(series.frame, scope));
     };
-    const CsvTable& whole = series.file == "fluid" ? of_frame() : files.table(series.file);
-    const CsvTable chosen = series.where.empty() ? CsvTable() : rows_where(whole, series.where);
-    const CsvTable& table = series.where.empty() ? whole : chosen;
-    Samples all;
-    all.values = evaluate(series.value, scope, table);
-    all.t = table.find("time") != nullptr ? evaluate("t", scope, table)
-                                          : std::vector<double>(table.rows, 0.0);
-    if (series.filter.empty()) {
-        return all;
-    }
-    const std::vector<double> keep = evaluate(series.filter, scope, table);
-    Samples kept;
-    for (std::size_t k = 0; k < keep.size(); ++k) {
-        if (keep[k] != 0) {
-            kept.t.push_back(all.t[k]);
-            kept.values.push_back(all.values[k]);
+    const CsvTable& table = series.file == "fluid" ? of_frame() : files.table(series.file);
+    std::vector<std::size_t> rows = rows_where(table, series.where);
+    if (!series.filter.empty()) {
+        const std::vector<double> keep = evaluate(series.filter, scope, table, rows);
+        std::vector<std::size_t> kept;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            if (keep[k] != 0) {
+                kept.push_back(rows[k]);
+            }
         }
+        rows = std::move(kept);
     }
-    return kept;
+    return {table.find("time") != nullptr ? evaluate("t", scope, table, rows)
+                                          : std::vector<double>(rows.size(), 0.0),
+            evaluate(series.value, scope, table, rows)};
 }
 
 } // namespace hyoryu

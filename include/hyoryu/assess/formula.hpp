@@ -20,8 +20,12 @@ struct Scope {
 /// The number that an expression of numbers gives. Throws FormulaError.
 double evaluate(const std::string& text, const Scope& scope);
 
-/// One value a row of the table; `t` stands for the column `time`. Numbers hide columns, and
-/// columns of the table hide derived ones. Throws FormulaError, also for a column of texts.
+/// One value for each of some rows of the table; `t` stands for the column `time`. Numbers hide
+/// columns, and columns of the table hide derived ones. Throws FormulaError, also for a column of
+/// texts.
+std::vector<double> evaluate(const std::string& text, const Scope& scope, const CsvTable& table,
+                             const std::vector<std::size_t>& rows);
+/// Of all rows.
 std::vector<double> evaluate(const std::string& text, const Scope& scope, const CsvTable& table);
 
 } // namespace hyoryu
