@@ -63,10 +63,9 @@ Tier tier_asked(const std::string& name)
     if (const auto tier = tier_of(name)) {
         return *tier;
     }
-    constexpr std::array<std::string_view, 3> tiers{"quick", "nightly", "release"};
     throw CaseError(
-        fmt::format("--tier: unknown \"{}\", expected one of {}", name, quoted_list(tiers)),
-        did_you_mean(name, tiers));
+        fmt::format("--tier: unknown \"{}\", expected one of {}", name, quoted_list(tier_names)),
+        did_you_mean(name, tier_names));
 }
 
 /// What a verify writes directly into its folder, beside a folder for each benchmark.

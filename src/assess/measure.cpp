@@ -203,38 +203,9 @@ Measured row_of(const Quantity& quantity, const Samples& s)
     return {s.values[row], ""};
 }
 
-double total(const std::vector<double>& values)
+double mean(const std::vector<double>& values)
 {
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-double number_of_all(Measure measure, const std::vector<double>& values)
-{
-    const auto [min, max] = std::minmax_element(values.begin(), values.end());
-    switch (measure) {
-    case Measure::first:
-        return values.front();
-    case Measure::last:
-        return values.back();
-    case Measure::min:
-        return *min;
-    case Measure::max:
-        return *max;
-    case Measure::mean:
-        return total(values) / static_cast<double>(values.size());
-    case Measure::sum:
-        return total(values);
-    case Measure::range:
-        return *max - *min;
-    case Measure::drift:
-        return values.back() - values.front();
-    case Measure::gain:
-        return largest_gain(values);
-    case Measure::growth:
-        return *std::max_element(values.begin(), values.end()) / values.front();
-    default:
-        return none; // not of the values alone
-    }
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 Measured error_of(Measure measure, const std::vector<double>& differences)
@@ -306,7 +277,34 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
     if (s.values.empty()) {
         return {none, "no row fits"};
     }
+    const std::vector<double>& values = s.values;
+    const auto [min, max] = std::ranges::minmax_element(values);
+    const auto level = [&] {
+        return quantity.level.empty() ? mean(values) : evaluate(quantity.level, scope);
+    };
     switch (quantity.measure) {
+    case Measure::first:
+        return {values.front(), ""};
+    case Measure::last:
+        return {values.back(), ""};
+    case Measure::min:
+        return {*min, ""};
+    case Measure::max:
+        return {*max, ""};
+    case Measure::range:
+        return {*max - *min, ""};
+    case Measure::growth:
+        return {*std::ranges::max_element(values) / values.front(), ""};
+    case Measure::drift:
+        return {values.back() - values.front(), ""};
+    case Measure::gain:
+        return {largest_gain(values), ""};
+    case Measure::mean:
+        return {mean(values), ""};
+    case Measure::sum:
+        return {std::accumulate(values.begin(), values.end(), 0.0), ""};
+    case Measure::integral:
+        return {integral(s), ""};
     case Measure::at:
         return at_time(s, evaluate(quantity.time, scope));
     case Measure::row:
@@ -315,18 +313,14 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
     case Measure::peak_time:
     case Measure::trough:
         return number_of_extremum(quantity, s);
-    case Measure::integral:
-        return {integral(s), ""};
-    case Measure::period:
-    case Measure::decay: {
-        const double level = quantity.level.empty() ? number_of_all(Measure::mean, s.values)
-                                                    : evaluate(quantity.level, scope);
-        return quantity.measure == Measure::period ? period(s, level) : decay(s, level);
-    }
     case Measure::crossing:
-        return crossing(s, evaluate(quantity.level, scope), quantity.index);
+        return crossing(s, level(), quantity.index);
+    case Measure::period:
+        return period(s, level());
+    case Measure::decay:
+        return decay(s, level());
     default:
-        return {number_of_all(quantity.measure, s.values), ""};
+        return {none, "is no measure of one series"};
     }
 }
 

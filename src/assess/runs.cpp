@@ -272,6 +272,12 @@ const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name
     return at == benchmark.runs.end() ? nullptr : &*at;
 }
 
+std::string cell(const RunParameter& value)
+{
+    const auto* number = std::get_if<double>(&value);
+    return number != nullptr ? cell(*number) : std::get<std::string>(value);
+}
+
 Scope scope_of(const Definitions& definitions, const BenchmarkRun& run)
 {
     Scope scope = with_parameters(definitions.constants, run.parameters);

@@ -34,9 +34,7 @@ std::string percent(double share)
 
 std::string value_text(const StudySweep& sweep, int index)
 {
-    const RunParameter& value = sweep.values[static_cast<std::size_t>(index)];
-    const auto* figure = std::get_if<double>(&value);
-    return figure != nullptr ? cell(*figure) : std::get<std::string>(value);
+    return cell(sweep.values[static_cast<std::size_t>(index)]);
 }
 
 std::string spread(const std::vector<double>& walls)

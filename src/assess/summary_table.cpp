@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Worst and rms errors over runs that share some parameters.
 #include "hyoryu/assess/verify_report.hpp"
-#include "hyoryu/io/results.hpp"
 #include "hyoryu/report/table.hpp"
 
 #include <fmt/format.h>
@@ -13,12 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-std::string text_of(const RunParameter& value)
-{
-    const auto* text = std::get_if<std::string>(&value);
-    return text != nullptr ? *text : cell(std::get<double>(value));
-}
-
 /// The values of the parameters that name a row of the table; empty if the run lacks one.
 std::vector<std::string> key_of(const BenchmarkRun& run, const std::vector<std::string>& by)
 {
@@ -26,7 +19,7 @@ std::vector<std::string> key_of(const BenchmarkRun& run, const std::vector<std::
     for (const std::string& name : by) {
         for (const auto& [parameter, value] : run.parameters) {
             if (parameter == name) {
-                key.push_back(text_of(value));
+                key.push_back(cell(value));
             }
         }
     }

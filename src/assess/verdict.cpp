@@ -14,8 +14,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// How far it is off, in the unit of the value; not positive within a bound. NaN if nothing could
 /// be measured.
 double distance_off(const CheckResult& result)
@@ -104,19 +102,8 @@ RunCost read_cost(RunFiles& files)
 
 std::string to_string(Verdict verdict)
 {
-    switch (verdict) {
-    case Verdict::pass:
-        return "PASS";
-    case Verdict::xfail:
-        return "XFAIL";
-    case Verdict::xpass:
-        return "XPASS";
-    case Verdict::measured:
-        return "measured";
-    case Verdict::fail:
-        break;
-    }
-    return "FAIL";
+    constexpr std::array names{"PASS", "FAIL", "XFAIL", "XPASS", "measured"};
+    return names[static_cast<std::size_t>(verdict)];
 }
 
 bool counts_as_failure(Verdict verdict)
@@ -128,7 +115,6 @@ CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
 {
     CheckResult result{.check = check.name,
                        .comparison = check.comparison,
-                       .got = none,
                        .because = check.because,
                        .against = check.against};
     // A check that cannot be made as it is written is no known failure.
@@ -155,9 +141,6 @@ CheckResult unmade(const Check& check, const std::string& error)
 {
     return {.check = check.name,
             .comparison = check.comparison,
-            .expected = none,
-            .got = none,
-            .allowed = none,
             .note = error.empty() ? "the run did not stop" : "the run stopped: " + error,
             .because = check.because,
             .against = check.against};
@@ -183,9 +166,6 @@ MadeRun* other_of(const Check& check, const Benchmark& benchmark, const MadeRun&
 CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
 {
     CheckResult result{.check = "stops and says why",
-                       .expected = none,
-                       .got = none,
-                       .allowed = none,
                        .note = error.empty() ? "it came to its end" : error,
                        .because = fmt::format("\"{}\"", run.stops)};
     result.against = Against::itself;

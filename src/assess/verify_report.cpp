@@ -42,25 +42,15 @@ std::string cost_text(const RunCost& cost)
                        static_cast<long long>(cost.steps), cost.microseconds_per_step());
 }
 
-const char* comparison_name(Comparison comparison)
-{
-    switch (comparison) {
-    case Comparison::at_most:
-        return "at_most";
-    case Comparison::at_least:
-        return "at_least";
-    case Comparison::equal:
-        break;
-    }
-    return "equal";
-}
+// In the order of `Comparison`.
+constexpr std::array comparison_names{"equal", "at_most", "at_least"};
 
 ordered_json json_of(const CheckResult& check)
 {
     // NaN has no JSON number; the library writes null.
     return {{"check", check.check},
             {"verdict", to_string(check.verdict)},
-            {"comparison", comparison_name(check.comparison)},
+            {"comparison", comparison_names[static_cast<std::size_t>(check.comparison)]},
             {"expected", check.expected},
             {"got", check.got},
             {"allowed", check.allowed},

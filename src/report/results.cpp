@@ -17,14 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-std::string read_text(const fs::path& file)
-{
-    return bytes_of_file(file);
-}
-
 ordered_json read_json(const fs::path& file)
 {
-    ordered_json value = ordered_json::parse(read_text(file), nullptr, false);
+    ordered_json value = ordered_json::parse(bytes_of_file(file), nullptr, false);
     if (!value.is_object()) {
         throw IoError(fmt::format("`{}` is damaged: it is not a JSON object", file.string()));
     }
@@ -80,7 +75,7 @@ double spacing_of(const TomlTable& root)
 void read_resolved_case(RunResults& run)
 {
     const fs::path file = run.folder / "case.toml";
-    run.case_text = read_text(file);
+    run.case_text = bytes_of_file(file);
     try {
         const TomlNode root = parse_toml(run.case_text);
         run.spacing = spacing_of(*root.table());

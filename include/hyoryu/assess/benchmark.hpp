@@ -29,6 +29,8 @@ inline constexpr std::array<std::string_view, 3> tier_names{"quick", "nightly", 
 
 /// A parameter of a run: a number, usable in expressions, or a text.
 using RunParameter = std::variant<double, std::string>;
+/// As tables have it; the shortest text that reads back as the same number.
+std::string cell(const RunParameter& value);
 
 /// Numbers, or expressions of the constants before them.
 using Constants = std::vector<std::pair<std::string, std::string>>;

@@ -23,15 +23,16 @@ std::string to_string(Verdict verdict);
 bool counts_as_failure(Verdict verdict);
 
 struct CheckResult {
+    static constexpr double none = std::numeric_limits<double>::quiet_NaN();
     std::string check;
     Verdict verdict = Verdict::fail;
     Comparison comparison = Comparison::equal;
-    double expected = 0;
-    double got = 0;     // NaN if nothing could be measured
-    double allowed = 0; // absolute difference; of no meaning for a bound
-    /// How far a known failure may be off [unit of the value]; NaN where none is known.
-    double known_within = std::numeric_limits<double>::quiet_NaN();
-    std::string note; // why nothing could be measured, or why it is known to fail
+    // In the unit of the value; NaN where there is none:
+    double expected = none;
+    double got = none;
+    double allowed = none;      // absolute difference; of no meaning for a bound
+    double known_within = none; // how far a known failure may be off
+    std::string note;           // why nothing could be measured, or why it is known to fail
     std::string because;
     std::optional<Against> against;
 };
