@@ -2,9 +2,9 @@
 // Scales and ticks against numbers worked out by hand, and what must survive thinning.
 #include "dice.hpp"
 #include "hyoryu/report/html.hpp"
-#include "hyoryu/report/table.hpp"
 #include "hyoryu/report/plan_view.hpp"
 #include "hyoryu/report/svg.hpp"
+#include "hyoryu/report/table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -289,6 +289,33 @@ TEST(Html, TextIsEscaped)
     const TextTable table{.heads = {{"<h>"}}, .rows = {{"a&b"}}};
     EXPECT_NE(html_table(table).find("<th>&lt;h&gt;</th>"), std::string::npos);
     EXPECT_NE(html_table(table).find("<td>a&amp;b</td>"), std::string::npos);
+}
+
+TEST(Tables, HoldEveryCellOnceInEachForm)
+{
+    using Align = TextTable::Align;
+    Dice dice(3);
+    for (int trial = 0; trial < 50; ++trial) {
+        TextTable table{{{"name"}, {"a | b", Align::right}}, {}};
+        for (int row = dice.below(5); row >= 0; --row) {
+            table.rows.push_back({std::string(static_cast<std::size_t>(dice.below(20)), 'x'),
+                                  dice.chance(0.5) ? "1 | 2" : "<3>\n4"});
+        }
+        const std::size_t rows = table.rows.size();
+        const std::string html = html_table(table), markdown = markdown_table(table),
+                          terminal = terminal_table(table);
+        EXPECT_EQ(count(html, "<tr>"), rows + 1);
+        EXPECT_EQ(count(html, " class=\"n\""), rows + 1);
+        EXPECT_EQ(html.find("<3>"), std::string::npos);
+        EXPECT_EQ(count(markdown, "\n"), rows + 2);
+        EXPECT_EQ(count(markdown, "|") - count(markdown, "\\|"), 3 * (rows + 2));
+        EXPECT_TRUE(markdown.starts_with("| name | a \\| b |\n| --- | ---: |\n"));
+        std::size_t widest = 4;
+        for (const auto& row : table.rows) {
+            widest = std::max(widest, row[0].size());
+        }
+        EXPECT_EQ(terminal.find("a | b"), widest + 2);
+    }
 }
 
 /// The box [0, 2] x [0, 1] x [0, 3] with outward triangles.
