@@ -153,23 +153,20 @@ void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
     ordered_json summary = read(folder / "summary.json");
     summary["peak_memory_bytes"] = spent.memory; // with what results.h5 took, which came later
     ordered_json& cost = summary["cost"];
-    cost["seconds_per_step"] = {
-        {"predicted", value_at(plan, "/cost/seconds_per_step")},
-        {"measured", spent.steps > 0 ? spent.wall_seconds / spent.steps : 0}};
-    cost["steps"] = {{"predicted", value_at(plan, "/time_step/steps")},
-                     {"measured", value_at(summary, "/steps")}};
-    cost["memory_bytes"] = {{"predicted", value_at(plan, "/forecast/memory_bytes")},
-                            {"measured", value_at(summary, "/peak_memory_bytes")}};
+    const auto add = [&](const char* name, const char* predicted, const ordered_json& told) {
+        cost[name] = {{"predicted", value_at(plan, predicted)}, {"measured", told}};
+    };
+    add("seconds_per_step", "/cost/seconds_per_step",
+        spent.steps > 0 ? spent.wall_seconds / spent.steps : 0);
+    add("steps", "/time_step/steps", value_at(summary, "/steps"));
+    add("memory_bytes", "/forecast/memory_bytes", value_at(summary, "/peak_memory_bytes"));
     cost["memory_bytes_per_fluid_particle"] = {
         {"predicted", per_fluid_particle(cost["memory_bytes"]["predicted"], plan)},
         {"measured", per_fluid_particle(cost["memory_bytes"]["measured"], plan)},
         {"of_it_columns", per_fluid_particle(value_at(plan, "/forecast/column_bytes"), plan)}};
-    cost["disk_bytes"] = {{"predicted", value_at(plan, "/forecast/disk_bytes")},
-                          {"measured", bytes_in(folder)}};
-    cost["wall_seconds"] = {{"predicted", value_at(plan, "/forecast/wall_seconds")},
-                            {"measured", spent.wall_seconds}};
-    cost["waiting_for_a_core"] = {{"predicted", value_at(plan, "/cost/waiting_for_a_core")},
-                                  {"measured", spent.waiting}};
+    add("disk_bytes", "/forecast/disk_bytes", bytes_in(folder));
+    add("wall_seconds", "/forecast/wall_seconds", spent.wall_seconds);
+    add("waiting_for_a_core", "/cost/waiting_for_a_core", spent.waiting);
     cost["effects"] = ordered_json::array();
     for (const ordered_json& effect : value_at(plan, "/on")) {
         const std::string name = effect.value("name", "");
