@@ -106,11 +106,6 @@ std::string to_string(Verdict verdict)
     return names[static_cast<std::size_t>(verdict)];
 }
 
-bool counts_as_failure(Verdict verdict)
-{
-    return verdict == Verdict::fail || verdict == Verdict::xpass;
-}
-
 CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
 {
     CheckResult result{.check = check.name,

@@ -145,7 +145,7 @@ std::string markdown_overview(const std::vector<BenchmarkResult>& results)
         table.rows.push_back(
             {fmt::format("[{}](#{})", result.benchmark.name, anchor(result.benchmark)),
              result.benchmark.group, to_string(lowest), std::to_string(result.runs.size()),
-             std::to_string(count.pass), std::to_string(count.fail + count.xpass),
+             std::to_string(count.pass), std::to_string(count.failed()),
              std::to_string(count.xfail), fmt::format("{:.3g} s", seconds)});
     }
     return markdown_table(table) + "\n";
@@ -199,7 +199,7 @@ std::string terminal_rows(const TableWidths& widths, const std::string& benchmar
 
 std::string summary_line(const Tally& tally)
 {
-    std::string line = fmt::format("{} passed, {} failed", tally.pass, tally.fail + tally.xpass);
+    std::string line = fmt::format("{} passed, {} failed", tally.pass, tally.failed());
     if (tally.xpass > 0) {
         line += fmt::format(" ({} of them pass although marked as known to fail)", tally.xpass);
     }
@@ -241,7 +241,7 @@ std::string verify_json(const std::vector<BenchmarkResult>& results, const Verif
                       {"wall_seconds", info.wall_seconds},
                       {"threads", info.threads}};
     json["passed"] = count.pass;
-    json["failed"] = count.fail + count.xpass;
+    json["failed"] = count.failed();
     json["known_to_fail"] = count.xfail;
     json["measured"] = count.measured;
     for (std::size_t k = 0; k < count.against.size(); ++k) {

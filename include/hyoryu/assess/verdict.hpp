@@ -20,7 +20,6 @@ enum class Verdict {
     measured, // not judged in this run
 };
 std::string to_string(Verdict verdict);
-bool counts_as_failure(Verdict verdict);
 
 struct CheckResult {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -79,6 +78,7 @@ struct Held {
 /// Checks by their verdicts.
 struct Tally {
     int pass = 0, fail = 0, xfail = 0, xpass = 0, measured = 0;
+    int failed() const { return fail + xpass; }
     std::array<Held, 5> against; // by `Against`
     Held unstated;               // the file does not say what they are held against
 };
