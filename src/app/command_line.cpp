@@ -25,15 +25,15 @@ constexpr const char* exit_code_text =
     "  1    a verification failed\n"
     "  2    the input is wrong; nothing was written\n"
     "  3    the simulation became unstable; the last good state is on disk\n"
-    "  4    reading or writing failed; all frames before it are whole\n"
-    "  130  interrupted; a checkpoint was written, --resume goes on";
+    "  4    reading or writing failed; all earlier frames are complete\n"
+    "  130  interrupted; a checkpoint was written, --resume continues";
 
 // The names of options, or of commands, that a word may have meant.
 std::string nearest(const std::string& word, const std::vector<std::string>& known)
 {
     const std::vector<std::string_view> views(known.begin(), known.end());
     const std::string hint = did_you_mean(word, views);
-    return hint.empty() ? "there are: " + fmt::format("{}", fmt::join(known, ", ")) : hint;
+    return hint.empty() ? "known: " + fmt::format("{}", fmt::join(known, ", ")) : hint;
 }
 
 std::vector<std::string> options_of(const CLI::App& command)
@@ -53,7 +53,7 @@ void refuse_unknown_command(const CLI::App& app, int argc, const char* const* ar
     const std::vector<std::string> known = command_names(app);
     const std::string word = argc > 1 ? argv[1] : "";
     if (!word.starts_with('-') && argc > 1 && std::ranges::find(known, word) == known.end()) {
-        throw CaseError(fmt::format("there is no command \"{}\"", word), nearest(word, known));
+        throw CaseError(fmt::format("unknown command \"{}\"", word), nearest(word, known));
     }
 }
 
@@ -121,8 +121,8 @@ int run_chosen(const CLI::App& app, const CommandOptions& options)
 
 int run_command_line(int argc, const char* const* argv)
 {
-    CLI::App app("Hyoryu: floods that carry debris. A particle fluid coupled both ways to rigid "
-                 "bodies that meet walls and each other through impulses.",
+    CLI::App app("Hyoryu simulates floods that carry debris: a particle fluid coupled in both "
+                 "directions to rigid bodies with impulse contact.",
                  "hyoryu");
     app.set_version_flag("--version", version_text(), "print version, commit and build options");
     app.require_subcommand(1);

@@ -28,8 +28,8 @@ ExportFormat format_named(const std::string& name)
     const auto found = std::ranges::find(formats, name);
     if (found == formats.end()) {
         const std::string hint = did_you_mean(name, formats);
-        throw CaseError(fmt::format("there is no format \"{}\"", name),
-                        hint.empty() ? fmt::format("there are: {}", quoted_list(formats)) : hint);
+        throw CaseError(fmt::format("unknown format \"{}\"", name),
+                        hint.empty() ? fmt::format("known: {}", quoted_list(formats)) : hint);
     }
     return static_cast<ExportFormat>(found - formats.begin());
 }
@@ -52,7 +52,7 @@ const FrameSet& set_named(const std::vector<FrameSet>& sets, const std::string& 
     }
     const std::string hint = did_you_mean(name, known);
     throw CaseError(fmt::format("--only: the run wrote no \"{}\"", name),
-                    hint.empty() ? fmt::format("there are: {}", quoted_list(known)) : hint);
+                    hint.empty() ? fmt::format("known: {}", quoted_list(known)) : hint);
 }
 
 std::vector<FrameSet> chosen_sets(const ConvertOptions& options, ExportFormat format)
@@ -101,8 +101,8 @@ void keep_nearest(FrameSet& set, const std::vector<double>& times)
 
 [[noreturn]] void refuse_conversion(const fs::path& place)
 {
-    throw CaseError(fmt::format("`{}` holds an earlier conversion", place.string()),
-                    "--force replaces it, -o names another place");
+    throw CaseError(fmt::format("`{}` contains an earlier conversion", place.string()),
+                    "--force replaces it, -o selects another location");
 }
 
 // A folder that has the mark of a conversion, and no files of an earlier one.
@@ -135,8 +135,9 @@ void expect_free_file(const fs::path& file, const ConvertOptions& options)
         return;
     }
     if (!is_exported_vtkhdf(file)) {
-        throw CaseError(fmt::format("`{}` is there and no conversion wrote it", file.string()),
-                        "choose another file with -o");
+        throw CaseError(
+            fmt::format("`{}` exists and was not written by a conversion", file.string()),
+            "choose another file with -o");
     }
     if (!options.force) {
         refuse_conversion(file);
@@ -184,15 +185,15 @@ int convert_results(const ConvertOptions& options)
     if (!fs::exists(options.folder / "plan.json")) {
         throw CaseError(
             fmt::format("{} is not a results folder: it has no plan.json", options.folder.string()),
-            "give the folder that `hyoryu run` wrote");
+            "give a folder written by `hyoryu run`");
     }
     std::vector<FrameSet> sets = chosen_sets(options, format);
     for (FrameSet& set : sets) {
         keep_nearest(set, options.times);
     }
     if (number_of_frames(sets) == 0) {
-        throw CaseError(fmt::format("{} holds no frames yet", options.folder.string()),
-                        "`hyoryu info` tells what it holds");
+        throw CaseError(fmt::format("{} contains no frames yet", options.folder.string()),
+                        "`hyoryu info` lists its contents");
     }
     if (format == ExportFormat::vtkhdf) {
         convert_to_file(options, sets);

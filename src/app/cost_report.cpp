@@ -34,7 +34,7 @@ ordered_json read(const std::filesystem::path& file)
                              ? ordered_json::parse(bytes_of_file(file), nullptr, false)
                              : ordered_json();
     if (!value.is_object()) {
-        throw IoError(fmt::format("{} is missing or damaged, so the cost of the run cannot be told",
+        throw IoError(fmt::format("{} is missing or damaged, so the cost of the run is unknown",
                                   file.string()));
     }
     return value;

@@ -27,7 +27,7 @@ struct Record {
 
     IoError damage(const std::string& key, const char* expected) const
     {
-        return IoError(fmt::format("`{}` is damaged: `{}` is no {}", file, key, expected));
+        return IoError(fmt::format("`{}` is damaged: `{}` is not a {}", file, key, expected));
     }
     std::string text(const std::string& key) const
     {
@@ -203,7 +203,7 @@ int show_info(const InfoOptions& options)
     if (!fs::exists(options.folder / "plan.json")) {
         throw CaseError(
             fmt::format("{} is not a results folder: it has no plan.json", options.folder.string()),
-            "give the folder that `hyoryu run` wrote");
+            "give a folder written by `hyoryu run`");
     }
     const json info = info_of(options.folder);
     if (options.json) {

@@ -20,7 +20,7 @@
 namespace {
 
 constexpr const char* out_of_memory =
-    "error: out of memory; `hyoryu check` tells what a case needs";
+    "error: out of memory; `hyoryu check` prints the memory that a case needs";
 
 // The exit code must come out even where the message cannot: fmt::print would throw.
 int fail(const std::string& message, int code)
@@ -63,7 +63,7 @@ int main(int argc, char** argv)
     } catch (const CaseError& error) {
         return fail(error.what(), exit_code::input);
     } catch (const NumericalError& error) {
-        return fail(fmt::format("error: the numbers went wrong: {}", error.what()),
+        return fail(fmt::format("error: the simulation became unstable: {}", error.what()),
                     exit_code::numbers);
     } catch (const IoError& error) {
         return fail(fmt::format("error: {}", error.what()), exit_code::io);

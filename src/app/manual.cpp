@@ -146,8 +146,7 @@ std::string manual_page(const ProgramText& texts, const std::string& command)
         }
         known.push_back(one.name);
     }
-    throw CaseError(fmt::format("there is no command \"{}\"", command),
-                    did_you_mean(command, known));
+    throw CaseError(fmt::format("unknown command \"{}\"", command), did_you_mean(command, known));
 }
 
 } // namespace hyoryu

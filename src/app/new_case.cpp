@@ -44,9 +44,9 @@ const Template& template_named(const std::string& name)
     std::string spelled = name;
     std::ranges::replace(spelled, '-', '_');
     const std::string hint = did_you_mean(spelled, known);
-    throw CaseError(fmt::format("there is no template \"{}\"", name),
+    throw CaseError(fmt::format("unknown template \"{}\"", name),
                     (hint.empty() ? "" : hint + "; ") +
-                        fmt::format("there are: {}", quoted_list(known)));
+                        fmt::format("known: {}", quoted_list(known)));
 }
 
 // A name that ends in .toml is that of the case file, any other that of its folder.
@@ -86,8 +86,9 @@ int write_new_case(const NewOptions& options)
     const fs::path file = case_file_of(options, chosen.name);
     make_folder_of(file);
     if (!write_new_text(file, chosen.text)) {
-        throw CaseError(fmt::format("`{}` is there already", file.string()),
-                        "nothing is overwritten: give another name, or remove it yourself");
+        throw CaseError(
+            fmt::format("`{}` already exists", file.string()),
+            "existing files are not overwritten: give another name, or remove the file");
     }
     fmt::print("case: {0}\ncheck it:  {1} check {0}\nrun it:    {1} run {0}\n", file.string(),
                options.program);

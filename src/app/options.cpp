@@ -23,7 +23,7 @@ const CLI::Validator finite(
         double value = 0;
         const bool number = CLI::detail::lexical_cast(text, value);
         return number && std::isfinite(value) ? std::string()
-                                              : fmt::format("\"{}\" is no finite number", text);
+                                              : fmt::format("\"{}\" is not a finite number", text);
     },
     "");
 
@@ -43,7 +43,7 @@ void add_run(CLI::App& app, RunOptions& options)
         ->required()
         ->check(a_name);
     run->add_option("-o,--output", options.folder,
-                    "results folder (default: the case's name + -results, here)")
+                    "results folder (default: name of the case + -results, in the current folder)")
         ->type_name("FOLDER")
         ->check(a_name);
     run->add_option("--set", options.overrides,
@@ -57,14 +57,14 @@ void add_run(CLI::App& app, RunOptions& options)
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
         ->type_name("SECONDS")
         ->check(finite & CLI::NonNegativeNumber);
-    run->add_flag("--resume", options.resume, "go on from the checkpoint in the results folder");
+    run->add_flag("--resume", options.resume, "continue from the checkpoint in the results folder");
     run->add_flag("--force", options.force, "replace an existing results folder");
-    run->add_flag("--quiet", options.quiet, "no progress");
+    run->add_flag("--quiet", options.quiet, "no progress output");
 }
 
 void add_check(CLI::App& app, CheckOptions& options)
 {
-    auto* check = app.add_subcommand("check", "find every mistake of a case and show its plan");
+    auto* check = app.add_subcommand("check", "report all errors of a case and show its plan");
     check->add_option("CASE", options.case_file, "case file (TOML)")
         ->type_name("FILE.toml")
         ->required()
@@ -77,10 +77,10 @@ void add_check(CLI::App& app, CheckOptions& options)
     auto* json = check->add_flag("--json", options.json, "print the plan as JSON");
     check
         ->add_flag("--accuracy", options.accuracy,
-                   "also the error to expect, from the standing studies")
+                   "also print the expected error, from the standing studies")
         ->excludes(json);
     check->add_flag("--time", options.time,
-                    "time some steps of the case for the forecast, and what each effect takes");
+                    "measure some steps of the case for the forecast, and the cost of each effect");
 }
 
 void add_describe(CLI::App& app, DescribeOptions& options)
@@ -92,7 +92,8 @@ void add_describe(CLI::App& app, DescribeOptions& options)
 
 void add_render(CLI::App& app, RenderOptions& options)
 {
-    auto* render_ = app.add_subcommand("render", "pictures and an animation of a run, off-screen");
+    auto* render_ =
+        app.add_subcommand("render", "render pictures and an animation of a run, off-screen");
     add_results(*render_, options.folder);
     render_
         ->add_option("--times", options.settings.times,
@@ -112,22 +113,23 @@ void add_render(CLI::App& app, RenderOptions& options)
     render_->add_option("--elevation", options.settings.elevation_deg, "camera height [deg]")
         ->type_name("DEGREES")
         ->check(finite);
-    render_->add_option("--fps", options.settings.fps, "frames a second of the animation")
+    render_->add_option("--fps", options.settings.fps, "frames per second of the animation")
         ->type_name("N")
         ->check(CLI::Range(1, 120));
 }
 
 void add_report(CLI::App& app, ReportOptions& options)
 {
-    auto* report = app.add_subcommand("report", "one self-contained HTML page about a run");
+    auto* report = app.add_subcommand("report", "write one self-contained HTML page about a run");
     add_results(*report, options.folder);
-    report->add_option("-o,--output", options.file, "the page (default: RESULTS/report.html)")
+    report
+        ->add_option("-o,--output", options.file, "file of the page (default: RESULTS/report.html)")
         ->type_name("FILE")
         ->check(a_name);
     report
         ->add_option("--stiffness", options.stiffness,
-                     "contact stiffness k [N/m] of every impact, for peak forces u sqrt(k m) "
-                     "(default: as the case declares for pairs of materials)")
+                     "contact stiffness k [N/m] of all impacts, for peak forces u sqrt(k m) "
+                     "(default: the values of the pairs of materials in the case)")
         ->type_name("N/m")
         ->check(finite & CLI::PositiveNumber);
 }
@@ -135,7 +137,7 @@ void add_report(CLI::App& app, ReportOptions& options)
 void add_verify(CLI::App& app, VerifyOptions& options)
 {
     auto* verify_ = app.add_subcommand("verify", "run benchmarks against their references");
-    verify_->add_option("NAME", options.names, "benchmarks or groups of them (default: all)")
+    verify_->add_option("NAME", options.names, "benchmarks or groups of benchmarks (default: all)")
         ->type_name("NAME");
     verify_->add_option("--tier", options.tier, "quick (default), nightly or release")
         ->type_name("quick|nightly|release");
@@ -161,14 +163,16 @@ void add_verify(CLI::App& app, VerifyOptions& options)
 
 void add_study(CLI::App& app, StudyOptions& options)
 {
-    auto* study = app.add_subcommand("study", "accuracy against cost over values of case keys");
+    auto* study =
+        app.add_subcommand("study", "measure accuracy against cost over values of case keys");
     study->add_option("STUDY", options.file, "study file (TOML)")
         ->type_name("FILE.toml")
         ->required()
         ->check(a_name);
     study
-        ->add_option("-o,--output", options.folder,
-                     "results folder (default: the study's name + -results, here)")
+        ->add_option(
+            "-o,--output", options.folder,
+            "results folder (default: name of the study + -results, in the current folder)")
         ->type_name("FOLDER")
         ->check(a_name);
     study->add_option("--threads", options.threads, "threads of each run (default: 1)")
@@ -176,17 +180,17 @@ void add_study(CLI::App& app, StudyOptions& options)
         ->check(CLI::Range(1, 4096));
     study
         ->add_option("--jobs", options.jobs,
-                     "runs side by side, where memory allows; disturbs wall times (default: 1)")
+                     "parallel runs, as far as memory allows; disturbs wall times (default: 1)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
-    study->add_flag("--force", options.force, "run again what an earlier call has done");
+    study->add_flag("--force", options.force, "repeat finished runs");
 }
 
 void add_bench(CLI::App& app, BenchOptions& options)
 {
     auto* bench = app.add_subcommand(
-        "bench", "measure the limits of this machine and how near the solver comes to them");
-    auto* quick = bench->add_flag("--quick", options.quick, "small scenes: that it works");
+        "bench", "measure the limits of this machine and the rates of the solver");
+    auto* quick = bench->add_flag("--quick", options.quick, "small scenes, as a quick test");
     bench->add_flag("--full", options.full, "up to 10 million fluid particles (ten minutes, 9 GB)")
         ->excludes(quick);
     bench
@@ -205,38 +209,39 @@ void add_bench(CLI::App& app, BenchOptions& options)
         ->check(a_name);
     bench
         ->add_option("--state", options.state,
-                     "keep the developed flow in this folder, and take it from there")
+                     "folder in which the developed flow is kept for later calls")
         ->type_name("FOLDER")
         ->check(a_name);
 }
 
 void add_info(CLI::App& app, InfoOptions& options)
 {
-    auto* info = app.add_subcommand("info", "what a results folder holds");
+    auto* info = app.add_subcommand("info", "list the contents of a results folder");
     add_results(*info, options.folder);
     info->add_flag("--json", options.json, "the same as JSON, for programs");
 }
 
 void add_new(CLI::App& app, NewOptions& options)
 {
-    auto* new_ = app.add_subcommand("new", "write a commented case to begin with");
-    new_->add_option("TEMPLATE", options.name, "which case, see below")
+    auto* new_ = app.add_subcommand("new", "write a commented case to start from");
+    new_->add_option("TEMPLATE", options.name, "name of the template, see below")
         ->type_name("TEMPLATE")
         ->required()
         ->check(a_name);
     new_->add_option("FILE", options.file,
-                     "the case file, or the folder for a case.toml (default: TEMPLATE.toml, here)")
+                     "the case file, or the folder for a case.toml (default: TEMPLATE.toml, in the "
+                     "current folder)")
         ->type_name("FILE")
         ->check(a_name);
     new_->footer("Templates:\n"
-                 "  tank                   still water: pressure at rest\n"
+                 "  tank                   still water: hydrostatic pressure\n"
                  "  dam_break              a column of water collapses and hits a wall\n"
                  "  floating_body          a box comes to rest at its draft\n"
                  "  bore_with_debris       a bore throws timbers and a container at a house\n"
                  "  street_with_buildings  a flood between buildings carries cars along\n"
                  "  contact_alone          bodies without water fall on a ramp\n"
                  "\n"
-                 "A file that is there already is never replaced.");
+                 "An existing file is never replaced.");
 }
 
 void add_convert(CLI::App& app, ConvertOptions& options)
@@ -253,7 +258,7 @@ void add_convert(CLI::App& app, ConvertOptions& options)
         ->check(a_name);
     convert
         ->add_option("--only", options.only,
-                     "only these of fluid, bodies, walls, surfaces, structures")
+                     "only these series: fluid, bodies, walls, surfaces, structures")
         ->type_name("NAME,NAME...")
         ->delimiter(',');
     convert->add_option("--times", options.times, "only the frames nearest to these times [s]")
@@ -263,27 +268,25 @@ void add_convert(CLI::App& app, ConvertOptions& options)
     convert->add_flag("--force", options.force, "replace an earlier conversion");
     convert->footer(
         "Formats:\n"
-        "  vtp     RESULTS/vtp: a .vtp file a frame (VTK PolyData, inline base64), and a .pvd "
+        "  vtp     RESULTS/vtp: one .vtp file per frame (VTK PolyData, inline base64), and a .pvd "
         "file\n"
-        "          for each of fluid, bodies, walls, surfaces, structures, which knows their "
-        "times\n"
-        "  csv     RESULTS/csv: a table a frame of fluid, bodies and walls, one row a particle,\n"
-        "          and a table of their times\n"
+        "          with the times for each of fluid, bodies, walls, surfaces, structures\n"
+        "  csv     RESULTS/csv: one table per frame of fluid, bodies and walls, one row per\n"
+        "          particle, and a table of their times\n"
         "  vtkhdf  RESULTS/all.vtkhdf: one temporal VTKHDF 2 file for ParaView 5.12 and later. It\n"
-        "          refers to the frames of fluid, bodies and walls, which must stay where they "
-        "are\n"
+        "          refers to the frames of fluid, bodies and walls, which must not be moved\n"
         "\n"
-        "Frames stay as they are. Files that no conversion wrote are never replaced.");
+        "The frames are not changed. Only files of an earlier conversion are replaced.");
 }
 
 void add_completions(CLI::App& app, std::string& shell)
 {
     auto* completions =
-        app.add_subcommand("completions", "print the script by which a shell completes commands");
+        app.add_subcommand("completions", "print the completion script for a shell");
     completions->add_option("SHELL", shell, "bash, zsh or fish")
         ->type_name("bash|zsh|fish")
         ->required();
-    completions->footer("Where it goes:\n"
+    completions->footer("Installation:\n"
                         "  bash  source <(hyoryu completions bash)\n"
                         "  zsh   hyoryu completions zsh > DIR/_hyoryu, DIR being in $fpath\n"
                         "  fish  hyoryu completions fish > ~/.config/fish/completions/hyoryu.fish");

@@ -41,8 +41,8 @@ const std::vector<std::int64_t>& rows_in(const Snapshot& snapshot)
                            ? nullptr
                            : std::get_if<std::vector<std::int64_t>>(&found->second.values);
     if (rows == nullptr || rows->size() != 4) {
-        throw IoError("the checkpoint does not tell the rows of the histories: another version "
-                      "wrote it");
+        throw IoError(
+            "the checkpoint has no row counts of the histories: it was written by another version");
     }
     return *rows;
 }
@@ -99,13 +99,13 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     const auto found = resumed.arrays.find(resting_array);
     if (found != resumed.arrays.end()) {
         if (!std::holds_alternative<std::vector<double>>(found->second.values)) {
-            throw IoError("the contacts of the checkpoint are no numbers: it is damaged");
+            throw IoError("the contacts of the checkpoint are not numbers: it is damaged");
         }
         const auto& n = std::get<std::vector<double>>(found->second.values);
         for (std::size_t k = 0; k + resting_numbers <= n.size(); k += resting_numbers) {
             const Contact sum = contact_of(std::span(n).subspan(k, resting_numbers));
             if (!is_of(sim, sum)) {
-                throw IoError("the checkpoint has a contact of no body: it is damaged");
+                throw IoError("the checkpoint has a contact of an unknown body: it is damaged");
             }
             resting_[{sum.a, sum.b}] = {sum.time, sum, n[k + resting_numbers - 1]};
         }

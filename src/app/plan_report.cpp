@@ -44,11 +44,11 @@ std::string gauge_lines(const Scene& scene, const Plan& plan)
     if (plan.gauges.empty()) {
         return {};
     }
-    std::string text = fmt::format("  gauges, a row {}: about {:.0f} rows, {} of work\n",
-                                   scene.output.gauge_every > 0
-                                       ? fmt::format("every {} s", scene.output.gauge_every)
-                                       : "every step",
-                                   plan.gauge_rows, readable_seconds(gauge_seconds(plan)));
+    std::string text = fmt::format(
+        "  gauges, one row {}: about {:.0f} rows, {} of computing time\n",
+        scene.output.gauge_every > 0 ? fmt::format("every {} s", scene.output.gauge_every)
+                                     : "every step",
+        plan.gauge_rows, readable_seconds(gauge_seconds(plan)));
     for (const auto& gauge : plan.gauges) {
         text += fmt::format("    {:<22} {}\n{:27}columns {}\n", gauge.name, gauge.what, "",
                             gauge.columns);
@@ -131,7 +131,7 @@ std::string memory_lines(const Scene& scene, const Plan& plan, const std::option
         fmt::format("    memory                 about {} resident", readable_bytes(memory));
     if (plan.counts.fluid > 0) {
         const auto fluid = static_cast<double>(plan.counts.fluid);
-        text += fmt::format(", {} for each fluid particle\n{:27}of it columns {}, {} for each",
+        text += fmt::format(", {} per fluid particle\n{:27}of which columns {}, {} per particle",
                             readable_bytes(memory / fluid), "", readable_bytes(column_bytes(plan)),
                             readable_bytes(column_bytes(plan) / fluid));
     }
@@ -183,8 +183,9 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
 {
     const std::string about = readable_seconds(wall_forecast(plan, timed));
     if (!plan.fluid && timed) {
-        return fmt::format("    run time               about {}, by {:.3g} s a step timed now\n",
-                           about, seconds_of_run(*timed)) +
+        return fmt::format(
+                   "    run time               about {}, at {:.3g} s per step, measured now\n",
+                   about, seconds_of_run(*timed)) +
                busy_lines(plan, *timed);
     }
     if (!plan.fluid) {
@@ -198,8 +199,8 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
                            about, thread_count());
     }
     std::string text = fmt::format(
-        "    run time               about {} on {} threads, by {:.3g} s a step timed now\n", about,
-        thread_count(), timed->seconds);
+        "    run time               about {} on {} threads, at {:.3g} s per step, measured now\n",
+        about, thread_count(), timed->seconds);
     text += busy_lines(plan, *timed);
     for (const StepCost::Share& share : timed->effects) {
         text += fmt::format("      {:<20} {}\n", share.effect, share_text(share));
@@ -209,7 +210,7 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
         text +=
             fmt::format("      {:<20} steps {:.2f} times as long as the first, and {:.2f} times as "
                         "many\n      {:<20} (the same at {} times the spacing, {:.1f} s)\n",
-                        "as the flow develops", d.step, d.steps, "", d.coarsening, d.seconds);
+                        "development of flow", d.step, d.steps, "", d.coarsening, d.seconds);
     }
     return text;
 }
@@ -283,13 +284,14 @@ std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<
         std::size_t of_all = 0;
         std::size_t of_fluid = 0;
         for (const auto& field : plan.fields) {
-            text += fmt::format("    {:<22} {:<8} {:>3} B{}\n", field.name, field.unit,
-                                field.bytes_per_particle,
-                                field.of_fluid_alone ? "  of fluid alone" : "");
+            text +=
+                fmt::format("    {:<22} {:<8} {:>3} B{}\n", field.name, field.unit,
+                            field.bytes_per_particle, field.of_fluid_alone ? "  fluid only" : "");
             (field.of_fluid_alone ? of_fluid : of_all) += field.bytes_per_particle;
         }
-        text += fmt::format("    {:<22} {:<8} {:>3} B a particle of fluid, {} B one of a solid\n",
-                            "together", "", of_all + of_fluid, of_all);
+        text +=
+            fmt::format("    {:<22} {:<8} {:>3} B per fluid particle, {} B per solid particle\n",
+                        "together", "", of_all + of_fluid, of_all);
     }
     return text + material_lines(scene, plan) + gauge_lines(scene, plan) +
            size_lines(scene, plan, timed) + time_lines(scene, plan, timed);

@@ -34,14 +34,14 @@ constexpr std::size_t most_listed = 20;
         const auto value = [](const std::string& text) {
             return text.empty() ? "no such key" : text;
         };
-        mistakes.push_back({.file = scene.file.string(),
-                            .key = d.key,
-                            .what = fmt::format("the checkpoint was written with {}, the case has "
-                                                "{}: geometry and physics cannot change on the way",
-                                                value(d.before), value(d.after))});
+        mistakes.push_back(
+            {.file = scene.file.string(),
+             .key = d.key,
+             .what = fmt::format("the checkpoint was written with {}, the case has {}: geometry "
+                                 "and physics cannot change in a resumed run",
+                                 value(d.before), value(d.after))});
     }
-    mistakes.back().hint =
-        "run with the case.toml in the results folder, or start anew with --force";
+    mistakes.back().hint = "run with the case.toml in the results folder, or restart with --force";
     throw CaseError(mistakes);
 }
 
@@ -49,13 +49,14 @@ Scene case_of(const Snapshot& state)
 {
     const auto stored = state.texts.find("case");
     if (stored == state.texts.end()) {
-        throw IoError("the checkpoint does not hold its case: it is damaged");
+        throw IoError("the checkpoint does not contain its case: it is damaged");
     }
     try {
         return parse_case(stored->second, "checkpoint");
     } catch (const CaseError& error) {
-        throw IoError(fmt::format("the case of the checkpoint cannot be read: another version "
-                                  "wrote it, or a file that it names has changed\n{}",
+        throw IoError(fmt::format("the case of the checkpoint cannot be read: it was written by "
+                                  "another version, or a file that it names has changed\n"
+                                  "{}",
                                   error.what()));
     }
 }
@@ -116,7 +117,7 @@ Resumption resumption_of(const fs::path& folder, const Scene& scene)
                         .key = "time.end",
                         .what = fmt::format("{} s is before the checkpoint, which is at {} s",
                                             scene.time.end, time),
-                        .hint = "a later end, or start anew with --force"}});
+                        .hint = "a later end, or restart with --force"}});
     }
     if (found.changed) {
         carry_over(state, before, found.scene);

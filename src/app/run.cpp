@@ -89,9 +89,11 @@ void check_memory(const Plan& plan)
 {
     const double memory = machine_memory();
     if (plan.memory > memory) {
-        throw CaseError(fmt::format("the run needs about {}, and {} is what this process may use",
-                                    readable_bytes(plan.memory), readable_bytes(memory)),
-                        "increase `particles.spacing`");
+        throw CaseError(
+            fmt::format(
+                "the run needs about {} of memory, but only {} are available to this process",
+                readable_bytes(plan.memory), readable_bytes(memory)),
+            "increase `particles.spacing`");
     }
 }
 
@@ -155,11 +157,10 @@ void recover(Job& job, const NumericalError& error)
     sim.timer = job.sim.timer;
     sim.steps_by_limit = job.sim.steps_by_limit;
     sim.pair_visits = job.sim.pair_visits;
-    job.progress.line(fmt::format("note: the numbers went wrong: {}", error.what()));
-    job.progress.line(
-        fmt::format("recovery: back to t = {} s, and from there to the end with steps "
-                    "of {} of what the limits allow",
-                    sim.clock.time, sim.clock.share));
+    job.progress.line(fmt::format("note: the simulation became unstable: {}", error.what()));
+    job.progress.line(fmt::format(
+        "recovery: back to t = {} s, then to the end with time steps of {} of the limits",
+        sim.clock.time, sim.clock.share));
     job.outputs.reset(); // all that it holds back is on disk before it is read again
     job.outputs.emplace(job.folder, sim, job.last_good);
     job.sim = std::move(sim);
@@ -212,13 +213,12 @@ void tell_doubts(Job& job)
     constexpr double noteworthy = 0.1; // ten times what the sound speed is chosen for
     const double compression = job.sim.ledger.worst_density_error;
     if (compression > noteworthy) {
-        job.progress.line(
-            fmt::format("note: the density of some fluid was off by up to {:.0f} %, as happens "
-                        "when it is squeezed between solids",
-                        100 * compression));
+        job.progress.line(fmt::format("note: the density error reached {:.0f} %, which is typical "
+                                      "of fluid squeezed between solids",
+                                      100 * compression));
     }
     if (job.sim.fluid && job.sim.fluid->lost.count > 0) {
-        job.progress.line(fmt::format("note: {} fluid particles left the domain and were taken out",
+        job.progress.line(fmt::format("note: {} fluid particles left the domain and were removed",
                                       job.sim.fluid->lost.count));
     }
     if (job.sim.ledger.worst_in_solids > 0) {
@@ -260,14 +260,14 @@ int finish(Job& job)
     job.progress.end(job.sim);
     tell_doubts(job);
     if (stopped) {
-        job.progress.line("interrupted; checkpoint written. Go on with: " + job.command_to_go_on);
+        job.progress.line("interrupted; checkpoint written. Resume with: " + job.command_to_go_on);
         return exit_code::interrupted;
     }
-    job.progress.line(fmt::format("{} after {}; results in {}", done ? "done" : "stopped as asked",
-                                  readable_seconds(job.progress.wall_seconds()),
-                                  job.folder.string()));
+    job.progress.line(
+        fmt::format("{} after {}; results in {}", done ? "done" : "stopped as requested",
+                    readable_seconds(job.progress.wall_seconds()), job.folder.string()));
     if (!done) {
-        job.progress.line("go on with: " + job.command_to_go_on);
+        job.progress.line("resume with: " + job.command_to_go_on);
     }
     tell_cost(job);
     return exit_code::done;
@@ -280,7 +280,8 @@ int carry_out(Job& job)
         return finish(job);
     } catch (const NumericalError& error) {
         // The state of the last frame was good; a run can go on from it with other settings.
-        job.progress.abandon(fmt::format("error: the numbers went wrong: {}", error.what()));
+        job.progress.abandon(
+            fmt::format("error: the simulation became unstable: {}", error.what()));
         if (job.good_step > job.saved_step) {
             write_checkpoint(job, job.last_good);
         }
@@ -339,10 +340,10 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
     restore(sim, from.state);
     const std::int64_t first_step = sim.clock.step;
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, sim.clock.time);
-    progress.line(fmt::format("going on from t = {} s, step {}", sim.clock.time, sim.clock.step));
+    progress.line(fmt::format("resuming from t = {} s, step {}", sim.clock.time, sim.clock.step));
     if (!from.passed_over.empty()) {
         take_previous_checkpoint(folder);
-        progress.line(fmt::format("note: {}; this is the one before it", from.passed_over));
+        progress.line(fmt::format("note: {}; using the previous checkpoint", from.passed_over));
     }
     change_columns(folder, energy_table(scene.dimensions)); // of a version that wrote fewer
     if (scene.gauges.empty()) {

@@ -53,7 +53,7 @@ fs::path cases_folder(const VerifyOptions& options)
                             program.parent_path() / "share" / "hyoryu" / "cases"};
     const auto* found = std::find_if(places.begin(), places.end(), holds_benchmarks);
     if (found == places.end()) {
-        throw CaseError("there are no benchmarks here", "name their folder with --cases");
+        throw CaseError("no benchmarks found", "name their folder with --cases");
     }
     return *found;
 }
@@ -89,8 +89,9 @@ void prepare(const VerifyOptions& options, const std::vector<Benchmark>& benchma
     if (fs::exists(options.folder, fault) &&
         (!fs::is_directory(options.folder, fault) || !fs::is_empty(options.folder, fault)) &&
         !options.force) {
-        throw CaseError(fmt::format("`{}` is not empty", options.folder.string()),
-                        "--force replaces what an earlier verify wrote there, -o names another");
+        throw CaseError(
+            fmt::format("`{}` is not empty", options.folder.string()),
+            "--force replaces the results of an earlier verify, -o selects another folder");
     }
     claim_folder(options.folder, {.command = "verify", .owns = [&](const std::string& name) {
                                       return is_of_verify(benchmarks, name);

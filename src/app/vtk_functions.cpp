@@ -30,13 +30,12 @@ void* open_module()
             return module;
         }
     }
-    throw IoError(
-        build_info::vtk == "ON"
-            ? fmt::format("meshes and pictures need {}, which is not installed: on Debian "
-                          "the package hyoryu-vtk holds it",
-                          file_name)
-            : std::string("meshes and pictures need VTK, and this program was built "
-                          "without it (HYORYU_VTK=OFF)"));
+    throw IoError(build_info::vtk == "ON"
+                      ? fmt::format("meshes and pictures need {}, which is not installed: on "
+                                    "Debian it is in the package hyoryu-vtk",
+                                    file_name)
+                      : std::string("meshes and pictures need VTK, and this program was built "
+                                    "without it (HYORYU_VTK=OFF)"));
 }
 
 template <class Function>

@@ -31,7 +31,7 @@ std::string name_of(fs::file_type type)
     case fs::file_type::socket:
         return "socket";
     default:
-        return "thing of an unknown kind";
+        return "file of an unknown type";
     }
 }
 

@@ -37,10 +37,10 @@ bool has_control_characters(std::string_view text)
 std::string label_fault(std::string_view label)
 {
     if (has_control_characters(label)) {
-        return "it holds control characters";
+        return "it contains control characters";
     }
     if (label.size() > longest_label) {
-        return fmt::format("it has {} bytes, at most {} are shown", label.size(), longest_label);
+        return fmt::format("it has {} bytes, at most {} are allowed", label.size(), longest_label);
     }
     if (!label.empty() && of_formulas.find(label.front()) != std::string_view::npos) {
         return fmt::format("it begins with \"{}\", as formulas of tables do", label.front());
@@ -57,16 +57,16 @@ std::string name_fault(std::string_view name)
         return fault;
     }
     if (name.size() > longest_name) {
-        return fmt::format("it has {} bytes, at most {} are taken", name.size(), longest_name);
+        return fmt::format("it has {} bytes, at most {} are allowed", name.size(), longest_name);
     }
     if (name.front() == ' ' || name.back() == ' ') {
-        return "it begins or ends with a blank";
+        return "it begins or ends with a space";
     }
     if (name == "." || name == "..") {
-        return "it is that of a folder";
+        return "it is the name of a folder";
     }
     const auto at = name.find_first_of(of_formats);
-    return at == std::string_view::npos ? std::string() : fmt::format("it holds `{}`", name[at]);
+    return at == std::string_view::npos ? std::string() : fmt::format("it contains `{}`", name[at]);
 }
 
 std::string printable(std::string_view text)

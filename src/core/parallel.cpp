@@ -30,8 +30,8 @@ void expect_threads(int threads)
         all.count_down();
         throw IoError(fmt::format(
             "only {} of {} threads can be started: the limit on memory or processes is reached\n"
-            "  hint: ask for fewer with --threads or OMP_NUM_THREADS, or raise the limits "
-            "(`ulimit -u`, `ulimit -v`); a smaller `ulimit -s` makes threads smaller",
+            "  hint: request fewer with --threads or OMP_NUM_THREADS, or raise the limits (`ulimit "
+            "-u`, `ulimit -v`); a smaller `ulimit -s` reduces the memory of each thread",
             started.size() + 1, threads));
     }
 }

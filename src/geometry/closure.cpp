@@ -86,7 +86,8 @@ std::string closure_fault(const Mesh& mesh)
         return fmt::format("{} edges with more than two triangles", faults.crowded);
     }
     if (faults.turned > 0) {
-        return fmt::format("neighbouring triangles face opposite ways at {} edges", faults.turned);
+        return fmt::format("neighbouring triangles have opposite orientations at {} edges",
+                           faults.turned);
     }
     const double size = extent(mesh);
     constexpr double flat = 1e-9; // of the cube of the extent

@@ -100,8 +100,9 @@ void check_faces(const std::filesystem::path& file)
         counts[1] += word == "vt" ? 1 : 0;
         counts[2] += word == "vn" ? 1 : 0;
         if (word == "f" && !face_fits(line, counts)) {
-            refuse(file, fmt::format("has a face in line {} of corners that do not stand before it",
-                                     number));
+            refuse(file,
+                   fmt::format("has a face in line {} with corners that are not defined before it",
+                               number));
         }
     }
 }
@@ -145,12 +146,11 @@ MeshKind stl_kind(const std::filesystem::path& file, std::uintmax_t size)
         return MeshKind::stl_text;
     }
     if (size < stl_header) {
-        refuse(file, "is no STL file");
+        refuse(file, "is not an STL file");
     }
-    refuse(file,
-           fmt::format("is no STL file, or cut short: as a binary one it would have {} triangles "
-                       "and {} bytes, it has {}",
-                       count, stl_header + stl_triangle * count, size));
+    refuse(file, fmt::format("is not an STL file, or truncated: as a binary file it would have {} "
+                             "triangles and {} bytes, it has {}",
+                             count, stl_header + stl_triangle * count, size));
 }
 
 } // namespace
@@ -177,7 +177,7 @@ MeshKind mesh_kind(const std::filesystem::path& file)
         return MeshKind::obj;
     }
     if (ending != ".stl") {
-        refuse(file, "is of an unknown kind, expected a name that ends in .stl or .obj");
+        refuse(file, "has an unknown file type, expected a name that ends in .stl or .obj");
     }
     return stl_kind(file, size);
 }

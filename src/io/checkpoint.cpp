@@ -121,7 +121,7 @@ Snapshot get_snapshot(hid_t file)
         const Column column = get_column(texts, link);
         const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&column.values);
         if (bytes == nullptr) {
-            throw IoError(fmt::format("the text `{}` of the checkpoint is no text", link));
+            throw IoError(fmt::format("`{}` of the checkpoint is not a text", link));
         }
         snapshot.texts[name_of(link)] = std::string(bytes->begin(), bytes->end());
     }
@@ -159,13 +159,12 @@ void verify(const std::filesystem::path& file)
     std::string stored(header_size, '\0');
     stream.read(stored.data(), header_size);
     if (!stored.starts_with(magic)) {
-        throw IoError(fmt::format("`{}` is no checkpoint", file.string()));
+        throw IoError(fmt::format("`{}` is not a checkpoint", file.string()));
     }
     const std::string format = fmt::format("{}\nformat {}\n", magic, format_version);
     if (!stored.starts_with(format)) {
         throw IoError(
-            fmt::format("`{}` is a checkpoint of another format than {}, the one that this "
-                        "version reads",
+            fmt::format("`{}` is a checkpoint of another format; this version reads format {}",
                         file.string(), format_version));
     }
     std::uint32_t checksum = 0;

@@ -42,10 +42,10 @@ void claim_unguarded(const fs::path& folder, const Claim& claim)
     if (fs::exists(folder)) {
         const std::vector<std::string> names = names_owned(folder, claim);
         if (!names.empty()) {
-            throw CaseError(fmt::format("`{}` holds files that no {} wrote and that this one would "
-                                        "replace: {}",
-                                        folder.string(), claim.command, fmt::join(names, ", ")),
-                            "move them away, or choose another folder with -o");
+            throw CaseError(
+                fmt::format("`{}` contains files that no {} wrote and that would be replaced: {}",
+                            folder.string(), claim.command, fmt::join(names, ", ")),
+                "move them away, or choose another folder with -o");
         }
     }
     fs::create_directories(folder);

@@ -63,11 +63,12 @@ Part part_of(const fs::path& source, std::string name_in_index)
         const hdf5::Handle data = hdf5::open_group(root, "PointData");
         for (const std::string& name : hdf5::link_names(data)) {
             part.point_data[name] = shape_of(data, name);
-            expect(part.point_data[name].rows == points, "an array is not one row a point");
+            expect(part.point_data[name].rows == points,
+                   "an array does not have one row per point");
         }
     } catch (const std::exception& error) {
-        throw IoError(
-            fmt::format("`{}` is no frame of ours or damaged: {}", source.string(), error.what()));
+        throw IoError(fmt::format("`{}` is not a frame of Hyoryu, or is damaged: {}",
+                                  source.string(), error.what()));
     }
     return part;
 }

@@ -81,8 +81,8 @@ Inventory inventory(const fs::path& folder)
 Inventory inventory_of_results(const fs::path& folder)
 {
     if (!fs::is_directory(folder / "frames") && !fs::exists(folder / "plan.json")) {
-        throw CaseError(fmt::format("`{}` is not empty and no results folder: it holds neither "
-                                    "`frames/` nor `plan.json`",
+        throw CaseError(fmt::format("`{}` is not empty and is not a results folder: it contains "
+                                    "neither `frames/` nor `plan.json`",
                                     folder.string()),
                         "choose another folder with -o");
     }
@@ -91,11 +91,11 @@ Inventory inventory_of_results(const fs::path& folder)
         constexpr std::size_t named_at_most = 5;
         const std::size_t count = found.foreign.size();
         found.foreign.resize(std::min(count, named_at_most));
-        throw CaseError(fmt::format("`{}` holds {} that no run wrote, so it is not replaced: {}{}",
-                                    folder.string(), count == 1 ? "a file" : "files",
-                                    fmt::join(found.foreign, ", "),
-                                    count > named_at_most ? ", ..." : ""),
-                        "move them away, or choose another folder with -o");
+        throw CaseError(
+            fmt::format("`{}` contains {} not written by a run, so it is not replaced: {}{}",
+                        folder.string(), count == 1 ? "a file" : "files",
+                        fmt::join(found.foreign, ", "), count > named_at_most ? ", ..." : ""),
+            "move them away, or choose another folder with -o");
     }
     return found;
 }
@@ -134,7 +134,7 @@ void clear_as_asked(const fs::path& folder, Existing existing)
     switch (existing) {
     case Existing::refuse:
         throw CaseError(fmt::format("the results folder `{}` is not empty", folder.string()),
-                        "--force replaces it, --resume goes on with it, -o names another");
+                        "--force replaces it, --resume continues it, -o selects another");
     case Existing::replace:
         return remove_our_files(folder);
     case Existing::extend:

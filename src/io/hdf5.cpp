@@ -250,8 +250,8 @@ std::string text_attribute(hid_t object, const std::string& name)
     const Handle attribute = open_attribute(object, name);
     const Handle stored(H5Aget_type(attribute), H5Tclose, "read an attribute");
     if (H5Tis_variable_str(stored) <= 0) {
-        throw IoError(
-            fmt::format("cannot read the attribute `{}`: no text of variable length", name));
+        throw IoError(fmt::format(
+            "cannot read the attribute `{}`: it is not a text of variable length", name));
     }
     char* letters = nullptr;
     check(H5Aread(attribute, stored, &letters), "read an attribute");

@@ -48,8 +48,8 @@ struct Kept {
 void expect_rows(const std::filesystem::path& file, std::int64_t rows, std::int64_t expected)
 {
     if (expected != History::all_rows && rows < expected) {
-        throw IoError(fmt::format("cannot go on with `{}`: it holds {} rows of the run before the "
-                                  "checkpoint, which was written after {}: it was cut short",
+        throw IoError(fmt::format("cannot continue `{}`: it has {} rows of the run before the "
+                                  "checkpoint, which was written after {}: it was truncated",
                                   file.string(), rows, expected));
     }
 }
@@ -65,8 +65,8 @@ Kept kept_of(const std::filesystem::path& file, const Table& table, double keep_
     }
     const std::string text = file_text(file);
     if (!text.starts_with(kept) && !kept.starts_with(text)) { // the latter: torn within the header
-        throw IoError(fmt::format(
-            "cannot go on with `{}`: it has other columns than this run writes", file.string()));
+        throw IoError(fmt::format("cannot continue `{}`: it has other columns than this run writes",
+                                  file.string()));
     }
     const std::size_t header = std::min(kept.size(), text.size());
     for (const std::string_view line : whole_lines(std::string_view(text).substr(header))) {
@@ -136,7 +136,7 @@ void change_columns(const std::filesystem::path& folder, const Table& table)
     const std::vector<std::string> before = csv_cells(lines[1]);
     const auto from = origins(before, table);
     if (before.front() != table.heads.front().name) {
-        throw IoError(fmt::format("cannot go on with `{}`: it is damaged", file.string()));
+        throw IoError(fmt::format("cannot continue `{}`: it is damaged", file.string()));
     }
     const auto kept = std::ranges::count_if(from, [](const auto& at) { return at.has_value(); });
     if (static_cast<std::size_t>(kept) < before.size()) {

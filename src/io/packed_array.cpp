@@ -46,7 +46,7 @@ ElementType stored_type(hid_t dataset, const std::string& name)
     if (kind == H5T_INTEGER && size == 1) {
         return ElementType::uint8;
     }
-    throw IoError(fmt::format("cannot read the array `{}`: its type is none that we write", name));
+    throw IoError(fmt::format("cannot read the array `{}`: its type is unknown", name));
 }
 
 namespace {
@@ -186,7 +186,8 @@ void expect_stored(hid_t dataset, std::size_t bytes, const std::string& action)
     constexpr std::size_t a_chunk = std::size_t{8} << 20;
     if (H5Pget_layout(creation) != H5D_VIRTUAL && bytes > a_chunk &&
         bytes / most_of_deflate > H5Dget_storage_size(dataset)) {
-        throw IoError(fmt::format("cannot {}: the file holds less than it says", action));
+        throw IoError(
+            fmt::format("cannot {}: the file contains less data than it declares", action));
     }
 }
 
@@ -299,7 +300,7 @@ Column get_column(hid_t parent, const std::string& name)
     constexpr hsize_t most_components = 1 << 10;
     if (dims[0] > most_rows || dims[1] > most_components) {
         throw IoError(
-            fmt::format("cannot {}: it says that it is {} x {} numbers", action, dims[0], dims[1]));
+            fmt::format("cannot {}: it declares {} x {} numbers", action, dims[0], dims[1]));
     }
     expect_stored(dataset, size_of(type) * dims[0] * dims[1], action);
     column.values = read_values(dataset, type, dims[0] * dims[1], action);

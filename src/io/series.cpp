@@ -33,7 +33,7 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& series)
         }
         return entries;
     } catch (const nlohmann::json::exception& error) {
-        throw IoError(fmt::format("`{}` is no series file: {}", series.string(), error.what()));
+        throw IoError(fmt::format("`{}` is not a series file: {}", series.string(), error.what()));
     }
 }
 

@@ -170,7 +170,8 @@ void expect_whole(const Frame& frame)
     for (const Column& column : frame.columns) {
         if (3 * size_of(column) !=
             frame.points.size() * static_cast<std::size_t>(column.components)) {
-            throw IoError(fmt::format("its array `{}` has not one row a point", column.name));
+            throw IoError(
+                fmt::format("its array `{}` does not have one row per point", column.name));
         }
     }
 }
@@ -195,7 +196,7 @@ std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
     const Column types = get_column(root, "Types");
     for (const std::uint8_t type : std::get<std::vector<std::uint8_t>>(types.values)) {
         if (type != triangle_cell) {
-            throw IoError("it holds cells that are no triangles");
+            throw IoError("it contains cells that are not triangles");
         }
     }
     const Column connectivity = get_column(root, "Connectivity");
@@ -203,12 +204,12 @@ std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
     std::vector<std::int32_t> triangles(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
         if (corners[i] < 0 || corners[i] >= static_cast<std::int64_t>(points)) {
-            throw IoError("a triangle has a corner that is no point");
+            throw IoError("a triangle has a corner that is not a point");
         }
         triangles[i] = static_cast<std::int32_t>(corners[i]);
     }
     if (triangles.size() % 3 != 0) {
-        throw IoError("its last triangle is not whole");
+        throw IoError("its last triangle is incomplete");
     }
     return triangles;
 }
@@ -223,8 +224,8 @@ void read_vtkhdf(const std::filesystem::path& file, Read read)
         const hdf5::Handle root = hdf5::open_group(open, "VTKHDF");
         read(open, root);
     } catch (const std::exception& error) {
-        throw IoError(
-            fmt::format("`{}` is no frame of ours or damaged: {}", file.string(), error.what()));
+        throw IoError(fmt::format("`{}` is not a frame of Hyoryu, or is damaged: {}", file.string(),
+                                  error.what()));
     }
 }
 

@@ -93,7 +93,7 @@ std::string blow_totals(const RunResults& run, const ContactGroup& group)
         points += blow.points;
     }
     std::string text =
-        fmt::format("{} at {}; impulses together {} {}, energy lost {} {}.",
+        fmt::format("{} at {}; total impulse {} {}, energy lost {} {}.",
                     counted(group.blows.size(), "blow"), counted(points, "contact point"),
                     readable(impulse), run.per_width("N s"), readable(energy), run.per_width("J"));
     if (group.blows.size() > most_rows) {
@@ -104,10 +104,10 @@ std::string blow_totals(const RunResults& run, const ContactGroup& group)
 
 std::string resting_text(const RunResults& run, const RestingSum& resting)
 {
-    return html_paragraph(fmt::format("Resting and sliding contact: normal impulses together {} "
-                                      "{}, energy lost {} {}.",
-                                      readable(resting.impulse), run.per_width("N s"),
-                                      readable(resting.energy_lost), run.per_width("J")));
+    return html_paragraph(
+        fmt::format("Resting and sliding contact: total normal impulse {} {}, energy lost {} {}.",
+                    readable(resting.impulse), run.per_width("N s"), readable(resting.energy_lost),
+                    run.per_width("J")));
 }
 
 std::string group_text(const RunResults& run, const ContactGroup& group)
@@ -134,11 +134,9 @@ std::string force_text(const RunResults& run, const DeclaredContact& declared, b
     }
     return fmt::format(
         "u sqrt(k m) estimates the peak force by an undamped spring (Haehnel and Daly 2004; "
-        "contact "
-        "stiffness approach of ASCE 7): approach speed u, effective mass m, and the contact "
-        "stiffness k {}. It is a design formula, no result of the simulation: impulses, not "
-        "forces, "
-        "are what the simulation computes. A dash: no k for that pair.",
+        "contact stiffness approach of ASCE 7): approach speed u, effective mass m, and the "
+        "contact stiffness k {}. It is a design formula, not a result of the simulation, which "
+        "computes impulses. A dash: no k for that pair.",
         declared.stiffness
             ? fmt::format("= {} N/m{} of --stiffness", readable(*declared.stiffness), width)
             : "that the case declares for the two materials");
@@ -151,10 +149,9 @@ std::string energy_text(const RunResults& run, const std::vector<Impact>& rows)
     for (const Impact& row : rows) {
         energy += row.energy_lost;
     }
-    return html_paragraph(
-        fmt::format("All contact together, blows and resting, lost {} {}; the run counted {}.",
-                    readable(energy), run.per_width("J"),
-                    readable(number(run.summary.at("energy").at("contact_loss")))));
+    return html_paragraph(fmt::format(
+        "All contacts, blows and resting, lost {} {}; the run recorded {}.", readable(energy),
+        run.per_width("J"), readable(number(run.summary.at("energy").at("contact_loss")))));
 }
 
 } // namespace

@@ -38,7 +38,7 @@ std::string wall_names(const RunResults& run)
 
 std::string closing_state(const std::string& exit_reason)
 {
-    return exit_reason == "done" ? "done: the run came to the end of the case" : exit_reason;
+    return exit_reason == "done" ? "done: the run reached the end of the case" : exit_reason;
 }
 
 std::string counted(const ordered_json& counts)
@@ -75,8 +75,8 @@ std::string case_section(const RunResults& run)
                {"particles at the start", counted(counts)},
                {"particle spacing [m]", readable(run.spacing)}});
     return text +
-           "<details><summary>The case as resolved, every default written out"
-           "</summary>\n<pre>" +
+           "<details><summary>The resolved case, with all defaults</summary>\n"
+           "<pre>" +
            escaped(run.case_text) + "</pre></details>\n";
 }
 
@@ -155,10 +155,9 @@ std::string forecast_table(const RunResults& run)
     };
     add("a step", "wall time", cost.at("seconds_per_step"), 1e3, " ms");
     add("steps", "", cost.at("steps"), 1, "");
-    add("memory", "resident, at most", cost.at("memory_bytes"), 1e-6, " MB");
+    add("memory", "peak resident", cost.at("memory_bytes"), 1e-6, " MB");
     if (cost.contains("memory_bytes_per_fluid_particle")) {
-        add("memory", "for each fluid particle", cost.at("memory_bytes_per_fluid_particle"), 1,
-            " B");
+        add("memory", "per fluid particle", cost.at("memory_bytes_per_fluid_particle"), 1, " B");
     }
     if (cost.contains("disk_bytes")) {
         add("disk", "all results", cost.at("disk_bytes"), 1e-6, " MB");
@@ -167,11 +166,11 @@ std::string forecast_table(const RunResults& run)
         add(effect.at("name").get<std::string>(), effect.at("asked").get<std::string>(), effect,
             100, " %");
     }
-    return "<h2>Asked, foretold, measured</h2>\n" + html_table(table) +
+    return "<h2>Predicted and measured cost</h2>\n" + html_table(table) +
            html_paragraph(
-               "The share of an effect is what a step takes longer with it, timed at the "
-               "start and at the end of the run, with half of what the middle half of the "
-               "timings spans; effects without a number are not timed apart." +
+               "The share of an effect is the additional time of a step with it, measured at the "
+               "start and at the end of the run, with half of the interquartile range of the "
+               "timings; effects without a number are not timed separately." +
                busy_text(cost));
 }
 
@@ -190,11 +189,11 @@ std::string cost_section(const RunResults& run)
         add(stage, number(seconds));
         rest -= number(seconds);
     }
-    add("everything else, most of it output", rest);
+    add("remaining time, mostly output", rest);
     add("together", wall);
     return "<h2>Cost by stage</h2>\n" + html_table(table) +
            html_paragraph(
-               fmt::format("{} particle-steps a second; {} MB of memory at most.",
+               fmt::format("{} particle-steps per second; peak memory {} MB.",
                            readable(number(run.summary.at("particle_steps_per_second"))),
                            readable(1e-6 * number(run.summary.at("peak_memory_bytes"))))) +
            forecast_table(run);

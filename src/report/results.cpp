@@ -31,12 +31,13 @@ void expect_ended_run(const fs::path& folder)
     if (!fs::exists(folder / "plan.json")) {
         throw CaseError(
             fmt::format("`{}` is not a results folder: it has no plan.json", folder.string()),
-            "give the folder that `hyoryu run` wrote");
+            "give a folder written by `hyoryu run`");
     }
     if (!fs::exists(folder / "summary.json")) {
-        throw CaseError(fmt::format("`{}` has no summary.json: the run goes on, or was killed",
-                                    folder.string()),
-                        "`hyoryu run CASE.toml -o RESULTS --resume` goes on from its checkpoint");
+        throw CaseError(
+            fmt::format("`{}` has no summary.json: the run is not finished, or was killed",
+                        folder.string()),
+            "`hyoryu run CASE.toml -o RESULTS --resume` continues from its checkpoint");
     }
 }
 

@@ -88,7 +88,7 @@ void carry_gauges(Snapshot& state, const Scene& before, const Scene& now, double
     if (!before.gauges.empty()) {
         const Numbers& numbers = numbers_at(state, gauges_array);
         if (numbers.empty()) {
-            throw IoError("the checkpoint knows nothing of its gauges: it is damaged");
+            throw IoError("the checkpoint has no gauges: it is damaged");
         }
         restore(memory, std::span(numbers).first(numbers.size() - 1));
         next = numbers.back();

@@ -213,7 +213,7 @@ void save_fluid(const Fluid& fluid, Snapshot& snapshot)
 void check_places(const Numbers& places)
 {
     if (!std::all_of(places.begin(), places.end(), [](double x) { return std::isfinite(x); })) {
-        throw IoError("the checkpoint has particles at no finite place: it is damaged");
+        throw IoError("the checkpoint has particles without a finite position: it is damaged");
     }
 }
 
@@ -262,7 +262,7 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     });
     const auto& id = values<std::int64_t>(snapshot, "fluid/id");
     if (id.size() != rows) {
-        throw IoError("the checkpoint numbers other particles: it belongs to another case");
+        throw IoError("the checkpoint has other particle numbers: it belongs to another case");
     }
     std::copy(id.begin(), id.end(), store.id().begin());
     check_places(flat(std::span(store[field::position])));

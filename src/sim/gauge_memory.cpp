@@ -135,7 +135,7 @@ void restore(GaugeMemory& memory, std::span<const double> numbers)
     std::size_t next = 0;
     const auto take = [&] {
         if (next >= numbers.size()) {
-            throw IoError("the checkpoint knows fewer gauges than the case");
+            throw IoError("the checkpoint has fewer gauges than the case");
         }
         return numbers[next++];
     };
@@ -154,7 +154,7 @@ void restore(GaugeMemory& memory, std::span<const double> numbers)
         std::generate_n(std::back_inserter(filter.values), samples, take);
     }
     if (next != numbers.size()) {
-        throw IoError("the checkpoint knows more gauges than the case");
+        throw IoError("the checkpoint has more gauges than the case");
     }
 }
 

@@ -113,13 +113,13 @@ void watch_bodies(const Simulation& sim)
         report(sim, fmt::format("body \"{}\"", body->name),
                fmt::format("wall \"{}\" presses it against {}, overlaps are {:.4g} m deep",
                            body->from, body->against, body->depth),
-               "over-constrained: the moving wall leaves no room for it");
+               "over-constrained: the moving wall leaves no space for it");
     }
     if (sim.rigid.counters.worst_penetration > sim.thinnest) {
         const Overlap deepest = deepest_overlap(sim);
         report(sim, deepest.pair, fmt::format("they overlap by {:.4g} m", deepest.depth),
                sim.clock.step <= 1 ? "they overlap at the start"
-                                   : "probably a moving wall leaves them no room, or a fixed "
+                                   : "probably a moving wall leaves them no space, or a fixed "
                                      "`time.step` is too long");
     }
 }
@@ -157,7 +157,7 @@ void watch_energy(const Simulation& sim, const Totals& now)
     const double motion = now.fluid_kinetic + now.fluid_internal + now.body_kinetic;
     if (gain > gain_of_motion * motion && gain > gain_of_scale * energy_scale(sim)) {
         report(sim, "the whole scene",
-               fmt::format("energy has grown by {:.4g} J, that of its motion is {:.4g} J", gain,
+               fmt::format("energy has grown by {:.4g} J; its kinetic energy is {:.4g} J", gain,
                            motion),
                probable_cause(sim));
     }

@@ -71,7 +71,7 @@ void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
     const vtkIdType count = surface.GetNumberOfPoints();
     for (vtkIdType k = 0; k < count; ++k) {
         if (!Eigen::Map<const Vec3>(surface.GetPoint(k)).allFinite()) {
-            refuse(file, "has corners that are no finite numbers");
+            refuse(file, "has corners that are not finite numbers");
         }
     }
     vtkNew<vtkIdList> corners;
@@ -84,7 +84,7 @@ void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
         faces.GetCellAtId(k, corners);
         for (vtkIdType n = 0; n < corners->GetNumberOfIds(); ++n) {
             if (corners->GetId(n) < 0 || corners->GetId(n) >= count) {
-                refuse(file, fmt::format("has a face with a corner that is none of its {}", count));
+                refuse(file, fmt::format("has a face with a corner beyond its {}", count));
             }
         }
     }
@@ -96,8 +96,8 @@ void check_text(const std::filesystem::path& file)
 {
     using vtksys::SystemTools;
     if (SystemTools::DetectFileType(file.c_str()) != SystemTools::FileTypeText) {
-        refuse(file, "is a text with so many letters beyond ASCII near its start that it would be "
-                     "read as binary; give it a plain name behind `solid`");
+        refuse(file, "is a text file with so many characters beyond ASCII near its start that it "
+                     "would be read as binary; use a plain name after `solid`");
     }
 }
 
@@ -118,7 +118,7 @@ vtkSmartPointer<vtkPolyData> read_surface(const std::filesystem::path& file)
     reader->SetFileName(file.c_str());
     reader->Update();
     if (!message.empty()) {
-        refuse(file, "cannot be read: it is damaged or of another kind");
+        refuse(file, "cannot be read: it is damaged or of another type");
     }
     vtkSmartPointer<vtkPolyData> surface = reader->GetOutput();
     check_surface(*surface, file);

@@ -167,13 +167,13 @@ TEST_F(StudyResults, ARunThatStoppedHasNoErrorAndSaysWhy)
 {
     const Study s = study({sweep({2, 1})}, last_x("100"));
     const auto done = write(0, {108, 10});
-    const StudyResult result =
-        evaluate_study(s, {done, folder / "none"}, {"", "the numbers went wrong"}, {{1.0}, {}});
+    const StudyResult result = evaluate_study(s, {done, folder / "none"},
+                                              {"", "the simulation became unstable"}, {{1.0}, {}});
     EXPECT_TRUE(std::isnan(result.runs[1].values[0].error));
-    EXPECT_EQ(result.runs[1].values[0].why, "the numbers went wrong");
+    EXPECT_EQ(result.runs[1].values[0].why, "the simulation became unstable");
     EXPECT_EQ(frontier(result, 0), (Runs{0}));
     const std::string page = study_markdown(result, {}, {});
-    EXPECT_NE(page.find("the numbers went wrong"), std::string::npos);
+    EXPECT_NE(page.find("the simulation became unstable"), std::string::npos);
 }
 
 TEST_F(StudyResults, AnErrorOfNothingNeedsAScale)

@@ -93,7 +93,7 @@ TEST_F(Checkpoint, ThatIsDamagedGivesWayToTheOneBefore)
     put_text_into(folder / "checkpoint.h5", "torn");
     const NewestCheckpoint newest = read_newest_checkpoint(folder);
     EXPECT_EQ(newest.snapshot.texts.at("step"), "1");
-    EXPECT_NE(newest.passed_over.find("is no checkpoint"), std::string::npos);
+    EXPECT_NE(newest.passed_over.find("is not a checkpoint"), std::string::npos);
     // Without this the next checkpoint would keep the torn one as the older generation.
     take_previous_checkpoint(folder);
     write_checkpoint(folder, {{}, {{"step", "3"}}});

@@ -28,7 +28,7 @@ class Commands(ProgramTest):
 
     def test_unknown_words_get_a_suggestion(self):
         for arguments, expected in ((("chek", "a.toml"), 'did you mean "check"?'),
-                                    (("fly",), "there are: run, check"),
+                                    (("fly",), "known: run, check"),
                                     (("run", "a.toml", "--resum"), 'did you mean "--resume"?'),
                                     (("run", "a.toml", "--treads=2"), 'did you mean "--threads"?'),
                                     (("study", "a.toml", "--jbos", "2"), 'did you mean "--jobs"?')):

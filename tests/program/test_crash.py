@@ -181,7 +181,7 @@ class Kills(CrashTest):
             newest.write_bytes(bad)
             done = self.call("run", "case.toml", "-o", "out", "--resume", "--until", "0.2")
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertRegex(done.stderr, "(damaged|no checkpoint).*the one before")
+            self.assertRegex(done.stderr, "(damaged|not a checkpoint).*the previous")
             newest.write_bytes(good)
         newest.write_bytes(b"torn")
         self.run_whole("out", "--resume")

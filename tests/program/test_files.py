@@ -165,7 +165,7 @@ class Convert(Results):
                          [".hyoryu-convert", "fluid.pvd", "fluid_000000.vtp", "fluid_000002.vtp",
                           "surfaces.pvd", "surfaces_000000.vtp", "surfaces_000002.vtp"])
         for arguments, expected in ((("--only", "surface"), 'did you mean "surfaces"?'),
-                                    (("--only", ""), "there are: "),
+                                    (("--only", ""), "known: "),
                                     (("--times", "nan"), "finite")):
             done = self.call("convert", "out", "--to", "vtp", *arguments)
             self.assertEqual(done.returncode, 2, arguments)

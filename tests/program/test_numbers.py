@@ -97,8 +97,8 @@ open = ["+z"]
 
     def test_d4_memory_is_told_as_the_user_measures_it_beside_the_columns(self):
         text = self.call("check", self.write(FLOOD)).stdout
-        told = re.search(r"memory +about ([0-9.]+) MB resident, ([0-9.]+) kB for each fluid particle\n"
-                         r" +of it columns [0-9.]+ [kM]B, ([0-9.]+) B for each", text)
+        told = re.search(r"memory +about ([0-9.]+) MB resident, ([0-9.]+) kB per fluid particle\n"
+                         r" +of which columns [0-9.]+ [kM]B, ([0-9.]+) B per particle", text)
         self.assertTrue(told, text)
         plan = self.plan("case.toml")
         fluid = plan["counts"]["fluid"]

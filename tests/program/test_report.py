@@ -74,9 +74,9 @@ material = "pine"
         for forbidden in ("<script", "src=", "href=", "url(", "@import", "nan", "inf "):
             self.assertNotIn(forbidden, text.replace("http://www.w3.org/", ""), forbidden)
         headings = [h.text for h in root.findall(".//{*}h2")]
-        self.assertEqual(headings, ["Case", "Run", "Pictures", "Impacts", "Tracks of the bodies", "Gauges",
+        self.assertEqual(headings, ["Case", "Run", "Pictures", "Impacts", "Trajectories of the bodies", "Gauges",
                                     "Energy and momentum", "Plan", "Cost by stage",
-                                    "Asked, foretold, measured"])
+                                    "Predicted and measured cost"])
 
     def test_the_page_says_what_the_files_of_the_run_say(self):
         self.run_case(self.CASE)
@@ -95,7 +95,7 @@ material = "pine"
         self.assertEqual(off, [[e["name"], e["why"]] for e in plan["off"]])
         stages = {row[0] for row in self.rows(root, "Cost by stage")}
         self.assertTrue(set(summary["stages"]) <= stages)
-        asked = {row[0]: row for row in self.rows(root, "Asked, foretold, measured")[1:]}
+        asked = {row[0]: row for row in self.rows(root, "Predicted and measured cost")[1:]}
         self.assertEqual(list(asked)[:4], ["a step", "steps", "memory", "disk"])
         self.assertEqual(list(asked)[4:], [e["name"] for e in plan["on"]])
         self.assertEqual(int(asked["steps"][3]), summary["steps"])
@@ -182,7 +182,7 @@ material = "pine"
         self.assertAlmostEqual(float(rows[1][0]), (2 * 0.02 / 9.81) ** 0.5, delta=1e-6)
         self.assertEqual(rows[1][1], "cube")
         self.assertAlmostEqual(float(rows[1][2]), (2 * 9.81 * 0.02) ** 0.5, delta=1e-4)
-        self.assertIn("impulses together", text)
+        self.assertIn("total impulse", text)
         _, root = self.page("--stiffness", "2.5e5")
         rows = self.rows(root, "On floor")
         self.assertEqual(rows[0][8], "u sqrt(k m) [N]")
@@ -193,12 +193,12 @@ material = "pine"
         """A cube that comes to rest: all impulses of its contact carry its weight and stop its fall."""
         self.run_case(self.DROP.replace("end = 0.08", "end = 0.6"))
         text, _ = self.page()
-        rest = re.search(r"Resting and sliding contact: normal impulses together ([0-9.e+]+) N s", text)
-        blows = re.search(r"blows? at [0-9]+ contact points?; impulses together ([0-9.e+]+) N s", text)
+        rest = re.search(r"Resting and sliding contact: total normal impulse ([0-9.e+]+) N s", text)
+        blows = re.search(r"blows? at [0-9]+ contact points?; total impulse ([0-9.e+]+) N s", text)
         carried = float(rest[1]) + float(blows[1])
         self.assertAlmostEqual(carried, 8 * 9.81 * 0.6, delta=0.01 * 8 * 9.81 * 0.6)
         self.assertGreater(float(rest[1]), 8 * 9.81 * 0.2)
-        lost, counted = re.search(r"lost ([0-9.e+-]+) J; the run counted ([0-9.e+-]+)\.", text).groups()
+        lost, counted = re.search(r"lost ([0-9.e+-]+) J; the run recorded ([0-9.e+-]+)\.", text).groups()
         self.assertAlmostEqual(float(lost), float(counted), delta=2e-3 * float(counted))
 
     def test_the_stiffness_of_the_case_is_used(self):

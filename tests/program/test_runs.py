@@ -69,7 +69,7 @@ class Runs(ProgramTest):
         self.assertIsNone(plan["cost"]["development"])
         self.assertGreater(plan["cost"]["seconds_per_step"], plan["cost"]["seconds_per_first_step"])
         done = self.call("check", CASES / "cradle" / "case.toml", "--time")
-        self.assertIn("a step timed now", done.stdout)
+        self.assertIn("per step, measured now", done.stdout)
         self.assertNotIn("if all bodies touch", done.stdout)
 
     def test_a_damaged_plan_is_told_when_the_cost_would_be(self):
@@ -117,7 +117,7 @@ class Runs(ProgramTest):
         done = self.call("run", "case.toml", "-o", "out")
         self.assertEqual(done.returncode, 0, done.stderr)
         log = (self.dir / "out" / "run.log").read_text()
-        self.assertRegex(log, "the numbers went wrong: step .*: probably `time.cfl` = 3 is too large")
+        self.assertRegex(log, "the simulation became unstable: step .*: probably `time.cfl` = 3 is too large")
         self.assertIn("recovery: back to t = ", log)
         self.assertLess(json.loads((self.dir / "out" / "summary.json").read_text())["share_of_time_step"], 1)
         times = [float(line.split(",")[0]) for line in (self.dir / "out" / "energy.csv").read_text().splitlines()[2:]]
@@ -339,7 +339,7 @@ position = [0.7, 0.0, 0.1]
         arguments = ("--set", "body[0].density=450", "--set", 'title="a b"')
         done = self.call("run", case, "-o", "my case/out", "--until", "0.05", *arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
-        line = done.stderr.split("go on with: ")[1].splitlines()[0]
+        line = done.stderr.split("resume with: ")[1].splitlines()[0]
         done = subprocess.run(line, shell=True, cwd=self.dir, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = json.loads(self.read("my case/out", "summary.json"))

@@ -128,7 +128,7 @@ TEST_F(CaseMesh, ThatIsMissingDamagedOrOpenIsToldAtItsKey)
 {
     for (const auto& [file, what] :
          std::vector<std::pair<std::string, std::string>>{{"none.obj", "does not exist"},
-                                                          {"bad.stl", "is no STL file"},
+                                                          {"bad.stl", "is not an STL file"},
                                                           {"open.obj", "4 open edges"}}) {
         const auto all = wrong(body_of(file));
         ASSERT_EQ(all.size(), 1u) << file;

@@ -113,7 +113,7 @@ TEST(Watch, SolidsThatRunIntoEachOtherAreNamed)
     advance(sim, 3);
     sim.rigid.bodies[1].position.x() = 0.05; // 0.15 m into the other, whose inner radius is 0.1 m
     expect_words(said([&] { step(sim); }),
-                 {"body \"right\" and body \"left\"", "overlap by 0.1", "room"});
+                 {"body \"right\" and body \"left\"", "overlap by 0.1", "space"});
 }
 
 // A wall closes on two crates in a row that stand against the side of a basin, and goes on.

@@ -37,7 +37,7 @@ std::string track_section(const RunResults& run)
 {
     const View view = view_of(run.dimensions());
     const std::vector<Track> tracks = tracks_of(run, view);
-    const std::string heading = "<h2>Tracks of the bodies</h2>\n";
+    const std::string heading = "<h2>Trajectories of the bodies</h2>\n";
     if (tracks.empty()) {
         return heading + html_paragraph("The case has no bodies.");
     }
@@ -49,8 +49,8 @@ std::string track_section(const RunResults& run)
         "Each line is the path of a centre of mass: a ring at the start, a dot at the end. Grey: "
         "the walls at the start.";
     if (tracks.size() > most_names) {
-        text += " There are too many bodies to write their names; they show when the pointer rests "
-                "on a line.";
+        text += " There are too many bodies to print their names; each line has a tooltip with its "
+                "name.";
     }
     return heading + html_paragraph(text) + svg_plan_view(walls, tracks, view);
 }

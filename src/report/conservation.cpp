@@ -60,17 +60,17 @@ Values lost(const RunResults& run, const std::string& name)
 std::string energy_text(const RunResults& run, double remainder, double scale)
 {
     const std::string closing = fmt::format(
-        "At the end the sum is {} {}, {} of the largest change of any one of them. ",
+        "At the end the sum is {} {}, {} of the largest change of a single term. ",
         readable(remainder), run.per_width("J"), scale > 0 ? readable(remainder / scale) : "–");
     const bool fluid = run.plan.at("counts").at("fluid").get<std::int64_t>() > 0;
     return html_paragraph(
-        "Each line is the change since the start; contact loss is what impacts and friction "
-        "took, and what left the domain was motion and height of the fluid. " +
+        "Each line is the change since the start; contact loss is the energy dissipated by impacts "
+        "and friction, and the energy of lost fluid is kinetic and potential. " +
         closing +
         (fluid
              ? "With a fluid it is not zero: the dissipation by viscosity, physical and numerical, "
-               "and the work of moving walls have no line of their own and stand in the sum."
-             : "Without a fluid it is the closing error of the run, and the work of moving walls "
+               "and the work of moving walls have no line of their own and are part of the sum."
+             : "Without a fluid it is the closure error of the run, and the work of moving walls "
                "if there are any."));
 }
 
@@ -130,13 +130,13 @@ std::string momentum_text(const RunResults& run)
     }
     const double scale = std::max({norm(m.at("start")), norm(m.at("end")),
                                    norm(m.at("wall_impulse")), norm(m.at("gravity_impulse"))});
-    return html_paragraph(fmt::format(
-        "Closing error at the end, with the momentum of lost particles counted: {} {}, {} of the "
-        "largest of momentum, wall impulse and gravity impulse. Worst of a single step, relative: "
-        "{}.",
-        readable(rest.norm()), run.per_width("N s"),
-        scale > 0 ? readable(rest.norm() / scale) : "–",
-        readable(number(m.at("worst_closure_of_a_step")))));
+    return html_paragraph(
+        fmt::format("Closure error at the end, including the momentum of lost particles: {} {}, {} "
+                    "of the largest of momentum, wall impulse and gravity impulse. Worst of a "
+                    "single step, relative: {}.",
+                    readable(rest.norm()), run.per_width("N s"),
+                    scale > 0 ? readable(rest.norm() / scale) : "–",
+                    readable(number(m.at("worst_closure_of_a_step")))));
 }
 
 std::string momentum_books(const RunResults& run, const Values& time)
@@ -146,9 +146,9 @@ std::string momentum_books(const RunResults& run, const Values& time)
                    .x_axis = "time [s]",
                    .y_axis = fmt::format("momentum [{}]", unit),
                    .lines = {}};
-    Chart rest{.title = "momentum that neither walls, gravity nor what left explain",
+    Chart rest{.title = "momentum not explained by walls, gravity and lost fluid",
                .x_axis = "time [s]",
-               .y_axis = fmt::format("closing error [{}]", unit),
+               .y_axis = fmt::format("closure error [{}]", unit),
                .lines = {}};
     for (const char axis : run.dimensions() == 2 ? std::string("xz") : std::string("xyz")) {
         const std::string label(1, axis);
