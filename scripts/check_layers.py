@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Checks that the arrows between layers point one way: a layer includes only itself and what it may.
-And that no two files define a type of one name: the linker keeps one of their destructors and one
-`std::vector` of them for both, which destroys memory without a word.
+"""Checks that dependencies between layers point one way: a layer includes only itself and the layers of
+MAY_INCLUDE. Also checks that no two files define types of the same name: the linker would merge their
+destructors and their `std::vector`, which corrupts memory silently.
 
-Usage: scripts/check_layers.py [ROOT]; exit 1 and one line an offence.
+Usage: scripts/check_layers.py [ROOT]; exit 1 and one line per offence.
 """
 import pathlib
 import re
