@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `hyoryu bench`: what the machine can do, and what the solver reaches.
+// `hyoryu bench`: the limits of the machine and the rates of the solver.
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "options.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the words of the command line to a command, and what is said of words that are wrong.
+// From the arguments of the command line to a command, with errors for wrong arguments.
 #include "command_table.hpp"
 #include "command_texts.hpp"
 #include "options.hpp"
@@ -28,7 +28,7 @@ constexpr const char* exit_code_text =
     "  4    reading or writing failed; all earlier frames are complete\n"
     "  130  interrupted; a checkpoint was written, --resume continues";
 
-// The names of options, or of commands, that a word may have meant.
+// A hint: the nearest known name of an option or command, or all names.
 std::string nearest(const std::string& word, const std::vector<std::string>& known)
 {
     const std::vector<std::string_view> views(known.begin(), known.end());
@@ -47,7 +47,7 @@ std::vector<std::string> options_of(const CLI::App& command)
     return names;
 }
 
-// A word that no command knows, and the one that was meant.
+// Throws for an unknown command, with the nearest known one as a hint.
 void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv)
 {
     const std::vector<std::string> known = command_names(app);
@@ -133,7 +133,7 @@ int run_command_line(int argc, const char* const* argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        // Help and version are no mistakes; everything else is the user's input.
+        // Help and version are not errors; all other exceptions are errors of the input.
         if (error.get_exit_code() == 0) {
             app.exit(error);
             return exit_code::done;

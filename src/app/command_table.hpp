@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of commands and options: what the program accepts, and the source of `--help`, of the
+// The table of all commands and options: the source of the parser, of `--help`, of the
 // manual pages and of what shells complete.
 #pragma once
 

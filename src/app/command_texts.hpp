@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The commands and options as plain data, and what is made of them beside `--help`: manual pages,
+// The commands and options as plain data, from which besides `--help` are made: manual pages,
 // and scripts by which shells complete command lines.
 #pragma once
 
@@ -12,7 +12,7 @@ class App;
 
 namespace hyoryu {
 
-/// What may stand for a value, as a shell offers it.
+/// Candidates for a value that a shell offers.
 struct ValueCandidates {
     enum class Kind { none, words, files, toml_files, folders };
     Kind kind = Kind::none;
@@ -42,7 +42,7 @@ struct ProgramText {
     std::vector<CommandText> commands; // in the order of the help
 };
 
-/// What may stand for a value follows from its name: FILE, FILE.toml, FOLDER, COMMAND, KEY (of the
+/// The candidates for a value follow from its name: FILE, FILE.toml, FOLDER, COMMAND, KEY (of the
 /// case file), TEMPLATE, or words between bars.
 ProgramText texts_of(const CLI::App& program);
 

@@ -61,7 +61,7 @@ struct ConvertOptions {
     std::vector<double> times;     // [s] only the frames nearest to these; empty: all
     bool force = false;            // replace an earlier conversion
 };
-/// Writes the frames in another format; replaces nothing but what it wrote itself.
+/// Writes the frames in another format; replaces only files that it wrote itself.
 int convert_results(const ConvertOptions& options);
 
 struct RenderOptions {
@@ -94,7 +94,7 @@ struct StudyOptions {
     std::filesystem::path folder; // empty: study stem + "-results" in the current folder
     int threads = 1;              // of each run
     int jobs = 1;                 // runs side by side
-    bool force = false;           // run again what is done
+    bool force = false;           // repeat finished runs
 };
 int run_study(const StudyOptions& options);
 

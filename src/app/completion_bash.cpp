@@ -38,7 +38,7 @@ std::vector<std::string> dashed_names(const CommandText& command)
     return names;
 }
 
-// One branch an option that takes a value: it sets `action`, so that a word behind it is no place.
+// One branch an option that takes a value: it sets `action`, so that the next word is its value.
 std::string value_branches(const CommandText& command)
 {
     std::string text;

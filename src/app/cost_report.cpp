@@ -25,7 +25,7 @@ constexpr double part_of_run = 0.01;
 constexpr double part_that_is_early = 0.05;
 constexpr double part_of_short_run = 0.05;
 constexpr double least_steps = 15; // some with new lists among them
-constexpr double most_steps = 60;  // more would tell no more
+constexpr double most_steps = 60;  // more steps would not be more accurate
 constexpr double shortest_run = 100;
 
 ordered_json read(const std::filesystem::path& file)
@@ -119,7 +119,7 @@ void foretell_development(const CaseSource& source, const Plan& plan, int first,
         try {
             cost.development = develop(source, plan, coarsening, first, cost.seconds, most_seconds);
         } catch (const CaseError&) {
-            return; // what the case asks for cannot be had with so few particles
+            return; // the case cannot be represented with so few particles
         }
         if (cost.development) {
             return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run was foretold to cost, beside what it cost.
+// Predicted and measured run cost.
 #pragma once
 
 #include "hyoryu/sim/cost.hpp"
@@ -45,8 +45,8 @@ struct SpentCost {
 };
 
 /// Adds `cost` to the summary.json in the folder: for each effect that its plan.json names, and for
-/// the run, what the plan foretold and what was measured. Throws IoError, also when one of the two
-/// is not what a run wrote.
+/// the run, the prediction of the plan and the measurement. Throws IoError, also when one of the
+/// two is not what a run wrote.
 void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
                 const std::optional<StepCost>& measured);
 

@@ -38,7 +38,7 @@ constexpr double without_avx512 = 1.6;
 constexpr double body_seconds = 35e-6;
 
 // Impacts of a body in a heap in a step, over a whole run of 1,960 boxes; runs of 490 had 0.43 to
-// 0.58. Fewer bodies are no heap.
+// 0.58. Fewer bodies are not a heap.
 constexpr double heap_impacts = 0.72;
 constexpr Index heap_bodies = 100;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `hyoryu info`: what a results folder holds, for a person or for a program.
+// `hyoryu info`: the contents of a results folder, as text or as JSON.
 #include "commands.hpp"
 #include "options.hpp"
 #include "plan_report.hpp"

@@ -23,7 +23,7 @@ private:
     double start_;
 };
 
-/// From this share on times are told as those of a busy machine [1].
+/// From this share on times are reported as those of a busy machine [1].
 inline constexpr double noteworthy_waiting = 0.05;
 
 } // namespace hyoryu

@@ -30,7 +30,7 @@ int fail(const std::string& message, int code)
 }
 
 // An exception in a thread of a loop cannot be caught outside of it. Of those only the one for
-// memory is not a fault of this program; what is on disk stays readable.
+// memory is not a fault of this program; files on disk stay readable.
 [[noreturn]] void end_without_memory()
 {
     try {

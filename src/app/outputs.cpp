@@ -175,10 +175,10 @@ void Outputs::write_energy(const Simulation& sim)
     const Totals t = totals(sim);
     std::vector<std::string> row =
         cells({sim.clock.time, t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic,
-               t.body_potential, sim.ledger.contact_loss});
+               t.body_potential, sim.conservation.contact_loss});
     append(row, t.momentum);
-    append(row, sim.ledger.wall_impulse);
-    append(row, sim.ledger.gravity_impulse);
+    append(row, sim.conservation.wall_impulse);
+    append(row, sim.conservation.gravity_impulse);
     const LostParticles lost = sim.fluid ? sim.fluid->lost : LostParticles{};
     row.push_back(cell(lost.energy));
     append(row, lost.momentum);

@@ -13,11 +13,11 @@ namespace hyoryu {
 
 class Outputs {
 public:
-    /// Opens everything; a resumed run keeps what is not later than the present time of `sim`.
+    /// Opens all files; a resumed run keeps the rows up to the present time of `sim`.
     Outputs(std::filesystem::path folder, const Simulation& sim, const Bounds& domain);
     Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot& resumed);
 
-    /// After every step and once before the first: what is due is written.
+    /// Writes all due output; called after each step and once before the first.
     void update(Simulation& sim);
     /// The state for a restart: of the simulation and of the sums below.
     Snapshot snapshot(const Simulation& sim) const;
@@ -26,7 +26,7 @@ public:
     void close_interval(const Simulation& sim);
     /// What the thread that writes frames has cost.
     FrameWriter::Cost frame_cost() const { return frames_->cost(); }
-    /// Time of the solver's side by what is written.
+    /// Time of the solver thread by kind of output.
     StageTimer& timer() { return timer_; }
 
 private:

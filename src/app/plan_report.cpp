@@ -109,7 +109,7 @@ nlohmann::ordered_json material_json(const Scene& scene, const Plan& plan)
     return json;
 }
 
-// What the columns of all particles hold [B]: only a part of what a run needs.
+// Memory of the columns of all particles [B]: only a part of the memory of a run.
 double column_bytes(const Plan& plan)
 {
     double bytes = 0;
@@ -158,7 +158,7 @@ std::string size_lines(const Scene& scene, const Plan& plan, const std::optional
     return text;
 }
 
-// An effect that takes less than what the timing scatters is told by that bound.
+// An effect whose share is below the scatter of the timing is reported by that bound.
 std::string share_text(const StepCost::Share& share)
 {
     return share.share > share.spread
@@ -167,7 +167,7 @@ std::string share_text(const StepCost::Share& share)
                              std::max(1.0, 100 * (share.share + share.spread)));
 }
 
-// Times that were taken beside other work are told with what they would be without it.
+// Times measured on a busy machine are reported with an estimate for an idle one.
 std::string busy_lines(const Plan& plan, const StepCost& timed)
 {
     if (timed.waiting < noteworthy_waiting) {

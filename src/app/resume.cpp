@@ -78,7 +78,7 @@ bool leaves_frames_to_default(const Scene& scene)
     return scene.output.every == scene.time.end / 100;
 }
 
-// For a shell: a single quote ends the quotes, stands for itself, and begins them again.
+// For a shell: a single quote ends the quotes, is escaped, and begins them again.
 std::string quoted(const std::string& word)
 {
     constexpr std::string_view harmless =

@@ -15,7 +15,7 @@ namespace hyoryu {
 /// What a checkpoint is taken up with.
 struct Resumption {
     Snapshot state;          // for the case as it is now
-    Scene scene;             // the case, with what it leaves to the run before
+    Scene scene;             // the case, with defaults taken from the previous run
     std::string passed_over; // why `checkpoint.h5` was not read; empty if it was
     bool changed = false;    // whether the case is not the one that wrote the checkpoint
 };

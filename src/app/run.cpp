@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outer loop of a run: step, write what is due, show how far it is, stop when asked.
+// The outer loop of a run: step, write due output, show progress, stop on request.
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "cost_report.hpp"
@@ -153,7 +153,7 @@ void recover(Job& job, const NumericalError& error)
     Simulation sim = make_simulation(scene, job.sim.plan, fill(scene));
     restore(sim, job.last_good);
     sim.clock.share = 0.5 * job.sim.clock.share;
-    job.sim.timer.end(); // of the stage that went wrong
+    job.sim.timer.end(); // of the failed stage
     sim.timer = job.sim.timer;
     sim.steps_by_limit = job.sim.steps_by_limit;
     sim.pair_visits = job.sim.pair_visits;
@@ -166,12 +166,12 @@ void recover(Job& job, const NumericalError& error)
     job.sim = std::move(sim);
 }
 
-// One step; false if it went wrong and the run has gone back to where shorter ones start.
+// One step; false if it failed and the run has returned to an earlier state with shorter steps.
 bool step_or_recover(Job& job)
 {
     try {
         step(job.sim);
-        // About to be told, or kept as a good state.
+        // Before a history row, or a good state.
         if (history_due(job.sim.clock, job.sim.scene) || frame_due(job.sim.clock, job.sim.scene)) {
             watch_energy(job.sim, totals(job.sim));
         }
@@ -210,8 +210,8 @@ void advance(Job& job)
 // What a user should know before trusting the numbers.
 void tell_doubts(Job& job)
 {
-    constexpr double noteworthy = 0.1; // ten times what the sound speed is chosen for
-    const double compression = job.sim.ledger.worst_density_error;
+    constexpr double noteworthy = 0.1; // ten times the variation that the sound speed aims at
+    const double compression = job.sim.conservation.worst_density_error;
     if (compression > noteworthy) {
         job.progress.line(fmt::format("note: the density error reached {:.0f} %, which is typical "
                                       "of fluid squeezed between solids",
@@ -221,11 +221,11 @@ void tell_doubts(Job& job)
         job.progress.line(fmt::format("note: {} fluid particles left the domain and were removed",
                                       job.sim.fluid->lost.count));
     }
-    if (job.sim.ledger.worst_in_solids > 0) {
+    if (job.sim.conservation.worst_in_solids > 0) {
         job.progress.line(fmt::format(
             "note: up to {} fluid particles were more than a quarter of a spacing inside a wall or "
             "body at one time, {} at the end",
-            job.sim.ledger.worst_in_solids, particles_in_solids(job.sim)));
+            job.sim.conservation.worst_in_solids, particles_in_solids(job.sim)));
     }
     if (job.sim.rigid.counters.capped_steps > 0) {
         job.progress.line(fmt::format(

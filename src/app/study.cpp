@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `hyoryu study`: runs a case over values of its keys and shows what accuracy costs.
+// `hyoryu study`: runs a case over values of its keys and compares accuracy with cost.
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "options.hpp"

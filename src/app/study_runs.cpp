@@ -86,7 +86,7 @@ struct Running {
 };
 
 // Repeats are there for their times: nothing else of them is kept, except for the plan, by which
-// the next call knows the folder as that of a run.
+// the next call recognises the folder as that of a run.
 void keep_summary_only(const fs::path& folder)
 {
     remove_results_except(folder, [](const std::string& name) {
@@ -138,7 +138,7 @@ public:
                 break;
             }
             fs::create_directories(jobs_[k].folder.parent_path());
-            fs::remove(asked_of(jobs_[k])); // what stands there is about to be replaced
+            fs::remove(asked_of(jobs_[k])); // the results there are about to be replaced
             running_.push_back(
                 {k, start(command_of(study_, runs_[jobs_[k].run], jobs_[k], settings_.threads),
                           messages_of(jobs_[k]))});

@@ -15,8 +15,7 @@ struct StudyJob {
     std::size_t run = 0;
     int repeat = 1;
     std::filesystem::path folder;
-    std::string
-        asked; // the case and its overrides: what an earlier result must have been made from
+    std::string asked; // the case and its overrides: an earlier result is reused if it has the same
     double memory = 0; // forecast [B]
 };
 

@@ -105,18 +105,18 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     if (sim.fluid) {
         const Index in_solids = particles_in_solids(sim);
         json["particles_in_solids"] = in_solids;
-        json["worst_particles_in_solids"] = std::max(in_solids, sim.ledger.worst_in_solids);
+        json["worst_particles_in_solids"] = std::max(in_solids, sim.conservation.worst_in_solids);
     }
-    json["worst_density_error"] = sim.ledger.worst_density_error;
-    json["energy"] = {{"start", energies(sim.ledger.start)},
+    json["worst_density_error"] = sim.conservation.worst_density_error;
+    json["energy"] = {{"start", energies(sim.conservation.start)},
                       {"end", energies(end)},
-                      {"contact_loss", sim.ledger.contact_loss}};
-    json["momentum"] = {{"start", array(sim.ledger.start.momentum)},
+                      {"contact_loss", sim.conservation.contact_loss}};
+    json["momentum"] = {{"start", array(sim.conservation.start.momentum)},
                         {"end", array(end.momentum)},
-                        {"wall_impulse", array(sim.ledger.wall_impulse)},
-                        {"gravity_impulse", array(sim.ledger.gravity_impulse)},
+                        {"wall_impulse", array(sim.conservation.wall_impulse)},
+                        {"gravity_impulse", array(sim.conservation.gravity_impulse)},
                         {"lost", array(sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()))},
-                        {"worst_closure_of_a_step", sim.ledger.worst_closure}};
+                        {"worst_closure_of_a_step", sim.conservation.worst_closure}};
     json["contact"] = contact_counters(sim.rigid.counters, sim.clock.step);
     return json.dump(2) + "\n";
 }

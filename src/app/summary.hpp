@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `summary.json`: what a run was and what it cost.
+// `summary.json`: the results, diagnostics and cost of a run.
 #pragma once
 
 #include "hyoryu/io/results.hpp"
@@ -14,7 +14,7 @@ double peak_memory();
 
 /// `exit_reason`: "done", "interrupted", "until", "numerical error", "io error". `first_step`: step
 /// at which this process began; `output`: time of the
-/// solver's side for what is written; `frames`: cost of the thread that writes them.
+/// solver thread by kind of output; `frames`: cost of the writer thread.
 std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
                          std::int64_t first_step, const StageTimer& output,
                          const FrameWriter::Cost& frames);

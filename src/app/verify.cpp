@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `hyoryu verify`: runs benchmarks as `hyoryu run` does, reads what they wrote, and judges it.
+// `hyoryu verify`: runs benchmarks as `hyoryu run` does and checks their results.
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "options.hpp"

@@ -30,7 +30,7 @@ struct BodyJoints {
     BodyFaces faces;
     std::vector<int> near;            // other solids that it may touch, walls first
     std::vector<JointNode> nodes;     // by cell; empty while no cell lies opposite anything
-    std::vector<std::uint8_t> joined; // by face: it has touched what lies opposite
+    std::vector<std::uint8_t> joined; // by face: it has touched the opposite surface
 };
 
 /// All surfaces of the scene.
@@ -68,7 +68,7 @@ OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, 
 /// `normal` is that of the face, outward.
 using Joins = std::function<bool(int b, int other, const Vec3& normal)>;
 
-/// Finds what lies opposite each cell of body b. Whether anything does.
+/// Finds the surface opposite each cell of body b; true if there is any.
 bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const Joins& joins);
 
 } // namespace hyoryu

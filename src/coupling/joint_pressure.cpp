@@ -320,7 +320,7 @@ LatticeSums lattice_sums(const Fluid& fluid)
     const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
     LatticeSums sums;
     for (int k = 0; k <= LatticeSums::steps; ++k) {
-        // Solid particles stand half a spacing behind their face.
+        // Solid particles are half a spacing behind their face.
         const double width = 1 + static_cast<double>(k) / LatticeSums::steps;
         sums.between[at(k)] = row_sum(fluid, -reach, (1 + width) / 2 * dp);
     }

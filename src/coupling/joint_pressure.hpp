@@ -22,7 +22,7 @@ LatticeSums lattice_sums(const Fluid& fluid);
 /// What the particles show to the joints.
 struct ParticlePressure {
     std::span<const Vec3> x;       // of all rows [m]
-    std::span<const real> p;       // [Pa]; of solids what they took over from the fluid
+    std::span<const real> p;       // [Pa]; of solids extrapolated from the fluid
     std::span<const real> shepard; // of solids: sum W over the fluid [1/m^d]
     std::size_t first = 0;         // row of the first particle of the body
     double spacing = 0;            // of the fluid [m]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Surfaces of solids as rays meet them: what lies opposite a face, and what closes a rim.
+// Intersection of rays with the surfaces of solids: the surface opposite a face, and the closure of
+// a rim.
 #pragma once
 
 #include "hyoryu/rigid/box_tree.hpp"

@@ -12,7 +12,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double widest = 2; // spacings that a joint may be wide; water fills what is wider
+constexpr double widest = 2; // largest width of a joint in spacings; wider gaps contain particles
 
 std::size_t at(Index k)
 {
@@ -39,7 +39,7 @@ public:
         if (std::pair{own, b} > std::pair{its, other}) {
             return false;
         }
-        constexpr double steep = 0.3; // cosine below which neither stands on the other
+        constexpr double steep = 0.3; // cosine below which neither is the support of the other
         const double downward = normal.dot(down_);
         if (downward > steep) {
             return open_[at(b)] != 0;

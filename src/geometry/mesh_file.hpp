@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mesh file is, told from its name and first bytes before a reader trusts it.
+// The type of a mesh file, from its name and first bytes, checked before it is read.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Atomic replacement of files with POSIX calls, which alone tell why a disk refused.
+// Atomic replacement of files with POSIX calls, which report the cause of a failure.
 #include "atomic_file.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -17,7 +17,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr mode_t everyone_reads = 0666; // the user's umask takes away what it must
+constexpr mode_t everyone_reads = 0666; // restricted by the umask of the user
 
 int open_for_writing(const std::filesystem::path& file)
 {

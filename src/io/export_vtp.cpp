@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames as VTK's XML PolyData. The bytes stand inline as base64: the form that every reader of
+// Frames as VTK's XML PolyData. The bytes are inline base64: the form that every reader of
 // VTK 6 and later takes, also with the XML parsers that fail on appended data (VTK issue 19258).
 #include "atomic_file.hpp"
 #include "hyoryu/core/error.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// VTK is told that the numbers stand as this machine keeps them.
+// The numbers are declared in the byte order of this machine.
 static_assert(std::endian::native == std::endian::little);
 
 std::string base64(std::span<const std::byte> bytes)

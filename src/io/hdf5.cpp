@@ -44,7 +44,7 @@ Handle in_memory_access(std::size_t content)
 {
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepare an HDF5 file");
     // Few reallocations, little waste: HDF5 fills a portion with zeros before anything is in it,
-    // and 8 MiB a file were a fifth of what a small run held.
+    // and 8 MiB per file were a fifth of the memory of a small run.
     constexpr std::size_t around_content = std::size_t{64} << 10; // headers, groups, attributes
     constexpr std::size_t largest = std::size_t{8} << 20;
     const std::size_t growth = std::min(content + around_content, largest);

@@ -198,7 +198,7 @@ History::History(const std::filesystem::path& folder, Table table, double keep_u
 {
 }
 
-/// A destructor cannot tell of a full disk: whoever cares calls flush() before.
+/// A destructor cannot report a full disk: call flush() before to get the error.
 History::~History()
 {
     if (state_) {

@@ -85,7 +85,7 @@ constexpr ElementType element_type()
 }
 
 /// HDF5's shuffle: first bytes of all elements, then second bytes... Neighbouring particles agree
-/// in their leading bytes, which stand together then.
+/// in their leading bytes, which are then contiguous.
 template <std::size_t Size>
 void shuffle(std::span<const std::byte> in, std::span<std::byte> out)
 {
@@ -182,7 +182,7 @@ Values read_values(hid_t dataset, ElementType type, std::size_t count, const std
 void expect_stored(hid_t dataset, std::size_t bytes, const std::string& action)
 {
     const hdf5::Handle creation(H5Dget_create_plist(dataset), H5Pclose, action);
-    constexpr std::size_t most_of_deflate = 1032; // bytes that one byte can stand for
+    constexpr std::size_t most_of_deflate = 1032; // largest expansion of one byte
     constexpr std::size_t a_chunk = std::size_t{8} << 20;
     if (H5Pget_layout(creation) != H5D_VIRTUAL && bytes > a_chunk &&
         bytes / most_of_deflate > H5Dget_storage_size(dataset)) {

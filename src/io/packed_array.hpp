@@ -43,7 +43,7 @@ struct PackedArray {
     std::vector<Bytes> chunks;
 };
 
-/// Compresses what is large enough to gain by it. Needs no HDF5 lock.
+/// Compresses large arrays. Needs no HDF5 lock.
 PackedArray packed(const ArrayView& view);
 /// Never compressed.
 PackedArray raw(const ArrayView& view);

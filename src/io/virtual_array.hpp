@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// HDF5's virtual datasets: arrays whose parts stand in other files, which the file that holds the
+// HDF5 virtual datasets: arrays whose parts are in other files, which the file that holds the
 // virtual one refers to. Needs a Session; every function throws IoError.
 #pragma once
 
@@ -28,7 +28,7 @@ public:
     /// The next `rows` rows are those of the dataset of that file, a name relative to the folder of
     /// the file that will hold this array.
     void append(const std::string& file, const std::string& dataset, hsize_t rows);
-    /// The next `rows` rows stand nowhere.
+    /// The next `rows` rows have no source.
     void skip(hsize_t rows) { filled_ += rows; }
     void put(hid_t parent, const std::string& name) const;
 

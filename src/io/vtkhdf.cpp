@@ -214,7 +214,7 @@ std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
     return triangles;
 }
 
-/// Runs `read(file, root group)`; whatever goes wrong is told with the name of the file.
+/// Runs `read(file, root group)`; errors are reported with the name of the file.
 template <class Read>
 void read_vtkhdf(const std::filesystem::path& file, Read read)
 {

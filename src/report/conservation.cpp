@@ -74,7 +74,7 @@ std::string energy_text(const RunResults& run, double remainder, double scale)
                "if there are any."));
 }
 
-std::string energy_books(const RunResults& run, const Values& time)
+std::string energy_balance(const RunResults& run, const Values& time)
 {
     Chart chart{.title = "energy: change since the start",
                 .x_axis = "time [s]",
@@ -103,7 +103,7 @@ std::string energy_books(const RunResults& run, const Values& time)
     return "<h3>Energy</h3>\n" + svg_chart(chart) + energy_text(run, sum.back(), scale);
 }
 
-/// Momentum less its start and less what walls and gravity gave, with what left the domain.
+/// Change of momentum, with that of lost fluid, less the impulses of walls and gravity.
 Values unexplained(const RunResults& run, char axis)
 {
     const auto of = [&](const char* name) { return column(run, fmt::format("{}_{}", name, axis)); };
@@ -139,7 +139,7 @@ std::string momentum_text(const RunResults& run)
                     readable(number(m.at("worst_closure_of_a_step")))));
 }
 
-std::string momentum_books(const RunResults& run, const Values& time)
+std::string momentum_balance(const RunResults& run, const Values& time)
 {
     const std::string unit = run.per_width("kg m/s");
     Chart momentum{.title = "momentum of fluid and bodies",
@@ -161,13 +161,14 @@ std::string momentum_books(const RunResults& run, const Values& time)
 
 } // namespace
 
-std::string books_section(const RunResults& run)
+std::string conservation_section(const RunResults& run)
 {
     const Values& time = column(run, "time");
     if (time.empty()) {
         return "<h2>Energy and momentum</h2>\n" + html_paragraph("energy.csv has no rows yet.");
     }
-    return "<h2>Energy and momentum</h2>\n" + energy_books(run, time) + momentum_books(run, time);
+    return "<h2>Energy and momentum</h2>\n" + energy_balance(run, time) +
+           momentum_balance(run, time);
 }
 
 } // namespace hyoryu

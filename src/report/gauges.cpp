@@ -31,7 +31,7 @@ struct Reading {
 
 Reading reading_of(const std::string& column, const std::string& gauge)
 {
-    // The component stands behind the part and before the filter: house_pressure_x, probe_x_mean.
+    // The component follows the part and precedes the filter: house_pressure_x, probe_x_mean.
     for (const std::string component : {"x", "y", "z"}) {
         const std::size_t at = column.find("_" + component, gauge.size());
         const std::size_t end = at + 2;

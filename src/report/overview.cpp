@@ -128,7 +128,7 @@ std::string busy_text(const ordered_json& cost)
                                 : std::string();
 }
 
-// What was foretold beside what was measured; runs that did not end by themselves have none.
+// Predicted and measured cost; absent for runs that did not reach their end.
 std::string forecast_table(const RunResults& run)
 {
     if (!run.summary.contains("cost")) {

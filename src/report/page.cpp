@@ -34,8 +34,8 @@ std::string page_of(const RunResults& run, const ReportSettings& settings)
                        "<style>{1}{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                        title, style, chart_style) +
            case_section(run) + run_section(run) + picture_section(run) +
-           impact_section(run, settings.stiffness) + track_section(run) + gauge_section(run) +
-           books_section(run) + plan_section(run) + cost_section(run) + "</body>\n</html>\n";
+           impact_section(run, settings.stiffness) + trajectory_section(run) + gauge_section(run) +
+           conservation_section(run) + plan_section(run) + cost_section(run) + "</body>\n</html>\n";
 }
 
 } // namespace

@@ -57,9 +57,9 @@ bool is_drawn(const std::vector<Vec3>& normals, const Vec3& towards_viewer)
            normals[0].dot(towards_viewer) * normals[1].dot(towards_viewer) < 0;
 }
 
-/// The range of the picture: outline and tracks.
+/// The range of the picture: outline and trajectories.
 std::array<Range, 2> ranges_of(const std::vector<Segment>& outline,
-                               const std::vector<Track>& tracks)
+                               const std::vector<Trajectory>& trajectories)
 {
     std::vector<double> x, y;
     for (const Segment& s : outline) {
@@ -67,9 +67,9 @@ std::array<Range, 2> ranges_of(const std::vector<Segment>& outline,
         y.insert(y.end(), {s[1], s[3]});
     }
     std::vector<const std::vector<double>*> xs{&x}, ys{&y};
-    for (const Track& track : tracks) {
-        xs.push_back(&track.x);
-        ys.push_back(&track.y);
+    for (const Trajectory& trajectory : trajectories) {
+        xs.push_back(&trajectory.x);
+        ys.push_back(&trajectory.y);
     }
     return {padded(range_of(xs), 0.03), padded(range_of(ys), 0.03)};
 }
@@ -101,15 +101,15 @@ Layout layout_of(std::array<Range, 2> ranges)
 }
 
 /// Points nearer than half a pixel to the one before draw nothing new.
-std::string path_of(const Track& track, const Layout& at)
+std::string path_of(const Trajectory& trajectory, const Layout& at)
 {
     constexpr double least = 0.5;
     std::string d;
     double x = 0, y = 0;
-    for (std::size_t k = 0; k < track.x.size(); ++k) {
-        const double u = at.x(track.x[k]), v = at.y(track.y[k]);
+    for (std::size_t k = 0; k < trajectory.x.size(); ++k) {
+        const double u = at.x(trajectory.x[k]), v = at.y(trajectory.y[k]);
         if (!std::isfinite(u) || !std::isfinite(v) ||
-            (!d.empty() && k + 1 < track.x.size() && std::hypot(u - x, v - y) < least)) {
+            (!d.empty() && k + 1 < trajectory.x.size() && std::hypot(u - x, v - y) < least)) {
             continue;
         }
         d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? 'M' : 'L', u, v);
@@ -119,9 +119,10 @@ std::string path_of(const Track& track, const Layout& at)
     return d;
 }
 
-std::string drawn_track(const Track& track, const Layout& at, std::size_t k, std::string_view name)
+std::string drawn_trajectory(const Trajectory& trajectory, const Layout& at, std::size_t k,
+                             std::string_view name)
 {
-    if (track.x.empty()) {
+    if (trajectory.x.empty()) {
         return {};
     }
     const std::string stroke = svg_stroke(k);
@@ -129,9 +130,10 @@ std::string drawn_track(const Track& track, const Layout& at, std::size_t k, std
                        "<circle class=\"l r\" {0} cx=\"{3:.1f}\" cy=\"{4:.1f}\" r=\"3\"/>"
                        "<circle cx=\"{5:.1f}\" cy=\"{6:.1f}\" r=\"3\"/>"
                        "<text x=\"{7:.1f}\" y=\"{8:.1f}\">{9}</text>\n",
-                       stroke, path_of(track, at), escaped(track.body), at.x(track.x.front()),
-                       at.y(track.y.front()), at.x(track.x.back()), at.y(track.y.back()),
-                       at.x(track.x.back()) + 5, at.y(track.y.back()) - 4, escaped(name));
+                       stroke, path_of(trajectory, at), escaped(trajectory.body),
+                       at.x(trajectory.x.front()), at.y(trajectory.y.front()),
+                       at.x(trajectory.x.back()), at.y(trajectory.y.back()),
+                       at.x(trajectory.x.back()) + 5, at.y(trajectory.y.back()) - 4, escaped(name));
 }
 
 std::string drawn_outline(const std::vector<Segment>& outline, const Layout& at,
@@ -197,18 +199,18 @@ std::string svg_scene(const SceneView& scene, View view, const std::string& labe
            "</svg>\n";
 }
 
-std::string svg_plan_view(const std::vector<Segment>& outline, const std::vector<Track>& tracks,
-                          View view)
+std::string svg_plan_view(const std::vector<Segment>& outline,
+                          const std::vector<Trajectory>& trajectories, View view)
 {
-    const Layout at = layout_of(ranges_of(outline, tracks));
+    const Layout at = layout_of(ranges_of(outline, trajectories));
     const char* up = view == View::xy ? "y [m]" : "z [m]";
     std::string text = svg_head(at.width, at.height, "tracks of the bodies");
     text += svg_axes(at.area, at.x, at.y, "x [m]", up);
     text += drawn_outline(outline, at, "w");
-    for (std::size_t k = 0; k < tracks.size(); ++k) {
+    for (std::size_t k = 0; k < trajectories.size(); ++k) {
         const std::string_view name =
-            tracks.size() <= most_names ? tracks[k].body : std::string_view();
-        text += drawn_track(tracks[k], at, k, name);
+            trajectories.size() <= most_names ? trajectories[k].body : std::string_view();
+        text += drawn_trajectory(trajectories[k], at, k, name);
     }
     return text + "</svg>\n";
 }

@@ -14,13 +14,13 @@ std::string plan_section(const RunResults& run);
 std::string run_section(const RunResults& run);
 std::string picture_section(const RunResults& run);
 std::string cost_section(const RunResults& run);
-std::string books_section(const RunResults& run);
+std::string conservation_section(const RunResults& run);
 std::string gauge_section(const RunResults& run);
-std::string track_section(const RunResults& run);
-/// `stiffness`: of every impact [N/m], in place of what the case declares.
+std::string trajectory_section(const RunResults& run);
+/// `stiffness`: of all impacts [N/m], instead of the values of the case.
 std::string impact_section(const RunResults& run, std::optional<double> stiffness);
 
-/// Four digits, or a dash for what is no number.
+/// Four digits, or a dash for NaN.
 std::string readable(double value);
 
 } // namespace hyoryu

@@ -167,7 +167,7 @@ std::vector<std::size_t> rows_to_draw(const std::vector<double>& x, const std::v
             high = y[end] > y[high] || std::isnan(y[high]) ? end : high;
             gap = std::isnan(y[end]) ? end : gap;
         }
-        end = std::max(end, begin + 1); // a time that is no number stands alone
+        end = std::max(end, begin + 1); // a time that is not a number is a group of its own
         std::array<std::size_t, 5> kept{begin, low, high, gap, end - 1};
         std::sort(kept.begin(), kept.end());
         rows.insert(rows.end(), kept.begin(), std::unique(kept.begin(), kept.end()));

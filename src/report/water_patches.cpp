@@ -47,7 +47,7 @@ Raster raster_of(const std::vector<float>& points, double spacing, View view)
     return raster;
 }
 
-/// The shade of a height, -1 where there is no water.
+/// The shade of a height, -1 without water.
 int shade_of(double top, const std::array<double, 2>& heights)
 {
     if (top == empty) {
@@ -74,7 +74,7 @@ std::vector<WaterPatch> water_patches(const std::vector<float>& points, double s
             if (shade >= 0 && shade == before) {
                 patches.back().width += raster.cell;
             } else if (shade >= 0) {
-                // A particle stands in the middle of its cell.
+                // A particle is at the centre of its cell.
                 patches.push_back({raster.left + raster.cell * (static_cast<double>(column) - 0.5),
                                    raster.low + raster.cell * (static_cast<double>(row) - 0.5),
                                    raster.cell, raster.cell, shade / (shades - 1.0)});

@@ -318,38 +318,38 @@ void restore_rigid(Rigid& rigid, const Snapshot& snapshot)
     c.worst_penetration = counters.number();
 }
 
-Numbers numbers_of(const Ledger& ledger)
+Numbers numbers_of(const Conservation& sums)
 {
-    const Totals& t = ledger.start;
+    const Totals& t = sums.start;
     Numbers n{t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic,
               t.body_potential};
     put(n, t.momentum);
     put(n, t.momentum_scale);
-    put(n, ledger.contact_loss);
-    put(n, ledger.wall_impulse);
-    put(n, ledger.gravity_impulse);
-    put(n, ledger.worst_closure);
-    put(n, ledger.worst_density_error);
+    put(n, sums.contact_loss);
+    put(n, sums.wall_impulse);
+    put(n, sums.gravity_impulse);
+    put(n, sums.worst_closure);
+    put(n, sums.worst_density_error);
     return n;
 }
 
-void restore_ledger(Ledger& ledger, const Snapshot& snapshot)
+void restore_conservation(Conservation& sums, const Snapshot& snapshot)
 {
     Reader n(snapshot, "ledger");
-    Totals& t = ledger.start;
+    Totals& t = sums.start;
     for (double* value : {&t.fluid_kinetic, &t.fluid_potential, &t.fluid_internal, &t.body_kinetic,
                           &t.body_potential}) {
         *value = n.number();
     }
     t.momentum = n.vector();
     t.momentum_scale = n.number();
-    ledger.contact_loss = n.number();
-    ledger.wall_impulse = n.vector();
-    ledger.gravity_impulse = n.vector();
-    ledger.worst_closure = n.number();
-    ledger.worst_density_error = n.number();
+    sums.contact_loss = n.number();
+    sums.wall_impulse = n.vector();
+    sums.gravity_impulse = n.vector();
+    sums.worst_closure = n.number();
+    sums.worst_density_error = n.number();
     const bool any = snapshot.arrays.contains(in_solids);
-    ledger.worst_in_solids = any ? static_cast<Index>(Reader(snapshot, in_solids).number()) : 0;
+    sums.worst_in_solids = any ? static_cast<Index>(Reader(snapshot, in_solids).number()) : 0;
 }
 
 } // namespace
@@ -364,9 +364,9 @@ Snapshot save(const Simulation& sim)
     if (c.frame_offset != 0) {
         add(snapshot, frame_offset_array, {static_cast<double>(c.frame_offset)});
     }
-    add(snapshot, "ledger", numbers_of(sim.ledger));
-    if (sim.ledger.worst_in_solids > 0) {
-        add(snapshot, in_solids, {static_cast<double>(sim.ledger.worst_in_solids)});
+    add(snapshot, "ledger", numbers_of(sim.conservation));
+    if (sim.conservation.worst_in_solids > 0) {
+        add(snapshot, in_solids, {static_cast<double>(sim.conservation.worst_in_solids)});
     }
     Numbers loads;
     for (const Wrench& load : sim.loads.bodies) {
@@ -406,7 +406,7 @@ void restore(Simulation& sim, const Snapshot& snapshot)
     const bool shifted = snapshot.arrays.contains(frame_offset_array);
     sim.clock.frame_offset =
         shifted ? static_cast<std::int64_t>(Reader(snapshot, frame_offset_array).number()) : 0;
-    restore_ledger(sim.ledger, snapshot);
+    restore_conservation(sim.conservation, snapshot);
     Reader loads(snapshot, "loads");
     for (Wrench& load : sim.loads.bodies) {
         load.force = loads.vector();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hyoryu/sim/ledger.hpp"
+#include "hyoryu/sim/conservation.hpp"
 
 #include "hyoryu/sim/simulation.hpp"
 
@@ -51,8 +51,8 @@ MomentumSum motion(const Simulation& sim)
     return all;
 }
 
-// Impulse of contacts with walls, and what holds the locked axes of bodies: whatever they would
-// have gained.
+// Impulse of contacts with walls, and of the constraints on the locked axes of bodies, which cancel
+// all other impulses along them.
 Vec3 outside_impulse(const Simulation& sim, double dt)
 {
     Vec3 impulse = Vec3::Zero();
@@ -78,7 +78,7 @@ Vec3 outside_impulse(const Simulation& sim, double dt)
     return impulse;
 }
 
-// Free weight, and what drives the fluid [N]: locked axes carry their own.
+// Weight and driving force of the fluid [N], without the weight along locked axes.
 Vec3 weight(const Simulation& sim)
 {
     Vec3 total = Vec3::Zero();
@@ -140,13 +140,13 @@ Totals totals(const Simulation& sim)
     return t;
 }
 
-OpenBooks open_books(const Simulation& sim)
+MomentumBefore momentum_before(const Simulation& sim)
 {
     const MomentumSum all = motion(sim);
     return {all.momentum, sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()), all.scale};
 }
 
-void close_books(Simulation& sim, const OpenBooks& before, double dt)
+void update_conservation(Simulation& sim, const MomentumBefore& before, double dt)
 {
     const MomentumSum after = motion(sim);
     Vec3 walls = outside_impulse(sim, dt);
@@ -156,16 +156,16 @@ void close_books(Simulation& sim, const OpenBooks& before, double dt)
     const Vec3 gravity = dt * weight(sim);
     const Vec3 lost = sim.fluid ? Vec3(sim.fluid->lost.momentum - before.lost) : Vec3(Vec3::Zero());
     const Vec3 residual = after.momentum - before.momentum + lost - walls - gravity;
-    // Momentum that passes through in one step counts for the scale: a fluid at rest carries its
-    // weight.
+    // The impulse of gravity is part of the scale: a fluid at rest has no momentum of its own.
     const double scale = std::max({before.scale, after.scale, gravity.norm()});
-    sim.ledger.wall_impulse += walls;
-    sim.ledger.gravity_impulse += gravity;
+    sim.conservation.wall_impulse += walls;
+    sim.conservation.gravity_impulse += gravity;
     if (scale > 0) {
-        sim.ledger.worst_closure = std::max(sim.ledger.worst_closure, residual.norm() / scale);
+        sim.conservation.worst_closure =
+            std::max(sim.conservation.worst_closure, residual.norm() / scale);
     }
     for (const Contact& contact : sim.contacts) {
-        sim.ledger.contact_loss += contact.energy_lost;
+        sim.conservation.contact_loss += contact.energy_lost;
     }
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int least_rounds = 2;
 
-// A slot that may be emptied, and the names that what it holds can have in the plan.
+// A slot that can be emptied, and the names of its effects in the plan.
 struct Slot {
     std::array<std::string_view, 3> names;
     void (*empty)(FluidEffects&);
@@ -127,7 +127,7 @@ void cut_no_step(Simulation& sim)
     sim.clock.frame = 1;
 }
 
-// Of so many steps after the very first one, without bodies and lists, on average.
+// Mean of a number of steps after the first one, without bodies and lists.
 double early_step(Simulation& sim, int first)
 {
     cut_no_step(sim);
@@ -222,7 +222,7 @@ StepCost measure_cost(Simulation& sim, int steps)
     cut_no_step(sim);
     std::vector<Variant> all = variants(sim);
     const int rounds = std::max(least_rounds, steps / static_cast<int>(all.size()));
-    step(sim); // what is in no cache yet comes into it
+    step(sim); // warms the caches
     StepCost cost;
     const Spent start = spent(sim);
     const long long builds_before = sim.fluid->neighbours.builds;
@@ -237,7 +237,7 @@ StepCost measure_cost(Simulation& sim, int steps)
             }
         }
     }
-    // Lists are made in some steps only, whatever the effects: all steps tell how often.
+    // Lists are constructed in some steps only: their frequency is the mean over all steps.
     const double timed = rounds * static_cast<double>(all.size());
     const Spent of_all = spent_since(start, sim, timed);
     cost.seconds += of_all.lists;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "room.hpp"
+#include "crush_check.hpp"
 
-#include "surroundings.hpp"
+#include "diagnostics.hpp"
 
 #include "hyoryu/scene/moving_walls.hpp"
 #include "hyoryu/sim/simulation.hpp"
@@ -12,10 +12,10 @@ namespace hyoryu {
 
 namespace {
 
-// Contacts whose normals are nearer than acos of this to the push hand it on.
+// A contact transmits the push if its normal is within acos of this of the direction of the push.
 constexpr double straight_on = 0.5;
 
-// The contacts of the last step that press, by body.
+// The contacts of the last step with a normal impulse, by body.
 using Pressing = std::vector<std::vector<Contact>>;
 
 // Each seen from the body: the normal points towards it, the other one is b.
@@ -35,7 +35,7 @@ Pressing pressing_by_body(const Simulation& sim)
     return all;
 }
 
-// The bodies that a push goes through, one after another, until it meets what does not give way.
+// The column of bodies through which a push acts, up to a solid that does not yield.
 class PushedColumn {
 public:
     PushedColumn(const Simulation& sim, const Pressing& pressing, const Contact& push)
@@ -44,7 +44,7 @@ public:
     {
     }
 
-    // The deepest contact between the push and what stands at the end of a column, which is named.
+    // The deepest contact between the push and the solid at the end of a column, and that solid.
     struct End {
         int against = 0;
         double depth = 0; // [m]
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    // Along the push; of a body none, as it gives way [m/s].
+    // Along the push; zero for a body, which yields [m/s].
     double speed_of(int b) const
     {
         return b < 0 ? push_.normal.dot(
@@ -95,7 +95,7 @@ private:
     const Simulation& sim_;
     const Pressing& pressing_;
     const Contact& push_;
-    double speed_;           // of what pushes, along the push [m/s]
+    double speed_;           // of the pushing wall, along the push [m/s]
     std::vector<bool> seen_; // by body
     End deepest_;
 };

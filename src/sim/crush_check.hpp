@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether moving walls leave bodies the room they need.
+// The crush check: finds bodies that a moving wall presses against a solid that yields more slowly.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// A body that a moving wall pushes, itself or through other bodies, against what gives way more
-/// slowly: then no motion of the body obeys all its contacts, and they overlap by more every step.
+/// A body that a moving wall pushes, directly or through other bodies, against a solid that yields
+/// more slowly: no motion of the body satisfies all its contacts, and the overlap grows with time.
 struct Crushed {
     std::string name;    // of the body
     std::string from;    // the wall that pushes
-    std::string against; // what stands
+    std::string against; // the solid that does not yield
     double depth = 0;    // of the deepest contact of the column [m]
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surroundings.hpp"
+#include "diagnostics.hpp"
 
 #include "hyoryu/sim/simulation.hpp"
 
@@ -37,7 +37,7 @@ std::string solid_name(const Simulation& sim, int b)
                                 sim.rigid.boundaries[static_cast<std::size_t>(-1 - b)].name);
 }
 
-std::string surroundings(const Simulation& sim, std::size_t row)
+std::string nearby_particles(const Simulation& sim, std::size_t row)
 {
     const Particles& particles = sim.fluid->particles;
     const Vec3& place = particles.fluid[field::position][row];

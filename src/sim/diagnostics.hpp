@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What lies around the place where a run went wrong. Looked at only then, so without any search
-// structure.
+// Diagnostics of an unstable run: particles and solids near the failure. Called only once,
+// therefore without a search structure.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// Names what lies within two spacings of a particle and how near the nearest is.
-std::string surroundings(const Simulation& sim, std::size_t row);
+/// Text with the owners of the particles within two spacings of a particle and the distance of the
+/// nearest.
+std::string nearby_particles(const Simulation& sim, std::size_t row);
 
 /// body "name" or wall "name", of `b` as in Contact.
 std::string solid_name(const Simulation& sim, int b);
@@ -23,8 +24,8 @@ struct Overlap {
 };
 Overlap deepest_overlap(const Simulation& sim);
 
-/// The energy that all could gain by falling through the scene, and the fluid at a hundredth of its
-/// speed of sound [J].
+/// The potential energy of a fall of all masses through the scene, plus the kinetic energy of the
+/// fluid at a hundredth of its speed of sound [J].
 double energy_scale(const Simulation& sim);
 
 } // namespace hyoryu

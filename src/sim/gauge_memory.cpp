@@ -53,7 +53,7 @@ double exponential(FilterMemory& memory, double time, double value)
     return memory.values.front();
 }
 
-// A sample that is no number (a dry gauge) is not kept.
+// A sample that is not a number (a dry gauge) is not stored.
 double filtered(FilterMemory& memory, double time, double value)
 {
     const bool wet = !std::isnan(value);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// Bounds of tiles that stand still are in single precision: searches reach so much farther.
+// Bounds of tiles at rest are in single precision: searches are extended by the rounding.
 constexpr double wider = 1 + 1e-5;
 
 std::size_t at(Index row)
@@ -214,7 +214,7 @@ Vec3 velocity(const Fluid& fluid, const GaugeSearch& search, const Vec3& place)
                    Vec3(Vec3::Constant(nothing)), [&](std::size_t j) { return v[j]; });
 }
 
-// Rows of a chunk of a sum over so many: those of `reduce`, whose order of additions this has.
+// Rows per chunk of a sum: those of `reduce`, whose order of additions is reproduced.
 Index chunk_length(Index rows)
 {
     return std::max(chunk_rows, (rows + most_chunks - 1) / most_chunks);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What gauges of the fluid read at one moment. Each looks at the particles about it alone, in the
+// Readings of the fluid gauges at one time. Each evaluates only the particles around it, in the
 // order of their rows, so that the sums have the bits of sums over all particles.
 #pragma once
 
@@ -17,7 +17,7 @@ struct GaugeSearch {
     TileBounds wall, body; // for elevations alone
 };
 
-/// Measures what the gauges of the fluid need.
+/// Computes the search structure that the fluid gauges need.
 GaugeSearch make_gauge_search(const Fluid& fluid, const std::vector<Gauge>& gauges);
 
 /// The raw columns of a gauge; none of a force gauge. See `read_gauges`.

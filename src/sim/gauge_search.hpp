@@ -23,7 +23,7 @@ inline constexpr Index tiles_of_group = 16;
 /// Measures the bounds at the present positions; lists may be older.
 TileBounds measure_bounds(const Tiles& tiles, std::span<const Vec3> x);
 
-/// The bounds of particles that stand where they stood when they were sorted.
+/// The bounds of particles at the positions at which they were sorted.
 TileBounds sorted_bounds(const Tiles& tiles);
 
 /// Middle and half of the edges of bounds [m].

@@ -13,7 +13,7 @@ namespace hyoryu {
 
 namespace {
 
-// What a step may consist of besides the effects of the fluid, by the names of the plan.
+// Optional parts of a step besides the effects of the fluid, by the names of the plan.
 struct RigidMotion {
     static constexpr std::string_view name = "rigid_motion";
 };
@@ -74,7 +74,7 @@ void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
     }
 }
 
-// Particles of moving walls stand where their wall is at one time and move as it does at another.
+// Particles of moving walls take the position of their wall at one time, its velocity at another.
 void move_walls(Simulation& sim, double place_time, double velocity_time)
 {
     if (!is_built<MovingWalls> || sim.wall_start.empty()) {
@@ -146,7 +146,7 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
     return fluid;
 }
 
-// The particles of bodies stand at the poses and move as the bodies do.
+// Sets positions and velocities of body particles from the poses and motions of the bodies.
 void place_bodies(Simulation& sim)
 {
     if constexpr (is_built<BodyLoad>) {
@@ -168,7 +168,7 @@ bool has_seepage(const Simulation& sim)
     return is_built<JointSeepage> && !sim.seepage.open.empty();
 }
 
-// The joints under bodies that stand, in the middle of the step.
+// The joints under standing bodies, at the middle of the step.
 void seep(Simulation& sim, double dt)
 {
     if (has_seepage(sim)) {
@@ -237,10 +237,10 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         fly_bodies(sim, 0);
         update_neighbours(*sim.fluid);
         update_pressure(*sim.fluid);
-        // The first step compresses what is struck at the start as it does in every later step.
+        // Initial rates, so that the first half step compresses the fluid like all later ones.
         update_rates(*sim.fluid);
     }
-    sim.ledger.start = totals(sim);
+    sim.conservation.start = totals(sim);
     return sim;
 }
 
@@ -260,7 +260,7 @@ TimeLimit time_limit(const Simulation& sim)
 void step(Simulation& sim)
 {
     const NextStep next = next_step(sim.clock, sim.scene, time_limit(sim));
-    const OpenBooks books = open_books(sim);
+    const MomentumBefore before = momentum_before(sim);
     const double dt = next.dt;
     sim.contacts.clear();
     if (sim.fluid) {
@@ -307,7 +307,7 @@ void step(Simulation& sim)
     sim.clock.dt = dt;
     sim.clock.step += 1;
     sim.steps_by_limit[next.limit] += 1;
-    close_books(sim, books, dt);
+    update_conservation(sim, before, dt);
     sim.timer.begin("watch");
     watch(sim);
     sim.timer.end();

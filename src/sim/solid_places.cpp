@@ -110,7 +110,7 @@ Index particles_in_solids(const Simulation& sim)
 Index count_in_solids(Simulation& sim)
 {
     const Index count = particles_in_solids(sim);
-    sim.ledger.worst_in_solids = std::max(sim.ledger.worst_in_solids, count);
+    sim.conservation.worst_in_solids = std::max(sim.conservation.worst_in_solids, count);
     return count;
 }
 

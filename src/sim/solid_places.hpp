@@ -19,7 +19,7 @@ NearestPlace nearest_of(const WallBarrier& barrier, const SolidPlace& place, std
                         const Vec3& x, double farthest);
 
 /// Calls f(x); in a periodic domain for x in the first period and for those of its images that are
-/// within `reach` of an edge of it: what stands beyond an edge is an image.
+/// within `reach` of an edge of it: positions beyond an edge are images.
 void for_images(const Fluid& fluid, const Vec3& x, double reach, const auto& f)
 {
     if (fluid.period == Vec3(0, 0, 0)) {

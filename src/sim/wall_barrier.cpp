@@ -337,7 +337,7 @@ void load_solids(Simulation& sim, double dt)
     }
 }
 
-// Room for what a step of usual flows finds.
+// Capacity for the hits of a step in usual flows.
 void make_room(WallBarrier& barrier)
 {
     constexpr std::size_t usual = 1024;

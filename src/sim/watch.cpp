@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/watch.hpp"
 
-#include "room.hpp"
-#include "surroundings.hpp"
+#include "crush_check.hpp"
+#include "diagnostics.hpp"
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/moving_walls.hpp"
@@ -142,7 +142,8 @@ double energy(const Totals& t)
 void watch(Simulation& sim)
 {
     if (sim.fluid) {
-        sim.ledger.worst_density_error = std::max(sim.ledger.worst_density_error, watch_fluid(sim));
+        sim.conservation.worst_density_error =
+            std::max(sim.conservation.worst_density_error, watch_fluid(sim));
     }
     watch_bodies(sim);
 }
@@ -153,7 +154,7 @@ void watch_energy(const Simulation& sim, const Totals& now)
         return;
     }
     const double lost = sim.fluid ? sim.fluid->lost.energy : 0;
-    const double gain = energy(now) + lost - energy(sim.ledger.start);
+    const double gain = energy(now) + lost - energy(sim.conservation.start);
     const double motion = now.fluid_kinetic + now.fluid_internal + now.body_kinetic;
     if (gain > gain_of_motion * motion && gain > gain_of_scale * energy_scale(sim)) {
         report(sim, "the whole scene",

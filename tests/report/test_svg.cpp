@@ -375,8 +375,8 @@ TEST(PlanView, E12WaterCoversTheCellsOfItsParticles)
 TEST(PlanView, BothAxesHaveOneScale)
 {
     // Room for 780 pixels across: 10 m of width and 3 % at both ends leave 73.6 pixels a metre.
-    const std::vector<Track> tracks{{"crate & co", {0, 10}, {0, 5}}};
-    const std::string svg = svg_plan_view({}, tracks, View::xy);
+    const std::vector<Trajectory> trajectories{{"crate & co", {0, 10}, {0, 5}}};
+    const std::string svg = svg_plan_view({}, trajectories, View::xy);
     double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     const std::size_t at = svg.find("d=\"M", svg.find("class=\"l\""));
     ASSERT_EQ(std::sscanf(svg.c_str() + at, "d=\"M%lf %lfL%lf %lf", &x0, &y0, &x1, &y1), 4);

@@ -137,7 +137,7 @@ TEST_P(HydrostaticTank, StaysStill)
     EXPECT_LE(fastest, fastest_allowed * top);
     EXPECT_EQ(p.id().size(), particles);
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LE(sim.ledger.worst_closure, precision[0] == 'd' ? 1e-10 : closes_in_single);
+    EXPECT_LE(sim.conservation.worst_closure, precision[0] == 'd' ? 1e-10 : closes_in_single);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, HydrostaticTank,
@@ -157,7 +157,7 @@ TEST(Cases, FloatingBoxKeepsItsArchimedesDraft)
     EXPECT_NEAR(mean / samples, 0.5, 0.02 / 3); // one third of a spacing
     const Quat& q = sim.rigid.bodies[0].orientation;
     EXPECT_LE(2 * std::abs(q.y()), 0.0175); // one degree
-    EXPECT_LE(sim.ledger.worst_closure, closes_in_single);
+    EXPECT_LE(sim.conservation.worst_closure, closes_in_single);
     EXPECT_EQ(sim.fluid->lost.count, 0);
 }
 
@@ -178,7 +178,7 @@ TEST(Cases, DamBreakRunsAsInviscidCodesDo)
     EXPECT_GE(front, 3.5);
     EXPECT_LE(front, 4.3);
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LE(sim.ledger.worst_closure, closes_in_single);
+    EXPECT_LE(sim.conservation.worst_closure, closes_in_single);
 }
 
 TEST(Cases, DebrisFloodStartsSoundly)
@@ -187,10 +187,10 @@ TEST(Cases, DebrisFloodStartsSoundly)
     Simulation sim = open_case("debris_flood", {"particles.spacing=0.25", "time.end=0.6"});
     run(sim, [] {});
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LE(sim.ledger.worst_closure, closes_in_single);
+    EXPECT_LE(sim.conservation.worst_closure, closes_in_single);
     // Films squeezed by bodies reach some percent at this coarse spacing; a run that is lost, 100
     // %.
-    EXPECT_LE(sim.ledger.worst_density_error, 0.2);
+    EXPECT_LE(sim.conservation.worst_density_error, 0.2);
     EXPECT_GE(sim.scene.bodies.size(), 8u);
 }
 

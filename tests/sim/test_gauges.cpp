@@ -120,7 +120,7 @@ TEST(Gauges, ForcesAddUpToTheImpulsesOfTheBooks)
     }
     const double weight = 9.81 * 400 * 0.01;
     const Body& crate = sim.rigid.bodies[0];
-    const Vec3 outside = sim.ledger.wall_impulse;
+    const Vec3 outside = sim.conservation.wall_impulse;
     // What the walls received they gave; fluid on the basin, the crate on the shelf.
     EXPECT_NEAR(read(sim, "basin_fluid_impulse_z") + read(sim, "shelf_contact_impulse_z"),
                 -outside.z(), 1e-9 * std::abs(outside.z()));

@@ -335,7 +335,8 @@ TEST(GroundPlacements, NoWaterGetsIntoASolidOrIsLost)
         EXPECT_EQ(inside, 0);
         EXPECT_EQ(sim.fluid->lost.count, 0);
         if (!p.mps) { // MPS does not promise it
-            EXPECT_LT(sim.ledger.worst_closure, 6e-8) << "half a unit of the last place of a float";
+            EXPECT_LT(sim.conservation.worst_closure, 6e-8)
+                << "half a unit of the last place of a float";
         }
     });
 }

@@ -275,7 +275,7 @@ double rise(Standing s, double level, double over)
     while (sim.clock.time < 0.3) {
         step_on(sim);
     }
-    EXPECT_LE(sim.ledger.worst_closure, 6e-8) << "half a unit of the last place of a float";
+    EXPECT_LE(sim.conservation.worst_closure, 6e-8) << "half a unit of the last place of a float";
     return (sim.rigid.bodies[0].position - s.centre()).z() / s.spacing;
 }
 

@@ -73,7 +73,7 @@ TEST(LeavingWalls, WaterKeepsItsDensityAndItsEnergy)
         // No pair of the fluid moves and solids do not pull: nothing but round-off changes.
         ASSERT_NEAR(energy(sim), start, 1e-12 * start) << "at " << sim.clock.time << " s";
     }
-    EXPECT_LT(sim.ledger.worst_density_error, 1e-12);
+    EXPECT_LT(sim.conservation.worst_density_error, 1e-12);
 }
 
 TEST(LeavingWalls, WaterThatComesBackMeetsTheWallWhereItLeftIt)
@@ -90,7 +90,7 @@ TEST(LeavingWalls, WaterThatComesBackMeetsTheWallWhereItLeftIt)
         // The gap is what the way out has opened, but for the round-off of some hundred steps.
         ASSERT_NEAR(energy(sim), start, 1e-12 * start) << "at " << nearest(sim) << " m";
     }
-    EXPECT_LT(sim.ledger.worst_density_error, 1e-12);
+    EXPECT_LT(sim.conservation.worst_density_error, 1e-12);
 }
 
 // What the scheme gains in meeting a wall at Mach 0.05 over the energy of the start.
@@ -103,7 +103,7 @@ double gain(const std::string& cfl)
         step_on(sim);
         most = std::max(most, energy(sim));
     }
-    EXPECT_GT(sim.ledger.worst_density_error, 0.01) << "it has met the wall";
+    EXPECT_GT(sim.conservation.worst_density_error, 0.01) << "it has met the wall";
     return most / start - 1;
 }
 

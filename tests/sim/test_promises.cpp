@@ -88,8 +88,8 @@ TEST(Promises, PenaltyMethodResumesWithTheSameBitsAndClosesMomentum)
     expect_same_bits(save(whole), save(resumed));
     EXPECT_TRUE(whole.plan.runs("contact_penalty"));
     EXPECT_FALSE(whole.contacts.empty());
-    EXPECT_LE(whole.ledger.worst_closure, 2e-7); // of sums in single precision
-    EXPECT_EQ(whole.rigid.counters.rounds, 0);   // nothing of the impulse method ran
+    EXPECT_LE(whole.conservation.worst_closure, 2e-7); // of sums in single precision
+    EXPECT_EQ(whole.rigid.counters.rounds, 0);         // nothing of the impulse method ran
 }
 
 TEST(Promises, ImpactLawReachesTheSolver)
@@ -128,8 +128,8 @@ TEST(Promises, MomentumOfFluidBodiesAndWallsCloses)
     for (const auto& [precision, bound] : bounds) {
         Simulation sim = make(with_precision(flood, precision));
         advance(sim, 300);
-        EXPECT_LE(sim.ledger.worst_closure, bound) << precision;
-        EXPECT_GT(sim.ledger.worst_closure, 0); // it was measured at all
+        EXPECT_LE(sim.conservation.worst_closure, bound) << precision;
+        EXPECT_GT(sim.conservation.worst_closure, 0); // it was measured at all
         EXPECT_EQ(sim.fluid->lost.count, 0);
     }
 }

@@ -123,7 +123,7 @@ Index escaped(const Simulation& sim)
 void expect_sound(const Simulation& sim)
 {
     const Totals now = totals(sim);
-    const Totals& start = sim.ledger.start;
+    const Totals& start = sim.conservation.start;
     // Everything falls: what there is to gain is potential energy over the floor, which `start`
     // holds in full. 1 % for the sums in floats and for the compression at the start.
     EXPECT_LE(energy(now), energy(start) + 0.01 * std::abs(energy(start)));
@@ -135,7 +135,8 @@ void expect_sound(const Simulation& sim)
         EXPECT_EQ(escaped(sim), 0) << "particles through walls";
         EXPECT_EQ(sim.fluid->lost.count, 0);
         if (sim.fluid->parameters.formulation == FormulationKind::sph) { // MPS does not promise it
-            EXPECT_LT(sim.ledger.worst_closure, 6e-8) << "half a unit of the last place of a float";
+            EXPECT_LT(sim.conservation.worst_closure, 6e-8)
+                << "half a unit of the last place of a float";
         }
     }
 }

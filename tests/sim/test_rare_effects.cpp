@@ -107,7 +107,7 @@ TEST(RareEffects, MomentumCloses)
     while (sim.clock.time < 0.5) {
         advance(sim, 1);
     }
-    EXPECT_LE(sim.ledger.worst_closure, 2e-7); // of sums in single precision
+    EXPECT_LE(sim.conservation.worst_closure, 2e-7); // of sums in single precision
     EXPECT_EQ(sim.fluid->lost.count, 0);
     for (const Store* store : {&sim.fluid->particles.fluid, &sim.fluid->particles.wall}) {
         for (const Vec3& x : (*store)[field::position]) {
@@ -116,7 +116,7 @@ TEST(RareEffects, MomentumCloses)
     }
     Simulation wet = make(basin);
     advance(wet, 200);
-    EXPECT_LE(wet.ledger.worst_closure, 2e-7);
+    EXPECT_LE(wet.conservation.worst_closure, 2e-7);
     EXPECT_GT(wet.loads.bodies[0].force.norm(), 0);
 }
 
@@ -147,7 +147,7 @@ velocity_field = ["1 + z", "0", "x*z"]
     while (sim.fluid->lost.count < 100) {
         advance(sim, 10);
     }
-    EXPECT_LE(sim.ledger.worst_closure, 1e-13);
+    EXPECT_LE(sim.conservation.worst_closure, 1e-13);
 }
 
 TEST(RareEffects, AreAbsentUnlessAskedFor)

@@ -96,7 +96,7 @@ double keel_after(const Crate& crate, double seconds)
     while (sim.clock.time < seconds) {
         step_on(sim);
     }
-    EXPECT_LE(sim.ledger.worst_closure, 2e-7); // of sums in single precision
+    EXPECT_LE(sim.conservation.worst_closure, 2e-7); // of sums in single precision
     return sim.rigid.bodies[0].position.z() - crate.height / 2;
 }
 
@@ -284,7 +284,7 @@ TEST(Seepage, AJointMakesNoEnergy)
         // Water that the joints want for the while: two spacings of 0.6 m of head under 0.8 m.
         EXPECT_LE(most, 0.02 * before) << spacing;
         EXPECT_GT(sim.rigid.bodies[2].position.z(), 0.61) << spacing;
-        EXPECT_LE(sim.ledger.worst_closure, 2e-7) << spacing; // crates push each other apart
+        EXPECT_LE(sim.conservation.worst_closure, 2e-7) << spacing; // crates push each other apart
     }
 }
 
@@ -307,7 +307,7 @@ TEST(Seepage, AStackFloatsUpTogether)
     const double rise = sim.rigid.bodies[0].position.z() - 0.2;
     EXPECT_GT(rise, 0.01); // draft of both: 0.16 m
     EXPECT_NEAR(sim.rigid.bodies[1].position.z() - 0.6, rise, 1e-3);
-    EXPECT_LE(sim.ledger.worst_closure, 2e-7);
+    EXPECT_LE(sim.conservation.worst_closure, 2e-7);
 }
 
 // A ram crushes a box in water against the end of a basin; fastest it gets before they all meet, in

@@ -159,7 +159,8 @@ TEST(WallBarrier, HoldsAtSolidsOfEveryShape)
                 ASSERT_EQ(particles_in_solids(sim), 0) << "step " << n;
             }
             EXPECT_GT(hits, 0U);
-            EXPECT_LT(sim.ledger.worst_closure, 6e-8) << "half a unit of the last place of a float";
+            EXPECT_LT(sim.conservation.worst_closure, 6e-8)
+                << "half a unit of the last place of a float";
         }
     }
     set_threads(0);
@@ -176,7 +177,7 @@ TEST(WallBarrier, HoldsInABasin)
         ASSERT_EQ(particles_in_solids(sim), 0) << "at " << sim.clock.time << " s";
     }
     EXPECT_EQ(sim.fluid->lost.count, 0);
-    EXPECT_LT(sim.ledger.worst_closure, 6e-8);
+    EXPECT_LT(sim.conservation.worst_closure, 6e-8);
 }
 
 // One particle just before a floating body's side, and one within: the impulses by hand.

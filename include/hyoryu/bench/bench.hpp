@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// `hyoryu bench`: the limits of the machine, and how near the solver comes to them.
+// `hyoryu bench`: the limits of the machine and the rates of the solver. It measures arithmetic and
+// memory rates, the pair loops on a fixed set of particles, and whole steps of a dam break; results
+// are text and JSON.
 #pragma once
 
 #include "hyoryu/core/instruction_set.hpp"
@@ -103,7 +105,7 @@ struct Setting {
     Extent extent;
     int threads = 1;
     std::filesystem::path state; // folder that keeps the developed state; empty: none
-    std::function<void(const std::string&)> tell; // what is done now
+    std::function<void(const std::string&)> tell; // reports the current measurement
 };
 
 struct Results {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers that everything is made of, and the few constants that need no owner.
+// Number and vector types of all layers, and general constants.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Fluid and bodies: the pose of a body places its particles, the forces on its particles load the
-// body. The only place that knows both.
+// Coupling of fluid and bodies, the only layer that uses both. The pose of a body gives the
+// positions and velocities of its particles; the pair forces on these are summed to the load of the
+// body. Joints under standing bodies, which are too narrow for particles, add a pressure of their
+// own (seepage).
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
@@ -30,7 +32,7 @@ void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const Body
                   Fluid& fluid);
 
 /// Force and torque (about the centre of mass of the pose) on each body: sums of the particle
-/// forces in the order of the rows, equal and opposite to what the fluid felt.
+/// forces in the order of the rows, equal and opposite to the forces on the fluid.
 void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const BodyParticles& bodies,
                    std::vector<Wrench>& loads);
 

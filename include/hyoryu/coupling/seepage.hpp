@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Seepage: water pressure in the joint between a face of a body and what it rests on.
+// Seepage: water pressure in the joint between a face of a body and its support.
 //
-// No particle fits into a gap of less than a spacing, so that the joint under a body that stands on
+// No particle fits into a gap of less than a spacing, so that the joint under a body standing on
 // the ground is dry and the particles alone never lift it. Here the joints are found from the exact
 // surfaces; their pressure is that of slow seepage through a gap of uniform width, between the
 // pressures that the fluid shows at the rim. The forces act on the body and, opposite, on the solid

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fluid: its state and the stages of a step.
+// The fluid: its state and the stages of a step. The state is particle columns, neighbour lists and
+// the active effects. Each stage evaluates its effects in one sweep over the pairs of a list.
 #pragma once
 
 #include "hyoryu/core/timer.hpp"

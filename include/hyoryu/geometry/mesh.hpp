@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangle meshes from STL and OBJ files, checked to be closed.
+// Triangle meshes. They are read from STL and OBJ files by a reader that is loaded at run time, and
+// checked: indices, finite corners, size, and whether the surface is closed and oriented.
 #pragma once
 
 #include "hyoryu/core/types.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Folders that a command shares with files of the user: what it writes there is known by a mark.
+// Folders that a command shares with files of the user: a mark identifies the files of the command.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ void claim_folder(const std::filesystem::path& folder, const Claim& claim);
 /// and either no results folder or holds files that no run wrote. Changes nothing.
 void expect_replaceable(const std::filesystem::path& folder);
 
-/// Removes what a run wrote into the folder, except for the files of these names; nothing else.
+/// Removes the files of a run from the folder, except for the files of these names.
 void remove_results_except(const std::filesystem::path& folder,
                            const std::function<bool(const std::string&)>& kept);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames of a results folder as other programs read them: VTK's XML files, tables, and one file of
-// VTKHDF 2 with time. The frames themselves stay as they are.
+// Conversion of the frames of a results folder for other programs: VTK XML files, tables, and one
+// temporal VTKHDF 2 file. The frames are not changed.
 #pragma once
 
 #include "hyoryu/io/results.hpp"
@@ -29,7 +29,7 @@ std::vector<FrameSet> frame_sets(const std::filesystem::path& results);
 std::string frame_number(const SeriesEntry& entry);
 
 /// Writes every frame of the set as `FOLDER/NAME_000000.vtp` (PolyData with inline base64) and then
-/// `FOLDER/NAME.pvd`, which knows their times. Returns the number of frames. Throws IoError; the
+/// `FOLDER/NAME.pvd`, with their times. Returns the number of frames. Throws IoError; the
 /// frames before the fault stay.
 std::size_t export_vtp(const std::filesystem::path& results, const FrameSet& set,
                        const std::filesystem::path& folder);

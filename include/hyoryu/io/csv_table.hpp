@@ -9,7 +9,7 @@
 
 namespace hyoryu {
 
-/// A table by columns. Lines that begin with `#` (units, sources) are no rows. A `#` line right
+/// A table by columns. Lines that begin with `#` (units, sources) are comments. A `#` line right
 /// before the names with as many cells gives the units, `-` for none.
 struct CsvTable {
     struct Column {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The results folder: frames, histories, the master file and the checkpoint. Every file appears
-// whole (written to a temporary name, then renamed) or, for histories, grows by whole rows.
+// The results folder: frames, histories, the master file and the checkpoint. Each file appears
+// complete (written to a temporary name, then renamed) or, for histories, grows by complete rows.
+// A writer thread compresses and writes the frames, so that the solver does not wait.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"
@@ -17,7 +18,7 @@ namespace hyoryu {
 
 /// Keeps other runs out of a results folder for as long as it lives. The lock is on the folder
 /// itself (flock), so it adds no file, and the system takes it back from a process that ends in
-/// whatever way. A file system that knows no such locks leaves the folder unguarded.
+/// whatever way. On a file system without such locks the folder is unguarded.
 class FolderLock {
 public:
     /// Throws CaseError if another run holds the folder, IoError if it cannot be opened.
@@ -35,9 +36,9 @@ enum class Existing { refuse, replace, extend };
 /// Makes the folder ready. refuse: throws CaseError if it exists and is not empty; replace: removes
 /// what an earlier run wrote there; extend: keeps everything but abandoned temporary files.
 /// A folder is ours if it holds `frames/` or `plan.json` (a case file alone does not make it ours:
-/// it may be the only copy of what a user typed). `replace` throws CaseError, and removes nothing,
-/// if the folder is not ours or holds anything that no run writes. Throws IoError if it cannot be
-/// written, and CaseError, leaving everything as it is, if another run holds its lock.
+/// it may be the only copy of the input of a user). `replace` throws CaseError, and removes
+/// nothing, if the folder is not ours or holds anything that no run writes. Throws IoError if it
+/// cannot be written, and CaseError, leaving everything as it is, if another run holds its lock.
 FolderLock prepare_results(const std::filesystem::path& folder, Existing existing);
 
 /// Writes `text` to `file` so that a reader sees the old or the new text, never a part.
@@ -68,7 +69,7 @@ public:
     /// Removes every frame later than `time` and its place in the series: a resumed run writes them
     /// again. Waits for frames on their way.
     void forget_after(double time);
-    /// Waits until everything is on disk and throws what went wrong.
+    /// Waits until all data is on disk and throws the first error.
     void finish();
 
     /// What frames have cost so far.
@@ -90,7 +91,7 @@ public:
     /// Keeps however many rows there are.
     static constexpr std::int64_t all_rows = std::numeric_limits<std::int64_t>::max();
 
-    /// Opens a new `folder/<table.name>.csv`, replacing what stands there.
+    /// Opens a new `folder/<table.name>.csv`, replacing an existing one.
     History(const std::filesystem::path& folder, Table table);
     /// Goes on with the file, keeping the rows whose first cell is at most `keep_until` [s], and no
     /// more than the first `keep_rows`: a row may be written later than the time it tells of. A

@@ -7,7 +7,7 @@
 
 namespace hyoryu {
 
-/// The text as it may stand in an element or an attribute: & < > " ' become entities, and control
+/// The text as allowed in an element or an attribute: & < > " ' become entities, and control
 /// characters, which XML forbids, the replacement character U+FFFD.
 std::string escaped(std::string_view text);
 

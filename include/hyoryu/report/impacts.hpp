@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The blows of a run, by what was hit, and a design formula for their peak force. The solver logs
-// an impact for each contact point; the rows of one pair that follow each other within the time
-// that the materials take to give way and spring back are one blow.
+// The blows of a run, by the struck solid, and a design formula for their peak force. The solver
+// logs an impact for each contact point; the rows of one pair that follow each other within the
+// time that the materials take to give way and spring back are one blow.
 #pragma once
 
 #include "hyoryu/core/types.hpp"

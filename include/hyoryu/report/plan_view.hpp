@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where bodies went, seen from above; in two dimensions from the side.
+// Trajectories of bodies, seen from above; in two dimensions from the side.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"
@@ -23,7 +23,7 @@ using Segment = std::array<double, 4>;
 std::vector<Segment> outline(const Surface& surface, View view);
 
 /// The path of a centre of mass in the plane of the picture [m].
-struct Track {
+struct Trajectory {
     std::string body;
     std::vector<double> x, y;
 };
@@ -49,10 +49,10 @@ std::vector<WaterPatch> water_patches(const std::vector<float>& points, double s
 /// One moment at one scale for both axes; `label` is for readers who cannot see it.
 std::string svg_scene(const SceneView& scene, View view, const std::string& label);
 
-/// Outline and tracks at one scale for both axes; a ring marks each start, a dot each end, and the
-/// name stands at the end if there are at most `most_names` bodies.
+/// Outline and trajectories at one scale for both axes; a ring marks each start, a dot each end,
+/// and the name stands at the end if there are at most `most_names` bodies.
 inline constexpr std::size_t most_names = 40;
-std::string svg_plan_view(const std::vector<Segment>& outline, const std::vector<Track>& tracks,
-                          View view);
+std::string svg_plan_view(const std::vector<Segment>& outline,
+                          const std::vector<Trajectory>& trajectories, View view);
 
 } // namespace hyoryu

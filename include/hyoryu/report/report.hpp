@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One page that shows what a run was and what came out of it.
+// The report: one HTML page about a run, made from its results folder. Each section is a function
+// from the read results to HTML with inline SVG; the page loads no other file.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +10,8 @@
 namespace hyoryu {
 
 struct ReportSettings {
-    /// Contact stiffness k of every impact for F = u sqrt(k m) [N/m], in place of what the case
-    /// declares for pairs of materials; per metre of width in two dimensions.
+    /// Contact stiffness k of all impacts for F = u sqrt(k m) [N/m], instead of the values that the
+    /// case declares for pairs of materials; per metre of width in two dimensions.
     std::optional<double> stiffness;
 };
 

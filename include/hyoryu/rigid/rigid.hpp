@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The rigid-body system: bodies, boundaries, impulse contact, and its step.
+// The rigid-body system: bodies, boundaries, impulse contact, and its step. A step finds clusters
+// of bodies that may meet and advances each by sub-steps, in which impacts are located in time and
+// contact impulses are solved for with the circular Coulomb cone.
 #pragma once
 
 #include "hyoryu/rigid/body.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the user said, as plain data: the case file after reading, checking and filling in defaults.
-// Nothing here runs; `make_plan` turns a Scene into what will run.
+// The scene: the case file as plain data, after reading, checking and filling in defaults. It has
+// no state of the simulation. `fill` places the particles of a Scene, and `make_plan` selects the
+// effects, fields and limits of the run.
 #pragma once
 
 #include "hyoryu/core/motion.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of a run for a case that writes something else: other frames, rows and gauges.
+// Transfer of the state of a run to a case with other output: other frames, rows and gauges.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"

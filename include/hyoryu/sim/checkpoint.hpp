@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State to neutral arrays and back: all that a restart with the same bits needs.
+// The state to named arrays and back: all data that a restart with the same bits needs.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The books: energy, momentum, and whether they close.
+// Conservation: energy and momentum of the simulation, the impulses of walls and gravity, and the
+// closure error of momentum: the part of its change that the impulses do not explain.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -16,11 +17,11 @@ struct Totals {
     double body_kinetic = 0;
     double body_potential = 0;
     Vec3 momentum{0, 0, 0};    // of fluid and bodies
-    double momentum_scale = 0; // sum of |m v|: what the momentum is compared with
+    double momentum_scale = 0; // sum of |m v|: the reference of the closure error
 };
 
-/// What has come and gone since the start.
-struct Ledger {
+/// Energies and impulses accumulated since the start.
+struct Conservation {
     Totals start;
     double contact_loss = 0;        // energy lost in contacts [J]
     Vec3 wall_impulse{0, 0, 0};     // by walls and locked axes on fluid and bodies [N s]
@@ -32,14 +33,14 @@ struct Ledger {
 
 Totals totals(const Simulation& sim);
 
-/// State of the books before a step.
-struct OpenBooks {
+/// Momentum before a step.
+struct MomentumBefore {
     Vec3 momentum{0, 0, 0};
-    Vec3 lost{0, 0, 0};
+    Vec3 lost{0, 0, 0}; // of particles that left the domain, since the start
     double scale = 0;
 };
-OpenBooks open_books(const Simulation& sim);
-/// Books what the step of length dt did and checks that momentum closes.
-void close_books(Simulation& sim, const OpenBooks& before, double dt);
+MomentumBefore momentum_before(const Simulation& sim);
+/// Adds the impulses and losses of a step of length dt and the closure error of its momentum.
+void update_conservation(Simulation& sim, const MomentumBefore& before, double dt);
 
 } // namespace hyoryu

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a step costs on this machine, what of it each effect takes, and how that changes as the flow
-// develops.
+// Measurement of the cost of a step on this machine, of the share of each effect, and of the change
+// of both with the development of the flow.
 #pragma once
 
 #include "hyoryu/sim/simulation.hpp"
@@ -31,15 +31,15 @@ struct StepCost {
     struct Share {
         std::string effect; // as the plan names it
         double share = 0;   // of a step, median over the rounds; not below 0 [1]
-        double spread = 0; // half of what the middle half of the rounds spans, at least -median [1]
+        double spread = 0;  // half of the interquartile range of the rounds, at least -median [1]
     };
     double seconds = 0; // of a step with everything on, on average [s]
     double bodies = 0;  // of them, for the motion of bodies and their contacts [s]
     double lists = 0;   // of them, for making lists, which some steps do [s]
     double build = 0;   // for making them once [s]
     double row = 0;     // of the sums of a row of the histories [s]
-    double output = 0;  // of a step on average over the run, besides, for what is written [s]
-    double impacts = 0; // rows of contacts.csv that tell of one, over the whole run
+    double output = 0;  // mean additional time of a step for output, over the run [s]
+    double impacts = 0; // rows of contacts.csv of kind impact, over the whole run
     double waiting = 0; // share of the timing in which a thread had no core: a busy machine [1]
     std::vector<Share> effects;
     std::optional<Development> development;

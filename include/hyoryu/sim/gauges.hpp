@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gauges: what an instrument at a place, or on a structure, would read.
+// Gauges: readings of instruments at a point, on a line, a plane or a structure.
 #pragma once
 
 #include "hyoryu/scene/gauge_columns.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The simulation: owns all that lives, and its step.
+// The simulation: the simulation state and its time step. The state holds the scene, the plan, the
+// fluid, the bodies, their coupling, gauges and accumulated sums. `step` advances it by one time
+// step, in the stages of a position-Verlet scheme; input and output are in other layers.
 #pragma once
 
 #include "hyoryu/core/timer.hpp"
@@ -7,8 +9,8 @@
 #include "hyoryu/coupling/seepage.hpp"
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/sim/clock.hpp"
+#include "hyoryu/sim/conservation.hpp"
 #include "hyoryu/sim/gauges.hpp"
-#include "hyoryu/sim/ledger.hpp"
 #include "hyoryu/sim/wall_barrier.hpp"
 
 #include <map>
@@ -16,7 +18,7 @@
 
 namespace hyoryu {
 
-/// What the fluid did to each body and wall in the last step.
+/// Forces of the fluid on each body and wall in the last step.
 struct Loads {
     std::vector<Wrench> bodies;
     std::vector<Vec3> walls; // [N]
@@ -32,14 +34,14 @@ struct Simulation {
     std::vector<Vec3> wall_start; // of the particles of walls at time 0 [m]; empty if none moves
     std::vector<Pose> poses;      // of the bodies when the loads were taken
     Loads loads;
-    Seepage seepage; // of the joints of bodies that stand
+    Seepage seepage; // of the joints of standing bodies
     Clock clock;
-    Ledger ledger;
+    Conservation conservation;
     GaugeMemory gauges;
     std::vector<Contact> contacts; // of the last step
     StageTimer timer;
     std::map<std::string, long long, std::less<>> steps_by_limit;
-    double pair_visits = 0;     // list entries gone over so far
+    double pair_visits = 0;     // evaluated list entries so far
     double thinnest = infinity; // least inner radius of the bodies [m]
 };
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Watches a run for numbers that went wrong.
+// Detection of instability: checks of the state after each step.
 #pragma once
 
-#include "hyoryu/sim/ledger.hpp"
+#include "hyoryu/sim/conservation.hpp"
 
 namespace hyoryu {
 
 struct Simulation;
 
-/// Keeps the largest compression of the fluid in the ledger and throws NumericalError that names
+/// Keeps the largest compression of the fluid and throws NumericalError that names
 /// the particle or body, what lies around it and the probable cause when the state is not finite, a
 /// density or speed is beyond what a weakly compressible flow can have, a moving wall crushes a
-/// body against something that stands, or solids overlap by more than the inner radius of the
+/// body against a fixed solid, or solids overlap by more than the inner radius of the
 /// thinnest body.
 void watch(Simulation& sim);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures and an animation of a results folder, off-screen.
+// Rendering of a results folder, off-screen. The frames of fluid, bodies and walls become pictures
+// and an animation; the camera frames the scene by default. Only this layer and `vtk` use VTK.
 #pragma once
 
 #include <filesystem>
