@@ -52,7 +52,7 @@ void throw_if_any(Reading& reading)
         found.push_back({.file = reading.file.string(),
                          .line = found.back().line,
                          .column = found.back().column,
-                         .what = fmt::format("and {} more mistakes", more)});
+                         .what = fmt::format("and {} more errors", more)});
     }
     throw CaseError(found);
 }

@@ -118,7 +118,7 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
 {
     Diagnostic note = diagnostic_at(
         scene, scene.fluid->blocks[block].place, fmt::format("fluid.block[{}]", block),
-        fmt::format("{} of its {} particles lie behind a wall and are left out", particles.in_walls,
+        fmt::format("{} of its {} particles are behind a wall and are omitted", particles.in_walls,
                     particles.all));
     note.severity = Diagnostic::Severity::warning;
     filling.warnings.push_back(note);

@@ -67,17 +67,16 @@ void check_size(const Scene& scene)
     const double asked = particles_asked(scene);
     if (!(asked < most_particles)) {
         throw CaseError(
-            fmt::format(
-                "this scene asks for about {:.2g} particles; at most {:.0g} can be numbered", asked,
-                most_particles),
+            fmt::format("this scene needs about {:.2g} particles; at most {:.0g} are supported",
+                        asked, most_particles),
             "increase `particles.spacing`");
     }
     constexpr double giga = 1e9;
     const double memory = machine_memory();
     if (asked * bytes_while_filling > memory) {
         throw CaseError(
-            fmt::format("this scene asks for about {:.2g} particles: to place them alone takes "
-                        "{:.1f} GB, and {:.1f} GB is what this process may use",
+            fmt::format("this scene needs about {:.2g} particles: their positions alone take "
+                        "{:.1f} GB, but only {:.1f} GB are available to this process",
                         asked, asked * bytes_while_filling / giga, memory / giga),
             "increase `particles.spacing`");
     }

@@ -53,7 +53,7 @@ Formula::Formula(const std::string& text) : state_(std::make_unique<State>())
         }
         parser.Eval();
     } catch (const mu::Parser::exception_type& fault) {
-        throw FormulaError(fmt::format("\"{}\" is no expression: {}", text, fault.GetMsg()));
+        throw FormulaError(fmt::format("\"{}\" is not an expression: {}", text, fault.GetMsg()));
     }
 }
 

@@ -175,8 +175,8 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                fluid ? "the fluid meets no wall and no body" : none);
     const bool surfaces = fluid && (plan.counts.walls > 0 || plan.counts.bodies > 0);
     census.add("wall_barrier",
-               when(surfaces, "the fluid meets walls or bodies: what would pass their exact "
-                              "surfaces is held, and they feel it"),
+               when(surfaces, "the fluid meets walls or bodies: particles that would pass their "
+                              "exact surfaces are stopped, and their momentum acts on the solid"),
                fluid ? "the scene has no wall and no body" : none);
     const FluidChoices choices = fluid ? scene.fluid->effects : FluidChoices{};
     each_slot(choices, [&](const SlotTable& table, const auto& choice, auto slot) {
@@ -218,10 +218,9 @@ void list_effects(const Scene& scene, Plan& plan)
     census.add("contact",
                when(plan.contact, plan.counts.bodies > 1 ? "bodies may meet each other or a wall"
                                                          : "the body may meet a wall"),
-               plan.counts.bodies == 0 ? "the scene has no bodies"
-                                       : "one body alone, and no wall that it could meet");
+               plan.counts.bodies == 0 ? "the scene has no bodies" : "a single body and no wall");
     const bool moving = has_moving_walls(scene);
-    census.add("moving_walls", when(moving, "a wall has `motion`"), "every wall stands still");
+    census.add("moving_walls", when(moving, "a wall has `motion`"), "all walls are fixed");
     census.add("gauges", when(!scene.gauges.empty(), fmt::format("{} gauges", scene.gauges.size())),
                "the scene has no gauges");
 }
@@ -239,7 +238,7 @@ void list_pairs(Plan& plan)
     }
     if (plan.counts.body > 0) {
         plan.pair_kinds.push_back({"body<-solid", "pressure in thin films between solids"});
-        plan.pair_kinds.push_back({"wall<-body", "reaction to it"});
+        plan.pair_kinds.push_back({"wall<-body", "reaction of the film pressure"});
     }
 }
 

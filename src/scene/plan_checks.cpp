@@ -133,7 +133,7 @@ void check_step(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& e
             scene, {}, "time.step",
             fmt::format("{} s is longer than the stability limit of the fluid, {:.3g} s",
                         *scene.time.step, limit),
-            "leave `time.step` out for an adaptive step"));
+            "omit `time.step` for an adaptive step"));
     }
 }
 
@@ -179,7 +179,7 @@ void warn_if_it_tips(const Scene& scene, std::size_t b, Plan& plan)
         warn(scene, body.place, body_key(b),
              fmt::format("body \"{}\" will not float upright: its metacentric height is {:.3g} m",
                          body.name, gm),
-             "nothing is wrong with that; expect it to tip", plan);
+             "this is not an error; the body will tip", plan);
     }
 }
 
@@ -197,16 +197,16 @@ void warn_about_staircase(const Scene& scene, std::size_t b, Plan& plan)
     const std::size_t parts = compound != nullptr ? compound->parts.size() : 1;
     if (mesh && compound != nullptr) {
         warn(scene, body.place, body_key(b),
-             fmt::format("body \"{}\" is not convex: contact sees it as {} boxes of its particle "
-                         "lattice, a staircase with steps of {:.3g} m",
+             fmt::format("body \"{}\" is not convex: for contact it consists of {} boxes of its "
+                         "particle lattice, a staircase with steps of {:.3g} m",
                          body.name, parts, body.spacing),
-             "a smaller `spacing` of the body makes the steps finer", plan);
+             "a smaller `spacing` of the body gives finer steps", plan);
     }
     constexpr std::size_t many = 1000;
     if (parts > many) {
         warn(scene, body.place, body_key(b),
              fmt::format("body \"{}\" has {} parts for contact, which is slow", body.name, parts),
-             mesh ? "a larger `spacing` of the body makes fewer"
+             mesh ? "a larger `spacing` of the body gives fewer parts"
                   : "particles on a lattice are merged into boxes",
              plan);
     }
@@ -253,11 +253,11 @@ void warn_about_round_walls(const Scene& scene, Plan& plan)
 {
     for (std::size_t w = 0; plan.rigid && w < scene.walls.size(); ++w) {
         if (std::holds_alternative<RoundWall>(scene.walls[w].geometry)) {
-            warn(
-                scene, scene.walls[w].place, fmt::format("wall[{}]", w),
-                fmt::format("bodies do not meet the round basin \"{}\" itself but the box about it",
-                            scene.walls[w].name),
-                "keep bodies away from it", plan);
+            warn(scene, scene.walls[w].place, fmt::format("wall[{}]", w),
+                 fmt::format(
+                     "bodies do not collide with the round basin \"{}\" but with its bounding box",
+                     scene.walls[w].name),
+                 "keep bodies away from it", plan);
         }
     }
 }
@@ -299,17 +299,17 @@ void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>
     if (!(plan.frames <= most_frames)) {
         errors.push_back(diagnostic_at(
             scene, {}, "output.every",
-            fmt::format("makes about {:.2g} frames, at most {:.0g} are written", plan.frames,
+            fmt::format("gives about {:.2g} frames, at most {:.0g} are allowed", plan.frames,
                         most_frames),
             fmt::format("a larger `output.every`, for instance {:.3g}", scene.time.end / 100)));
     }
     if (!(plan.expected_steps <= most_steps)) {
-        errors.push_back(diagnostic_at(
-            scene, {}, "time.end",
-            fmt::format("with steps of {:.2g} s the run would take about {:.2g} of them, at most "
-                        "{:.0g} are made",
-                        plan.first_step, plan.expected_steps, most_steps),
-            "an earlier end, or a longer `time.step` if that is given"));
+        errors.push_back(
+            diagnostic_at(scene, {}, "time.end",
+                          fmt::format("with steps of {:.2g} s the run would take about {:.2g} "
+                                      "steps, at most {:.0g} are allowed",
+                                      plan.first_step, plan.expected_steps, most_steps),
+                          "an earlier end, or a longer `time.step` if that is given"));
     }
 }
 
@@ -319,9 +319,9 @@ void check_periods(const Scene& scene, std::vector<Diagnostic>& errors)
         return;
     }
     if (!scene.bodies.empty()) {
-        errors.push_back(diagnostic_at(scene, {}, "domain.periodic",
-                                       "bodies do not go through the sides of a domain yet",
-                                       "leave the bodies out, or give walls to the sides"));
+        errors.push_back(diagnostic_at(
+            scene, {}, "domain.periodic", "bodies in periodic domains are not supported",
+            "remove the bodies, or replace the periodic sides by walls"));
     }
 }
 
@@ -337,7 +337,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     check_gauges(scene, filling, plan, errors);
     if (scene.fluid && filling.fluid.empty()) {
         errors.push_back(diagnostic_at(
-            scene, {}, "fluid", "no fluid particle fits into the blocks",
+            scene, {}, "fluid", "the blocks contain no fluid particle",
             "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
     }
     if (!errors.empty()) {

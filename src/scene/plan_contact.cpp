@@ -25,12 +25,12 @@ void list_method(const ContactSettings& contact, Plan& plan)
 {
     const bool penalty = plan.contact && contact.penalty;
     const bool impulse = plan.contact && !contact.penalty;
-    const std::string none = "nothing can meet";
+    const std::string none = "no bodies or walls that could touch";
     list(plan, "contact_impulse", impulse, "`contact.method` is \"impulse\"",
          plan.contact ? "`contact.method` is \"penalty\"" : none);
     const PenaltyParameters parameters = contact.penalty.value_or(PenaltyParameters{});
     list(plan, "contact_penalty", penalty,
-         fmt::format("`contact.method` is \"penalty\": {} N/m and {} N s/m a pair of particles, "
+         fmt::format("`contact.method` is \"penalty\": {} N/m and {} N s/m per pair of particles, "
                      "sub-steps of {} s",
                      parameters.stiffness, parameters.damping, parameters.step),
          plan.contact ? "`contact.method` is \"impulse\"" : none);
@@ -43,7 +43,7 @@ void list_method(const ContactSettings& contact, Plan& plan)
          {Law{ImpactLaw::coupled, "coupled", "rounds of all contacts that approach"},
           Law{ImpactLaw::paper, "paper", "uncoupled equations (1)-(6), which can gain energy"},
           Law{ImpactLaw::simultaneous, "simultaneous", "all touching contacts at once"}}) {
-        const std::string off = impulse   ? "`contact.law` asks for another"
+        const std::string off = impulse   ? "`contact.law` selects another law"
                                 : penalty ? "the penalty method has no impact law"
                                           : none;
         list(plan, fmt::format("law_{}", known.name), impulse && contact.law == known.law,
@@ -113,13 +113,12 @@ void warn_about_sub_steps(const Scene& scene, const Filling& filling, Plan& plan
     }
     constexpr double part = 0.2;
     if (penalty.step > part * shortest) {
-        Diagnostic note = diagnostic_at(
-            scene, scene.bodies[lightest].place, "contact.penalty.step",
-            fmt::format(
-                "sub-steps of {} s are long for the springs of body \"{}\": its restitution "
-                "will depend on them",
-                penalty.step, scene.bodies[lightest].name),
-            fmt::format("{:.2g} s or less would do", part * shortest));
+        Diagnostic note =
+            diagnostic_at(scene, scene.bodies[lightest].place, "contact.penalty.step",
+                          fmt::format("sub-steps of {} s are too long for the springs of body "
+                                      "\"{}\": its restitution will depend on them",
+                                      penalty.step, scene.bodies[lightest].name),
+                          fmt::format("{:.2g} s or less is sufficient", part * shortest));
         note.severity = Diagnostic::Severity::warning;
         plan.warnings.push_back(std::move(note));
     }

@@ -76,7 +76,7 @@ void warn(const Scene& scene, std::size_t wall, const Wall& other, double gap, P
         fmt::format("\"{}\" moves and leaves a gap of {:.3g} m, {:.2g} spacings, to \"{}\": water "
                     "passes through it",
                     scene.walls[wall].name, gap, gap / scene.spacing, other.name),
-        "let it reach to half a spacing from that wall");
+        "extend it to half a spacing from that wall");
     note.severity = Diagnostic::Severity::warning;
     plan.warnings.push_back(std::move(note));
 }

@@ -39,7 +39,7 @@ std::string what_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
     case GaugeType::force:
         return fmt::format("force of the fluid, impulses of fluid and contact on \"{}\"", gauge.on);
     case GaugeType::front:
-        return fmt::format("farthest place of the fluid along {}", "xyz"[gauge.axis]);
+        return fmt::format("largest coordinate of the fluid along {}", "xyz"[gauge.axis]);
     case GaugeType::flux:
         return fmt::format("volume flux through the plane at {} along {}", text_of(gauge.at),
                            text_of(gauge.normal));
@@ -135,9 +135,9 @@ void check_gauges(const Scene& scene, const Filling& filling, Plan& plan,
         if (outside(scene, gauge, filling.domain)) {
             errors.push_back(diagnostic_at(
                 scene, gauge.place, key,
-                fmt::format("the gauge \"{}\" stands outside the domain, {} to {}", gauge.name,
+                fmt::format("the gauge \"{}\" is outside the domain, {} to {}", gauge.name,
                             text_of(filling.domain.min), text_of(filling.domain.max)),
-                "nothing can ever come there"));
+                "no fluid can reach it"));
             continue;
         }
         // A sensor flush with a wall is where it belongs; one deeper than the kernel reaches is
@@ -147,11 +147,11 @@ void check_gauges(const Scene& scene, const Filling& filling, Plan& plan,
                                      ? 0
                                      : depth_behind(wall, gauge.at, scene.dimensions);
             if (depth > scene.spacing / 2) {
-                Diagnostic note = diagnostic_at(
-                    scene, gauge.place, key,
-                    fmt::format("the gauge \"{}\" stands {:.3g} m inside the wall \"{}\"",
-                                gauge.name, depth, wall.name),
-                    "put it on the surface or in front of it");
+                Diagnostic note =
+                    diagnostic_at(scene, gauge.place, key,
+                                  fmt::format("the gauge \"{}\" is {:.3g} m inside the wall \"{}\"",
+                                              gauge.name, depth, wall.name),
+                                  "move it to the surface or in front of it");
                 note.severity = Diagnostic::Severity::warning;
                 plan.warnings.push_back(std::move(note));
             }

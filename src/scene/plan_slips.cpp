@@ -99,9 +99,10 @@ void look_at_density(const Scene& scene, Slips& slips)
 {
     const auto judge = [&](double density, const Place& place, const std::string& key) {
         if (density < least_density) {
-            slips.add(place, key,
-                      fmt::format("{} kg/m3 is lighter than any solid or liquid", density),
-                      fmt::format("a ratio to water? then write {}", density * 1000));
+            slips.add(
+                place, key,
+                fmt::format("{} kg/m3 is lower than the density of any solid or liquid", density),
+                fmt::format("if it is a ratio to water, write {}", density * 1000));
         }
     };
     if (scene.fluid) {
@@ -118,7 +119,7 @@ void look_at_density(const Scene& scene, Slips& slips)
 void look_at_gravity(const Scene& scene, Slips& slips)
 {
     if (scene.gravity.z() > 0 && scene.gravity.z() >= 0.5 * scene.gravity.norm()) {
-        slips.add({}, "gravity", "points upward: z is up, and things fall to the sky",
+        slips.add({}, "gravity", "points upward: z is up",
                   fmt::format("write gravity = [{}, {}, {}]", scene.gravity.x(), scene.gravity.y(),
                               -scene.gravity.z()));
     }
@@ -156,11 +157,12 @@ void look_for_bodies_far_away(const Scene& scene, Slips& slips)
             std::max(across(rest, scene.dimensions), across(box_of(scene, body), scene.dimensions));
         if (away > far_away * size && is_first_of_entry(scene, b) &&
             (away > very_far_away * size || distance_to_others(scene, b) > far_away * size)) {
-            return slips.add(body.place, fmt::format("body[{}].position", b),
-                             fmt::format("body \"{}\" is {:.3g} m from everything else, which is "
-                                         "{:.3g} m across",
-                                         body.name, away, size),
-                             "is its place in metres, and in the axes of the scene?");
+            return slips.add(
+                body.place, fmt::format("body[{}].position", b),
+                fmt::format(
+                    "body \"{}\" is {:.3g} m from the rest of the scene, whose size is {:.3g} m",
+                    body.name, away, size),
+                "check that its position is in metres and in the axes of the scene");
         }
     }
 }
@@ -173,8 +175,8 @@ void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, co
     if (!std::holds_alternative<MeshShape>(shape)) {
         return;
     }
-    const std::string hint = "is `scale` right? it takes the numbers of the file to metres: 0.001 "
-                             "for millimetres";
+    const std::string hint =
+        "check `scale`, the factor from the numbers of the file to metres: 0.001 for millimetres";
     if (size < scene.spacing) {
         slips.add(place, key + ".scale",
                   fmt::format("the mesh is {:.3g} m across, less than the spacing of {:.3g} m",
@@ -182,7 +184,8 @@ void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, co
                   hint);
     } else if (others > 0 && size > out_of_scale * others) {
         slips.add(place, key + ".scale",
-                  fmt::format("the mesh is {:.3g} m across, all else {:.3g} m", size, others),
+                  fmt::format("the mesh is {:.3g} m across, the rest of the scene {:.3g} m", size,
+                              others),
                   hint);
     }
 }
@@ -217,12 +220,11 @@ void look_for_thin_walls(const Scene& scene, Slips& slips)
         const double thin =
             scene.dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
         if (thin < scene.spacing * (1 - 1e-9)) {
-            slips.add(
-                wall.place, fmt::format("wall[{}]", w),
-                fmt::format("wall \"{}\" is {:.3g} m thin, less than the spacing of {:.3g} m: "
-                            "the water on its two sides is not kept apart well",
-                            wall.name, thin, scene.spacing),
-                "a thicker wall, or a smaller `particles.spacing`");
+            slips.add(wall.place, fmt::format("wall[{}]", w),
+                      fmt::format("wall \"{}\" is {:.3g} m thin, less than the spacing of {:.3g} "
+                                  "m: the fluid on its two sides is not well separated",
+                                  wall.name, thin, scene.spacing),
+                      "a thicker wall, or a smaller `particles.spacing`");
         }
     }
 }
@@ -296,10 +298,10 @@ void warn_about_slips(const Scene& scene, Plan& plan)
     const std::string cut = cut_by_domain(scene);
     if (!cut.empty()) {
         slips.add({}, "domain",
-                  fmt::format("the domain ends within the scene: {} reaches beyond it, and water "
-                              "that does leaves the run",
+                  fmt::format("the domain ends within the scene: {} reaches beyond it, and fluid "
+                              "there is removed from the run",
                               cut),
-                  "leave [domain] out, or let it hold the scene");
+                  "omit [domain], or enlarge it to contain the scene");
     }
 }
 

@@ -43,12 +43,12 @@ std::optional<Words> slip_in(const std::string& line)
                      fmt::format("write {} = {}.{}", m.str(1), m.str(2), m.str(3))};
     }
     if (std::regex_match(line, m, unit)) {
-        return Words{"a number with a unit must stand in quotes",
+        return Words{"a number with a unit must be in quotes",
                      fmt::format("write {} = \"{} {}\"", m.str(1), m.str(2), m.str(3))};
     }
     if (std::regex_match(line, m, point) && (m.length(3) == 0 || m.length(4) == 0)) {
         const auto digits = [](const std::string& part) { return part.empty() ? "0" : part; };
-        return Words{"a decimal point needs a digit before and behind it",
+        return Words{"a decimal point needs a digit before and after it",
                      fmt::format("write {} = {}{}.{}{}", m.str(1), m.str(2), digits(m.str(3)),
                                  digits(m.str(4)), m.str(5))};
     }
@@ -64,7 +64,7 @@ std::optional<Words> slip_in(const std::string& line)
                 fmt::format("write {} = {}", m.str(1), value[0] == 'T' ? "true" : "false")};
         }
         if (value != "true" && value != "false" && value != "inf" && value != "nan") {
-            return Words{"a text must stand in quotes",
+            return Words{"a text must be in quotes",
                          fmt::format("write {} = \"{}\"", m.str(1), value)};
         }
     }
@@ -85,30 +85,29 @@ Words meaning_of(const std::string& description, bool at_end)
     static const std::regex twice("cannot redefine existing ([a-z -]+) '([^']*)'");
     std::smatch m;
     if (std::regex_search(description, m, twice)) {
-        return {fmt::format("\"{}\" stands twice", m.str(2)),
-                "one of them must go; a list of tables is written [[name]] every time"};
+        return {fmt::format("\"{}\" is defined twice", m.str(2)),
+                "remove one of them; each table of a list is written [[name]]"};
     }
     const bool text = says("parsing string") || says("parsing literal string");
     if (text && (at_end || says("end-of-file"))) {
         return {"the text is not closed", "its closing quote is missing"};
     }
     if (says("escape")) {
-        return {"a backslash begins no escape that is known", "write two of them, or the text in "
-                                                              "single quotes"};
+        return {"a backslash begins an unknown escape", "write two of them, or the text in "
+                                                        "single quotes"};
     }
     if (text || says("parsing comment")) {
-        return {"a control character cannot stand here", "take it out"};
+        return {"a control character is not allowed here", "remove it"};
     }
     if (says("array") && (at_end || says("end-of-file"))) {
         return {"the list is not closed", "`]` is missing"};
     }
     if (says("inline table")) {
-        return {"the table in braces is not understood or not closed",
-                "it stands in one line: { key = value, key = value }"};
+        return {"the table in braces is invalid or not closed",
+                "write it in one line: { key = value, key = value }"};
     }
     if (says("table header")) {
-        return {"the header of a table is not understood or not closed",
-                "write [name] or [[name]]"};
+        return {"the header of a table is invalid or not closed", "write [name] or [[name]]"};
     }
     if (says("expected '='")) {
         return {"expected `=` behind the key", "write key = value"};
@@ -120,14 +119,14 @@ Words meaning_of(const std::string& description, bool at_end)
         return {"a number does not begin with a zero", ""};
     }
     if (says("floating-point") || says("integer")) {
-        return {"the number is not understood", "for instance 12, 0.25 or 1e-3"};
+        return {"the number is invalid", "for instance 12, 0.25 or 1e-3"};
     }
     if (says("value type")) {
-        return {"the value is not understood", "a number, a text in quotes, true, false or a list"};
+        return {"the value is invalid", "a number, a text in quotes, true, false or a list"};
     }
     if (says("root table") || says("expected keys")) {
         return {"expected a key or the header of a table",
-                "keys have letters a-z, digits, `_` and `-`; others stand in quotes"};
+                "keys have letters a-z, digits, `_` and `-`; others must be in quotes"};
     }
     return {};
 }

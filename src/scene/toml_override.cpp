@@ -134,21 +134,20 @@ std::string apply_override(TomlNode& root, std::string_view text, int number)
     }
     const auto steps = parse_path(text.substr(0, equals));
     if (!steps) {
-        return fmt::format(
-            "\"{}\" is no key: expected names with dots between them, and [0], [1] ... "
-            "for the elements of a list",
-            trimmed(text.substr(0, equals)));
+        return fmt::format("\"{}\" is not a key: expected names separated by dots, and [0], [1] "
+                           "... for the elements of a list",
+                           trimmed(text.substr(0, equals)));
     }
     auto value = parse_value(trimmed(text.substr(equals + 1)));
     if (!value) {
-        return fmt::format("\"{}\" is no TOML value", trimmed(text.substr(equals + 1)));
+        return fmt::format("\"{}\" is not a TOML value", trimmed(text.substr(equals + 1)));
     }
     TomlNode* node = &root;
     for (const PathStep& step : *steps) {
         node = follow(*node, step, number);
         if (node == nullptr) {
             return step.index ? fmt::format("the case has no `{}[{}]`", step.key, *step.index)
-                              : fmt::format("`{}` is no key of a table here", step.key);
+                              : fmt::format("`{}` is not a key of a table here", step.key);
         }
     }
     mark(*value, number);

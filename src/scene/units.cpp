@@ -158,7 +158,7 @@ std::string units_that_fit(std::string_view expected)
             list += (list.empty() ? "" : ", ") + std::string(known.name);
         }
     }
-    return fmt::format("units that fit: {}", list.empty() ? std::string(expected) : list);
+    return fmt::format("units of this dimension: {}", list.empty() ? std::string(expected) : list);
 }
 
 } // namespace
@@ -222,7 +222,8 @@ ParsedQuantity parse_quantity(std::string_view text, std::string_view expected)
         return {0, fmt::format("unknown unit \"{}\"", rest), units_that_fit(expected)};
     }
     if (unit->powers != wanted->powers) {
-        return {0, fmt::format("the unit \"{}\" does not fit, expected {}", rest, expected),
+        return {0,
+                fmt::format("the unit \"{}\" has another dimension, expected {}", rest, expected),
                 units_that_fit(expected)};
     }
     return {number * (unit->up * wanted->down) / (unit->down * wanted->up), {}, {}};

@@ -125,7 +125,7 @@ TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
     EXPECT_EQ(mistake("title = \"t\"\ngroup = \"g\"\n").substr(2), "source: is missing ()");
     EXPECT_NE(mistake(head + "[[check]]\nname = \"x\"\nvalue = \"x +\"\nmeasure = \"last\"\n"
                              "expected = 1\ntolerance = 1\nbecause = \"b\"\n")
-                  .find("6:check[0].value: \"x +\" is no expression"),
+                  .find("6:check[0].value: \"x +\" is not an expression"),
               std::string::npos);
     EXPECT_NE(mistake(head + check + "judged = [\"rnu\"]\n").find("did you mean \"run\""),
               std::string::npos);

@@ -144,7 +144,7 @@ TEST_F(StudyFiles, MistakesAreAllToldWithTheirPlace)
     for (const char* part :
          {"3:1: mod: unknown key (did you mean \"mode\"?)", "4:11: repeats: expected 1 to 1000",
           "7:10: sweep[0].values: is empty", "8:10: sweep[0].finest: unknown \"least\"",
-          "11:9: quantity[0].value: \"x +\" is no expression", "12:11: quantity[0].measure"}) {
+          "11:9: quantity[0].value: \"x +\" is not an expression", "12:11: quantity[0].measure"}) {
         EXPECT_NE(told.find(part), std::string::npos) << part << " is not in\n" << told;
     }
 }

@@ -231,12 +231,13 @@ TEST_F(Frames, ThatClaimWhatTheyDoNotHoldAreErrors)
     const fs::path file = folder / "frames/fluid_000000.hdf";
     // 1.6 GB that are nowhere, and a product of dimensions that no integer holds.
     claim_rows(file, "/VTKHDF/Points", hsize_t{1} << 27);
-    EXPECT_NE(fault_of(file).find("holds less than it says"), std::string::npos) << fault_of(file);
+    EXPECT_NE(fault_of(file).find("contains less data than it declares"), std::string::npos)
+        << fault_of(file);
     claim_rows(file, "/VTKHDF/Points", hsize_t{1} << 62);
     EXPECT_NE(fault_of(file).find("it declares"), std::string::npos) << fault_of(file);
     // An array for other points than those of the frame.
     claim_rows(folder / "frames/fluid_000001.hdf", "/VTKHDF/PointData/Velocity", 11);
-    EXPECT_NE(fault_of(folder / "frames/fluid_000001.hdf").find("not one row a point"),
+    EXPECT_NE(fault_of(folder / "frames/fluid_000001.hdf").find("not have one row per point"),
               std::string::npos);
 }
 

@@ -19,7 +19,7 @@ TEST(CaseFileEntry, SyntaxIsToldWithItsPlace)
     const auto twice = mistakes("seed = 1\nseed = 2\n");
     ASSERT_EQ(twice.size(), 1u);
     EXPECT_EQ(twice[0].line, 2);
-    EXPECT_NE(twice[0].what.find("stands twice"), std::string::npos);
+    EXPECT_NE(twice[0].what.find("is defined twice"), std::string::npos);
     EXPECT_EQ(mistakes("a = [1,\n").size(), 1u);
     EXPECT_EQ(mistakes("a = 1e999\n").size(), 1u);
     EXPECT_EQ(mistakes("a = 99999999999999999999\n").size(), 1u);
@@ -178,11 +178,11 @@ TEST(CaseFileEntry, SyntaxIsToldInPlainWordsAtItsLine)
 {
     const std::vector<std::array<std::string, 3>> all = {
         {"end = 0,25", "decimal point, not a comma", "write end = 0.25"},
-        {"end = 1.0 s", "must stand in quotes", "write end = \"1.0 s\""},
-        {"end = 5min", "must stand in quotes", "write end = \"5 min\""},
+        {"end = 1.0 s", "must be in quotes", "write end = \"1.0 s\""},
+        {"end = 5min", "must be in quotes", "write end = \"5 min\""},
         {"end = .5", "needs a digit", "write end = 0.5"},
         {"end = 5.", "needs a digit", "write end = 5.0"},
-        {"end = soon", "a text must stand in quotes", "write end = \"soon\""},
+        {"end = soon", "a text must be in quotes", "write end = \"soon\""},
         {"end = True", "small letters", "write end = true"},
         {"end = “1”", "typographic", "\""},
         {"end 1.0", "expected `=`", "key = value"},
@@ -191,12 +191,12 @@ TEST(CaseFileEntry, SyntaxIsToldInPlainWordsAtItsLine)
         {"end = \"abc", "text is not closed", "quote"},
         {"end = 'abc", "text is not closed", "quote"},
         {"end = \"a\\q\"", "backslash", "two"},
-        {"end = 1.2.3", "number is not understood", "0.25"},
+        {"end = 1.2.3", "number is invalid", "0.25"},
         {"end = 01", "begin with a zero", ""},
         {"end = {a = 1", "in braces", "{ key = value"},
         {"[tim", "header of a table", "[name]"},
-        {"[time]", "\"time\" stands twice", "one of them"},
-        {"end = 1\nend = 2", "\"end\" stands twice", "one of them"},
+        {"[time]", "\"time\" is defined twice", "one of them"},
+        {"end = 1\nend = 2", "\"end\" is defined twice", "one of them"},
         {"= 3", "expected a key", "quotes"}};
     for (const auto& [line, what, hint] : all) {
         SCOPED_TRACE(line);

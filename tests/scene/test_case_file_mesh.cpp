@@ -74,12 +74,13 @@ TEST_F(CaseMesh, E11AScaleThatIsProbablyWrongIsWarnedOf)
         return text;
     };
     EXPECT_EQ(warnings("1.0").find("scale"), std::string::npos) << warnings("1.0");
-    for (const auto& [scale, words] : {std::pair("0.001", "less than the spacing of 0.05 m"),
-                                       std::pair("1000", "3.46e+03 m across, all else")}) {
+    for (const auto& [scale, words] :
+         {std::pair("0.001", "less than the spacing of 0.05 m"),
+          std::pair("1000", "3.46e+03 m across, the rest of the scene")}) {
         const std::string text = warnings(scale);
         EXPECT_NE(text.find("body[0].scale"), std::string::npos) << text;
         EXPECT_NE(text.find(words), std::string::npos) << text;
-        EXPECT_NE(text.find("is `scale` right?"), std::string::npos) << text;
+        EXPECT_NE(text.find("check `scale`"), std::string::npos) << text;
     }
 }
 

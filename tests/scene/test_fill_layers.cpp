@@ -65,7 +65,7 @@ position = [0.3, 0.0, 0.2]
     }
     const Plan plan = make_plan(scene, filling);
     EXPECT_TRUE(std::any_of(plan.warnings.begin(), plan.warnings.end(), [](const Diagnostic& d) {
-        return d.what.find("box about it") != std::string::npos;
+        return d.what.find("bounding box") != std::string::npos;
     }));
     EXPECT_EQ(to_toml(scene), to_toml(parse_case(to_toml(scene), "again.toml")));
 }

@@ -78,7 +78,7 @@ TEST_F(WallMotion, TellsMistakesOfTheFileByLine)
     };
     says("time,x,y,z\n0,0,0,0\n1,2,fast,0\n", "paddle.csv:3: expected a number, found \"fast\"");
     says("0,0,0,0\n\n1,2,0\n", "paddle.csv:3: expected 4 numbers, found 3");
-    says("0,0,0,0\n1,0,0,0\n1,1,0,0\n", "paddle.csv:3: time 1 does not follow 1");
+    says("0,0,0,0\n1,0,0,0\n1,1,0,0\n", "paddle.csv:3: time 1 is not later than 1");
     says("0,0,0,0\n", "has 1 rows of numbers, a path needs two");
     says("0,0,0,0\n1,nan,0,0\n", "paddle.csv:2: expected a number");
     EXPECT_EQ(wrong("0,0,a,0\n1,b,0,0\n").size(), 2U); // all of them at once

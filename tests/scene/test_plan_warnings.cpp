@@ -85,15 +85,15 @@ TEST(PlanWarnings, OfWhatIsProbablyASlip)
         std::string from, to, words;
     };
     const std::vector<Slip> slips = {
-        {"density = 500", "density = 0.5", "0.5 kg/m3 is lighter"},
-        {"density = 1000", "density = 1.0", "1 kg/m3 is lighter"},
+        {"density = 500", "density = 0.5", "0.5 kg/m3 is lower than"},
+        {"density = 1000", "density = 1.0", "1 kg/m3 is lower than"},
         {"-9.81", "9.81", "points upward"},
         {"[domain]\nmin = [-0.3, -0.3, -0.3]\nmax = [2.3, 1.3, 2.3]\n", "", ""},
         {"[1.0, 0, 0]\nmax = [1.2", "[1.1, 0, 0]\nmax = [1.15", "\"gate\" is 0.05 m thin"},
         {"max = [2.3, 1.3, 2.3]", "max = [1.5, 1.3, 2.3]", "a closed side of wall \"tank\""},
         {"max = [2.3, 1.3, 2.3]", "max = [0.6, 1.3, 2.3]", "fluid block 1 reaches beyond"},
         {"max = [2.3, 1.3, 2.3]", "max = [2.3, 1.3, 0.2]", "the domain ends within"},
-        {"position = [1.6, 0.5, 0.2]", "position = [1.6, 0.5, 220]", "from everything else"}};
+        {"position = [1.6, 0.5, 0.2]", "position = [1.6, 0.5, 220]", "from the rest of the scene"}};
     const auto count = [](const std::string& text) {
         const Scene scene = parse_case(text, "case.toml");
         return make_plan(scene, fill(scene)).warnings.size();

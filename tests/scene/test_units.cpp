@@ -30,9 +30,10 @@ TEST(Units, ValuesAreExactWhereDecimalsAre)
 
 TEST(Units, DimensionsAreChecked)
 {
-    EXPECT_NE(parse_quantity("3 s", "m").fault.find("does not fit"), std::string::npos);
-    EXPECT_NE(parse_quantity("3 m2", "m").fault.find("does not fit"), std::string::npos);
-    EXPECT_NE(parse_quantity("3 1/s", "rad/s").fault.find("does not fit"), std::string::npos);
+    EXPECT_NE(parse_quantity("3 s", "m").fault.find("has another dimension"), std::string::npos);
+    EXPECT_NE(parse_quantity("3 m2", "m").fault.find("has another dimension"), std::string::npos);
+    EXPECT_NE(parse_quantity("3 1/s", "rad/s").fault.find("has another dimension"),
+              std::string::npos);
 }
 
 TEST(Units, NonsenseIsRefused)

@@ -191,7 +191,7 @@ TEST(Watch, E5NamesTheRightCause)
                                     {{"time.cfl=0.9"}, "`time.cfl` = 0.9 is too large"},
                                     {{"domain.min=[-0.2, 0.0, -0.2]", "domain.max=[0.6, 0.0, 1.2]"},
                                      "[domain], which ends within the scene"},
-                                    {{"fluid.viscosity.model=none"}, "nothing damps the fluid"},
+                                    {{"fluid.viscosity.model=none"}, "the fluid has no damping"},
                                     {{"fluid.sound_speed=12"}, "`fluid.sound_speed` is too low"},
                                     {{}, "an overlap at the start"}};
     for (const Cause& cause : causes) {
