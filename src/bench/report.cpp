@@ -141,7 +141,7 @@ std::string stages_table(const StepRates& r)
                             stage.one / stage.all);
     }
     text += fmt::format("  serial, by the times of whole steps: {:.1f} %\n", 100 * serial_share(r));
-    text += "  bytes a particle:";
+    text += "  bytes per particle:";
     for (const MemoryUse& use : r.memory) {
         text += fmt::format(" {} {:.0f},", use.part,
                             static_cast<double>(use.bytes) / static_cast<double>(r.particles()));

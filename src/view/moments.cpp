@@ -241,8 +241,8 @@ std::vector<Moment> moments_of(const fs::path& results, const std::vector<double
         moments.push_back(moment);
     }
     if (moments.empty()) {
-        throw CaseError(fmt::format("`{}` holds no frames to render", results.string()),
-                        "give the folder that `hyoryu run` wrote");
+        throw CaseError(fmt::format("`{}` contains no frames to render", results.string()),
+                        "give a folder written by `hyoryu run`");
     }
     return times.empty() ? moments : nearest(moments, times);
 }
@@ -272,7 +272,7 @@ Survey survey_of(const std::vector<Moment>& moments, const Surface& structures,
     survey.bounds = survey.inner;
     survey.bounds.extend(around);
     if (survey.bounds.isEmpty()) {
-        throw IoError("the frames hold neither fluid nor bodies");
+        throw IoError("the frames contain neither fluid nor bodies");
     }
     return survey;
 }
