@@ -42,7 +42,7 @@ TEST(Formula, SaysWhatIsWrong)
     const CsvTable table{.columns = {{"velocity", {1}, {}}, {"body", {NAN}, {"timber"}}},
                          .rows = 1};
     const Scope circle{.numbers = {}, .columns = {{"p", "q"}, {"q", "p"}}};
-    EXPECT_NE(fault_of([] { evaluate("1 +", {}); }).find("no expression"), std::string::npos);
+    EXPECT_NE(fault_of([] { evaluate("1 +", {}); }).find("not an expression"), std::string::npos);
     EXPECT_NE(fault_of([&] { evaluate("velocty", {}, table); }).find("did you mean \"velocity\""),
               std::string::npos);
     EXPECT_NE(fault_of([&] { evaluate("body", {}, table); }).find("texts"), std::string::npos);

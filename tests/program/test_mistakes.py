@@ -74,7 +74,7 @@ class Mistakes(ProgramTest):
         probe = self.call("--version", preexec_fn=limit)
         if "ShadowMemory" in probe.stderr:
             self.skipTest("a program with the address sanitizer does not start in so little memory")
-        for spacing, expected in (("0.001", "to place them alone takes"), ("0.0025", "the run needs")):
+        for spacing, expected in (("0.001", "their positions alone take"), ("0.0025", "the run needs")):
             self.refused(FLOOD.replace("spacing = 0.05", f"spacing = {spacing}"), expected, "2.",
                          preexec_fn=limit)
 
