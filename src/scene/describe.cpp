@@ -88,7 +88,7 @@ std::string entry_text(const Parameter& parameter)
     }
     const std::vector<std::string_view> candidates(names.begin(), names.end());
     const std::string near = did_you_mean(plain(key), candidates);
-    throw CaseError(fmt::format("the case file has no key \"{}\"", key),
+    throw CaseError(fmt::format("unknown key \"{}\"", key),
                     near.empty() ? "`hyoryu describe` lists all keys" : near);
 }
 

@@ -86,7 +86,7 @@ inline void check_velocities(TableReader& table, const BodySettings& body)
 {
     const Vec3& w = body.angular_velocity;
     if (table.reading().dimensions == 2 && (w.x() != 0 || w.z() != 0)) {
-        table.error("angular_velocity", "in two dimensions bodies turn about y",
+        table.error("angular_velocity", "in two dimensions bodies rotate about y",
                     "write [0, value, 0]");
     }
     if (body.fixed && (body.velocity.norm() > 0 || w.norm() > 0)) {
@@ -181,8 +181,9 @@ void matter_keys(auto& keys, Is<BodySettings> auto& body, int dimensions)
         const bool by_density = body.density * volume(body.shape, dimensions) == body.mass;
         (by_density ? density : mass) = by_density ? body.density : body.mass;
     }
-    keys.positive("density", density, "kg/m3", "Density; give it or the mass.");
-    keys.positive("mass", mass, "kg", "Mass, per metre of width in 2-D; give it or the density.");
+    keys.positive("density", density, "kg/m3", "Density; give either density or mass.");
+    keys.positive("mass", mass, "kg",
+                  "Mass, per metre of width in 2-D; give either density or mass.");
     keys.rule(find_mass, density, mass, body);
 }
 
@@ -194,27 +195,28 @@ void keys_of(auto& keys, Is<BodySettings> auto& body, auto& scene)
               "body.1, body.2 ...");
     keys.rule(check_name, "name", body.name);
     matter_keys(keys, body, scene.dimensions);
-    keys.planar("position", body.position, "m", "Centre of mass at the start.", required);
-    rotation_keys(keys, body.rotation, "Rotation about the centre of mass at the start.");
-    keys.planar("velocity", body.velocity, "m/s", "Velocity at the start.");
+    keys.planar("position", body.position, "m", "Initial position of the centre of mass.",
+                required);
+    rotation_keys(keys, body.rotation, "Initial rotation about the centre of mass.");
+    keys.planar("velocity", body.velocity, "m/s", "Initial velocity.");
     keys.vector("angular_velocity", body.angular_velocity, "rad/s",
-                "Angular velocity at the start, about the axes of the world.");
+                "Initial angular velocity, in world axes.");
     keys.rule(inherit, body.spacing, scene.spacing);
     keys.positive("spacing", body.spacing, "m",
-                  "Distance between the body's own particles, which feel the fluid.",
+                  "Spacing of the particles of the body, on which the fluid acts.",
                   "particles.spacing");
     keys.rule(finish_matter, body);
     keys.text("material", body.material, "Name of its material, for contact.pair.");
     keys.rule(check_material, body.material);
-    keys.flag("fixed", body.fixed, "Whether the body is held where it is.");
+    keys.flag("fixed", body.fixed, "Whether the body is fixed.");
     keys.rule(check_velocities, body);
     keys.choice("stands", body.sealed, {"open", "sealed"},
-                "Whether water gets into the joint between the body and what it stands on. "
-                "\"open\": it seeps in from the rim and lifts the body; \"sealed\": the joint "
-                "stays dry, as under a body that is glued or sunk into the ground.");
+                "Whether water seeps into the joint between a standing body and its support. "
+                "\"open\": water enters from the rim and lifts the body; \"sealed\": the joint "
+                "stays dry, as under a body that is glued or embedded in the ground.");
     keys.flags("locks", body.locks, {"x", "y", "z", "rx", "ry", "rz"},
-               "Directions of the world in which the body cannot move (x, y, z) or turn (rx, ry, "
-               "rz).");
+               "World axes along which the body cannot move (x, y, z) or about which it cannot "
+               "rotate (rx, ry, rz).");
     std::optional<BodyCopies> copies;
     keys.table("copies", "A block of equal bodies named NAME.1, NAME.2 ..., x fastest.", copies,
                body, scene.bodies);

@@ -23,17 +23,17 @@ inline void choose_method(TableReader& table, bool springs, const PenaltyParamet
         contact.penalty = penalty;
         if (table.has("law")) {
             table.error("law", "has no meaning with method = \"penalty\"",
-                        "laws are of the impulse method: leave `law` out");
+                        "laws apply to the impulse method: omit `law`");
         }
         if (table.has("locating_share")) {
             table.error("locating_share", "has no meaning with method = \"penalty\"",
-                        "the penalty method locates no impacts: leave `locating_share` out");
+                        "the penalty method does not locate impacts: omit `locating_share`");
         }
     } else if (const TomlNode* node = table.find("penalty");
                node != nullptr && node->table() != nullptr &&
                table.sound("method") == table.has("method")) {
         table.error("penalty", "has no meaning with method = \"impulse\"",
-                    "leave the table out, or write method = \"penalty\"");
+                    "omit the table, or write method = \"penalty\"");
     }
 }
 
@@ -68,7 +68,7 @@ inline void check_pair(TableReader& table, const MaterialPair& pair, const Conta
     const bool again = std::ranges::any_of(
         contact.pairs, [&](const MaterialPair& other) { return same_pair(pair, other); });
     if (again && !pair.materials[0].empty()) {
-        table.error("materials", "this pair stands in the case already");
+        table.error("materials", "this pair is already defined");
     }
 }
 
@@ -92,8 +92,7 @@ void keys_of(auto& keys, Is<MaterialPair> auto& pair, const ContactSettings& con
     keys.rule(check_pair, pair, contact, materials);
     keys.rule(inherit, pair.restitution, contact.restitution);
     keys.rule(inherit, pair.friction, contact.friction);
-    keys.fraction("restitution", pair.restitution,
-                  "Part of the approach speed that the pair keeps after an impact.",
+    keys.fraction("restitution", pair.restitution, "Coefficient of restitution of the pair.",
                   "contact.restitution");
     keys.not_negative("friction", pair.friction, "", "Dynamic friction coefficient of the pair.",
                       "contact.friction");
@@ -106,24 +105,23 @@ void keys_of(auto& keys, Is<ContactSettings> auto& contact, const Scene& scene)
     bool springs = contact.penalty.has_value();
     keys.choice("method", springs, {"impulse", "penalty"},
                 "\"impulse\" solves for the impulses that keep bodies apart, with friction; "
-                "\"penalty\" puts springs between particles, the baseline to compare with.");
+                "\"penalty\" uses springs between particles, a baseline for comparison.");
     if (keys.shows(!springs)) {
         keys.choice("law", contact.law, {"coupled", "paper", "simultaneous"},
-                    "What an impact does, by the impulse method. \"coupled\": all contacts that "
-                    "approach together, round after round, with the circular Coulomb cone; "
-                    "\"paper\": the uncoupled equations (1)-(6) of the Iwate paper, which can "
-                    "gain energy; \"simultaneous\": all touching contacts at once (Moreau).");
+                    "Impact law of the impulse method. \"coupled\": all contacts that approach "
+                    "together, round after round, with the circular Coulomb cone; \"paper\": the "
+                    "uncoupled equations (1)-(6) of the Iwate paper, which can gain energy; "
+                    "\"simultaneous\": all touching contacts at once (Moreau).");
         keys.not_negative(
             "locating_share", contact.locating_share, "",
-            "Part of the fluid's cost that locating impacts in time may take in a step, by the "
-            "impulse method, beside a small allowance for each body. Beyond it the bodies with "
-            "most impacts are advanced without location first; contacts.csv says of each contact "
-            "whether it was located.");
+            "Work limit for locating impacts in time, as a share of the cost of the fluid in a "
+            "step, in addition to a small allowance per body. Beyond it impacts are resolved by "
+            "time stepping, first of the bodies with most impacts; contacts.csv marks each contact "
+            "as located or not. Impulse method only.");
     }
     keys.fraction("restitution", contact.restitution,
-                  "Part of the approach speed that a pair keeps after an impact, unless "
-                  "contact.pair names the pair. The penalty method has no use for it: there it "
-                  "follows from stiffness and damping.");
+                  "Coefficient of restitution, unless contact.pair names the pair. In the penalty "
+                  "method it follows from stiffness and damping.");
     keys.not_negative("friction", contact.friction, "",
                       "Dynamic friction coefficient, unless contact.pair names the pair.");
     PenaltyParameters penalty = contact.penalty.value_or(PenaltyParameters{});

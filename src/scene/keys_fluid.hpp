@@ -15,8 +15,8 @@ inline void check_field(TableReader& table, std::string_view key, const std::str
         const Formula formula(text);
         for (const std::string& name : formula.names()) {
             if (name != "x" && name != "y" && name != "z") {
-                table.error(key, fmt::format("nothing is named \"{}\" in \"{}\"", name, text),
-                            "there are x, y and z, in metres");
+                table.error(key, fmt::format("unknown name \"{}\" in \"{}\"", name, text),
+                            "known: x, y and z, in metres");
             }
         }
     } catch (const FormulaError& fault) {
@@ -35,7 +35,7 @@ inline void check_slip(TableReader& table, const FluidSettings& fluid)
 inline void expect_sph(TableReader& table, FormulationKind formulation, std::string_view effect)
 {
     if (formulation == FormulationKind::mps) {
-        table.error("model", "is written for the kernel of SPH",
+        table.error("model", "is available for SPH only",
                     fmt::format("leave {} out with formulation = \"mps\"", effect));
     }
 }
@@ -49,15 +49,15 @@ inline void check_fields(TableReader& table, const FluidBlock& block)
         check_field(table, "pressure_field", block.pressure_field);
     }
     if (table.has("velocity") && table.has("velocity_field")) {
-        table.error("velocity", "stands beside `velocity_field`", "give one of them");
+        table.error("velocity", "is given together with `velocity_field`", "give one of them");
     }
 }
 
 inline void expect_block(TableReader& table)
 {
     if (!table.has("block")) {
-        table.error("block", "is missing: a fluid needs a region that it fills at the start",
-                    "add [[fluid.block]], or leave [fluid] out for a case without fluid");
+        table.error("block", "is missing: a fluid needs an initial region",
+                    "add [[fluid.block]], or omit [fluid] for a case without fluid");
     }
 }
 
@@ -138,18 +138,16 @@ void keys_of(auto& keys, Is<FluidBlock> auto& block)
                   "as those of bodies, instead of on a lattice.");
     }
     if (keys.shows(block.velocity_field.empty())) {
-        keys.planar("velocity", block.velocity, "m/s", "Velocity at the start.");
+        keys.planar("velocity", block.velocity, "m/s", "Initial velocity.");
     }
     if (keys.shows(!block.velocity_field.empty())) {
-        keys.text_list(
-            "velocity_field", block.velocity_field, 3,
-            "Velocity at the start where it is not the same everywhere: three expressions "
-            "of x, y and z in metres that give m/s, for instance [\"-2*x\", \"0\", "
-            "\"2*z\"].");
+        keys.text_list("velocity_field", block.velocity_field, 3,
+                       "Initial velocity as a field: three expressions of x, y and z in metres "
+                       "that give m/s, for instance [\"-2*x\", \"0\", \"2*z\"].");
     }
     if (keys.shows(!block.pressure_field.empty())) {
         keys.text("pressure_field", block.pressure_field,
-                  "Pressure at the start above the hydrostatic one, in Pa: an expression of x, y "
+                  "Initial pressure above the hydrostatic pressure, in Pa: an expression of x, y "
                   "and z in metres.");
     }
     keys.rule(check_fields, block);
@@ -159,21 +157,22 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid)
 {
     keys.positive("density", fluid.density, "kg/m3", "Density of the fluid at rest.");
     keys.choice("formulation", fluid.formulation, {"sph", "mps"},
-                "How the fluid is solved: \"sph\" is weakly compressible SPH, \"mps\" weakly "
+                "Discretisation of the fluid: \"sph\" is weakly compressible SPH, \"mps\" weakly "
                 "compressible MPS.");
     keys.positive("sound_speed", fluid.sound_speed, "m/s",
-                  "Artificial speed of sound; without it ten times the largest speed that the "
-                  "scene lets expect, which keeps density within 1 % of that at rest.");
+                  "Artificial speed of sound; without it ten times the largest expected speed of "
+                  "the scene, which keeps density within 1 % of that at rest.");
     constexpr double least = 1.2;
     constexpr double most = 2.0;
     keys.between("smoothing_ratio", fluid.smoothing_ratio, least, most, "1.2 .. 2.0",
-                 "Smoothing length over particle spacing: more is smoother and slower.");
+                 "Smoothing length over particle spacing: a larger ratio is smoother and slower.");
     // The first slot's table is listed before what else is said of walls.
-    keys.heading("viscosity", "Internal friction of the fluid.");
+    keys.heading("viscosity", "Viscosity of the fluid.");
     SlipSettings::keys(keys, fluid.walls);
     keys.planar("acceleration", fluid.acceleration, "m/s2",
-                "What drives the fluid besides gravity, for instance the pressure gradient of a "
-                "channel, over the density: walls and bodies do not feel it as a pressure.");
+                "Driving acceleration of the fluid in addition to gravity, for instance the "
+                "pressure gradient of a channel, divided by the density: it exerts no hydrostatic "
+                "pressure on walls and bodies.");
     each_slot(fluid.effects, [&](const SlotTable& table, auto& choice, auto /*slot*/) {
         keys.effect(table.key, table.meaning,
                     [&](auto& inside) { model_keys(inside, table, choice, fluid.formulation); });

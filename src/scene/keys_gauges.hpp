@@ -40,7 +40,7 @@ inline void find_target(TableReader& table, const Gauge& gauge, const Scene& sce
         constexpr std::size_t most_listed = 10;
         names.resize(std::min(names.size(), most_listed));
         table.error("on", fmt::format("no wall or body is named \"{}\"", gauge.on),
-                    near.empty() && !names.empty() ? "there are: " + quoted_list(names) : near);
+                    near.empty() && !names.empty() ? "known: " + quoted_list(names) : near);
     }
 }
 
@@ -56,11 +56,13 @@ inline void check_gauge(TableReader& table, const Gauge& gauge, const Scene& sce
     for (const Table::Head& head : gauge_columns(gauge, scene.dimensions)) {
         const auto [earlier, is_new] = columns.emplace(head.name, gauge.place.line);
         if (!is_new) {
-            table.error("name", head.name == "time"
-                                    ? "is taken: \"time\" is the first column of gauges.csv"
-                                    : fmt::format("the column \"{}\" stands twice, first of "
-                                                  "the gauge in line {}",
-                                                  head.name, earlier->second));
+            table.error(
+                "name",
+                head.name == "time"
+                    ? "is reserved: \"time\" is the first column of gauges.csv"
+                    : fmt::format(
+                          "the column \"{}\" is defined twice, first by the gauge in line {}",
+                          head.name, earlier->second));
             break;
         }
     }
@@ -71,10 +73,10 @@ void filter_keys(auto& keys, Is<Gauge> auto& gauge)
 {
     const auto filtered = [&] { return gauge.filter != GaugeFilter::none; };
     if (keys.shows(filtered())) {
-        keys.choice("filter", gauge.filter, {"none", "mean", "median", "exponential"},
-                    "A column of filtered readings beside the raw ones, named NAME_mean and so "
-                    "on: mean or median of the last `window` seconds, or the mean with weights "
-                    "that fall as exp(-age/window).");
+        keys.choice(
+            "filter", gauge.filter, {"none", "mean", "median", "exponential"},
+            "A column of filtered readings beside the raw ones, named NAME_mean and so on: mean or "
+            "median of the last `window` seconds, or the mean with the weights exp(-age/window).");
     }
     if (keys.applies(filtered())) {
         keys.positive("window", gauge.window, "s", "Window of the filter.", needed);
@@ -85,7 +87,7 @@ void filter_keys(auto& keys, Is<Gauge> auto& gauge)
 void gauge_place_keys(auto& keys, Is<Gauge> auto& gauge)
 {
     keys.planar("at", gauge.at, "m",
-                "Where it measures: a point, the x and y of the vertical line of an elevation "
+                "Position of the gauge: a point, the x and y of the vertical line of an elevation "
                 "gauge, or any point of the plane of a flux gauge.",
                 needed, 2);
     keys.rule(check_place, gauge);
@@ -106,8 +108,8 @@ void gauge_face_keys(auto& keys, Is<Gauge> auto& gauge)
     const bool flux = gauge.type == GaugeType::flux;
     if (keys.applies(flux || (pressure && face))) {
         keys.direction("normal", gauge.normal,
-                       "Direction that the face of a pressure sensor looks in, or in which a flux "
-                       "counts as positive; of any length.",
+                       "Outward normal of the face of a pressure sensor, or positive direction of "
+                       "a flux; of any length.",
                        face ? needed : no_default);
     }
 }
@@ -118,10 +120,10 @@ void keys_of(auto& keys, Is<Gauge> auto& gauge, const Scene& scene, GaugeColumns
     keys.text("name", gauge.name, "Name of the column; unique.", "gauge.1, gauge.2 ...");
     const bool known = keys.choice(
         "type", gauge.type, {"elevation", "pressure", "velocity", "force", "front", "flux"},
-        "What is measured: the water level over a place (at), pressure or velocity at a point "
+        "Measured quantity: the water level over a point (at), pressure or velocity at a point "
         "(at), the force of the fluid on a wall or body with the impulses of fluid and contact "
-        "(on), how far the water has come along an axis (axis), or the volume that passes a plane "
-        "in a second (at, normal).",
+        "(on), the position of the front along an axis (axis), or the volume flux through a plane "
+        "(at, normal).",
         required);
     const bool force = gauge.type == GaugeType::force;
     const bool front = gauge.type == GaugeType::front;

@@ -26,8 +26,8 @@ inline std::optional<std::filesystem::path> path_of_file(TableReader& table, std
     const bool bad = has_control_characters(name);
     if (name.empty() || bad) {
         table.error(key,
-                    name.empty() ? "is empty, expected the name of a file"
-                                 : "holds control characters, expected the name of a file",
+                    name.empty() ? "is empty, expected a file name"
+                                 : "contains control characters, expected a file name",
                     "a path relative to the case file");
         return std::nullopt;
     }
@@ -69,7 +69,7 @@ inline void claim_name(TableReader& table, const std::string& name)
     if (!is_new) {
         const std::string first =
             at->second > 0 ? fmt::format(", first in line {}", at->second) : "";
-        table.error("name", fmt::format("the name \"{}\" stands twice{}", name, first),
+        table.error("name", fmt::format("the name \"{}\" is used twice{}", name, first),
                     "names of walls and bodies must differ");
     }
 }

@@ -36,7 +36,7 @@ inline void check_period(TableReader& table, const Scene& scene, const DomainSet
     }
     if (scene.gravity[axis] != 0) {
         table.error("periodic", fmt::format("`gravity` points along {}", name),
-                    "what falls without end has no hydrostatic pressure; turn one of them");
+                    "no hydrostatic state exists along a periodic direction; change one of them");
     }
 }
 
@@ -64,7 +64,7 @@ inline void check_time(TableReader& table, const TimeSettings& time)
 {
     if (time.recover && time.step) {
         table.error("recover", "has no meaning beside a fixed `time.step`",
-                    "leave `time.step` out for an adaptive step, which can be halved");
+                    "omit `time.step` for an adaptive step, which can be halved");
     }
     if (time.step && time.end > 0 && *time.step > time.end) {
         table.error("step",
@@ -103,15 +103,15 @@ void keys_of(auto& keys, Is<TimeSettings> auto& time)
 {
     keys.positive("end", time.end, "s", "Simulated time at which the run ends.", required);
     keys.positive("step", time.step, "s",
-                  "A fixed time step; without it every step is as long as the limits of sound "
-                  "speed, viscosity and force allow.");
+                  "A fixed time step; without it each step has the largest length within the "
+                  "limits of sound speed, viscosity and force.");
     keys.positive("cfl", time.cfl, "",
                   "Factor on the limits of the adaptive time step; smaller is safer and slower.");
     if (keys.shows(time.recover)) {
         keys.flag("recover", time.recover,
-                  "When the numbers go wrong, goes back to the last frame and on with half the "
-                  "time step, at most five times. What was written since is taken back, and "
-                  "`run.log` says so.");
+                  "If the simulation becomes unstable, return to the last frame and continue with "
+                  "half the time step, at most five times. Results written since are removed, and "
+                  "`run.log` reports it.");
     }
     keys.rule(check_time, time);
 }
@@ -128,10 +128,10 @@ void keys_of(auto& keys, Is<DomainSettings> auto& domain, const Scene& scene)
         }
     }
     if (keys.shows(!periods.empty())) {
-        keys.texts("periodic", periods, {},
-                   "Directions, of \"x\", \"y\", \"z\", in which the domain repeats itself: what "
-                   "leaves on one side enters on the other. For scenes without bodies and moving "
-                   "walls.");
+        keys.texts(
+            "periodic", periods, {},
+            "Directions, of \"x\", \"y\", \"z\", in which the domain is periodic: particles that "
+            "leave on one side enter on the other. For scenes without bodies and moving walls.");
     }
     keys.rule(find_periods, periods, scene, domain);
 }
@@ -149,7 +149,7 @@ void keys_of(auto& keys, Is<OutputSettings> auto& output, const Scene& scene)
                       "output.history_every");
     keys.texts("fields", output.fields,
                {"velocity", "pressure", "density", "volume", "id", "kind", "body"},
-               "What each particle of a frame carries besides its place; an empty list is the "
+               "Fields of each particle in a frame besides its position; an empty list is the "
                "default set.");
     keys.positive("checkpoint_every", output.checkpoint_every, "s",
                   "Wall-clock time between two checkpoints, from which `run --resume` goes on.");
@@ -158,7 +158,7 @@ void keys_of(auto& keys, Is<OutputSettings> auto& output, const Scene& scene)
 /// What holds everywhere in the case.
 void general_keys(auto& keys, Is<Scene> auto& scene)
 {
-    keys.text("title", scene.title, "A line that names the case in reports and pictures.");
+    keys.text("title", scene.title, "Title of the case in reports and pictures.");
     keys.rule(check_title, scene.title);
     keys.integer("dimensions", scene.dimensions, 2, 3, "2 or 3",
                  "3, or 2 for a case in the x-z plane whose masses and forces are per metre of "
@@ -168,8 +168,8 @@ void general_keys(auto& keys, Is<Scene> auto& scene)
     keys.rule(forget_mistaken, scene.gravity);
     constexpr double unbounded = 1e300;
     keys.integer("seed", scene.seed, 0, unbounded, ">= 0",
-                 "Seed of everything random; the same seed gives the same bits.");
-    keys.table("time", "How long is simulated, and in which steps.", scene.time);
+                 "Seed of all random numbers; the same seed gives the same bits.");
+    keys.table("time", "Simulated time and time steps.", scene.time);
     keys.table("particles", "The resolution.", [&](auto& particles) {
         particles.positive(
             "spacing", scene.spacing, "m",
@@ -178,27 +178,28 @@ void general_keys(auto& keys, Is<Scene> auto& scene)
             required);
         particles.choice(
             "precision", scene.precision, {"single", "double"},
-            "The number of the arithmetic between pairs of particles; state and bodies are double "
-            "in either case. \"double\" is for verification and takes about twice the time.");
+            "Floating-point type of the pair interactions; state and bodies are double in either "
+            "case. \"double\" is for verification and takes about twice the time.");
     });
     keys.table("domain",
-               "The box outside which particles leave the run; without it the bounds of the scene.",
+               "Box outside of which particles are removed; without it the bounds of the scene.",
                scene.domain, scene);
 }
 
 void keys_of(auto& keys, Is<Scene> auto& scene)
 {
     general_keys(keys, scene);
-    keys.table("fluid", "The water; without this table no fluid is simulated at all.", scene.fluid);
+    keys.table("fluid", "The fluid; without this table no fluid is simulated.", scene.fluid);
     keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
                 scene.gravity.norm());
     keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,
                 scene);
     keys.rule(check_bodies, scene.bodies);
-    keys.table("contact", "How bodies hit each other and the walls.", scene.contact, scene);
+    keys.table("contact", "Contact of bodies with each other and with walls.", scene.contact,
+               scene);
     GaugeColumns columns{{"time", 0}};
     keys.tables("gauge", "An instrument: columns of gauges.csv.", scene.gauges, scene, columns);
-    keys.table("output", "What is written, and how often.", scene.output, scene);
+    keys.table("output", "Contents and frequency of the output.", scene.output, scene);
     keys.rule(expect_something);
 }
 

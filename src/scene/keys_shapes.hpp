@@ -62,7 +62,7 @@ inline void load_mesh(TableReader& table, MeshShape& shape)
 {
     const auto path = path_of_file(table, "file", shape.file);
     if (table.reading().dimensions == 2) {
-        table.error("shape", "this version has meshes in three dimensions only");
+        table.error("shape", "meshes are supported in three dimensions only");
         return;
     }
     if (!path) {
@@ -84,7 +84,7 @@ inline void load_mesh(TableReader& table, MeshShape& shape)
                         fmt::format("has a corner at ({:.3g}, {:.3g}, {:.3g}) m, expected "
                                     "at most {} m",
                                     far->x(), far->y(), far->z(), largest_value("m")),
-                        "is `scale` right? it takes the numbers of the file to metres");
+                        "check `scale`, the factor from the numbers of the file to metres");
         }
         shape.corners = std::move(mesh.corners);
         shape.triangles = std::move(mesh.triangles);
@@ -97,7 +97,7 @@ inline void load_particles(TableReader& table, ParticleShape& shape)
 {
     const auto path = path_of_file(table, "file", shape.file);
     if (table.reading().dimensions == 2) {
-        table.error("shape", "this version has bodies of particles in three dimensions only");
+        table.error("shape", "bodies of particles are supported in three dimensions only");
         return;
     }
     if (!path) {
@@ -218,7 +218,7 @@ void placed_keys(auto& keys, Is<Shape> auto& shape, auto& centre, const ShapeWor
     if (box == nullptr || keys.applies(!by_corners)) {
         shape_keys(keys, shape, words);
         keys.planar("position", centre, "m",
-                    "Centre of the shape; of a mesh where its file's origin goes.",
+                    "Centre of the shape; for a mesh the position of the origin of its file.",
                     std::holds_alternative<MeshShape>(shape) ? no_default : needed);
     }
 }

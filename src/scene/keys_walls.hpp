@@ -63,7 +63,7 @@ inline void load_path(TableReader& table, const std::string& file, Motion& motio
         const std::vector<double>& row = numbers.rows[k];
         if (k > 0 && row[0] <= motion.times.back()) {
             table.error("table",
-                        fmt::format("{}:{}: time {} does not follow {}", path->string(),
+                        fmt::format("{}:{}: time {} is not later than {}", path->string(),
                                     numbers.lines[k], row[0], motion.times.back()),
                         "times must ascend");
             break;
@@ -103,7 +103,7 @@ inline void check_path(TableReader& table, Motion& motion)
                        "times must ascend");
     } else if (displacement(motion, 0).norm() > at_origin) {
         table.error("places", "the path is not at [0, 0, 0] at time 0",
-                    "places are displacements from where the wall stands then");
+                    "places are displacements from the position of the wall at time 0");
     }
 }
 
@@ -124,7 +124,7 @@ void keys_of(auto& keys, Is<PlaneWall> auto& plane)
 {
     keys.planar("point", plane.point, "m", "A point of a plane.");
     keys.direction("normal", plane.normal,
-                   "Direction from a plane into the free space, of any length.");
+                   "Normal of a plane, into the free space, of any length.");
 }
 
 void keys_of(auto& keys, Is<BasinWall> auto& basin)
@@ -135,9 +135,9 @@ void keys_of(auto& keys, Is<BasinWall> auto& basin)
     keys.flags("open", basin.open, {"-x", "+x", "-y", "+y", "-z", "+z"},
                "Sides of a basin without a wall.");
     keys.positive("thickness", basin.thickness, "m",
-                  "Of the sides of a basin as bodies meet them, from outside and on their rims "
-                  "too; by default 2 fluid.smoothing_ratio spacings rounded up to whole ones, "
-                  "without a fluid three; the penalty method takes two spacings.",
+                  "Thickness of the sides of a basin for contact with bodies, including the "
+                  "outside and the rims; by default 2 fluid.smoothing_ratio spacings rounded up to "
+                  "whole ones, without a fluid three; the penalty method takes two spacings.",
                   "that of the rows of wall particles");
 }
 
@@ -159,9 +159,9 @@ void keys_of(auto& keys, Is<Motion> auto& motion, double gravity)
         std::string file;
         keys.text("table", file,
                   "CSV file of a path, relative to the case file: columns time, x, y, z in s and "
-                  "m, a header line or none. The wall follows it by monotone cubics, starts where "
-                  "it stands in the case whatever place the file has at time 0, and rests "
-                  "outside.",
+                  "m, a header line or none. The wall follows it by monotone cubics, starts at its "
+                  "position in the case regardless of the position in the file at time 0, and is "
+                  "at rest outside of the times of the file.",
                   needed);
         keys.rule(load_path, file, motion);
     }
@@ -169,14 +169,13 @@ void keys_of(auto& keys, Is<Motion> auto& motion, double gravity)
         keys.path("times", motion.times, "s",
                   "Times of a path within the case file, ascending; with places.");
         keys.path("places", motion.places, "m",
-                  "Displacements at the times, [x, y, z] each, from where the wall stands at "
-                  "time 0.");
+                  "Displacements at the times, [x, y, z] each, from its position at time 0.");
         keys.rule(check_path, motion);
     }
     if (keys.applies(way == MotionWay::piston)) {
         SolitaryWave wave;
         keys.table("piston",
-                   "The motion along +x of a paddle that makes a solitary wave (Goring 1978), "
+                   "The motion along +x of a paddle that generates a solitary wave (Goring 1978), "
                    "from time 0 on.",
                    wave, motion, gravity);
     }
@@ -234,8 +233,7 @@ void keys_of(auto& keys, Is<Wall> auto& wall, double gravity)
     geometry_keys(keys, wall);
     keys.text("material", wall.material, "Name of its material, for contact.pair.");
     keys.rule(check_material, wall.material);
-    keys.table("motion", "How the wall moves; without it the wall stands still.", wall.motion,
-               gravity);
+    keys.table("motion", "Motion of the wall; without it the wall is fixed.", wall.motion, gravity);
 }
 
 } // namespace hyoryu

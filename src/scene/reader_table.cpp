@@ -148,7 +148,7 @@ TableReader TableReader::inside(std::string_view key)
     if (node != nullptr && node->table() == nullptr) {
         const bool list = node->array() != nullptr;
         reading_.error(*node, path, fmt::format("expected a table, found {}", found(*node)),
-                       list ? fmt::format("there is one only: write [{}]", schema) : "");
+                       list ? fmt::format("only one is allowed: write [{}]", schema) : "");
         TableReader none(reading_, nullptr, path, schema);
         none.abandon();
         return none;
@@ -216,10 +216,11 @@ void TableReader::report_unknown(const TomlEntry& entry)
 void TableReader::report_unused(const TomlEntry& entry)
 {
     const std::vector<std::string_view> used(asked_.begin(), asked_.end());
-    reading_.error(entry.place, entry.node.override_number, full(entry.key),
-                   chosen_.empty() ? "has no meaning in this scene"
-                                   : fmt::format("has no meaning with {}", chosen_),
-                   chosen_.empty() ? "" : fmt::format("what has: {}", quoted_list(used)));
+    reading_.error(
+        entry.place, entry.node.override_number, full(entry.key),
+        chosen_.empty() ? "has no meaning in this scene"
+                        : fmt::format("has no meaning with {}", chosen_),
+        chosen_.empty() ? "" : fmt::format("keys with a meaning here: {}", quoted_list(used)));
 }
 
 void TableReader::finish()

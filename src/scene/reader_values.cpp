@@ -64,8 +64,8 @@ bool is_choice(const Asked& asked, const std::string& value)
         return asked.rule.key == "shape" && shape.name == value &&
                asked.key.starts_with(shape.table);
     });
-    return is_planned ? asked.refuse(fmt::format("this version does not have \"{}\" yet, it has {}",
-                                                 value, quoted_list(choices)))
+    return is_planned ? asked.refuse(fmt::format("\"{}\" is not supported yet, known: {}", value,
+                                                 quoted_list(choices)))
                       : asked.refuse(fmt::format("unknown \"{}\", expected one of {}", value,
                                                  quoted_list(choices)),
                                      did_you_mean(value, choices));
@@ -127,7 +127,7 @@ bool read(const Asked& asked, double& member)
         return asked.refuse_kind(in_unit(rule));
     }
     if (!std::isfinite(value)) {
-        return asked.refuse(fmt::format("{} is no finite number", value));
+        return asked.refuse(fmt::format("{} is not a finite number", value));
     }
     if (const double largest = largest_value(rule.unit); std::abs(value) > largest) {
         return asked.refuse(fmt::format("{}{} is out of range, expected at most {}{}", value,
@@ -225,7 +225,7 @@ bool read(const Asked& asked, Quat& member)
     const double excess = std::abs(rotation.squaredNorm() - 1);
     if (!(excess < typed)) {
         return asked.refuse(
-            fmt::format("is no unit quaternion, its norm is {:.6g}", rotation.norm()));
+            fmt::format("is not a unit quaternion, its norm is {:.6g}", rotation.norm()));
     }
     if (asked.reading.dimensions == 2 && (q[1] != 0 || q[3] != 0)) {
         return asked.refuse("in two dimensions rotations are about y");

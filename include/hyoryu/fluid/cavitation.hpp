@@ -34,16 +34,15 @@ struct Cavitation {
 struct VoidCavitation {
     static constexpr std::string_view name = Cavitation::name;
     static constexpr std::string_view model = "void";
-    static constexpr std::string_view says =
-        "lets a void open where the pressure would fall below that of the void, as in a closed "
-        "tank that is shaken";
+    static constexpr std::string_view says = "lets a void open if the pressure would fall below "
+                                             "that of the void, as in a closed tank that is shaken";
     double pressure = 0; // of the void [Pa]
 
     static void keys(auto& keys, auto& chosen)
     {
         keys.not_positive("pressure", chosen.pressure, "Pa",
-                          "Pressure of the void over that of the air: 0 where there is no air, "
-                          "about -99000 for water under the atmosphere.");
+                          "Pressure of the void relative to that of the air: 0 without air, about "
+                          "-99000 for water under the atmosphere.");
     }
     std::string why() const
     {

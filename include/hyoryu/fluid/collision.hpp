@@ -41,7 +41,7 @@ struct DynamicCollision {
     static void keys(auto& keys, auto& chosen)
     {
         keys.fraction("restitution", chosen.restitution,
-                      "Share of their approach that they fly apart with.");
+                      "Coefficient of restitution of the collisions.");
     }
     std::string why() const { return "`fluid.collision.model` is \"dynamic\": calms splashes"; }
     void fill(auto& slot, const FluidParameters& /*fluid*/) const

@@ -115,10 +115,11 @@ struct MolteniDiffusion : DiffusionSettings {
 };
 struct AntuonoDiffusion : DiffusionSettings {
     static constexpr std::string_view model = "antuono";
-    static constexpr std::string_view says = "corrects for any gradient by two sums more";
+    static constexpr std::string_view says =
+        "corrects for any gradient, at the cost of two more sums";
     std::string why() const
     {
-        return "`fluid.density_diffusion` asks for it, with renormalised gradients";
+        return "`fluid.density_diffusion.model` is \"antuono\": renormalised gradients";
     }
     void fill(auto& slot, const FluidParameters& f) const
     {

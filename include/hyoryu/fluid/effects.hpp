@@ -182,22 +182,22 @@ struct SlotTable {
 template <class Visit>
 void each_slot(auto& choices, Visit&& visit)
 {
-    visit(SlotTable{"viscosity", "Internal friction of the fluid.", ", \"none\" is inviscid.",
-                    "`fluid.viscosity` asks for another model or for none"},
+    visit(SlotTable{"viscosity", "Viscosity of the fluid.", ", \"none\" is inviscid.",
+                    "`fluid.viscosity` selects another model or none"},
           choices.viscosity, &FluidEffects::viscosity);
     visit(SlotTable{"density_diffusion",
-                    "Smoothing of density, which keeps pressure free of noise.",
+                    "Diffusion of density, which removes noise of the pressure.",
                     ", \"none\" switches it off.", "`fluid.density_diffusion.model` is \"none\""},
           choices.diffusion, &FluidEffects::diffusion);
-    visit(SlotTable{"shifting", "Evening out of the particles' places.",
+    visit(SlotTable{"shifting", "Particle shifting, which evens out the particle positions.",
                     "; \"none\" switches it off.", "`fluid.shifting.model` is \"none\""},
           choices.shifting, &FluidEffects::shifting);
     visit(SlotTable{"collision", "Collisions of fluid particles, for splashes.",
                     "; \"none\" switches it off.", "`fluid.collision.model` is \"none\""},
           choices.collision, &FluidEffects::collision);
-    visit(SlotTable{"cavitation", "Voids that open where the fluid is pulled.",
-                    "; \"none\": the fluid bears tension.",
-                    "`fluid.cavitation.model` is \"none\": the fluid bears tension"},
+    visit(SlotTable{"cavitation", "Voids that open under tension.",
+                    "; \"none\": the fluid sustains tension.",
+                    "`fluid.cavitation.model` is \"none\": the fluid sustains tension"},
           choices.cavitation, &FluidEffects::cavitation);
 }
 

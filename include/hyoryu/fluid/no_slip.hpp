@@ -55,8 +55,8 @@ struct SlipSettings {
     static void keys(auto& keys, auto& chosen)
     {
         keys.choice("walls", chosen.sticks, {"free_slip", "no_slip"},
-                    "Along walls and bodies the fluid slips freely, or it sticks to them by its "
-                    "viscosity.");
+                    "\"free_slip\": no friction at walls and bodies; \"no_slip\": the fluid sticks "
+                    "to them by its viscosity.");
     }
 };
 

@@ -42,12 +42,13 @@ struct SunShifting {
 
     static void keys(auto& keys, auto& chosen)
     {
-        keys.not_negative("coefficient", chosen.coefficient, "",
-                          "Strength of the shifting: C in -C h |v|max dt times the crowding.");
+        keys.not_negative(
+            "coefficient", chosen.coefficient, "",
+            "Strength of the shifting: C in -C h |v|max dt times the gradient of concentration.");
     }
     std::string why() const
     {
-        return "`fluid.shifting.model` is \"sun\": evens out the particles' places";
+        return "`fluid.shifting.model` is \"sun\": evens out the particle positions";
     }
     void fill(auto& slot, const FluidParameters& f) const
     {

@@ -109,8 +109,8 @@ struct LaminarViscosity {
     {
         kinematic_key(keys, chosen.kinematic);
         keys.choice("form", chosen.morris, {"central", "morris"},
-                    "Of the laminar model. \"central\" acts along the line between particles and "
-                    "is right at free surfaces; \"morris\" is exact in a shear along rows of "
+                    "Form of the laminar model. \"central\" acts along the line between particles "
+                    "and is right at free surfaces; \"morris\" is exact in a shear along rows of "
                     "particles, for flows between walls.");
     }
     std::string why() const
