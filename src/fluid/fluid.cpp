@@ -315,8 +315,8 @@ void shift(Fluid& fluid, real dt)
     const FluidTerms terms = terms_of(fluid, dt);
     const real scale = shifting->coefficient * f.h * top_speed(fluid) * dt;
     clear(store, StageWrites<stage::Crowding>{});
-    run<pass::Crowding>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
-    run<pass::Crowding>(fluid, n.fluid_solid, to_fluid(fluid), terms);
+    run<pass::CrowdingSums>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
+    run<pass::CrowdingSums>(fluid, n.fluid_solid, to_fluid(fluid), terms);
     const auto x = store[field::position];
     const auto S = store[field::shift_gradient];
     parallel_for(0, store.size(), [&](Index i) {

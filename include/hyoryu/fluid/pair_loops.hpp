@@ -71,7 +71,7 @@ struct FluidRates {
 /// fluid <- solid: continuity
 using SolidRates = PassOf<SolidContinuity>;
 /// fluid <- fluid and solid: crowding
-struct Crowding {
+struct CrowdingSums {
     static void call(const auto&, const FluidTerms& terms, const auto& f)
     {
         with_terms_of<stage::Crowding>(slots_of(terms.effects), f);
@@ -82,7 +82,7 @@ struct Crowding {
 
 using AllPasses = JoinedPasses<
     PassList<pass::Extrapolation, pass::FluidForces, pass::SolidForces, pass::SolidLoads,
-             pass::FilmForces, pass::FluidRates, pass::SolidRates, pass::Crowding>,
+             pass::FilmForces, pass::FluidRates, pass::SolidRates, pass::CrowdingSums>,
     EffectPasses>::type;
 
 /// The loops of a formulation in the number Real, one for each pass, each over one block of lists.
