@@ -112,7 +112,8 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
     const Configuration now = configuration(memory, memory.poses, time);
     memory.work += look_work * static_cast<double>(cluster.pairs.size());
     for (const BodyPair& pair : cluster.pairs) {
-        find_candidates(pair, now, clearly_apart(memory.geometry), memory.candidates);
+        const std::span<const Candidate> found = look_at(memory, pair, now);
+        memory.candidates.insert(memory.candidates.end(), found.begin(), found.end());
     }
     double& worst = context.rigid.counters.worst_penetration;
     for (const Candidate& candidate : memory.candidates) {

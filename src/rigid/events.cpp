@@ -115,8 +115,9 @@ private:
         if (!has_axis(pair, memory_.geometry) || !holds(pair)) {
             return clearance(pair, s) < closed * unit_;
         }
-        clearance(pair, s);
-        return std::ranges::any_of(memory_.looked_at, [&](const Candidate& c) {
+        memory_.work += look_work;
+        const Configuration at = configuration(memory_, memory_.trial, sub_.time + s);
+        return std::ranges::any_of(look_at(memory_, pair, at), [&](const Candidate& c) {
             return c.touch.gap < closed * unit_ && !held(c.feature) &&
                    (c.touch.gap < closed_in_contact * unit_ || approach_speed(c, s) > sub_.slow);
         });
@@ -130,10 +131,8 @@ private:
         if (has_axis(pair, memory_.geometry) && !holds(pair)) {
             return axis_distance(pair, at);
         }
-        memory_.looked_at.clear();
-        find_candidates(pair, at, clearly_apart(memory_.geometry), memory_.looked_at);
         double smallest = infinity;
-        for (const Candidate& c : memory_.looked_at) {
+        for (const Candidate& c : look_at(memory_, pair, at)) {
             if (c.touch.gap < smallest && !held(c.feature)) {
                 smallest = c.touch.gap;
             }

@@ -100,9 +100,7 @@ double deepest(const StepContext& context, const SubStep& sub, const std::vector
         if (sub.arms == Arms::ahead && !tired(memory, pair.a, pair.b)) {
             continue;
         }
-        memory.looked_at.clear();
-        find_candidates(pair, at, clearly_apart(memory.geometry), memory.looked_at);
-        for (const Candidate& c : memory.looked_at) {
+        for (const Candidate& c : look_at(memory, pair, at)) {
             most = std::max(most, -c.touch.gap);
         }
     }
@@ -176,7 +174,8 @@ void find_contacts_of_tired(const StepContext& context, const SubStep& sub)
             find_closing(context, pair, sub, memory.candidates);
             continue;
         }
-        find_candidates(pair, now, clearly_apart(memory.geometry), memory.candidates);
+        const std::span<const Candidate> found = look_at(memory, pair, now);
+        memory.candidates.insert(memory.candidates.end(), found.begin(), found.end());
     }
 }
 

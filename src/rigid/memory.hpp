@@ -33,6 +33,14 @@ struct Cluster {
     std::vector<BodyPair> pairs;
 };
 
+/// The possible contacts of a pair as last found, and where its bodies were then.
+struct PairLook {
+    BodyPair pair;
+    SolidPose a, b; // of a wall x is its displacement [m], q no turn
+    std::vector<Candidate> found;
+    bool known = false;
+};
+
 /// What a body's motion within a step had beyond its free path.
 struct Deviation {
     Vec3 start{0, 0, 0};              // x at the start of the step [m]
@@ -94,7 +102,8 @@ struct ContactMemory {
 
     // Scratch of the cluster in hand.
     std::vector<Cluster> clusters;
-    std::vector<Candidate> candidates, looked_at;
+    std::vector<PairLook> looks; // of all their pairs, sorted by pair
+    std::vector<Candidate> candidates;
     std::vector<std::vector<Candidate>> found; // of each block of pairs
     std::vector<Persistent> persistent;
     std::vector<FrictionPatch> patches; // of more than one contact, with friction
@@ -129,6 +138,14 @@ struct StepContext {
 
 /// Builds the tables if there are none for these bodies, and takes the poses of the bodies.
 void prepare(Rigid& rigid);
+
+/// Lists the pairs of the clusters, with what is known of those that were there in the last step.
+void keep_looks(ContactMemory& memory);
+/// The features of a pair of the clusters that face each other and are not clearly apart, as
+/// `find_candidates` tells them: as last found where neither body has moved since, bit for bit.
+/// They hold until the next look at the pair.
+std::span<const Candidate> look_at(ContactMemory& memory, const BodyPair& pair,
+                                   const Configuration& at);
 
 Configuration configuration(const ContactMemory& memory, const std::vector<SolidPose>& poses,
                             double time);

@@ -201,6 +201,7 @@ void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
         return;
     }
     find_clusters(context);
+    keep_looks(*rigid.memory);
     for (const Cluster& cluster : context.memory.clusters) {
         if (cluster.bodies.size() == 1) {
             advance_or_fly(context, cluster);

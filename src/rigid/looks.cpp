@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The contacts of pairs whose bodies have not moved since they were last looked at: the end of a
+// sub-step is looked at by the event search, by the impacts there and by the sub-step that follows.
+#include "memory.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+bool same_place(const SolidPose& a, const SolidPose& b)
+{
+    return a.x == b.x && a.q.coeffs() == b.q.coeffs();
+}
+
+// Where the partner of a pair is: of a wall only how far it has gone changes.
+SolidPose pose_of_partner(int b, const Configuration& at)
+{
+    if (b >= 0) {
+        return at.poses[b];
+    }
+    return {displacement(at.geometry.walls[-1 - b].motion, at.time)};
+}
+
+} // namespace
+
+void keep_looks(ContactMemory& memory)
+{
+    std::vector<PairLook>& looks = memory.looks;
+    std::vector<PairLook> kept;
+    for (const Cluster& cluster : memory.clusters) {
+        for (const BodyPair& pair : cluster.pairs) {
+            kept.push_back({pair});
+        }
+    }
+    std::ranges::sort(kept, {}, &PairLook::pair);
+    auto last = looks.begin();
+    for (PairLook& look : kept) {
+        last = std::ranges::lower_bound(last, looks.end(), look.pair, {}, &PairLook::pair);
+        if (last != looks.end() && last->pair == look.pair) {
+            look = std::move(*last);
+        }
+    }
+    looks.swap(kept);
+}
+
+std::span<const Candidate> look_at(ContactMemory& memory, const BodyPair& pair,
+                                   const Configuration& at)
+{
+    PairLook& look = *std::ranges::lower_bound(memory.looks, pair, {}, &PairLook::pair);
+    const SolidPose& a = at.poses[pair.a];
+    const SolidPose b = pose_of_partner(pair.b, at);
+    if (!look.known || !same_place(look.a, a) || !same_place(look.b, b)) {
+        look.known = true;
+        look.a = a;
+        look.b = b;
+        look.found.clear();
+        find_candidates(pair, at, clearly_apart(at.geometry), look.found);
+    }
+    return look.found;
+}
+
+} // namespace hyoryu
