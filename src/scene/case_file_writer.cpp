@@ -50,17 +50,7 @@ std::string toml(const Quat& q)
     return fmt::format("[{}, {}, {}, {}]", toml(q.w()), toml(q.x()), toml(q.y()), toml(q.z()));
 }
 
-std::string toml(std::int64_t value)
-{
-    return std::to_string(value);
-}
-
-std::string toml(int value)
-{
-    return std::to_string(value);
-}
-
-std::string toml(std::uint64_t value)
+std::string toml(const std::integral auto& value)
 {
     return std::to_string(value);
 }
@@ -130,8 +120,7 @@ public:
             visit_keys(inner, what, context...);
         }
     }
-    template <class What>
-    void effect(std::string_view name, std::string_view meaning, const What& what)
+    void effect(std::string_view name, std::string_view meaning, const auto& what)
     {
         text_ += "\n";
         table(name, meaning, what);
@@ -147,10 +136,7 @@ public:
             keys_of(inner, item, context...);
         }
     }
-    template <class T>
-    static void select(const T& /*value*/, std::size_t /*index*/)
-    {
-    }
+    static void select(const auto& /*value*/, std::size_t /*index*/) {}
     static bool shows(bool condition) { return condition; }
 
 private:

@@ -69,37 +69,31 @@ class KeyWords {
     using Text = std::string_view;
 
 public:
-    template <class T>
-    void number(Text name, T& member, Text unit, Text meaning, Default fallback = {})
+    void number(Text name, auto& member, Text unit, Text meaning, Default fallback = {})
     {
         self().key(row(name, ValueKind::number, unit, meaning), member, fallback);
     }
-    template <class T>
-    void positive(Text name, T& member, Text unit, Text meaning, Default fallback = {})
+    void positive(Text name, auto& member, Text unit, Text meaning, Default fallback = {})
     {
         Parameter rule = bounded(name, unit, 0, unbounded, "> 0", meaning);
         rule.minimum_excluded = true;
         self().key(rule, member, fallback);
     }
-    template <class T>
-    void not_negative(Text name, T& member, Text unit, Text meaning, Default fallback = {})
+    void not_negative(Text name, auto& member, Text unit, Text meaning, Default fallback = {})
     {
         self().key(bounded(name, unit, 0, unbounded, ">= 0", meaning), member, fallback);
     }
-    template <class T>
-    void not_positive(Text name, T& member, Text unit, Text meaning, Default fallback = {})
+    void not_positive(Text name, auto& member, Text unit, Text meaning, Default fallback = {})
     {
         self().key(bounded(name, unit, -unbounded, 0, "<= 0", meaning), member, fallback);
     }
     /// A number without unit; `bounds` as the user reads them.
-    template <class T>
-    void between(Text name, T& member, double minimum, double maximum, Text bounds, Text meaning,
+    void between(Text name, auto& member, double minimum, double maximum, Text bounds, Text meaning,
                  Default fallback = {})
     {
         self().key(bounded(name, "", minimum, maximum, bounds, meaning), member, fallback);
     }
-    template <class T>
-    void fraction(Text name, T& member, Text meaning, Default fallback = {})
+    void fraction(Text name, auto& member, Text meaning, Default fallback = {})
     {
         between(name, member, 0, 1, "0 .. 1", meaning, fallback);
     }
@@ -114,19 +108,17 @@ public:
         rule.shortest = rule.longest = single ? 0 : 3;
         self().key(rule, member, fallback);
     }
-    template <class T>
-    void flag(Text name, T& member, Text meaning)
+    void flag(Text name, auto& member, Text meaning)
     {
         self().key(row(name, ValueKind::boolean, "", meaning), member, {});
     }
-    template <class T>
-    void text(Text name, T& member, Text meaning, Default fallback = no_default)
+    void text(Text name, auto& member, Text meaning, Default fallback = no_default)
     {
         self().key(row(name, ValueKind::text, "", meaning), member, fallback);
     }
     /// Some of the choices; any texts without choices.
-    template <class T>
-    void texts(Text name, T& member, std::vector<Text> choices, Text meaning, Default fallback = {})
+    void texts(Text name, auto& member, std::vector<Text> choices, Text meaning,
+               Default fallback = {})
     {
         constexpr int most = 100;
         Parameter rule = row(name, ValueKind::texts, "", meaning);
@@ -135,8 +127,7 @@ public:
         self().key(rule, member, fallback);
     }
     /// So many texts.
-    template <class T>
-    void text_list(Text name, T& member, int count, Text meaning, Default fallback = {})
+    void text_list(Text name, auto& member, int count, Text meaning, Default fallback = {})
     {
         Parameter rule = row(name, ValueKind::texts, "", meaning);
         rule.shortest = rule.longest = count;
@@ -160,8 +151,7 @@ public:
         }
     }
     /// Three numbers, or in a vector of two dimensions and more as many as `shortest` at least.
-    template <class T>
-    void vector(Text name, T& member, Text unit, Text meaning, Default fallback = {},
+    void vector(Text name, auto& member, Text unit, Text meaning, Default fallback = {},
                 int shortest = 3)
     {
         Parameter rule = row(name, ValueKind::vector, unit, meaning);
@@ -170,20 +160,17 @@ public:
         self().key(rule, member, fallback);
     }
     /// A vector in space: its y is zero in two dimensions.
-    template <class T>
-    void planar(Text name, T& member, Text unit, Text meaning, Default fallback = {},
+    void planar(Text name, auto& member, Text unit, Text meaning, Default fallback = {},
                 int shortest = 3)
     {
         self().vector(name, member, unit, meaning, fallback, shortest);
     }
     /// A vector of any length that becomes the unit vector along it.
-    template <class T>
-    void direction(Text name, T& member, Text meaning, Default fallback = {})
+    void direction(Text name, auto& member, Text meaning, Default fallback = {})
     {
         self().planar(name, member, "", meaning, fallback);
     }
-    template <class T>
-    void quaternion(Text name, T& member, Text meaning)
+    void quaternion(Text name, auto& member, Text meaning)
     {
         Parameter rule = row(name, ValueKind::vector, "", meaning);
         rule.shortest = rule.longest = 4;
@@ -214,9 +201,8 @@ public:
     }
     /// One of the names, with keys of its own that `what` declares when it is called with the
     /// number of the name; false if it is mistaken.
-    template <class What>
     bool alternatives(Text name, std::size_t& index, std::vector<Text> names, Text meaning,
-                      Default fallback, What&& what)
+                      Default fallback, auto&& what)
     {
         const std::size_t count = names.size();
         const bool known =
@@ -232,17 +218,9 @@ public:
     {
     }
     /// The table of an effect.
-    template <class What>
-    void effect(Text name, Text meaning, What&& what)
-    {
-        self().table(name, meaning, what);
-    }
+    void effect(Text name, Text meaning, auto&& what) { self().table(name, meaning, what); }
     /// Makes a variant hold its alternative of that number, where it does not yet.
-    template <class Variant>
-    static void select(Variant& value, std::size_t index)
-    {
-        hold(value, index);
-    }
+    static void select(auto& value, std::size_t index) { hold(value, index); }
     /// Whether keys have a meaning in a case with that condition: the table lists them in any case.
     static bool applies(bool condition) { return condition; }
     /// Whether the writer writes keys.
@@ -250,8 +228,7 @@ public:
     /// Lists a table before the keys that stand between its name and its own keys.
     void heading(Text /*name*/, Text /*meaning*/) {}
 
-    template <class What>
-    static void each_choice(std::size_t /*count*/, std::size_t chosen, What&& what)
+    static void each_choice(std::size_t /*count*/, std::size_t chosen, auto&& what)
     {
         what(chosen);
     }

@@ -55,8 +55,7 @@ public:
     {
     }
 
-    template <class T>
-    void key(const Parameter& rule, const T& member, Default fallback)
+    void key(const Parameter& rule, const auto& member, Default fallback)
     {
         add(rule, fallback ? *fallback : typed(member));
     }
@@ -65,8 +64,7 @@ public:
         add(rule, fallback.value_or(rule.choices[index]));
         return true;
     }
-    template <class What>
-    static void each_choice(std::size_t count, std::size_t /*chosen*/, What&& what)
+    static void each_choice(std::size_t count, std::size_t /*chosen*/, auto&& what)
     {
         for (std::size_t k = 0; k < count; ++k) {
             what(k);

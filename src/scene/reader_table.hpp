@@ -132,8 +132,7 @@ public:
 
     // Visits keys; see `KeyWords`.
 
-    template <class T>
-    void key(const Parameter& rule, T& member, Default fallback)
+    void key(const Parameter& rule, auto& member, Default fallback)
     {
         const TomlNode* node = ask(rule.key, fallback);
         if (node != nullptr && read({reading_, *node, rule, full(rule.key)}, member)) {

@@ -116,6 +116,11 @@ TEST(EffectKeys, ThePlanNamesTheModelAndMakesItsTerm)
         EXPECT_FALSE(std::holds_alternative<Off>(on.effects.*slot)) << model.name;
         const auto said = std::ranges::find(on.on, model.name, &Plan::Effect::name);
         EXPECT_EQ(said->why, model.why());
+        each_model([&](const SlotTable& of, const auto& other, auto /*slot*/) {
+            if (of.key == table.key && other.name != model.name) {
+                EXPECT_FALSE(on.runs(other.name)) << other.name << " beside " << model.name;
+            }
+        });
         const Plan off = with("none");
         EXPECT_FALSE(off.runs(model.name)) << model.name;
         EXPECT_TRUE(std::holds_alternative<Off>(off.effects.*slot)) << model.name;
