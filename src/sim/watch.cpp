@@ -69,7 +69,7 @@ std::string probable_cause(const Simulation& sim)
                        x.y(), x.z()),
            fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", store[field::density][row],
                        store[field::velocity][row].norm()),
-           probable_cause(sim) + "; " + surroundings(sim, row));
+           probable_cause(sim) + "; " + nearby_particles(sim, row));
 }
 
 // The largest compression of the fluid.
