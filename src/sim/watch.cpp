@@ -44,7 +44,7 @@ std::string probable_cause(const Simulation& sim)
                            cut);
     }
     if (sim.scene.fluid && std::holds_alternative<Off>(sim.scene.fluid->effects.viscosity)) {
-        return "probably nothing damps the fluid: `fluid.viscosity.model` is \"none\"";
+        return "probably the fluid has no damping: `fluid.viscosity.model` is \"none\"";
     }
     if (sim.plan.fluid && sim.plan.expected_speed > 0.2 * sim.plan.fluid->eos.c0) {
         return "probably `fluid.sound_speed` is too low for the speeds of this flow";

@@ -114,7 +114,7 @@ TEST_P(HydrostaticTank, StaysStill)
     const auto& [precision, fastest_allowed] = GetParam();
     Simulation sim =
         open_case("hydrostatic_tank", {std::string("particles.precision=\"") + precision + '"'});
-    const Index particles = sim.fluid->particles.size();
+    const std::size_t particles = sim.fluid->particles.fluid.id().size();
     const double H = 1.0;
     const double top = std::sqrt(9.81 * H);
     double fastest = 0;
