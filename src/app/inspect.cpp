@@ -6,11 +6,11 @@
 #include "options.hpp"
 #include "plan_report.hpp"
 
+#include "hyoryu/assess/accuracy.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/parameter.hpp"
-#include "hyoryu/assess/accuracy.hpp"
 
 #include <fmt/format.h>
 

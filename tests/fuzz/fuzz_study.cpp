@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Any text is a study or a list of mistakes, and so it is as the checks of a benchmark; the runs of
 // either can be counted out.
-#include "hyoryu/core/error.hpp"
-#include "hyoryu/assess/study.hpp"
 #include "hyoryu/assess/benchmark.hpp"
+#include "hyoryu/assess/study.hpp"
+#include "hyoryu/core/error.hpp"
 #include "scratch.hpp"
 
 namespace {
