@@ -5,7 +5,6 @@
 #include "hyoryu/sim/watch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <numeric>
 #include <span>
@@ -17,49 +16,35 @@ namespace {
 
 constexpr int least_rounds = 2;
 
-// A slot that can be emptied, and the names of its effects in the plan.
-struct Slot {
-    std::array<std::string_view, 3> names;
-    void (*empty)(FluidEffects&);
-};
-
-constexpr std::array slots{
-    Slot{{"artificial_viscosity", "laminar_viscosity", "sps_turbulence"},
-         [](FluidEffects& effects) {
-             effects.viscosity = Off{};
-             effects.slip = Off{}; // it is viscosity at solids
-         }},
-    Slot{{"density_diffusion"}, [](FluidEffects& effects) { effects.diffusion = Off{}; }},
-    Slot{{"no_slip"}, [](FluidEffects& effects) { effects.slip = Off{}; }},
-    Slot{{"shifting"}, [](FluidEffects& effects) { effects.shifting = Off{}; }},
-    Slot{{"particle_collision"}, [](FluidEffects& effects) { effects.collision = Off{}; }},
-    Slot{{"cavitation"}, [](FluidEffects& effects) { effects.cavitation = Off{}; }},
-};
-
-// Does not compile any more when FluidEffects gains a slot, which then belongs above too.
-[[maybe_unused]] void expect_all_slots(const FluidEffects& effects)
-{
-    [[maybe_unused]] const auto& [diffusion, viscosity, shifting, slip, collision, cavitation] =
-        effects;
-}
-
 struct Variant {
     std::string without; // effect; none in the first
     FluidEffects effects;
     std::vector<double> seconds = {}; // of the step of each round, without making lists
 };
 
+// The effects as they are, then without each that runs.
 std::vector<Variant> variants(const Simulation& sim)
 {
     std::vector<Variant> all{{"", sim.plan.effects}};
-    for (const Slot& slot : slots) {
-        const auto name = std::ranges::find_if(
-            slot.names, [&](std::string_view effect) { return sim.plan.runs(effect); });
-        if (name != slot.names.end()) {
-            all.push_back({std::string(*name), sim.plan.effects});
-            slot.empty(all.back().effects);
+    const auto add = [&](std::string_view name, auto slot) {
+        if (sim.plan.runs(name)) {
+            FluidEffects& effects =
+                all.emplace_back(Variant{std::string(name), sim.plan.effects}).effects;
+            effects.*slot = Off{};
+            if (std::holds_alternative<Off>(effects.viscosity)) {
+                effects.slip = Off{}; // it is viscosity at solids
+            }
         }
-    }
+    };
+    each_slot(sim.scene.fluid->effects, [&](const SlotTable&, const auto& choice, auto slot) {
+        const auto add_model = [&]<class Model>(const Model&) {
+            if constexpr (!std::is_same_v<Model, Off>) {
+                add(Model::name, slot);
+            }
+        };
+        std::visit(add_model, choice);
+    });
+    add(NoSlip::name, &FluidEffects::slip);
     return all;
 }
 

@@ -49,8 +49,8 @@ TEST(Cost, NamesTheEffectsThatRunAndNoOther)
 {
     const std::vector<std::string> usual{"artificial_viscosity", "density_diffusion"};
     EXPECT_EQ(measured({}), usual);
-    const std::vector<std::string> rich{"laminar_viscosity", "density_diffusion", "no_slip",
-                                        "particle_collision"};
+    const std::vector<std::string> rich{"laminar_viscosity", "density_diffusion",
+                                        "particle_collision", "no_slip"};
     EXPECT_EQ(measured({"fluid.viscosity.model=laminar", "fluid.viscosity.kinematic=1e-3",
                         "fluid.walls=no_slip", "fluid.collision.model=dynamic"}),
               rich);
