@@ -35,8 +35,8 @@ struct SunShifting {
     static constexpr std::string_view name = Shifting::name;
     static constexpr std::string_view model = "sun";
     static constexpr std::string_view says = "moves particles from where they are dense, for "
-                                             "flows without a free surface, which it would make "
-                                             "swell";
+                                             "flows without a free surface, at which the "
+                                             "fluid would expand";
     static constexpr bool for_sph_alone = true; // its kernel is that of SPH
     double coefficient = 8;                     // [1]
 
