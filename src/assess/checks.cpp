@@ -183,8 +183,8 @@ std::string to_string(Against against)
 
 namespace {
 
-// A table beside the file is looked for now and not after hours of runs; one whose name depends on
-// the run cannot be.
+// Notes an unreadable CSV file before hours of runs begin. A name that contains "${" depends on the
+// run and is looked for later.
 void check_file(Section& section, const std::string& name)
 {
     const bool bad = has_control_characters(name);

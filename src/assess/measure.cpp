@@ -320,7 +320,7 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
     case Measure::decay:
         return decay(s, level());
     default:
-        return {none, "is no measure of one series"};
+        return {none, "does not measure a single series"};
     }
 }
 

@@ -72,7 +72,7 @@ struct MadeRun {
 struct Compared {
     double got = 0;      // NaN if it cannot be measured
     double expected = 0; // NaN if nothing is; of an error measure zero
-    std::string why;     // there is no number of one of the two; empty if there is
+    std::string why;     // one of the two values cannot be determined; empty if both can
 };
 /// By the expectation, or by the same quantity in another run, with the parameters of that run.
 /// `${...}` stands for what it is in each run. Throws FormulaError and IoError.
