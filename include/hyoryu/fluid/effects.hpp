@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The slots: which families of effects exist and which alternatives each has. A new effect is one
-// file with its term and one line here.
+// The slots: which families of effects exist and which alternatives each has. A new effect of a
+// family is one file, and its term and model in the lists of their slot here. A new family needs a
+// slot in `FluidEffects`, `slots_of` and `FluidChoices`, and its table in `each_slot`.
 #pragma once
 
 #include "hyoryu/core/built_effects.hpp"
