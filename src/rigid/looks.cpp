@@ -3,6 +3,8 @@
 // sub-step is looked at by the event search, by the impacts there and by the sub-step that follows.
 #include "memory.hpp"
 
+#include "hyoryu/core/error.hpp"
+
 #include <algorithm>
 
 namespace hyoryu {
@@ -48,7 +50,9 @@ void keep_looks(ContactMemory& memory)
 std::span<const Candidate> look_at(ContactMemory& memory, const BodyPair& pair,
                                    const Configuration& at)
 {
-    PairLook& look = *std::ranges::lower_bound(memory.looks, pair, {}, &PairLook::pair);
+    const auto found = std::ranges::lower_bound(memory.looks, pair, {}, &PairLook::pair);
+    expects(found != memory.looks.end() && found->pair == pair);
+    PairLook& look = *found;
     const SolidPose& a = at.poses[pair.a];
     const SolidPose b = pose_of_partner(pair.b, at);
     if (!look.known || !same_place(look.a, a) || !same_place(look.b, b)) {
