@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks that dependencies between layers point one way: a layer includes only itself and the layers of
 MAY_INCLUDE. Also checks that no two files define types of the same name: the linker would merge their
-destructors and their `std::vector`, which corrupts memory silently.
+destructors and their `std::vector`, which corrupts memory silently; and that no file is longer than
+LONGEST_FILE lines and no function longer than LONGEST_FUNCTION.
 
 Usage: scripts/check_layers.py [ROOT]; exit 1 and one line per offence.
 """
@@ -26,6 +27,8 @@ MAY_INCLUDE = {
     "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "assess",
             "report", "bench", "view"},
 }
+LONGEST_FILE = 450
+LONGEST_FUNCTION = 60
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')
 VTK = re.compile(r"#include\s+<vtk")
@@ -66,10 +69,28 @@ def double_types(root):
                 known.setdefault(name, place)
 
 
+def too_long(root):
+    """A function is what stands between a line `{` and a line `}`: those of .clang-format."""
+    for base in (root / "include" / "hyoryu", root / "src"):
+        for file in sorted(base.rglob("*.[hc]pp")):
+            lines = file.read_text().splitlines()
+            if len(lines) > LONGEST_FILE:
+                yield f"{file.relative_to(root)}: {len(lines)} lines, at most {LONGEST_FILE}"
+            start = 0
+            for number, line in enumerate(lines, 1):
+                if line == "{":
+                    start = number
+                elif line == "}" and start:
+                    if number - start - 1 > LONGEST_FUNCTION:
+                        yield (f"{file.relative_to(root)}:{start}: a function of {number - start - 1} lines, "
+                               f"at most {LONGEST_FUNCTION}")
+                    start = 0
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    found = [*offences(root), *double_types(root)]
-    print("\n".join(found) if found else "layers: every arrow points one way, every type has one definition")
+    found = [*offences(root), *double_types(root), *too_long(root)]
+    print("\n".join(found) if found else "layers: every arrow points one way, every type has one definition, nothing is too long")
     return 1 if found else 0
 
 

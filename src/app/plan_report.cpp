@@ -297,29 +297,80 @@ std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<
            size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
 }
 
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json effects_json(const std::vector<Plan::Effect>& effects)
+{
+    ordered_json array = ordered_json::array();
+    for (const auto& effect : effects) {
+        array.push_back({{"name", effect.name}, {"why", effect.why}});
+    }
+    return array;
+}
+
+ordered_json fields_json(const Plan& plan)
+{
+    ordered_json array = ordered_json::array();
+    for (const auto& field : plan.fields) {
+        array.push_back({{"name", field.name},
+                         {"unit", field.unit},
+                         {"bytes_per_particle", field.bytes_per_particle},
+                         {"of_fluid_alone", field.of_fluid_alone},
+                         {"bytes", field.bytes()}});
+    }
+    return array;
+}
+
+ordered_json gauges_json(const Plan& plan)
+{
+    ordered_json list = ordered_json::array();
+    for (const auto& gauge : plan.gauges) {
+        list.push_back({{"name", gauge.name}, {"what", gauge.what}, {"columns", gauge.columns}});
+    }
+    return {{"rows", plan.gauge_rows}, {"seconds", gauge_seconds(plan)}, {"list", list}};
+}
+
+ordered_json time_step_json(const Scene& scene, const Plan& plan,
+                            const std::optional<StepCost>& timed)
+{
+    ordered_json limits = ordered_json::array();
+    for (const TimeLimit& limit : plan.limits) {
+        limits.push_back({{"name", limit.name},
+                          {"dt", limit.dt < infinity ? ordered_json(limit.dt) : ordered_json()}});
+    }
+    return {{"first", plan.first_step},
+            {"limited_by", scene.time.step ? "fixed" : std::string(shortest(plan.limits).name)},
+            {"steps", expected_steps(plan, timed)},
+            {"limits", limits}};
+}
+
+ordered_json forecast_json(const Scene& scene, const Plan& plan,
+                           const std::optional<StepCost>& timed)
+{
+    const double memory = memory_of(scene, plan, timed);
+    const auto fluid = static_cast<double>(plan.counts.fluid);
+    return {{"memory_bytes", memory},
+            {"memory_bytes_per_fluid_particle",
+             fluid > 0 ? ordered_json(memory / fluid) : ordered_json()},
+            {"column_bytes", column_bytes(plan)},
+            {"frames", plan.frames},
+            {"disk_bytes", disk_bytes(scene, plan, expected_course(plan, timed))},
+            {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
+            {"wall_seconds", wall_forecast(plan, timed)}};
+}
+
+} // namespace
+
 std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
 {
-    using nlohmann::ordered_json;
-    const auto effects = [](const std::vector<Plan::Effect>& list) {
-        ordered_json array = ordered_json::array();
-        for (const auto& effect : list) {
-            array.push_back({{"name", effect.name}, {"why", effect.why}});
-        }
-        return array;
-    };
     ordered_json json;
     json["title"] = scene.title;
     json["dimensions"] = scene.dimensions;
-    json["on"] = effects(plan.on);
-    json["off"] = effects(plan.off);
-    json["fields"] = ordered_json::array();
-    for (const auto& field : plan.fields) {
-        json["fields"].push_back({{"name", field.name},
-                                  {"unit", field.unit},
-                                  {"bytes_per_particle", field.bytes_per_particle},
-                                  {"of_fluid_alone", field.of_fluid_alone},
-                                  {"bytes", field.bytes()}});
-    }
+    json["on"] = effects_json(plan.on);
+    json["off"] = effects_json(plan.off);
+    json["fields"] = fields_json(plan);
     json["pair_kinds"] = ordered_json::array();
     for (const auto& kind : plan.pair_kinds) {
         json["pair_kinds"].push_back({{"name", kind.name}, {"why", kind.why}});
@@ -328,13 +379,7 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
         json["contact"] = material_json(scene, plan);
     }
     if (!plan.gauges.empty()) {
-        json["gauges"] = {{"rows", plan.gauge_rows},
-                          {"seconds", gauge_seconds(plan)},
-                          {"list", ordered_json::array()}};
-        for (const auto& gauge : plan.gauges) {
-            json["gauges"]["list"].push_back(
-                {{"name", gauge.name}, {"what", gauge.what}, {"columns", gauge.columns}});
-        }
+        json["gauges"] = gauges_json(plan);
     }
     const auto& n = plan.counts;
     json["counts"] = {{"fluid", n.fluid},
@@ -342,32 +387,14 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
                       {"body", n.body},
                       {"bodies", n.bodies},
                       {"walls", n.walls}};
-    json["time_step"] = {
-        {"first", plan.first_step},
-        {"limited_by", scene.time.step ? "fixed" : std::string(shortest(plan.limits).name)},
-        {"steps", expected_steps(plan, timed)}};
-    json["time_step"]["limits"] = ordered_json::array();
-    for (const TimeLimit& limit : plan.limits) {
-        json["time_step"]["limits"].push_back(
-            {{"name", limit.name},
-             {"dt", limit.dt < infinity ? ordered_json(limit.dt) : ordered_json()}});
-    }
+    json["time_step"] = time_step_json(scene, plan, timed);
     if (plan.fluid) {
         json["sound_speed"] = plan.fluid->eos.c0;
         json["expected_speed"] = plan.expected_speed;
         json["precision"] = name(scene.precision);
         json["instruction_set"] = name(widest_instruction_set());
     }
-    json["forecast"] = {
-        {"memory_bytes", memory_of(scene, plan, timed)},
-        {"memory_bytes_per_fluid_particle",
-         n.fluid > 0 ? ordered_json(memory_of(scene, plan, timed) / static_cast<double>(n.fluid))
-                     : ordered_json()},
-        {"column_bytes", column_bytes(plan)},
-        {"frames", plan.frames},
-        {"disk_bytes", disk_bytes(scene, plan, expected_course(plan, timed))},
-        {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
-        {"wall_seconds", wall_forecast(plan, timed)}};
+    json["forecast"] = forecast_json(scene, plan, timed);
     if (timed) {
         json["cost"] = cost_json(*timed);
     }
