@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of all commands and options: the source of the parser, of `--help`, of the
-// manual pages and of what shells complete.
+// The table of all commands and options: the source of the parser, of `--help`, of the manual pages
+// and of the shell completions.
 #pragma once
 
 #include "commands.hpp"
@@ -13,7 +13,7 @@ class App;
 
 namespace hyoryu {
 
-/// What the command line fills in, a value a command.
+/// The values that the command line fills in, one struct a command.
 struct CommandOptions {
     RunOptions run;
     CheckOptions check;

@@ -28,7 +28,7 @@ struct CheckOptions {
     std::filesystem::path case_file;
     std::vector<std::string> overrides;
     bool json = false;
-    bool accuracy = false; // also what error to expect
+    bool accuracy = false; // also the expected error
     bool time = false;     // times steps of the case for the forecast
 };
 int check_case(const CheckOptions& options);

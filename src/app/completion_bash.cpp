@@ -11,7 +11,7 @@ namespace {
 
 using Kind = ValueCandidates::Kind;
 
-// What offers the candidates, as a line of the script.
+// The line of the script that offers the candidates.
 std::string action_for(const ValueCandidates& candidates)
 {
     switch (candidates.kind) {

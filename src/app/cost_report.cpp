@@ -67,7 +67,7 @@ ordered_json per_fluid_particle(const ordered_json& bytes, const ordered_json& p
     return told ? ordered_json(bytes.get<double>() / fluid.get<double>()) : ordered_json();
 }
 
-// Runs the case at so many times its spacing; nothing if that takes more than so many seconds.
+// Runs the case at a multiple of its spacing; nothing if that takes more than `seconds`.
 std::optional<Development> develop(const CaseSource& source, const Plan& plan, double coarsening,
                                    int first, double seconds_of_step, double most_seconds)
 {
@@ -101,7 +101,7 @@ double bytes_in(const std::filesystem::path& folder)
 {
     namespace fs = std::filesystem;
     double total = 0;
-    std::error_code fault; // what cannot be looked at counts nothing
+    std::error_code fault; // unreadable files count as empty
     const fs::recursive_directory_iterator end;
     for (fs::recursive_directory_iterator at(folder, fault); !fault && at != end;
          at.increment(fault)) {
@@ -112,8 +112,8 @@ double bytes_in(const std::filesystem::path& folder)
     return total;
 }
 
-void foretell_development(const CaseSource& source, const Plan& plan, int first,
-                          double most_seconds, StepCost& cost)
+void predict_development(const CaseSource& source, const Plan& plan, int first, double most_seconds,
+                         StepCost& cost)
 {
     for (const double coarsening : {2.0, 3.0, 4.0}) {
         try {
@@ -151,7 +151,7 @@ void write_cost(const std::filesystem::path& folder, const SpentCost& spent,
 {
     const ordered_json plan = read(folder / "plan.json");
     ordered_json summary = read(folder / "summary.json");
-    summary["peak_memory_bytes"] = spent.memory; // with what results.h5 took, which came later
+    summary["peak_memory_bytes"] = spent.memory; // results.h5 included
     ordered_json& cost = summary["cost"];
     const auto add = [&](const char* name, const char* predicted, const ordered_json& told) {
         cost[name] = {{"predicted", value_at(plan, predicted)}, {"measured", told}};

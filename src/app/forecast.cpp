@@ -46,7 +46,7 @@ constexpr Index heap_bodies = 100;
 // flood, with one thread. Gauges run side by side, but a single one does not.
 constexpr double gauge_rate = 0.1e9;
 
-// A look at a run that nobody notices [s]; most small scenes of bodies come to their end in it.
+// A trial run too short to be noticed [s]; most small scenes of bodies end within it.
 constexpr double shortest_look = 0.1;
 
 // The text of one row of a history, and a frame beside its way to the disk, as the writer's thread
@@ -54,7 +54,7 @@ constexpr double shortest_look = 0.1;
 constexpr double row_text = 5e-6;
 constexpr double frame_work = 1e-3;
 
-// Files that every run writes beside its frames, and what is worked to close them: checkpoints,
+// Files that every run writes besides its frames, and the work to close them: checkpoints,
 // histories, walls, structures, results.h5, the summary.
 constexpr double files_of_a_run = 22;
 
@@ -69,8 +69,8 @@ double frame_files(const Scene& scene, const Plan& plan)
     return plan.frames * ((plan.fluid ? 1 : 0) + (scene.bodies.empty() ? 0 : 2) + (moving ? 2 : 0));
 }
 
-// Of a step, for what is written: rows, by the solver; frames, where the writer's thread cannot
-// keep pace with it; and the files of a run.
+// Cost of output per step: rows, written by the solver; frames, where the writer thread is slower
+// than the solver; and the files of a run.
 double output_of_step(const Scene& scene, const Plan& plan, const StepCost& cost, double file)
 {
     const double steps = expected_steps(plan, cost);
@@ -80,7 +80,7 @@ double output_of_step(const Scene& scene, const Plan& plan, const StepCost& cost
     const double work = frame_files(scene, plan) * frame_work;
     const double writer = frame_files(scene, plan) * file + work;
     const double waits = std::max(0.0, writer - steps * seconds_of_run(cost));
-    // The solver's threads hold all cores: what the writer works is taken from them.
+    // The solver's threads occupy all cores, so the work of the writer slows them.
     const double taken = plan.fluid ? work / thread_count() : 0;
     return (rows * (cost.row + texts) + waits + taken + files_of_a_run * file) / steps;
 }
@@ -123,7 +123,7 @@ std::optional<StepCost> time_fluid(const CaseSource& source, const Scene& scene,
     }
     if (cost) {
         const double run = cost->seconds * plan.expected_steps * budget.part_run;
-        foretell_development(source, plan, budget.steps, limit_of(budget, run), *cost);
+        predict_development(source, plan, budget.steps, limit_of(budget, run), *cost);
     }
     return cost;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run will cost, from a short timing of it on this machine.
+// Predicted cost of a run, from a short timing on this machine.
 #pragma once
 
 #include "cost_report.hpp"

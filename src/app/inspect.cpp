@@ -21,7 +21,7 @@ namespace {
 // Of `check --time`.
 constexpr int timed_steps = 60;
 
-// What the look at the flow as it develops may take, of the run, and within what [s].
+// Limits of the trial run that follows the developing flow: a share of the run, within bounds [s].
 constexpr double part_for_development = 0.1;
 constexpr double least_for_development = 2;
 constexpr double most_for_development = 60;

@@ -4,7 +4,7 @@
 
 namespace hyoryu {
 
-/// What the program returns to the shell.
+/// Exit codes of the program.
 namespace exit_code {
 inline constexpr int done = 0;
 inline constexpr int failed = 1;  // a verification failed

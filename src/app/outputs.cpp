@@ -283,7 +283,7 @@ Snapshot Outputs::snapshot(const Simulation& sim) const
 
 void Outputs::write_checkpoint(const Snapshot& snapshot)
 {
-    // What the checkpoint takes for written must be on disk before it.
+    // Rows that the checkpoint counts as written must be on disk before it.
     for (auto* history : {&bodies_, &contacts_, &energy_, &gauges_}) {
         if (*history) {
             (*history)->flush();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run writes while it goes: histories, frames and the checkpoint.
+// Output of a run in progress: histories, frames and the checkpoint.
 #pragma once
 
 #include "hyoryu/io/results.hpp"
@@ -24,7 +24,7 @@ public:
     void write_checkpoint(const Snapshot& snapshot);
     /// At the end of a run: writes the resting contacts since the last frame.
     void close_interval(const Simulation& sim);
-    /// What the thread that writes frames has cost.
+    /// Cost of the thread that writes frames.
     FrameWriter::Cost frame_cost() const { return frames_->cost(); }
     /// Time of the solver thread by kind of output.
     StageTimer& timer() { return timer_; }

@@ -65,7 +65,7 @@ std::string join_effects(const std::vector<Plan::Effect>& effects)
     return text;
 }
 
-// What every two materials that can meet have, and by which rule.
+// Restitution and friction of every two materials that can meet, and the rule that gives them.
 constexpr const char* mixing_rule =
     "the entry of `contact.pair` that names both materials, else `[contact]`; nothing is averaged";
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a person sees of a run: a bar with ETA on a terminal, plain lines otherwise, and the log.
+// Progress of a run: a bar with the remaining time on a terminal, plain lines otherwise, and the
+// log.
 #pragma once
 
 #include "hyoryu/sim/simulation.hpp"

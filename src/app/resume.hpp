@@ -12,7 +12,7 @@
 
 namespace hyoryu {
 
-/// What a checkpoint is taken up with.
+/// The scene and state with which a run resumes.
 struct Resumption {
     Snapshot state;          // for the case as it is now
     Scene scene;             // the case, with defaults taken from the previous run

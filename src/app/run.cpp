@@ -35,7 +35,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the limits on the time step; what still goes wrong there is not cured by shorter steps.
+// Least share of the limits on the time step: a run that is unstable even there is not cured by
+// shorter steps.
 constexpr double least_share = 1.0 / 32;
 
 fs::path results_folder(const RunOptions& options)
@@ -55,7 +56,8 @@ fs::path existing_part_of(const fs::path& folder)
     return place;
 }
 
-// Before anything is written or replaced. What an earlier run left in the folder makes room.
+// Checked before anything is written or replaced. The space of results that will be replaced counts
+// as free.
 void check_disk(const fs::path& folder, const Scene& scene, const Plan& plan)
 {
     const double needed = disk_bytes(scene, plan, {.steps = plan.expected_steps});
@@ -145,8 +147,8 @@ void write_checkpoint(Job& job, const Snapshot& state)
     job.outputs->timer().end();
 }
 
-// Goes back to the last frame, to go on from there with half the step. What was written since is
-// taken back.
+// Returns to the last frame and continues from there with half the step. Output written since is
+// removed.
 void recover(Job& job, const NumericalError& error)
 {
     const Scene& scene = job.sim.scene;
@@ -207,7 +209,7 @@ void advance(Job& job)
     }
 }
 
-// What a user should know before trusting the numbers.
+// Warnings that a user should know before trusting the numbers.
 void tell_doubts(Job& job)
 {
     constexpr double noteworthy = 0.1; // ten times the variation that the sound speed aims at
@@ -290,7 +292,7 @@ int carry_out(Job& job)
     }
 }
 
-// What may be timed before this run.
+// Steps that may be timed before this run.
 TimingBudget timing_budget(const RunOptions& options, const Scene& scene, const Plan& plan)
 {
     const double end = std::min(options.until.value_or(infinity), scene.time.end);
@@ -324,7 +326,7 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     return job;
 }
 
-// What the folder says of the case, where the case is another now or the file is gone.
+// Restores the plan of the folder if the case has changed or the file is missing.
 void write_case(const fs::path& folder, const Scene& scene, const Plan& plan)
 {
     write_text(folder / "case.toml", to_toml(scene));

@@ -120,7 +120,7 @@ void print_tables(const StudyResult& result)
     }
 }
 
-// What a study writes directly into its folder.
+// Files that a study writes directly into its folder.
 bool is_of_study(const std::string& name)
 {
     constexpr std::array<std::string_view, 6> names{"study.csv",  "study.json", "study.md",
@@ -129,8 +129,8 @@ bool is_of_study(const std::string& name)
            (name.starts_with("study_") && (name.ends_with(".svg") || name.ends_with(".png")));
 }
 
-// Nothing is removed before it is known that no file of the user's is in the way. With --force
-// what is done is forgotten: each run then replaces its own folder.
+// Nothing is removed before it is certain that no file of the user is in the way. With --force
+// finished runs are not reused: each run replaces its own folder.
 void prepare(const StudyOptions& options, const std::vector<StudyJob>& jobs, const fs::path& folder)
 {
     claim_folder(folder, {.command = "study", .owns = is_of_study});

@@ -30,9 +30,9 @@ bool is_done(const StudyJob& job);
 /// Makes the job count as not done; its results stay until a run replaces them.
 void forget(const StudyJob& job);
 
-/// Runs what is not done yet, in order, as many side by side as asked for and as memory holds.
-/// Writes a line for each. Returns why each job stopped, empty if it came to its end; fewer than
-/// jobs if the user asked to stop.
+/// Runs the unfinished jobs in order, as many in parallel as requested and as memory allows. Prints
+/// a line for each. Returns why each job stopped, empty if it finished; fewer entries than jobs if
+/// the user requested a stop.
 std::vector<std::string> run_jobs(const Study& study, const std::vector<StudyRun>& runs,
                                   const std::vector<StudyJob>& jobs,
                                   const StudyJobSettings& settings);

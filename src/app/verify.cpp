@@ -68,7 +68,7 @@ Tier tier_asked(const std::string& name)
         did_you_mean(name, tier_names));
 }
 
-/// What a verify writes directly into its folder, beside a folder for each benchmark.
+/// Files that `verify` writes directly into its folder, beside a folder for each benchmark.
 bool is_of_verify(const std::vector<Benchmark>& benchmarks, const std::string& name)
 {
     // Earlier versions drew figures as PNG.

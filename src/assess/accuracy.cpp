@@ -154,7 +154,7 @@ std::optional<double> halved_at(std::span<const StudiedRung> rungs, double numbe
     return far;
 }
 
-// What a study says of a quantity where it does not cover the scene: nothing.
+// The entry of a quantity that no study covers for this scene: no error is given.
 ExpectedError unless_covered(ExpectedError expected, std::vector<std::string> differences)
 {
     if (!differences.empty()) {

@@ -160,7 +160,7 @@ std::vector<Benchmark> read_benchmarks(const fs::path& cases)
     for (const fs::path& folder : folders) {
         try {
             benchmarks.push_back(read_benchmark(folder));
-        } catch (const CaseError& error) { // mistakes of all files are told together
+        } catch (const CaseError& error) { // mistakes of all files are reported together
             mistakes.insert(mistakes.end(), error.diagnostics().begin(), error.diagnostics().end());
         }
     }

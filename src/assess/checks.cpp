@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `[[check]]`: what is measured, what it must be, and how far it may be off.
+// `[[check]]`: the measured quantity, its expected value and the tolerance.
 #include "hyoryu/core/input_file.hpp"
 #include "hyoryu/core/name.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
@@ -91,7 +91,7 @@ void find_same(Section& section, const Check& check, const Benchmark& benchmark)
     }
 }
 
-/// What the expected number comes from.
+/// The source of the expected number.
 std::optional<Against> read_against(Section& section, std::optional<Against> fallback)
 {
     const auto against = section.choice("against", against_names);

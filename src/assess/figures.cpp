@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `[[figure]]` and `[[table]]`: what is drawn and tabulated of the runs.
+// `[[figure]]` and `[[table]]`: the charts and tables of the runs.
 #include "hyoryu/scene/reader_hint.hpp"
 #include "reader.hpp"
 

@@ -252,7 +252,7 @@ Measured measured(const Quantity& quantity, MadeRun& made)
                : measure(quantity, made.scope, samples(quantity.series, made.scope, made.files));
 }
 
-/// What the run is held against, over time: the same quantity in another run, or a file.
+/// The reference of the run over time: the same quantity in another run, or a file.
 std::optional<Samples> reference_of(const Quantity& quantity, const Expectation& expected,
                                     MadeRun& made, MadeRun* other)
 {

@@ -24,7 +24,7 @@ std::optional<RunParameter> read_parameter(BenchmarkFile& file, const TomlNode& 
 /// Which rows of which file, and the expression `key` of their columns.
 Series read_series(Section& section, std::string_view key);
 
-/// What is measured: series, `measure` and what that measure needs.
+/// The measured quantity: series, `measure` and the keys that this measure needs.
 Quantity read_quantity(Section& section);
 
 /// `expected` and `reference`; returns how many of them are there.

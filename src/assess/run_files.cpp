@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows and columns of what a run wrote.
+// Rows and columns of the files of a run.
 #include "hyoryu/assess/measure.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"

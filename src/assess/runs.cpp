@@ -69,7 +69,7 @@ std::vector<Parameters> combinations(const std::vector<Axis>& axes)
     return all;
 }
 
-/// What stands for `${inner}`: the text of that parameter, or the number that the expression gives.
+/// The replacement of `${inner}`: the text of that parameter, or the value of the expression.
 std::string substitute(const std::string& inner, const Parameters& parameters, const Scope& scope)
 {
     for (const auto& [name, value] : parameters) {
@@ -245,7 +245,7 @@ std::vector<std::string> read_patterns(Section& section, std::string_view key,
     }
     for (const std::string& pattern : patterns) {
         const auto is_fit = [&](const BenchmarkRun& run) { return fits(pattern, run.name); };
-        // Without a run the mistake in their place has been told.
+        // Without a run, the mistake there has been reported already.
         if (!runs.empty() && std::none_of(runs.begin(), runs.end(), is_fit)) {
             std::vector<std::string_view> names;
             for (const BenchmarkRun& run : runs) {

@@ -226,7 +226,7 @@ std::vector<const TomlEntry*> Section::entries(std::string_view key)
     for (const TomlEntry& inner : *entry->node.table()) {
         result.push_back(&inner);
     }
-    // The parser sorts keys by name; what was typed first is read first.
+    // The parser sorts keys by name; they are read in the order of the file.
     std::sort(result.begin(), result.end(), [](const TomlEntry* a, const TomlEntry* b) {
         return std::tie(a->place.line, a->place.column) < std::tie(b->place.line, b->place.column);
     });

@@ -14,7 +14,7 @@
 
 namespace hyoryu {
 
-/// The file, its lines for the messages, and what is wrong with it.
+/// The file, its lines for the messages, and its mistakes.
 struct BenchmarkFile {
     std::filesystem::path file;
     std::vector<std::string> lines;
@@ -42,7 +42,7 @@ public:
     std::int64_t integer(std::string_view key, std::int64_t fallback);
     std::vector<std::string> texts(std::string_view key);
     std::vector<double> numbers(std::string_view key);
-    /// The place of the text among the names; none, which is no mistake, if it is not there.
+    /// The index of the text among the names; none if it is absent, which is not a mistake.
     std::optional<std::size_t> choice(std::string_view key,
                                       std::span<const std::string_view> names);
     /// A number, or a text that is an expression (its syntax is checked); empty if not there.
@@ -77,8 +77,8 @@ private:
     std::vector<std::string> asked_;
 };
 
-/// What the node holds as a text, a whole number or, also of a whole one, a number; nothing for
-/// anything else.
+/// The value of a node as a text, a whole number or a number (also if it is whole); none for any
+/// other type.
 template <class T>
 std::optional<T> value_in(const TomlNode& node)
 {

@@ -15,7 +15,7 @@ namespace {
 
 using Style = ChartLine::Style;
 
-/// Adds a run to a line: its cost, or what the sweep has there, and its error.
+/// Adds a run to a line: its cost, or its value of the sweep, and its error.
 void append(ChartLine& line, double x, const StudyResult& result, std::size_t run,
             std::size_t quantity)
 {
@@ -23,7 +23,7 @@ void append(ChartLine& line, double x, const StudyResult& result, std::size_t ru
     line.y.push_back(result.runs[run].values[quantity].error);
 }
 
-// A staircase: dearer settings that are no better than the one to their left do not show.
+// A staircase: settings that cost more without being more accurate are omitted.
 ChartLine staircase(const StudyResult& result, std::size_t quantity)
 {
     ChartLine line{.label = "best for the cost", .x = {}, .y = {}, .style = Style::theory};

@@ -90,7 +90,7 @@ bool has_finer_and_coarser(const StudyResult& result, std::size_t k)
     });
 }
 
-// Where nothing exact is known, the finest run is what the others are held against.
+// Without an exact value, the finest run is the reference of the others.
 void hold_against_finest(StudyResult& result, std::size_t quantity)
 {
     const StudyQuantity& q = result.study.quantities[quantity];

@@ -57,7 +57,7 @@ const CheckResult* find_check(const RunResult& run, const std::string& name)
     return at == run.checks.end() ? nullptr : &*at;
 }
 
-/// What was asked of a check and what came out, in the unit shown; a bound asks for zero.
+/// The expected and the computed value of a check, in the unit shown; a bound expects zero.
 struct Errors {
     std::vector<double> asked, errors;
 };

@@ -64,7 +64,7 @@ void judge_known_failure(const Check& check, const Scope& scope, CheckResult& re
     }
 }
 
-/// What was measured, with its verdict in that run.
+/// A measured value with its verdict in that run.
 CheckResult verdict_on(const Check& check, const MadeRun& made, const MadeRun* other,
                        CheckResult result)
 {
@@ -112,7 +112,7 @@ CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
                        .comparison = check.comparison,
                        .because = check.because,
                        .against = check.against};
-    // A check that cannot be made as it is written is no known failure.
+    // A check that cannot be evaluated as written does not count as a known failure.
     try {
         const Compared found = compare(check.quantity, check.expected, made, other);
         result.got = found.got;
@@ -131,7 +131,7 @@ CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
 
 namespace {
 
-// What is said of a check of a run that did not end as it should.
+// The text for a check of a run that failed.
 CheckResult unmade(const Check& check, const std::string& error)
 {
     return {.check = check.name,

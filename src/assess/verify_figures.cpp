@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The figures of benchmarks, from what their runs wrote.
+// The figures of benchmarks, from the files of their runs.
 #include "hyoryu/assess/verify_report.hpp"
 
 #include "hyoryu/core/error.hpp"

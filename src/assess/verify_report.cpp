@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What has no number is left blank.
+// Missing numbers are left blank.
 std::string number_text(double number, int digits)
 {
     return std::isnan(number) ? "" : fmt::format("{:.{}g}", number, digits);
@@ -122,7 +122,7 @@ std::string markdown_section(const BenchmarkResult& result)
     return text + markdown_table(table) + "\n";
 }
 
-/// One line a case: what came out and what it cost.
+/// One line a case: its results and its cost.
 std::string markdown_overview(const std::vector<BenchmarkResult>& results)
 {
     TextTable table{{{"case"},

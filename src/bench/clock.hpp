@@ -9,7 +9,7 @@
 
 namespace hyoryu::bench {
 
-/// CPU time of this thread [s]: what a busy machine takes away does not count.
+/// CPU time of this thread [s]: time taken by other processes does not count.
 inline double thread_seconds()
 {
     timespec now{};

@@ -67,7 +67,7 @@ bool restored(Simulation& sim, double time, const std::filesystem::path& folder)
     return sim.clock.time >= time;
 }
 
-// One try: some steps, by so many threads; seconds of one step.
+// One trial of a number of steps and threads; returns seconds per step.
 double time_steps(Simulation& sim, int threads, int steps)
 {
     set_threads(threads);
@@ -82,7 +82,7 @@ double time_steps(Simulation& sim, int threads, int steps)
 
 using Stages = std::vector<StageTimer::Stage>;
 
-// Keeps, for every stage, what it took in the try that was the fastest as a whole.
+// Keeps the times of all stages of the trial that was the fastest as a whole.
 void book_stages(const Stages& before, const Stages& after, int steps, double StageTime::*which,
                  std::vector<StageTime>& stages)
 {

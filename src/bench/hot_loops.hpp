@@ -11,7 +11,8 @@ template <class Real>
 struct HotLoops {
     using Loop = typename PairLoops<Real>::Loop;
 
-    /// x = x a + b, so many rounds of independent chains of packs; returns something of x.
+    /// x = x a + b in `rounds` rounds of independent chains of packs; returns a value that depends
+    /// on x.
     double (*chains)(Index rounds, double a, double b) = nullptr;
     double flops_of_a_round = 0;
     /// Pressure, diffusion, continuity and viscosity in one loop, as schemes with one evaluation

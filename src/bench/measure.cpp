@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is measured, and in which order.
+// The measurements and their order.
 #include "dam_break.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -13,7 +13,7 @@ namespace hyoryu::bench {
 
 namespace {
 
-// With the walls about it and what a scene takes while it is made; 580 were measured.
+// Includes its walls and the temporary memory of filling; 580 were measured.
 constexpr double bytes_of_a_fluid_particle = 900;
 
 std::vector<LoopRates> measure_cubes(const Setting& setting)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A number that records what is done to it, so that the operations of a formula are counted from
-// its own text.
+// A number that records the operations on it, so that the operations of a formula are counted from
+// its source.
 #pragma once
 
 #include "hyoryu/core/vec.hpp"

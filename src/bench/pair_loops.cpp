@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the pair loops and the making of lists cost on one core.
+// Cost of the pair loops and of building lists on one core.
 #include "clock.hpp"
 #include "hot_loops.hpp"
 #include "hyoryu/bench/bench.hpp"

@@ -10,7 +10,7 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// What the fluid does to a solid particle: pressure and, where it sticks, friction.
+// Force of the fluid on a solid particle: pressure and, without slip, friction.
 class SolidForce {
 public:
     SolidForce(const Fluid& fluid, const Store& solids)

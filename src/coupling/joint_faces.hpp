@@ -39,7 +39,7 @@ struct BodyFaces {
     std::vector<int> particles; // counted from the first of the body
 };
 
-/// What the cells are cut by.
+/// The planes that cut the cells.
 struct JointScale {
     double spacing = 0;      // of the fluid [m]
     double body_spacing = 0; // of the body's particles [m]

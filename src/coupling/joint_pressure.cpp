@@ -180,7 +180,7 @@ private:
         return way;
     }
 
-    // What a solid particle took over, moved to a place.
+    // The pressure that a solid particle extrapolated, moved to a place.
     double pressure_at(std::size_t row, const Vec3& place) const
     {
         return std::max(fluid_.p[row] + fluid_.weight.dot(place - fluid_.x[row]), 0.0);
@@ -201,7 +201,7 @@ private:
                 add(c, way(c, edge));
             }
         }
-        // What is zero but for rounding is air in every frame of reference.
+        // A pressure that is zero up to rounding counts as air in every frame of reference.
         const double least = 1e-9 * fluid_.weight.norm() * fluid_.spacing;
         for (int c = face_.first; c < face_.last; ++c) {
             const double p = weight > 0 ? head / weight + fluid_.weight.dot(node(c).place) : 0.0;
@@ -209,11 +209,11 @@ private:
         }
     }
 
-    // What flows in through the rim while the faces part has to be sped up: by Bernoulli's law the
-    // pressure falls by rho u^2 / 2, u the flow over the section of the rim by which water enters;
-    // what is dry lets in air. The section counts as a spacing high at least: the unevenness of
-    // real joints. Implicit in the speed, which is taken to act on the mass alone, so that the drop
-    // never turns it round.
+    // Water that enters through the rim while the faces separate is accelerated: by Bernoulli's law
+    // the pressure falls by rho u^2 / 2, u the flow divided by the wet section of the rim; the dry
+    // part admits air. The section counts as at least a spacing high: the unevenness of real
+    // joints. Implicit in the speed of separation, which is taken to act on the mass alone, so that
+    // the pressure drop never reverses it.
     double inflow_drop()
     {
         double flow = 0;
@@ -243,11 +243,11 @@ private:
         return k * sq(later) / area;
     }
 
-    // The joint adds what the particles in it do not transmit yet: those that come first, drawn
-    // into a gap that opens, are without pressure. At two spacings it is left to them alone.
-    // What closing faces have trapped, at more than the pressure of the seepage, holds them apart:
-    // it did so before they came near enough for a joint, and goes on to. Of a gap w wide it
-    // fills all with w/dp of a row.
+    // The joint adds the pressure that the particles in it do not transmit yet: the first ones,
+    // drawn into a gap that opens, have no pressure. From two spacings on they act alone. Water
+    // trapped between closing faces, at more than the seepage pressure, holds them apart: it did so
+    // before they came near enough for a joint, and continues to. In a gap of width w it fills w/dp
+    // of a row.
     void hand_over(int c, double drop)
     {
         JointNode& n = node(c);

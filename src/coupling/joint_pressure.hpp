@@ -19,7 +19,7 @@ struct LatticeSums {
 };
 LatticeSums lattice_sums(const Fluid& fluid);
 
-/// What the particles show to the joints.
+/// The particle state that the joints read.
 struct ParticlePressure {
     std::span<const Vec3> x;       // of all rows [m]
     std::span<const real> p;       // [Pa]; of solids extrapolated from the fluid

@@ -109,7 +109,7 @@ bool keep_joined(BodyJoints& body, bool opposite, double spacing)
     return any;
 }
 
-// How fast the faces part, and what mass does.
+// Speed at which the faces separate, and the mass that moves.
 void find_speeds(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses,
                  std::size_t b, double time)
 {

@@ -79,7 +79,7 @@ std::string relative_name(const fs::path& source, const fs::path& index)
     return fs::weakly_canonical(fs::absolute(source)).lexically_relative(folder).generic_string();
 }
 
-/// Frames of one number are one step; what does not move is a part of every step.
+/// Frames of one number form one step; fixed sets are a part of every step.
 std::vector<Step> steps_of(const fs::path& results, const std::vector<FrameSet>& sets,
                            const fs::path& index)
 {

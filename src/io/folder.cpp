@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What runs, `render`, `report` and `convert` write, as patterns of paths relative to the folder.
+/// Files that runs, `render`, `report` and `convert` write, as patterns of paths relative to the
+/// folder.
 constexpr std::array our_files{
     R"(case\.toml|plan\.json|summary\.json|run\.log|report\.html|results\.h5|checkpoint(\.previous)?\.h5|all\.vtkhdf)",
     R"((bodies|contacts|energy|gauges)(_[0-9]+)?\.csv)",
@@ -77,7 +78,7 @@ Inventory inventory(const fs::path& folder)
     return result;
 }
 
-/// What a run wrote, of a folder that holds nothing else. Throws CaseError otherwise.
+/// The files of a run, in a folder that holds nothing else. Throws CaseError otherwise.
 Inventory inventory_of_results(const fs::path& folder)
 {
     if (!fs::is_directory(folder / "frames") && !fs::exists(folder / "plan.json")) {
@@ -107,7 +108,7 @@ void remove_our_files(const fs::path& folder)
     }
 }
 
-/// What a kill left half-written.
+/// Files that a killed run left half-written.
 void remove_temporary_files(const fs::path& folder)
 {
     for (const fs::path& path : inventory(folder).ours) {

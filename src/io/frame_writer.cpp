@@ -79,7 +79,7 @@ struct FrameWriter::State {
     std::filesystem::path folder;
     Series series; // of the thread; of the solver's side only while the queue is idle
 
-    std::mutex mutex; // guards what follows
+    std::mutex mutex; // guards the members below
     std::condition_variable changed;
     std::deque<Job> queue;
     bool working = false;

@@ -24,7 +24,7 @@ std::mutex& process_lock()
     return mutex;
 }
 
-/// The innermost entry of the error stack says what really happened.
+/// The innermost entry of the error stack names the cause.
 herr_t keep_first(unsigned position, const H5E_error2_t* entry, void* text)
 {
     if (position == 0 && entry->desc != nullptr) {

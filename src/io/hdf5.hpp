@@ -33,7 +33,7 @@ private:
 class Handle {
 public:
     using Close = herr_t (*)(hid_t);
-    /// Throws IoError "cannot <action>: <what HDF5 says>" if the identifier is invalid.
+    /// Throws IoError "cannot <action>: <message of HDF5>" if the identifier is invalid.
     Handle(hid_t id, Close close, std::string_view action);
     ~Handle();
     Handle(Handle&& other) noexcept;
@@ -45,15 +45,15 @@ private:
     Close close_;
 };
 
-/// Throws IoError "cannot <action>: <what HDF5 says>" if `status` is negative.
+/// Throws IoError "cannot <action>: <message of HDF5>" if `status` is negative.
 void check(herr_t status, std::string_view action);
 
 /// A file that is built in memory. HDF5 never meets a disk that is full: it cannot close a file
 /// that it failed to write, and its message hides the reason.
 class FileImage {
 public:
-    /// `content`: about the bytes of what will be put into it. Memory is taken in portions of that
-    /// size, 8 MiB at most, and all of a portion is touched at once.
+    /// `content`: expected size of the file in bytes. Memory is allocated in portions of that size,
+    /// at most 8 MiB, and each portion is touched as a whole.
     explicit FileImage(std::size_t content);
     operator hid_t() const { return file_; }
     /// The bytes of the finished file; they live as long as this object and no more may be added.

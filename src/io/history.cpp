@@ -44,7 +44,7 @@ struct Kept {
     std::int64_t rows = 0;
 };
 
-/// Going on with fewer rows would leave a hole that nobody sees.
+/// Resuming with fewer rows would leave an unnoticed gap.
 void expect_rows(const std::filesystem::path& file, std::int64_t rows, std::int64_t expected)
 {
     if (expected != History::all_rows && rows < expected) {

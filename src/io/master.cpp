@@ -45,7 +45,7 @@ void link_to_grid(hid_t parent, const std::string& name, const fs::path& file)
                 fmt::format("link `{}`", file.string()));
 }
 
-/// What a frame number leads to: its time and the file of each series.
+/// The frame of a number: its time and the file of each series.
 struct Frame {
     double time = 0;
     std::map<std::string, fs::path> files;
@@ -143,7 +143,7 @@ std::vector<HistoryColumn> history_columns(std::string_view text)
     return columns;
 }
 
-/// Texts of one length, padded with zeros: what h5py reads as an array of bytes.
+/// Texts of one length, padded with zeros, which h5py reads as an array of bytes.
 void put_texts(hid_t parent, const std::string& name, const std::vector<std::string>& texts)
 {
     std::size_t length = 1;

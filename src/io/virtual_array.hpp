@@ -10,7 +10,7 @@
 
 namespace hyoryu {
 
-/// What of an array of a file has to be known to refer to it.
+/// The properties of an array of a file that a reference to it needs.
 struct ArrayShape {
     hsize_t rows = 0;
     hsize_t components = 0; // 0: the array has one dimension

@@ -54,7 +54,7 @@ Cells cells_of(const Surface& surface)
     return cells_of({surface.triangles.begin(), surface.triangles.end()}, 3, triangle_cell);
 }
 
-/// The arrays of one frame, compressed: what can be done without HDF5.
+/// The arrays of one frame, compressed: the work that needs no HDF5.
 struct Parts {
     PackedArray points;
     PackedArray connectivity;
@@ -104,7 +104,7 @@ void put_grid(hid_t file, const Cells& cells, const Parts& parts)
     put_array(root, "Types", parts.types, "");
 }
 
-/// Point data, the time that VTK shows, and what VTKHDF has no place for.
+/// Point data, the time that VTK shows, and our own attributes.
 template <class Frame>
 void put_data(hid_t file, const Frame& frame, const Parts& parts)
 {

@@ -14,7 +14,7 @@ namespace {
 
 using Style = ChartLine::Style;
 
-// Okabe and Ito (2008): told apart with every common colour vision.
+// Okabe and Ito (2008): distinguishable with every common colour vision.
 constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                              "#e69f00", "#56b4e9", "#000000"};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Energy and momentum over time, and how well their books close.
+// Energy and momentum over time, and their conservation errors.
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/svg.hpp"
 #include "sections.hpp"
@@ -49,8 +49,8 @@ void add(Values& sum, const Values& values, double factor)
     }
 }
 
-/// What has left the domain with the fluid by then; nothing in results of versions that did not
-/// tell.
+/// Energy and momentum of fluid that has left the domain by then; none in results of versions that
+/// did not record it.
 Values lost(const RunResults& run, const std::string& name)
 {
     const CsvTable::Column* found = run.energy.find(name);

@@ -23,7 +23,7 @@ std::string gauge_of(const std::string& column, const std::vector<std::string>& 
     return found;
 }
 
-/// What a column reads: the gauge with its part ("house_pressure"), and the component or none.
+/// The meaning of a column: the gauge with its part ("house_pressure"), and the component or none.
 struct Reading {
     std::string name;
     std::string component;
@@ -76,7 +76,7 @@ std::vector<Chart> charts_of(const RunResults& run, const std::string& gauge)
     return charts;
 }
 
-/// What the plan says that the gauge reads.
+/// The description of the gauge in the plan.
 std::string what_of(const RunResults& run, const std::string& gauge)
 {
     for (const auto& entry : run.plan.at("gauges").at("list")) {

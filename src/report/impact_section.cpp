@@ -142,7 +142,7 @@ std::string force_text(const RunResults& run, const DeclaredContact& declared, b
             : "that the case declares for the two materials");
 }
 
-/// What all contact took, blows and resting, beside the sum that the run kept.
+/// Energy lost in all contact, blows and resting, beside the sum that the run recorded.
 std::string energy_text(const RunResults& run, const std::vector<Impact>& rows)
 {
     double energy = 0;

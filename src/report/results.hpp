@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report is made of, read from a results folder.
+// The data of a report, read from a results folder.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"

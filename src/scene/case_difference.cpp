@@ -15,7 +15,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr std::size_t longest_value = 60; // of what messages show
+constexpr std::size_t longest_value = 60; // characters of a value in a message
 
 std::string value_text(const TomlNode& node);
 

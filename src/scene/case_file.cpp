@@ -36,7 +36,7 @@ std::vector<std::string> lines_of(const std::string& text)
     return lines;
 }
 
-/// Throws what was found, in the order of the file, the first hundred.
+/// Throws the mistakes that were found, in the order of the file, at most a hundred.
 void throw_if_any(Reading& reading)
 {
     std::vector<Diagnostic>& found = reading.diagnostics;

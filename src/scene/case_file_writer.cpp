@@ -87,7 +87,7 @@ class KeyWriter : public KeyWords<KeyWriter> {
 public:
     static constexpr bool writes = true;
 
-    /// Appends to `text` what stands in the table of that path.
+    /// Appends the keys of the table at `path` to `text`.
     KeyWriter(std::string& text, std::string path) : text_(text), path_(std::move(path)) {}
 
     template <class T>

@@ -15,8 +15,8 @@ namespace {
 // An array that is smaller is stored as it is (io/packed_array).
 constexpr double worth_compressing = 65536; // [B]
 
-// What compression leaves of the arrays of a frame [1]. Two dimensions leave two thirds of a
-// vector: what is always zero takes no room.
+// Compressed over raw size of the arrays of a frame [1]. Two-dimensional vectors take two thirds,
+// since a component that is always zero compresses to nothing.
 struct Left {
     double points;
     double velocity;
@@ -35,7 +35,7 @@ constexpr Left left_of_bodies{0.3, 0.2, 0.1, 0.1, 0.005};
 // Connectivity, offsets, kinds, bodies: nearly constant.
 constexpr double left_of_structure = 0.004;
 
-// What HDF5 lays around the arrays of a file, and the index of the chunks of a compressed one [B].
+// Overhead of HDF5: of a file, of an array, and of the chunk index of a compressed array [B].
 constexpr double around_cloud = 15.8e3;
 constexpr double around_dry_cloud = 14.2e3; // without pressure and density
 constexpr double around_surface = 13.8e3;
@@ -45,14 +45,14 @@ constexpr double around_results = 8.7e3;
 constexpr double frame_in_results = 1.08e3; // links to its files
 constexpr double chunk_index = 2.05e3;
 
-// Bytes of a row in a checkpoint: 64 for state and number, 24 for either force, 20 for the tile
-// that lists are made from, 16 for what solids do to it; and of walls or bodies.
+// Bytes of a row in a checkpoint: of the fluid 64 for state and number, 24 for each force, 20 for
+// the tiles of the neighbour lists, 16 for the rates due to solids; then of walls and bodies.
 constexpr double checkpoint_fluid = 112;
 constexpr double checkpoint_friction = 24;
 constexpr double checkpoint_at_solids = 16;
 constexpr double checkpoint_tile = 16;
 constexpr double checkpoint_body = 152;       // its state and loads
-constexpr double checkpoint_pair = 136 + 377; // a resting contact, and what the solver keeps of it
+constexpr double checkpoint_pair = 136 + 377; // a resting contact and its solver state
 
 // Texts [B].
 constexpr double plan_of_fluid = 6e3;
@@ -66,7 +66,7 @@ double array_bytes(double rows, double bytes, double left)
     return rows * bytes < worth_compressing ? rows * bytes : left * rows * bytes + chunk_index;
 }
 
-// A frame file of so many particles with fluid around.
+// A frame file of this number of particles in a scene with fluid.
 double cloud_bytes(double n, const Left& left, int dimensions)
 {
     const double vectors = dimensions / 3.0;

@@ -23,8 +23,8 @@ constexpr double header_lines = 250; // names and units of the columns
 constexpr double active_of_force_2d = 0.45;
 constexpr double active_of_force_3d = 0.6;
 
-// A column in results.h5 beside its numbers; what the index of a compressed one takes; and what
-// compression leaves of numbers that change and of those that do not, fitted to 68 files.
+// Overhead of a column in results.h5; of the chunk index of a compressed one; and the compression
+// ratios of columns that change and of constant ones, fitted to 68 files.
 constexpr double of_column = 440;
 constexpr double of_index = 2.1e3;
 constexpr double worth_compressing = 65536;
@@ -45,8 +45,8 @@ bool spheres_level_along(const Scene& scene, Eigen::Index axis)
            });
 }
 
-// Whether something may ever move along an axis of the world: where nothing pushes, what rests goes
-// on to rest.
+// Whether anything can ever move along an axis of the world. Without a force or velocity along it,
+// everything stays at rest.
 bool moves_along(const Scene& scene, const Plan& plan, Eigen::Index axis)
 {
     if (scene.dimensions == 2 && axis == 1) {
@@ -95,7 +95,7 @@ double history_rows(const Scene& scene, const Course& course)
 
 HistorySize energy(const Scene& scene, const Plan& plan, const Course& course)
 {
-    constexpr double columns = 19; // beside the time; of what is lost four, mostly zero
+    constexpr double columns = 19; // without the time; of lost particles 4
     const bool falls = scene.gravity.norm() > 0;
     const bool pushes = !scene.walls.empty() && (plan.fluid || plan.contact);
     const Vec3 drive = scene.fluid ? scene.fluid->acceleration : Vec3(Vec3::Zero());
@@ -103,7 +103,7 @@ HistorySize energy(const Scene& scene, const Plan& plan, const Course& course)
     active += plan.fluid ? (falls ? 3 : 2) : 0;
     active += plan.rigid ? (falls ? 2 : 1) : 0;
     active += plan.contact && !plan.fluid ? 1 : 0;  // water keeps most bodies from each other
-    active += (pushes ? 2 : 1) * axes(scene, plan); // momentum, and what walls give
+    active += (pushes ? 2 : 1) * axes(scene, plan); // momentum and the impulses of walls
     active += count_of_nonzero(scene.gravity + drive);
     const double text = time_cell(plan) + text_of(active, columns - active);
     return {history_rows(scene, course), text, active + 1, columns - active, 0, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the histories of a run will take, as text and as columns of results.h5.
+// Predicted size of the histories of a run, as text and as columns of results.h5.
 #pragma once
 
 #include "hyoryu/scene/disk.hpp"
@@ -13,7 +13,7 @@ struct HistorySize {
     double rows = 0;
     double row_text = 0; // bytes of a row of the CSV file [B]
     double active = 0;   // columns of numbers that change
-    double idle = 0;     // columns of numbers that stay what they are, mostly zero
+    double idle = 0;     // columns of constant numbers, mostly zero
     double names = 0;    // bytes of the columns of texts in a row of results.h5 [B]
     double text_columns = 0;
 };

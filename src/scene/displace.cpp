@@ -13,13 +13,13 @@ namespace hyoryu {
 
 namespace {
 
-// What of a lattice cell lies inside some shapes, and the middle of the rest.
+// The share of a lattice cell inside shapes, and the centroid of the remaining part.
 struct Cover {
     double part = 0;
     Vec3 rest{0, 0, 0}; // [m]
 };
 
-// Shapes that may displace parts of the same cells, with boxes about what each may cut.
+// Shapes that may displace parts of the same cells, with the bounds of the cells that each may cut.
 struct Cluster {
     std::vector<Placed> shapes;
     std::vector<Bounds> boxes;
@@ -88,10 +88,10 @@ std::uint64_t morton(const Vec3& cells)
     return place;
 }
 
-// Marks as many cut cells as the shape displaces, group after group of neighbours, the deepest of
-// each first, of equals those at a wall, where what stays could not give way; what a group is over
-// or short of whole particles goes to the next one. One count for all of them could take its last
-// particles from one side, which sets the body turning.
+// Marks as many cut cells as the shape displaces, group by group of neighbours, the deepest cells
+// of each first and, among equals, those at a wall, since particles left there could not move away.
+// The fraction of a particle by which a group is over or short is carried to the next group. One
+// count for all of them could take its last particles from one side, which sets the body turning.
 void choose(std::vector<CutCell>& cut, std::vector<bool>& gone)
 {
     constexpr std::size_t group = 8;
@@ -128,7 +128,8 @@ double room_at(const Scene& scene, const Vec3& p)
     return room;
 }
 
-// What stays of the cut cells stands outside the shape, at the pressure of its new depth.
+// The remaining particles of cut cells are placed outside the shape, at the pressure of their new
+// depth.
 void move_out(const Scene& scene, const std::vector<CutCell>& cut, const std::vector<bool>& gone,
               Filling& filling)
 {
@@ -167,7 +168,7 @@ void drop(const std::vector<bool>& gone, Filling& filling)
 // About the cut cells, whether they keep their particle or not.
 void mark(const std::vector<CutCell>& cut, double spacing, Filling& filling)
 {
-    constexpr double around = 4; // spacings: what evens out what the surface leaves of its cells
+    constexpr double around = 4; // spacings: the region that evens out the errors of cut cells
     if (cut.empty()) {
         return;
     }
@@ -191,7 +192,7 @@ double height(const Scene& scene, const Vec3& p)
 
 namespace {
 
-// What the bodies cover, a spacing larger.
+// Bounds of the bodies, enlarged by a spacing.
 std::vector<Bounds> boxes_of(const std::vector<Placed>& shapes, double spacing)
 {
     std::vector<Bounds> boxes;

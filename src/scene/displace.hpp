@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What bodies displace of the fluid that a scene fills in.
+// Removes the fluid that bodies displace from the filled scene.
 #pragma once
 
 #include "hyoryu/scene/fill.hpp"
@@ -10,10 +10,10 @@ namespace hyoryu {
 double height(const Scene& scene, const Vec3& p);
 
 /// Takes out as many fluid particles as the bodies displace, everywhere about their surfaces: an
-/// excess of a quarter of a layer would start the water with a jolt. What stays of the cells that
-/// they cut goes to their open part: inside, it would be pressed through whatever a body touches
-/// there. Bodies that may cut a cell together count as one: between two that stand on each other
-/// is no open part.
+/// excess of a quarter of a layer would start the water with a jolt. Particles that remain of cut
+/// cells move to the open part of the cell; inside a body they would be pressed through the solids
+/// that it touches. Bodies that may cut a cell together count as one: there is no open part between
+/// two bodies that stand on each other.
 void take_out_bodies(const Scene& scene, Filling& filling);
 
 } // namespace hyoryu

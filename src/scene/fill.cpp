@@ -130,7 +130,7 @@ void check_start(const Scene& scene, std::size_t block, const Filling& filling)
     const Vec3& p = filling.fluid.back();
     const Vec3& v = filling.fluid_velocity.back();
     const double pressure = filling.fluid_pressure.back();
-    const bool speed_fits = v.norm() <= largest_value("m/s"); // false where it is no number
+    const bool speed_fits = v.norm() <= largest_value("m/s"); // false for NaN
     if (speed_fits && std::isfinite(pressure)) {
         return;
     }

@@ -102,8 +102,8 @@ Cells plain_cells(const Bounds& box, double spacing, int dimensions)
     return cells;
 }
 
-// Cells of the volume of such cubes: each edge makes up for what the shorter ones are rounded by,
-// in equal parts with those after it.
+// Cells of the volume of cubes of the spacing: each edge compensates the rounding of the shorter
+// ones, in equal parts with the longer ones.
 Cells even_cells(const Bounds& box, double spacing, int dimensions)
 {
     Cells cells = plain_cells(box, spacing, dimensions);
@@ -206,7 +206,7 @@ double covered_depth(const Scene& scene, const FreeSpace& space, const Bounds& b
     return depth;
 }
 
-// A box without what walls cover of it from its faces on; empty if nothing is left.
+// A box less the slabs at its faces that walls cover; empty if they cover all of it.
 Bounds uncovered(const Scene& scene, const FreeSpace& space, Bounds box)
 {
     for (int a = 0; a < 3; ++a) {
@@ -231,7 +231,7 @@ Vec3 upwards(const Scene& scene)
     return (up[axis] < 0 ? -1.0 : 1.0) * Vec3::Unit(axis);
 }
 
-// A piece of a column in which so many of its rays are free.
+// A piece of a column in which the same number of its rays is free.
 struct Piece {
     double from = 0, to = 0; // along the column [m]
     int rays = 0;

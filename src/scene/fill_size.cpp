@@ -26,7 +26,7 @@ double half_surface(const Vec3& size, int dimensions)
                            : size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
 }
 
-// What the particles of a wall are taken from: an obstacle, or one layer of a surface.
+// The source of particles of a wall: an obstacle, or one layer of a surface.
 double wall_volume(const Scene& scene, const Wall& wall)
 {
     if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {

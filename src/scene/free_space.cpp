@@ -8,7 +8,7 @@ namespace hyoryu {
 
 namespace {
 
-// The sides of basins are without end here: what is beyond them is not free.
+// The sides of basins extend to infinity here: space beyond them is not free.
 constexpr double endless = 1e9; // [m]
 
 SolidSurface surface_of_block(const FluidBlock& block, int dimensions)

@@ -13,9 +13,9 @@ namespace hyoryu {
 /// The space that is free at time 0; distances in it are exact.
 class FreeSpace {
 public:
-    /// What walls and bodies leave.
+    /// Space outside walls and bodies.
     explicit FreeSpace(const Scene& scene);
-    /// What walls and the blocks before it leave to a block.
+    /// Space outside walls and the blocks before this one.
     FreeSpace(const Scene& scene, std::size_t block);
 
     /// Numbers of obstacles: of all, of those that may be within a distance of a point [m].
@@ -24,7 +24,7 @@ public:
 
     /// The nearest surface of some obstacles, with its normal into the free space.
     NearestPlace nearest(const Vec3& point, std::span<const int> among) const;
-    /// Distance from what is not free [m], negative in it.
+    /// Signed distance from the occupied space [m], negative inside it.
     double clearance(const Vec3& point) const { return nearest(point, all_).distance; }
     bool is_in_wall(const Vec3& point) const;
     int dimensions() const { return dimensions_; }

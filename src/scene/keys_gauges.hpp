@@ -68,7 +68,7 @@ inline void check_gauge(TableReader& table, const Gauge& gauge, const Scene& sce
     }
 }
 
-/// What the readings of a gauge are filtered by.
+/// The filter of the readings of a gauge.
 void filter_keys(auto& keys, Is<Gauge> auto& gauge)
 {
     const auto filtered = [&] { return gauge.filter != GaugeFilter::none; };

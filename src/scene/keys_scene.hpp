@@ -155,7 +155,7 @@ void keys_of(auto& keys, Is<OutputSettings> auto& output, const Scene& scene)
                   "Wall-clock time between two checkpoints, from which `run --resume` goes on.");
 }
 
-/// What holds everywhere in the case.
+/// Keys that hold for the whole case.
 void general_keys(auto& keys, Is<Scene> auto& scene)
 {
     keys.text("title", scene.title, "Title of the case in reports and pictures.");

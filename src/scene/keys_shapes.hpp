@@ -150,7 +150,7 @@ inline void check_one_rotation(TableReader& table, bool by_axis)
     }
 }
 
-/// What the keys of a shape mean, for each kind of thing that has one.
+/// Descriptions of the keys of a shape, for walls, bodies and fluid blocks.
 struct ShapeWords {
     std::string_view min{}, max{}, size, radius, length, file;
 };

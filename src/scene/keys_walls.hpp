@@ -181,7 +181,7 @@ void keys_of(auto& keys, Is<Motion> auto& motion, double gravity)
     }
 }
 
-/// The shape of a wall with what belongs to it.
+/// The shape of a wall and its keys.
 void geometry_keys(auto& keys, Is<Wall> auto& wall)
 {
     constexpr std::size_t round = 2;

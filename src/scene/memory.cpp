@@ -10,8 +10,8 @@ namespace hyoryu {
 
 namespace {
 
-// The program with its libraries and what every run holds, as that of one box does; and what comes
-// with VTK, which reads meshes [B].
+// Resident memory of the program with its libraries in the smallest run, measured with one box; and
+// of VTK, which reads meshes [B].
 constexpr double process = 21.3e6;
 constexpr double mesh_reader = 31e6;
 
@@ -45,7 +45,7 @@ double of_table(const HistorySize& table)
                          text * table.text_columns);
 }
 
-// What results.h5 needs at the end of a run: its image, and the largest table as text and numbers.
+// Memory for results.h5 at the end of a run: its image, and the largest table as text and numbers.
 double closing(const std::vector<HistorySize>& tables)
 {
     double most = 0;

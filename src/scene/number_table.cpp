@@ -86,7 +86,7 @@ std::vector<std::string> names_and_units(const std::vector<std::string_view>& wo
     return parts;
 }
 
-// What is wrong with the header; empty if it names every column once.
+// The fault of the header; empty if it names every column once.
 std::string read_header(const std::vector<std::string_view>& words,
                         std::span<const NumberColumn> columns, Order& order)
 {
@@ -115,7 +115,7 @@ std::string read_header(const std::vector<std::string_view>& words,
                                                         order.size(), names_of(columns));
 }
 
-// The numbers of a line, or what is wrong with it.
+// The numbers of a line, or its fault.
 std::string parse_row(const std::vector<std::string_view>& words,
                       std::span<const NumberColumn> columns, const Order& order,
                       std::vector<double>& row)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of keys: what their declarations say, as one list, and the search in it.
+// The table of keys: their declarations as one list, and the search in it.
 #include "hyoryu/scene/parameter.hpp"
 
 #include "keys_scene.hpp"
@@ -33,7 +33,7 @@ std::string typed(const Vec3& v)
 {
     return fmt::format("[{:#}, {:#}, {:#}]", v.x(), v.y(), v.z());
 }
-/// What begins empty; nothing is typed for it but the brackets of a list.
+/// Values that are empty by default; only the brackets of a list are printed for them.
 std::string typed(const std::vector<std::string>& /*texts*/)
 {
     return "[]";
@@ -49,7 +49,7 @@ class KeyTable : public KeyWords<KeyTable> {
 public:
     static constexpr bool writes = false;
 
-    /// Appends to `rows` what may stand in the table whose keys begin with `prefix`.
+    /// Appends to `rows` the keys of the table whose keys begin with `prefix`.
     KeyTable(std::vector<Parameter>& rows, std::string prefix)
         : rows_(rows), prefix_(std::move(prefix))
     {

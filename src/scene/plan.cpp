@@ -139,7 +139,7 @@ void list_slot(const std::variant<Models...>& choice, bool runs, const std::stri
     }
 }
 
-// Friction at solids, and what drives the fluid.
+// Friction at solids, and the forces that drive the fluid.
 void list_walls_and_drive(const Scene& scene, const Plan& plan, Census& census)
 {
     const bool fluid = plan.fluid.has_value();
@@ -294,7 +294,7 @@ double list_bytes(const FluidParameters& fluid)
     const double radius = 2 * fluid.h / fluid.spacing + usual_skin;
     const double near = fluid.dimensions == 2 ? std::numbers::pi * sq(radius)
                                               : 4.0 / 3.0 * std::numbers::pi * radius * sq(radius);
-    // A byte each, and as much as ten more for what is nothing and the heads of lists.
+    // One byte an entry, and ten per cent more for padding and list heads.
     constexpr double others = 10;
     return near + others;
 }

@@ -50,7 +50,7 @@ bool is_clear_of(const Wall& wall, const Body& body, int dimensions)
 }
 
 // Pairs a < b whose bounding balls meet, by a sweep along the axis on which the bodies are spread
-// the most: of so many copies all pairs cannot be looked at.
+// the most: with up to 100,000 copies, testing all pairs takes too long.
 std::vector<std::pair<int, int>> pairs_that_may_meet(const Rigid& rigid, int dimensions)
 {
     struct Ball {
@@ -291,7 +291,7 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
     }
 }
 
-// Frames are files of one folder, and no run lives to see so many steps.
+// Limits of a folder of frames and of the length of a run: larger numbers are typing mistakes.
 void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& errors)
 {
     constexpr double most_frames = 1e7;

@@ -7,8 +7,8 @@
 namespace hyoryu {
 
 /// Warns of each side of a moving obstacle that leaves water a gap of a spacing or more to a fixed
-/// wall, as under a paddle that does not reach the floor. What is farther away than a tenth of the
-/// obstacle's size, and than four spacings, is taken for meant.
+/// wall, as under a paddle that does not reach the floor. A gap wider than a tenth of the obstacle
+/// and four spacings is taken as intended.
 void warn_about_gaps(const Scene& scene, const Filling& filling, Plan& plan);
 
 } // namespace hyoryu

@@ -80,8 +80,8 @@ double looks_of(const Scene& scene, const Plan& plan, const Gauge& gauge)
     return 0;
 }
 
-// Where the fluid is now is measured once for all gauges that look for it: as much work as looking
-// at so many of its particles.
+// The bounds of the fluid are measured once for all gauges that search it; the cost equals that of
+// visiting this number of particles.
 double looks_of_search(const Scene& scene, const Plan& plan)
 {
     constexpr double share = 0.05;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What gauges read and cost, and whether they stand where they can read anything.
+// The columns and the cost of gauges, and whether their places allow any reading.
 #pragma once
 
 #include "hyoryu/scene/plan.hpp"
 
 namespace hyoryu {
 
-/// Fills in `plan.gauges` and what they cost.
+/// Fills in `plan.gauges` and their cost.
 void list_gauges(const Scene& scene, Plan& plan);
 
 /// Appends an error for each gauge outside the domain, and warns of those inside a wall.

@@ -16,7 +16,8 @@ namespace {
 
 // Foam has 10 kg/m3; less than half of that is a ratio.
 constexpr double least_density = 5;
-// Sizes of the scene from which on a body is not near it, and what is as large is in other units.
+// Distances, in sizes of the scene, beyond which a body is probably misplaced, and size ratios that
+// suggest other units.
 constexpr double far_away = 3;
 constexpr double very_far_away = 30; // together with others, too
 constexpr double out_of_scale = 100;
@@ -244,7 +245,7 @@ bool inside(const Bounds& box, const Scene& scene, double slack)
     return true;
 }
 
-// A closed side of a basin beyond the domain holds no water: there are no particles of it.
+// A closed side of a basin beyond the domain holds no water, since its particles are outside.
 bool loses_a_side(const BasinWall& basin, const Scene& scene, double slack)
 {
     const DomainSettings& domain = *scene.domain;

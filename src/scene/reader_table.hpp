@@ -16,7 +16,7 @@
 
 namespace hyoryu {
 
-/// What the tables of a case share while it is read.
+/// State shared by the tables of a case while it is read.
 struct Reading {
     std::filesystem::path file;
     std::vector<std::string> lines;

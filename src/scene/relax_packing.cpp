@@ -71,7 +71,7 @@ std::vector<Vec3> open_ways(const Scene& scene)
     return {down, u, -u, v, -v, h * (u + v), h * (u - v), h * (v - u), -h * (u + v)};
 }
 
-// What is near a place: the nearest point, and whether it is fluid.
+// The nearest point to a place, and whether it is fluid.
 class Surroundings {
 public:
     Surroundings(std::span<const Vec3> points, std::size_t fluid, double reach)

@@ -13,11 +13,11 @@ namespace hyoryu {
 ///
 /// so that a start at hydrostatic pressure is one at rest. Cells that a surface cuts leave the
 /// water beside it up to a quarter thinner or denser than the lattice, which the first second of a
-/// run would even out with pressures wrong by as much. Descent with momentum (Polyak 1964) in
-/// fixed rounds; masses stay, depths follow the places, and no particle comes nearer to a surface
-/// than it may be filled. What is beside an open side of the water, or over nothing, stays where
-/// it is: it is not at rest. Without gravity or marks nothing is done, nor where a block is in
-/// layers, which follow the surfaces themselves.
+/// run would even out with pressures wrong by as much. Descent with momentum (Polyak 1964) in fixed
+/// rounds; masses stay, depths follow the places, and no particle comes nearer to a surface than it
+/// may be filled. Particles beside an open side of the water, or without support below, are not
+/// moved, since they are not at rest. Without gravity or marks nothing is done, nor where a block
+/// is in layers, which follow the surfaces themselves.
 void relax_packing(const Scene& scene, Filling& filling);
 
 } // namespace hyoryu

@@ -28,7 +28,7 @@ private:
     std::map<std::string, int> known_;
 };
 
-// A hull with more than this times the volume of what it holds is not that body.
+// A hull of more than this times the volume of the body does not represent it.
 constexpr double convex_enough = 1.02;
 
 ContactShape simple_shape(const Shape& shape, int dimensions)
@@ -243,8 +243,9 @@ Penalty make_penalty(const Scene& scene)
     return penalty;
 }
 
-// Metres serve wherever they can: the round-off of positions, which grows with the distance from
-// the origin, has to stay below what the unit takes for nothing, and that well below the bodies.
+// Metres are used where possible: the round-off of positions, which grows with the distance from
+// the origin, must stay below the tolerance lengths of the unit, and these well below the size of
+// the bodies.
 double unit_of_tolerances(const Rigid& rigid)
 {
     constexpr double step = 1000;            // from unit to unit: mm, m, km

@@ -136,7 +136,7 @@ TriangleTree cubes_of(const ParticleShape& shape)
     using Square = std::array<long long, 4>; // the axis across it, twice its middle
     const Vec3 first = shape.points.empty() ? Vec3(0, 0, 0) : shape.points.front();
     std::map<Square, std::pair<int, Vec3>> squares; // how many, of which point and side
-    constexpr double fine = 1 << 16;                // of an edge: what lies nearer is one place
+    constexpr double fine = 1 << 16;                // of an edge: nearer points are merged
     for (const Vec3& p : shape.points) {
         for (int a = 0; a < 3; ++a) {
             for (const double side : {-0.5, 0.5}) {

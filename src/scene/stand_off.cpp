@@ -15,8 +15,8 @@ namespace {
 
 // In spacings.
 constexpr double clearly = 0.45; // nearer than that to a surface; cells are rounded to as near
-constexpr double apart = 0.875;  // what pairs are moved to
-constexpr double around = 2.5;   // of what was moved: what gives way
+constexpr double apart = 0.875;  // distance to which pairs are moved
+constexpr double around = 2.5;   // radius about moved particles in which others move away
 
 std::size_t at(Index row)
 {
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> too_near(const Scene& scene, const std::vector<Vec3>& 
     return near;
 }
 
-// Half of what is lacking of their distance in every pair of point k, away from the other [m].
+// Half of the lacking distance in every pair of point k, away from the other point [m].
 Vec3 way_apart(const CellGrid& grid, const std::vector<Vec3>& points, std::size_t k,
                double distance)
 {

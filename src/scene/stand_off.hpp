@@ -7,9 +7,9 @@
 namespace hyoryu {
 
 /// Moves the fluid that is clearly nearer to a body than half a spacing to that distance from walls
-/// and bodies. What it would crowd there gives way: pairs nearer than seven eighths of a spacing
-/// move apart, as far as two and a half spacings around (position-based dynamics, Mueller et al.
-/// 2007). The water is what it was, and where none is too near nothing moves.
+/// and bodies. Particles that it would crowd there move away: pairs nearer than seven eighths of a
+/// spacing separate, within two and a half spacings (position-based dynamics, Mueller et al. 2007).
+/// No particle is added or removed, and without a particle too near nothing moves.
 void stand_off_bodies(const Scene& scene, Filling& filling);
 
 } // namespace hyoryu

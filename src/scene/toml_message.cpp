@@ -19,7 +19,7 @@ std::string line_at(std::string_view text, int number)
         }
         text.remove_prefix(end + 1);
     }
-    constexpr std::size_t longest = 500; // of what patterns are looked for in
+    constexpr std::size_t longest = 500; // characters of a line that are searched for patterns
     return std::string(text.substr(0, std::min(text.find_first_of("\r\n"), longest)));
 }
 
@@ -76,7 +76,7 @@ bool ends_the_line(const std::string& line, int column)
     return static_cast<std::size_t>(std::max(column, 1)) > line.size();
 }
 
-// What the library means, by parts of its description.
+// Messages by parts of the description of the library.
 Words meaning_of(const std::string& description, bool at_end)
 {
     const auto says = [&](std::string_view part) {

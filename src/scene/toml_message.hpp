@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parser of TOML says, in words of ours.
+// Messages of the TOML parser in our own words.
 #pragma once
 
 #include "hyoryu/scene/toml_document.hpp"

@@ -86,7 +86,7 @@ void mark(TomlNode& node, int number)
     }
 }
 
-/// VALUE as TOML; what is no TOML but plain words ("laminar", "10 cm") is taken as a text.
+/// VALUE as TOML; plain words that are not TOML ("laminar", "10 cm") are taken as a text.
 std::optional<TomlNode> parse_value(std::string_view value)
 {
     try {

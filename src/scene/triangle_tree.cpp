@@ -203,7 +203,7 @@ double covered_part(const Triangle& t, const Vec3& p)
     return std::atan2(a.dot(b.cross(c)), den) / (2 * std::numbers::pi);
 }
 
-// 1 inside, 0 outside; of what is far away the first term of its expansion.
+// 1 inside, 0 outside; distant nodes by the first term of their expansion.
 double winding_number(const TriangleTree& tree, int node, const Vec3& p)
 {
     constexpr double far = 2.5; // radii: errors of a few hundredths, and half decides
@@ -283,7 +283,7 @@ NearestPlace nearest_place(const TriangleTree& tree, const Vec3& point, double f
     const bool inside = tree.is_one_piece ? way.dot(t.normal[best.foot.feature]) < 0
                                           : winding_number(tree, 0, point) > 0.5;
     const double side = inside ? -1 : 1;
-    // On the surface itself there is no way to it.
+    // On the surface itself the direction is undefined.
     const double touching = 1e-12 * tree.nodes[0].radius;
     const Vec3 normal = best.distance > touching ? Vec3(side / best.distance * way)
                                                  : t.normal[best.foot.feature].normalized();

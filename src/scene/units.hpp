@@ -27,7 +27,7 @@ double largest_value(std::string_view unit);
 /// A number typed as a text with a unit.
 struct ParsedQuantity {
     double value = 0;  // in the expected unit
-    std::string fault; // what is wrong; empty if nothing is
+    std::string fault; // the mistake; empty if there is none
     std::string hint;
 };
 

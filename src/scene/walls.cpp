@@ -124,8 +124,8 @@ void add_points(const RoundWall& round, const Lattice& lattice, std::vector<Vec3
     }
 }
 
-// Of a mesh: what its lattice puts nearer to the surface than half a spacing goes to that depth, or
-// the fluid before it would be crowded.
+// Wall particles of a mesh that its lattice puts nearer to the surface than half a spacing move to
+// that depth; otherwise they would crowd the fluid.
 void add_mesh_points(const SolidWall& solid, const MeshShape& mesh, const Lattice& lattice,
                      std::vector<Vec3>& points)
 {
@@ -235,7 +235,7 @@ double depth_in(const SolidWall& solid, const Vec3& p, int dimensions)
     return -signed_distance({&solid.shape, solid.centre, solid.rotation, dimensions}, p);
 }
 
-// Beyond a period stand the images of what is within it.
+// Beyond a period there are images of the particles within it.
 bool in_period(const Scene& scene, const Vec3& point)
 {
     for (Index axis = 0; axis < 3; ++axis) {

@@ -108,8 +108,8 @@ void unflat(std::span<const double> numbers, std::span<T> column)
     }
 }
 
-// What the lists are made from: the tiles as they were at the last time. The file counts the rows
-// of all kinds on, from `first`.
+// The tiles of the last list build, from which the lists are built again. The file numbers the rows
+// of all kinds consecutively, from `first`.
 void save_tiles(const Tiles& tiles, Index first, const std::string& name, Snapshot& snapshot)
 {
     std::vector<std::int32_t> rows(tiles.row);

@@ -66,7 +66,7 @@ Spent spent(const Simulation& sim)
     return total;
 }
 
-// What a step has taken on average since `before`.
+// The mean cost of a step since `before`.
 Spent spent_since(const Spent& before, const Simulation& sim, double steps)
 {
     const Spent now = spent(sim);
@@ -138,7 +138,7 @@ double seconds_of_build(Fluid& fluid)
     return least;
 }
 
-// What each round says of the effect that a variant leaves out [1].
+// The cost of the effect that a variant leaves out, one value a round [1].
 std::vector<double> shares(const Variant& with, const Variant& without, const Spent& of_step)
 {
     std::vector<double> found;

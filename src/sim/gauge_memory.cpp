@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What gauges remember between rows: impulses and the windows of filters.
+// State of gauges between rows: impulses and the windows of filters.
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/simulation.hpp"

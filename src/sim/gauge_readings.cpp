@@ -97,8 +97,8 @@ double filled_by_solids(const Fluid& fluid, const Column& column, const Vec3& po
     return filled(fluid, fluid.particles.body, column.body, point, by_walls);
 }
 
-// Highest place of the vertical through (x, y) where fluid fills half of what solids leave, from
-// above in steps of a quarter spacing, then by the line between two of them.
+// Highest point on the vertical through (x, y) where fluid fills half of the space outside solids:
+// a search from above in steps of a quarter spacing, then linear interpolation.
 double elevation(const Fluid& fluid, const GaugeSearch& search, const Vec3& place)
 {
     constexpr double least_open = 0.2; // less is the inside of a solid

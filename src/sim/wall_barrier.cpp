@@ -12,8 +12,8 @@ namespace hyoryu {
 
 namespace {
 
-// In spacings: from the surface to where it holds what approaches, to where it lets it come within
-// a step, and to where particles are looked at.
+// Distances from the surface in spacings: where it stops approaching particles, how near they may
+// come within a step, and up to where particles are examined.
 constexpr double held = 0.25;
 constexpr double approached = 0.125;
 constexpr double looked_at = 2;
@@ -40,7 +40,7 @@ double farthest_way(const WallBarrier& barrier)
     return way;
 }
 
-// A place and a clearance, less by more than what short numbers lose.
+// A place and a clearance, reduced by more than the rounding of single precision.
 WallBarrier::Seen seen_at(const Vec3& r, double clearance, double spacing)
 {
     constexpr double lost = 1e-4; // spacings; a tile is ten of them
@@ -123,8 +123,8 @@ public:
         return left > 0 && 2 * (moved.squaredNorm() + sq(dt_) * v.squaredNorm()) < sq(left);
     }
 
-    // The surfaces that may hold a particle; returns the distance of the nearest, at most what is
-    // looked at.
+    // The surfaces that may hold a particle; returns the distance of the nearest, at most the
+    // search distance.
     double look(const Vec3& x, const Vec3& v, std::span<const int> solids,
                 std::vector<SurfaceHold>& holds) const
     {
@@ -284,10 +284,11 @@ double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit
     return yield + turn.dot(body.mass.inertia.inverse() * turn);
 }
 
-// A light body gives way to what it holds. The hits are found as if solids were as heavy as can be;
-// those of a body are scaled by min(1, 1 / (m sum K)), K by which each makes it give way. The sum
-// bounds their joint effect, so that what they do together never gains energy: the change is
-// m du^2 s (-1 + s (1 + m sum K) / 2) at most, which is not above zero at that scale s.
+// A light body recoils from the particles that it stops. The hits are computed for solids of
+// infinite mass; those on a body are scaled by s = min(1, 1 / (m sum K)), K the inverse effective
+// mass of the body at each hit. The sum bounds their joint effect, so that together they never add
+// energy: the change is m du^2 s (-1 + s (1 + m sum K) / 2) at most, which is not above zero for
+// this s.
 void share_with_bodies(Simulation& sim)
 {
     WallBarrier& barrier = *sim.barrier;
@@ -312,7 +313,7 @@ void share_with_bodies(Simulation& sim)
     }
 }
 
-// What the solids feel, in the order of the rows.
+// Reactions on the solids, in the order of the rows.
 void load_solids(Simulation& sim, double dt)
 {
     WallBarrier& barrier = *sim.barrier;

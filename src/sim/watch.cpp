@@ -23,9 +23,9 @@ namespace {
 constexpr double worst_compression = 1.0;
 // Nothing in the flow can be faster than its sound without the run being lost.
 constexpr double fastest_over_sound = 2;
-// Gain of energy over that of motion and compression, and over the scale of the scene, from which
-// on a run is lost. The hard cases gain 1 % at most, also at twice the step; what blows up passes a
-// fifth within a few steps, and may have fallen below it again at the next frame.
+// Gain of energy, relative to the energy of motion and compression and to the scale of the scene,
+// beyond which a run is unstable. The hard cases gain 1 % at most, also at twice the step; an
+// unstable run exceeds a fifth within a few steps, and may be below it again at the next frame.
 constexpr double gain_of_motion = 0.2;
 constexpr double gain_of_scale = 0.01;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finding the frames of a run and measuring what they show.
+// Finds the frames of a run and measures their extent and ranges.
 #include "moments.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -121,7 +121,7 @@ double spacing_of(std::span<const float> points)
     return count > 1 ? quantile(distances, 0.5) : 0.0;
 }
 
-/// The particle's own size where the run wrote volumes; else what the distances say.
+/// The particle size from its volume where the run wrote volumes; else from the distances.
 double spacing_of(const Cloud& cloud, bool flat)
 {
     std::vector<float> volumes = magnitudes(cloud, "Volume");

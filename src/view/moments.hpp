@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a results folder holds to be shown: the moments of its frames, the space they take, the
-// range of what is shown in colour.
+// The contents of a results folder for rendering: the times of its frames, their extent, and the
+// range of the coloured quantity.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"
@@ -29,10 +29,10 @@ std::vector<Moment> moments_of(const std::filesystem::path& results,
 
 using Box = Eigen::AlignedBox3d;
 
-/// What the pictures of a run have in common, so that an animation neither jumps nor flickers.
+/// Settings shared by all pictures of a run, so that an animation neither jumps nor flickers.
 struct Survey {
     Box bounds;            // of everything [m]
-    Box inner;             // of what moves [m]
+    Box inner;             // of moving objects [m]
     double spacing = 0;    // of the particles [m]
     double colour_min = 0; // range of the array that is shown in colour
     double colour_max = 1;

@@ -33,7 +33,7 @@ EGLDisplay surfaceless_display()
     return eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
 }
 
-/// A context of OpenGL 3.2, which is what VTK asks for; none if EGL cannot give it.
+/// A context of OpenGL 3.2, as VTK requires; none if EGL cannot provide it.
 EGLContext context_on(EGLDisplay display)
 {
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours of what has no value to show.
+// Colours of objects that are not coloured by a value.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace hyoryu {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-// Pine, oak, larch, walnut, cedar, beech: neighbours in number are told apart.
+// Pine, oak, larch, walnut, cedar, beech: bodies of consecutive numbers are distinguishable.
 inline constexpr std::array<Rgb, 6> woods{{{206, 160, 104},
                                            {158, 108, 62},
                                            {222, 184, 130},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The window, the lights and what stays in every picture of a run.
+// The window, the lights and the fixed objects of every picture of a run.
 #pragma once
 
 #include "hyoryu/view/render.hpp"

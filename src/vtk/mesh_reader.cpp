@@ -65,7 +65,7 @@ Mesh to_mesh(vtkPolyData& surface, double scale)
     throw IoError(fmt::format("the mesh {} {}", file.string(), why));
 }
 
-/// The readers take corners and corner numbers as they stand in the file; what follows trusts them.
+/// The readers do not check corners and corner numbers; the code below relies on them.
 void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
 {
     const vtkIdType count = surface.GetNumberOfPoints();
@@ -90,8 +90,8 @@ void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
     }
 }
 
-/// VTK tells text from binary by its own rule. What it takes for binary against ours has its number
-/// of triangles in the midst of the text, and VTK asks for memory for as many.
+/// VTK distinguishes text from binary by its own rule. If it takes a text file for binary, it reads
+/// the number of triangles from the middle of the text and allocates memory for as many.
 void check_text(const std::filesystem::path& file)
 {
     using vtksys::SystemTools;
@@ -134,7 +134,7 @@ vtkSmartPointer<vtkPolyData> cleaned(vtkPolyData& surface)
     triangulate->PassVertsOff();
     vtkNew<vtkCleanPolyData> clean;
     clean->SetInputConnection(triangulate->GetOutputPort());
-    constexpr double merging = 1e-7; // of the diagonal: what rounding to float tears apart
+    constexpr double merging = 1e-7; // of the diagonal: merges corners rounded apart
     clean->SetTolerance(merging);
     clean->Update();
     return clean->GetOutput();

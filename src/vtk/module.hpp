@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the VTK module offers the program, which loads it when it is first needed: linking VTK's 80
+// Interface of the VTK module, which the program loads when it is first needed: linking VTK's 80
 // shared libraries would cost every start of the program more than the rest of its start-up.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What error a scene may expect, from the standing studies (docs/accuracy.md).
+// The expected error of a scene, from the standing studies (docs/accuracy.md).
 #pragma once
 
 #include "hyoryu/scene/plan.hpp"
@@ -11,14 +11,14 @@
 
 namespace hyoryu {
 
-/// One quantity of a scene; `error` is NaN where the setting lies outside what was studied.
+/// One quantity of a scene; `error` is NaN where the setting lies outside the studied range.
 struct ExpectedError {
     std::string quantity;
     double error = 0;                     // relative [1]
     std::string why;                      // the number of the scene that it follows from
-    std::string halving;                  // what would halve it, and what that costs
+    std::string halving;                  // the setting that would halve it, and its cost
     std::string study;                    // folder below docs/studies
-    std::vector<std::string> not_covered; // how the scene differs from what was studied
+    std::vector<std::string> not_covered; // how the scene differs from the studied ones
 };
 
 /// A rung of a study: the number that is turned and the error there.
@@ -27,7 +27,7 @@ struct StudiedRung {
     double error = 0; // [1]
 };
 
-/// What the runs of a study had in common with each other: it says nothing of a scene beyond.
+/// The properties that all runs of a study share: it does not apply to scenes without them.
 struct StudyCoverage {
     std::string_view study; // folder below docs/studies, also that of the case below cases
     int dimensions = 3;
@@ -36,14 +36,14 @@ struct StudyCoverage {
     double most_spacings = infinity;
     std::span<const std::string_view> effects; // names in the plan of its case, but for gauges
     std::span<const std::string_view> models;  // those of them without which it says nothing
-    std::span<const StudiedRung> rungs;        // what docs/studies holds, from low to high numbers
+    std::span<const StudiedRung> rungs;        // the rungs in docs/studies, in ascending order
 };
 /// Pressure of still water against c0/sqrt(g H), SPH; arrival of a bore against spacings in the
 /// depth; motion of the timber of 1 m against the step [s].
 extern const StudyCoverage still_water_study, bore_study, timber_study;
 
-/// How a scene differs from what a study covers, in words; empty if it covers the scene. `depth`:
-/// of the water [m]; 0 without water.
+/// How a scene differs from those of a study, in words; empty if the study covers it. `depth`: of
+/// the water [m]; 0 without water.
 std::vector<std::string> not_covered(const StudyCoverage& coverage, const Scene& scene,
                                      const Plan& plan, double depth);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A benchmark: a case with runs, and what its results must be. Plain data, read from the file
+// A benchmark: a case with runs, and the expected results. Plain data, read from the file
 // `verify.toml` beside `case.toml` (docs/verify.md explains the keys).
 #pragma once
 
@@ -35,7 +35,7 @@ std::string cell(const RunParameter& value);
 /// Numbers, or expressions of the constants before them.
 using Constants = std::vector<std::pair<std::string, std::string>>;
 
-/// What the expressions of a file know besides the parameters of a run.
+/// The names that expressions of a file may use besides the parameters of a run.
 struct Definitions {
     Constants constants;
     std::map<std::string, std::string> columns; // derived columns: expressions of other columns
@@ -108,7 +108,7 @@ struct Quantity {
     std::string until; // only rows until this time [s]; may be empty
 };
 
-/// What a measured number ought to be.
+/// The expected value of a measured number.
 struct Expectation {
     std::string formula;             // expression; of rows for the error measures
     std::optional<Series> reference; // taken instead
@@ -136,15 +136,15 @@ struct Check {
     Quantity quantity;
     Comparison comparison = Comparison::equal;
     Expectation expected;
-    /// Taken instead of what is expected: the run in which the same quantity, with the parameters
-    /// of that run, is what is expected; holds `${...}` as the names of runs do.
+    /// A run whose value of the same quantity, with the parameters of that run, is the expected
+    /// value; may contain `${...}` like the names of runs.
     std::string same_as;
     std::string tolerance; // expression: absolute, in the unit of the value; empty: relative
     double relative = 0;   // part of the expected value
     std::string because;   // where the tolerance comes from
     std::string xfail;     // why it is known to fail; empty: it must pass
     std::vector<std::string> xfail_runs; // patterns
-    /// Expression: how far a known failure may be off what is expected, in the unit of the value.
+    /// Expression: how far a known failure may be off the expected value, in the unit of the value.
     std::string xfail_within;
     std::optional<Against> against; // nothing: the file does not say
 };
@@ -222,7 +222,7 @@ Scope scope_of(const Definitions& definitions, const BenchmarkRun& run);
 /// by the number that the expression gives. Throws FormulaError.
 std::string expanded(const std::string& text, const BenchmarkRun& run, const Scope& scope);
 
-/// The series with every `${...}` in its file and its cells replaced by what it is in that run.
+/// The series with every `${...}` in its file and its cells replaced by its value in that run.
 /// Throws FormulaError.
 Series expanded(Series series, const BenchmarkRun& run, const Scope& scope);
 

@@ -11,7 +11,7 @@
 
 namespace hyoryu {
 
-/// What a name in an expression may stand for, beside the columns of a table.
+/// The meaning of a name in an expression, other than the columns of a table.
 struct Scope {
     std::map<std::string, double> numbers;      // constants, and the parameters of the run
     std::map<std::string, std::string> columns; // derived columns: expressions of other columns

@@ -61,21 +61,21 @@ Measured error_from(const Quantity& quantity, const Samples& reference, const Sc
 /// Share of the rows of the band, 0 to 1, in which the run, linear between its rows, lies within.
 Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& files);
 
-/// A run that was made, with the numbers that its expressions know and what it wrote.
+/// A finished run, with the numbers that its expressions may use and its files.
 struct MadeRun {
     const BenchmarkRun& run;
     Scope scope;
     RunFiles files;
 };
 
-/// What a quantity is in a run, and what it ought to be there.
+/// The computed and the expected value of a quantity in a run.
 struct Compared {
     double got = 0;      // NaN if it cannot be measured
     double expected = 0; // NaN if nothing is; of an error measure zero
     std::string why;     // one of the two values cannot be determined; empty if both can
 };
 /// By the expectation, or by the same quantity in another run, with the parameters of that run.
-/// `${...}` stands for what it is in each run. Throws FormulaError and IoError.
+/// `${...}` stands for its value in each run. Throws FormulaError and IoError.
 Compared compare(const Quantity& quantity, const Expectation& expected, MadeRun& made,
                  MadeRun* other = nullptr);
 

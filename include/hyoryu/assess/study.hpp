@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A study: a case, the keys that are swept, and what is measured. Plain data, read from a TOML file
-// (docs/study.md explains the keys).
+// A study: a case, the keys that are swept, and the measured quantities. Plain data, read from a
+// TOML file (docs/study.md explains the keys).
 #pragma once
 
 #include "hyoryu/assess/benchmark.hpp"
@@ -11,7 +11,7 @@
 
 namespace hyoryu {
 
-/// What is varied: a key of the case, or anything that overrides of the case can say.
+/// The varied setting: a key of the case, or any set of overrides of the case.
 struct StudySweep {
     enum class Finest { smallest, largest, none };
     std::string key;                  // of the case, or `threads`; may be empty
@@ -32,14 +32,14 @@ std::string text_of(const RunParameter& value);
 /// The key of a sweep over the threads of a run, which no case has.
 inline constexpr const char* threads_key = "threads";
 
-/// A measured number and what it ought to be.
+/// A measured number and its expected value.
 struct StudyQuantity {
     std::string name;
     std::string unit;
     Quantity quantity;
     Expectation expected;
     bool against_finest = false; // held against the finest run of the sweep instead
-    /// Expression of what errors are divided by; empty: the magnitude of what is expected.
+    /// Expression by which errors are divided; empty: the magnitude of the expected value.
     std::string scale;
 };
 
@@ -50,9 +50,9 @@ struct Study {
     Mode mode = Mode::one_at_a_time;
     std::vector<std::string> set; // overrides of the case in all runs
     int repeats = 1;              // of each run, for wall times
-    /// Expression of the columns of the summary: what a run costs, the same on every machine
-    /// of one instruction set, to whose registers lists are filled up; empty: pair interactions, or
-    /// steps where there are none.
+    /// Expression of the columns of the summary: the cost of a run, which is the same on every
+    /// machine of one instruction set (lists are padded to its registers); empty: pair
+    /// interactions, or steps where there are none.
     std::string cost;
     Definitions definitions;
     std::vector<StudySweep> sweeps;
@@ -73,7 +73,7 @@ struct StudyRun {
 /// cannot be evaluated.
 std::vector<StudyRun> runs_of(const Study& study);
 
-/// What a sweep of numbers has in a run that it varies.
+/// The value of a numeric sweep in a run.
 double number_in(const Study& study, const StudyRun& run, std::size_t sweep);
 
 /// The runs that differ in this sweep only from the first of them, in the order from coarse to

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a study found, for people and for programs.
+// The results of a study, for people and for programs.
 #pragma once
 
 #include "hyoryu/assess/study_result.hpp"
@@ -11,7 +11,7 @@
 
 namespace hyoryu {
 
-/// What stands under the title.
+/// The text under the title.
 struct StudyInfo {
     std::string version, commit, build;
     int threads = 0; // of each run

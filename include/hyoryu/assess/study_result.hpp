@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what the runs of a study wrote to errors, orders, fits and the cheapest settings.
+// From the files of the runs of a study to errors, orders, fits and the cheapest settings.
 #pragma once
 
 #include "hyoryu/assess/fit.hpp"
@@ -33,7 +33,7 @@ struct StudyRunResult {
     std::vector<StudyValue> values; // of each quantity
 };
 
-/// What one sweep shows of one quantity, the other sweeps being as `others` says.
+/// One quantity along one sweep, the other sweeps held at `others`.
 struct StudySeries {
     std::size_t sweep = 0, quantity = 0;
     std::string others;            // "step=0.001" of the other sweeps; empty if there are none
@@ -61,11 +61,11 @@ StudyResult evaluate_study(const Study& study, const std::vector<std::filesystem
                            const std::vector<std::vector<double>>& walls);
 
 /// Runs than which no other is both cheaper and more accurate in this quantity, cheapest first.
-/// Errors against different runs cannot be compared: where there is no exact answer, only runs that
-/// are held against the same one as the first run.
+/// Errors against different runs cannot be compared: without an exact answer, only runs with the
+/// same reference as the first run.
 std::vector<std::size_t> frontier(const StudyResult& result, std::size_t quantity);
 
-/// The cheapest run whose error is at most `target`; none if there is no such run.
+/// The cheapest run whose error is at most `target`; none if no run reaches it.
 std::optional<std::size_t> cheapest(const StudyResult& result, std::size_t quantity, double target);
 
 /// The targets of the table of cheapest settings.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What came out of benchmarks, and whether it is good enough.
+// Results of benchmarks and their verdicts.
 #pragma once
 
 #include "hyoryu/assess/measure.hpp"
@@ -36,7 +36,7 @@ struct CheckResult {
     std::optional<Against> against;
 };
 
-/// What a run cost.
+/// Cost of a run.
 struct RunCost {
     double wall_seconds = 0;   // of everything, most of it writing where a case is small
     double solver_seconds = 0; // within the steps
@@ -70,7 +70,7 @@ CheckResult judge(const Check& check, MadeRun& made, MadeRun* other = nullptr);
 RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
                     const std::filesystem::path& results, const std::string& error);
 
-/// Judged checks by what their expected numbers come from.
+/// Judged checks by the source of their expected numbers.
 struct Held {
     int judged = 0, pass = 0;
 };
@@ -80,7 +80,7 @@ struct Tally {
     int pass = 0, fail = 0, xfail = 0, xpass = 0, measured = 0;
     int failed() const { return fail + xpass; }
     std::array<Held, 5> against; // by `Against`
-    Held unstated;               // the file does not say what they are held against
+    Held unstated;               // the file does not name their reference
 };
 Tally tally(const std::vector<BenchmarkResult>& results);
 

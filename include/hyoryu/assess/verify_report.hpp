@@ -12,7 +12,7 @@
 
 namespace hyoryu {
 
-/// What stands above the results.
+/// The text above the results.
 struct VerifyInfo {
     std::string version;
     std::string commit;
@@ -31,10 +31,10 @@ std::string terminal_header(const TableWidths& widths);
 /// One line a check and one for each note; the cost stands in the first.
 std::string terminal_rows(const TableWidths& widths, const std::string& benchmark,
                           const RunResult& run);
-/// "47 passed, 0 failed, 2 known to fail": what counts.
+/// "47 passed, 0 failed, 2 known to fail": the totals.
 std::string summary_line(const Tally& tally);
 
-/// "Checks held against an experiment: 12 (8 pass), ...": what the judged numbers come from.
+/// "Checks held against an experiment: 12 (8 pass), ...": the sources of the expected numbers.
 std::string against_line(const Tally& tally);
 
 std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info);

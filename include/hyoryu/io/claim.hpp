@@ -8,16 +8,16 @@
 
 namespace hyoryu {
 
-/// What a command writes directly into a folder.
+/// Files that a command writes directly into a folder.
 struct Claim {
     std::string command;                          // "study": names the mark, `.hyoryu-study`
     std::function<bool(const std::string&)> owns; // whether it writes an entry of that name
 };
 
-/// Makes the folder, with its parents, and puts the mark of the command into it. A folder that has
-/// the mark already was made by an earlier call: what is named as the command names its files is
-/// its own. Without the mark such files belong to the user: throws CaseError that names them, and
-/// writes nothing. Other files do not matter. Throws IoError if the folder cannot be written.
+/// Makes the folder, with its parents, and puts the mark of the command into it. A folder with the
+/// mark was made by an earlier call: files with the names that the command uses are its own.
+/// Without the mark such files belong to the user: throws CaseError that names them, and writes
+/// nothing. Other files do not matter. Throws IoError if the folder cannot be written.
 void claim_folder(const std::filesystem::path& folder, const Claim& claim);
 
 /// Throws CaseError if a run could not replace the folder (see `prepare_results`): it is not empty

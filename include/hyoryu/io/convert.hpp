@@ -21,11 +21,11 @@ struct FrameSet {
     std::vector<SeriesEntry> frames; // files relative to the results folder, sorted by time
 };
 
-/// What the folder holds, in the order of `FrameSet::name` above. Throws IoError if a series file
-/// is damaged or names a file that no run wrote.
+/// The frame sets of the folder, in the order of `FrameSet::name` above. Throws IoError if a series
+/// file is damaged or names a file that no run wrote.
 std::vector<FrameSet> frame_sets(const std::filesystem::path& results);
 
-/// `000012` of `frames/fluid_000012.hdf`; `000000` of what does not move.
+/// `000012` of `frames/fluid_000012.hdf`; `000000` of a fixed set.
 std::string frame_number(const SeriesEntry& entry);
 
 /// Writes every frame of the set as `FOLDER/NAME_000000.vtp` (PolyData with inline base64) and then
@@ -41,9 +41,9 @@ std::size_t export_csv(const std::filesystem::path& results, const FrameSet& set
                        const std::filesystem::path& folder);
 
 /// Writes one temporal VTKHDF 2.0 UnstructuredGrid that refers to the frames as virtual datasets:
-/// each frame of each set is a part of its time step, what does not move is a part of every one. An
-/// array that a set lacks is NaN, -1 or 255 there. Returns the number of steps. Throws IoError,
-/// also if an array of one name differs in type from set to set.
+/// each frame of each set is a part of its time step, fixed sets are a part of every step. An array
+/// that a set lacks is NaN, -1 or 255 there. Returns the number of steps. Throws IoError, also if
+/// an array of one name differs in type from set to set.
 std::size_t export_vtkhdf(const std::filesystem::path& results, const std::vector<FrameSet>& sets,
                           const std::filesystem::path& file);
 

@@ -32,9 +32,9 @@ const std::vector<double>& numbers_of(const CsvTable& table, std::string_view co
 /// lacks the column.
 std::vector<std::string> texts_of(const CsvTable& table, std::string_view column);
 
-/// Reads a whole file; the first line that is no comment names the columns. A torn last line is no
-/// row. Throws IoError if the file cannot be read, names no columns, or has a row of another
-/// length.
+/// Reads a whole file; the first line that is not a comment names the columns. An incomplete last
+/// line is ignored. Throws IoError if the file cannot be read, names no columns, or has a row of
+/// another length.
 CsvTable read_csv(const std::filesystem::path& file);
 
 } // namespace hyoryu

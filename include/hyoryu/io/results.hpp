@@ -34,11 +34,11 @@ private:
 enum class Existing { refuse, replace, extend };
 
 /// Makes the folder ready. refuse: throws CaseError if it exists and is not empty; replace: removes
-/// what an earlier run wrote there; extend: keeps everything but abandoned temporary files.
-/// A folder is ours if it holds `frames/` or `plan.json` (a case file alone does not make it ours:
-/// it may be the only copy of the input of a user). `replace` throws CaseError, and removes
-/// nothing, if the folder is not ours or holds anything that no run writes. Throws IoError if it
-/// cannot be written, and CaseError, leaving everything as it is, if another run holds its lock.
+/// the files of an earlier run; extend: keeps everything but abandoned temporary files. A folder is
+/// ours if it holds `frames/` or `plan.json` (a case file alone does not make it ours: it may be
+/// the only copy of the input of a user). `replace` throws CaseError, and removes nothing, if the
+/// folder is not ours or holds anything that no run writes. Throws IoError if it cannot be written,
+/// and CaseError, leaving everything as it is, if another run holds its lock.
 FolderLock prepare_results(const std::filesystem::path& folder, Existing existing);
 
 /// Writes `text` to `file` so that a reader sees the old or the new text, never a part.
@@ -72,7 +72,7 @@ public:
     /// Waits until all data is on disk and throws the first error.
     void finish();
 
-    /// What frames have cost so far.
+    /// Cost of the frames so far.
     struct Cost {
         std::int64_t files = 0;
         double thread_seconds = 0; // CPU time of the thread

@@ -15,7 +15,7 @@
 
 namespace hyoryu {
 
-/// What two materials are to each other.
+/// Contact parameters of two materials.
 struct ContactLaw {
     double stiffness = 0;   // declared, for the formula of the peak force [N/m]; NaN if none is
     double restitution = 0; // [1]; NaN under the penalty method
@@ -81,13 +81,13 @@ double blow_time(const Impact& first);
 std::vector<Blow> blows_of(const std::vector<Impact>& rows);
 
 /// Sums of resting and sliding contact, which acts all the time: normal impulses, pair after pair
-/// and interval after interval, and what friction took.
+/// and interval after interval, and the energy lost by friction.
 struct RestingSum {
     double impulse = 0;     // [N s]
     double energy_lost = 0; // [J]
 };
 
-/// What met one wall, or bodies among themselves (`structure` is empty).
+/// Impacts on one wall, or among bodies (`structure` is empty).
 struct ContactGroup {
     std::string structure;
     std::vector<Blow> blows; // in the order of time

@@ -40,9 +40,9 @@ struct SceneView {
     std::vector<WaterPatch> water;
 };
 
-/// Where points of water are, as rows of patches: cells of the larger of `spacing` and what keeps
-/// the picture at 260 cells across, shaded from above by the height of the highest point of each
-/// cell between `heights`, in the x-z plane alike. `points`: x, y, z of each [m].
+/// Plan view of the water as rows of patches: cells of `spacing`, enlarged so that the picture has
+/// at most 260 cells across, shaded from above by the height of the highest point of each cell
+/// between `heights`, in the x-z plane alike. `points`: x, y, z of each [m].
 std::vector<WaterPatch> water_patches(const std::vector<float>& points, double spacing, View view,
                                       const std::array<double, 2>& heights);
 

@@ -33,7 +33,7 @@ std::string tick_label(double value, double step, int exponent);
 int axis_exponent(const Range& range);
 
 /// From numbers to places in the picture; `at_low` may be above `at_high`, as pixels count
-/// downward. What has no logarithm has no finite place on a logarithmic scale.
+/// downward. Numbers <= 0 have no finite place on a logarithmic scale.
 struct Scale {
     enum class Kind { linear, logarithmic };
     Range from;        // positive for a logarithmic scale
@@ -43,7 +43,7 @@ struct Scale {
     double operator()(double value) const;
 };
 
-/// What an axis marks.
+/// The marks of an axis.
 struct Tick {
     double value = 0;
     std::string label;
@@ -71,7 +71,7 @@ std::string svg_stroke(std::size_t k);
 
 /// The begin of a picture of that size [pixels]; `label` is for readers who cannot see it.
 std::string svg_head(double width, double height, const std::string& label);
-/// The rules by which a page draws what stands in its pictures.
+/// The style sheet of the pictures of a page.
 extern const std::string_view chart_style;
 
 struct ChartLine {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How two cases differ, key by key: what a restart may change, and what it refuses.
+// Differences of two cases, key by key: those that a restart allows, and those that it refuses.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct KeyDifference {
 /// CaseError if one is not valid TOML.
 std::vector<KeyDifference> case_differences(const std::string& before, const std::string& after);
 
-/// Whether a run may go on with another value of the key: title, end, what is written and when,
+/// Whether a run may go on with another value of the key: title, end, output and its intervals,
 /// gauges, and recovery. Geometry, physics and the time step are in the state already.
 bool may_change_on_resume(std::string_view key);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the results of a run will take on the disk.
+// Predicted size of the results of a run on disk.
 #pragma once
 
 #include "hyoryu/scene/plan.hpp"
@@ -15,9 +15,9 @@ struct Course {
 };
 
 /// Bytes of all files of the results folder at the end of a run: frames as they are compressed,
-/// histories, results.h5, checkpoints. Each file is its numbers and what HDF5 lays around them.
-/// Of bodies that may touch something each is taken to rest on one other in every frame; how often
-/// they hit is for the course to say. Measured on 70 shipped cases; see the constants.
+/// histories, results.h5, checkpoints. Each file is its numbers plus the overhead of HDF5. Each
+/// body that can touch something is assumed to rest on one other in every frame; the number of
+/// impacts follows from the course. Measured on 70 shipped cases; see the constants.
 double disk_bytes(const Scene& scene, const Plan& plan, const Course& course);
 
 } // namespace hyoryu

@@ -27,7 +27,7 @@ struct Filling {
     std::vector<std::int32_t> wall_owner; // index of the wall
     std::vector<double> wall_depth;       // behind the surface [m]; empty where fluid slips
     std::vector<Aggregate> bodies;
-    Bounds domain; // what lies outside leaves the run
+    Bounds domain; // particles outside are removed from the run
     std::vector<Diagnostic> warnings;
 };
 
@@ -44,8 +44,8 @@ Aggregate aggregate(const Shape& shape, double spacing, int dimensions);
 /// than the memory of this process can hold.
 Filling fill(const Scene& scene);
 
-/// The region of the run: what the user said, or the bounds of everything in the scene with
-/// headroom of its height above it for what splashes.
+/// The region of the run: as given by the user, or the bounds of everything in the scene with
+/// headroom of its height above it for splashes.
 Bounds domain_of(const Scene& scene);
 
 } // namespace hyoryu

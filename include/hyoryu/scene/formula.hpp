@@ -9,7 +9,8 @@
 
 namespace hyoryu {
 
-/// An expression that cannot be read or evaluated; the text says why and names what is known.
+/// An expression that cannot be read or evaluated; the text gives the reason and lists the known
+/// names.
 struct FormulaError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What this machine can hold: a case that asks for more is refused, before the system would kill
+// Memory available on this machine: a case that needs more is refused, before the system would kill
 // it.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of every key that a case file may have: the one source of what the reader accepts, what
-// `hyoryu describe` prints and what the JSON Schema says.
+// The table of every key that a case file may have: the one source of the reader, of `hyoryu
+// describe` and of the JSON Schema.
 #pragma once
 
 #include <optional>

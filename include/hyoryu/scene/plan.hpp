@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What will run, and why: inferred from the scene before anything is computed, never changed after.
+// The effects that will run, and why: inferred from the scene before anything is computed, never
+// changed after.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
@@ -46,9 +47,9 @@ struct Plan {
     };
 
     /// Two materials that can meet. The mixing rule: the entry of `contact.pair` that names both,
-    /// else what `[contact]` says of all others; nothing is averaged.
+    /// else the values of `[contact]`; nothing is averaged.
     struct MaterialContact {
-        std::array<std::string, 2> materials; // of a body and of what it meets; "" if none is named
+        std::array<std::string, 2> materials; // of a body and of its partner; "" if unnamed
         double restitution = 0;               // [1]
         double friction = 0;                  // [1]
         std::optional<double> stiffness;      // [N/m], for the force formulae of reports only
@@ -73,7 +74,7 @@ struct Plan {
     double frames = 0;
     std::vector<Diagnostic> warnings;
 
-    // What the solver is built from.
+    // Input of the solver.
     std::optional<FluidParameters> fluid;
     FluidEffects effects;
     bool rigid = false;   // bodies move
@@ -82,17 +83,17 @@ struct Plan {
     bool runs(std::string_view effect) const;
 };
 
-/// What a scene asks for is never left out in silence: throws CaseError if an effect that is on is
-/// one of those that the build is `without`.
+/// No effect that a scene needs is left out silently: throws CaseError if one is on that the build
+/// is `without`.
 void expect_built(const Plan& plan, std::span<const std::string_view> without);
 
-/// Infers the plan. Throws CaseError for what only the filled scene shows: bodies that overlap each
-/// other or a wall, a fixed time step beyond the stability limit, a fluid without particles; and
-/// for effects that are not part of this build.
+/// Infers the plan. Throws CaseError for faults that only the filled scene shows: bodies that
+/// overlap each other or a wall, a fixed time step beyond the stability limit, a fluid without
+/// particles; and for effects that are not part of this build.
 Plan make_plan(const Scene& scene, const Filling& filling);
 
 /// Bytes of neighbour lists a particle of full support: one for each of the lattice points within
-/// the list radius (support and skin), and some for what is nothing and for where lists begin.
+/// the list radius (support and skin), and some for padding and list heads.
 double list_bytes(const FluidParameters& fluid);
 
 } // namespace hyoryu

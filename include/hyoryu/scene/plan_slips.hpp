@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is no mistake but probably a slip.
+// Warnings of input that is valid but probably unintended.
 #pragma once
 
 #include "hyoryu/scene/plan.hpp"

@@ -159,15 +159,15 @@ struct ContactSettings {
     // Of every pair that no entry of `pairs` names [1]; the penalty method does not read it.
     double restitution = 0.4;
     double friction = 0.3; // dynamic Coulomb coefficient [1]
-    // What locating impacts in time may cost in a step, of the impulse method, over what the fluid
-    // costs [1].
+    // Largest cost of locating impacts in time within a step, of the impulse method, relative to
+    // the cost of the fluid [1].
     double locating_share = 0.2;
     std::vector<MaterialPair> pairs;
 };
 
 enum class GaugeType { elevation, pressure, velocity, force, front, flux };
-/// What is written beside the readings: their mean or median over the last `window` seconds, or
-/// their mean with weights that fall as exp(-age/window).
+/// The filter written beside the readings: their mean or median over the last `window` seconds, or
+/// their mean with weights exp(-age/window).
 enum class GaugeFilter { none, mean, median, exponential };
 
 struct Gauge {

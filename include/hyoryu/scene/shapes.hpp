@@ -36,7 +36,7 @@ struct Placed {
 double volume(const Shape& shape, int dimensions);
 
 /// Distance to the surface [m], negative inside. Exact outside the edges of a box or cylinder only
-/// up to the usual Euclidean corner distance, which is what the callers need.
+/// up to the usual Euclidean corner distance, as the callers need.
 double signed_distance(const Placed& placed, const Vec3& point);
 
 /// Bounds in space.

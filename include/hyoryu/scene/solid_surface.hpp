@@ -29,7 +29,7 @@ struct SolidRod {
     double half_length = 0; // [m]
 };
 
-/// The sides of a basin: what of `outer` is not in `cavity`, which goes on without bound through
+/// The sides of a basin: the part of `outer` outside `cavity`, which extends to infinity through
 /// the open sides, where `outer` ends at the rim.
 struct HollowBox {
     Bounds cavity, outer;      // [m]
@@ -57,7 +57,7 @@ SolidSurface surface_of(const Wall& wall, double thickness, int dimensions);
 SolidSurface surface_of(const BodySettings& body, int dimensions);
 
 /// The nearest place of the surface to a point, which is given in the axes of the solid, as is the
-/// normal; of what is farther away than `farthest` only that it is so (distance: infinity).
+/// normal; if the distance exceeds `farthest`, it is infinity and nothing else is set.
 NearestPlace nearest_place(const SolidSurface& solid, const Vec3& point,
                            double farthest = infinity);
 

@@ -51,11 +51,11 @@ TomlEntry* find_entry(TomlTable& table, std::string_view key);
 /// Reads a text; the root is a table. Throws TomlFault at the first syntax error.
 TomlNode parse_toml(std::string_view text);
 
-/// "the number 3", "the text \"abc\"", "a table": what a value is, for messages.
+/// "the number 3", "the text \"abc\"", "a table": the description of a value for messages.
 std::string found(const TomlNode& node);
 
 /// Applies `key.path=VALUE` to the tree: replaces the value or adds it, with the tables on the way.
-/// Returns what is wrong with the override; empty if nothing is.
+/// Returns the fault of the override; empty if there is none.
 std::string apply_override(TomlNode& root, std::string_view text, int number);
 
 } // namespace hyoryu

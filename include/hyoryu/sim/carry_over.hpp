@@ -10,7 +10,7 @@ namespace hyoryu {
 /// Changes the state, saved by `save` from a run of `before`, into one that `restore` takes for
 /// `now`, a case with the same geometry and physics. Frames and rows that have another spacing in
 /// time are next due at the first multiple of it after the state. Gauges that are in both cases
-/// keep what they remember, others begin now. Throws IoError if the state does not fit `before`.
+/// keep their state, others begin now. Throws IoError if the state does not fit `before`.
 void carry_over(Snapshot& state, const Scene& before, const Scene& now);
 
 } // namespace hyoryu

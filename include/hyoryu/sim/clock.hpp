@@ -20,7 +20,7 @@ struct Clock {
     double share = 1;              // of the limits that steps take: halved by every recovery
 };
 
-/// What the next step is to be.
+/// The next step.
 struct NextStep {
     double dt = 0;     // [s]
     double end = 0;    // time after it, exactly a frame time if it reaches one [s]

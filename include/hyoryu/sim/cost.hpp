@@ -48,17 +48,16 @@ struct StepCost {
 /// The share of an effect and its spread, from those that single rounds found.
 StepCost::Share share_of(std::string effect, std::vector<double> rounds);
 
-/// The wall time of a step on average over the run [s], with what is written: that of the timed
-/// ones, if nothing is known of how the flow develops.
+/// The mean wall time of a step over the run [s], including output: that of the timed steps, if the
+/// development of the flow is unknown.
 double seconds_of_run(const StepCost& cost);
 
-/// Times about so many steps of a simulation with fluid, in rounds, two at least: in each one step
-/// with everything, and one without each effect that the slots of the fluid can do without. What an
-/// effect takes is how much less the step without it needs than that with everything of the same
-/// round, the making of lists apart, which only some steps do; one state, one after the other, so
-/// that a busy machine disturbs all alike. The simulation goes on
-/// from where it stands, beyond its end, and is no result any more. Throws NumericalError like
-/// step().
+/// Times about `steps` steps of a simulation with fluid, in at least two rounds: in each round one
+/// step with all effects, and one without each optional effect. The cost of an effect is the time
+/// of the full step minus that of the step without it in the same round, not counting list
+/// building, which only some steps do; consecutive steps of one state, so that a busy machine
+/// disturbs all alike. The simulation continues from its present state, beyond its end, and is not
+/// a result afterwards. Throws NumericalError like step().
 StepCost measure_cost(Simulation& sim, int steps);
 
 /// Reads a clock [s]; only differences count.
@@ -66,10 +65,10 @@ using Stopwatch = std::function<double()>;
 /// The steady clock of this machine [s].
 double steady_seconds();
 
-/// Runs a simulation of bodies alone until its end, or until `goes_on`, asked before each step,
-/// says no, and times each step. None where it goes wrong, and where it is stopped
-/// while its steps take longer and longer, as those of a heap on which more bodies fall: then they
-/// tell nothing of the later ones.
+/// Runs a simulation of bodies alone until its end, or until `goes_on`, called before each step,
+/// returns false, and times each step. None if it fails, or if it is stopped while its steps still
+/// become slower, as those of a heap on which more bodies fall: then the later ones cannot be
+/// predicted.
 std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool()>& goes_on,
                                        const Stopwatch& now = steady_seconds);
 
@@ -77,10 +76,10 @@ std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool
 /// up for the row, and to see whether a run gains energy [s].
 double measure_row(const Simulation& sim);
 
-/// Runs a simulation with fluid to its end and compares all its steps with the first ones, so many,
-/// of the same scene begun `again`: timed afterwards, when memory and threads are as warm as in the
-/// later steps. None where it goes wrong, or where `goes_on`, asked before each step, says no
-/// first. `coarsening` is left to the caller.
+/// Runs a simulation with fluid to its end and compares all its steps with the `first` steps of the
+/// same scene begun `again`: timed afterwards, when memory and threads are as warm as in the later
+/// steps. None if it fails, or if `goes_on`, called before each step, returns false first.
+/// `coarsening` is left to the caller.
 std::optional<Development> measure_development(Simulation& sim, Simulation& again, int first,
                                                const std::function<bool()>& goes_on);
 

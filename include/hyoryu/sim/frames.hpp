@@ -7,7 +7,8 @@
 
 namespace hyoryu {
 
-/// Fluid particles with Id, Velocity, Pressure, Density, Kind, Body and what `output.fields` adds.
+/// Fluid particles with Id, Velocity, Pressure, Density, Kind, Body and the fields of
+/// `output.fields`.
 Cloud fluid_cloud(const Simulation& sim);
 /// Body particles: those of the fluid coupling, which are the aggregate itself without a fluid.
 Cloud body_cloud(const Simulation& sim);

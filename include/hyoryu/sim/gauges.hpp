@@ -11,7 +11,7 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// What acts on the wall or body of one force gauge.
+/// Forces on the wall or body of one force gauge.
 struct GaugedForce {
     int target = 0;                // body, or -1 - wall
     Vec3 pressure{0, 0, 0};        // by the fluid in the last step, and by films [N]
@@ -29,8 +29,7 @@ struct FilterMemory {
     std::vector<double> values; // in the unit of the column
 };
 
-/// What gauges remember. Empty in a scene without gauges; the forces also in one without force
-/// gauges.
+/// State of the gauges. Empty in a scene without gauges; the forces also without force gauges.
 struct GaugeMemory {
     double last_row = 0;               // time of it [s]
     std::vector<GaugedForce> forces;   // of the force gauges, in the order of the scene
@@ -42,12 +41,12 @@ GaugeMemory make_gauge_memory(const Scene& scene);
 /// Columns of `gauges.csv` behind the time.
 std::vector<Table::Head> gauge_heads(const Scene& scene);
 
-/// Adds what fluid and contact did in the present step of length dt to the force gauges. Between
-/// the step of the bodies and the new viscous forces.
+/// Adds the impulses of fluid and contact in the present step of length dt to the force gauges.
+/// Called between the step of the bodies and the new viscous forces.
 void book_forces(Simulation& sim, double dt);
 
-/// Raw readings, gauge after gauge. elevation: height at which the kernel sum of the fluid reaches
-/// half of what solids leave, NaN where there is none; pressure: kernel average of p + rho g . (x -
+/// Raw readings, gauge after gauge. elevation: height at which the fluid fills half of the kernel
+/// volume outside solids, NaN where there is none; pressure: kernel average of p + rho g . (x -
 /// x_f) over the fluid about each point of the face, as walls take it over (Adami, Hu & Adams 2012,
 /// eq. 27), at least 0, the pressure of the air; velocity: kernel average, NaN if dry; front:
 /// farthest place of the fluid along the axis; flux: sum of V v.n over the fluid, weighted with its

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The last barrier: fluid does not pass the exact surface of a wall or a body.
 //
-// Solid particles keep the fluid out by pressure, which a row that starts too crowded, a plate
-// thinner than a spacing or a violent blow can overcome. After the kick of a step, therefore, the
-// velocity u of a particle along the normal of a surface, relative to the solid there, may not be
-// less than
+// Solid particles keep the fluid out by pressure, which a crowded initial row, a plate thinner than
+// a spacing or a violent impact can overcome. After the kick of a step, therefore, the velocity u
+// of a particle along the normal of a surface, relative to the solid there, may not be less than
 //     u*(d) = -(d - dp/8) / dt             at a distance d of dp/4 or more,
 //             0                            nearer than that,
 //             min(-d / (20 dt), 0.02 c0)   inside, where d < 0,
-// and the particle receives the impulse J = m (u* - u) n, the solid -J. What the surface holds has
-// no approach left, as in an inelastic impact; what is inside is led out slowly. Water that keeps
-// its distance never meets it. Ours; the impulse is that of a unilateral constraint (Moreau 1988).
+// and the particle receives the impulse J = m (u* - u) n, the solid -J. A stopped particle has no
+// approach speed left, as in an inelastic impact; a particle inside is led out slowly. Water at its
+// normal distance is not affected. Ours; the impulse is that of a unilateral constraint (Moreau
+// 1988).
 #pragma once
 
 #include "hyoryu/scene/solid_surface.hpp"
@@ -68,8 +68,8 @@ struct WallBarrier {
     };
     std::vector<Near> near;        // of each tile
     std::vector<double> clearance; // of all particles of each tile when the lists were made [m]
-    /// Of a fluid row when it was last looked at: its place relative to the centre of its tile, and
-    /// the distance of the nearest solid plus `way`, at most what is looked at [m].
+    /// Of a fluid row at its last examination: its place relative to the centre of its tile, and
+    /// the distance of the nearest solid plus `way`, at most the search distance [m].
     struct Seen {
         float x, y, z, clearance;
     };
@@ -83,15 +83,15 @@ struct WallBarrier {
 
 WallBarrier make_wall_barrier(const Scene& scene);
 
-/// Holds the fluid at the surfaces of walls and bodies as they stand in the middle of a step of
-/// length dt, at `time`; adds what they feel to the loads of the step.
+/// Stops the fluid at the surfaces of walls and bodies at their places in the middle of a step of
+/// length dt, at `time`; adds the reactions to the loads of the step.
 void hold_at_solids(Simulation& sim, double time, double dt);
 
 /// Fluid particles that are deeper than a quarter of a spacing inside a wall or body, now. Looks at
 /// every particle and every solid near it, whatever the barrier has looked at.
 Index particles_in_solids(const Simulation& sim);
 
-/// Counts them for a frame, or for the end of a run, and books the most that there have been.
+/// Counts them for a frame, or for the end of a run, and records the maximum so far.
 Index count_in_solids(Simulation& sim);
 
 } // namespace hyoryu

@@ -20,11 +20,11 @@ struct RenderSettings {
     int fps = 25;              // of the animation
 };
 
-/// What was made.
+/// The files that were made.
 struct RenderResult {
     std::vector<std::filesystem::path> pictures;
     std::optional<std::filesystem::path> animation; // none without ffmpeg or with one frame
-    std::string note;                               // why there is no animation, if there is none
+    std::string note;                               // the reason if there is no animation
 };
 
 /// Renders the frames of `results` to `results/pictures/`, replacing the pictures there. Fluid
