@@ -111,7 +111,7 @@ void read_known_failure(Section& section, const std::vector<BenchmarkRun>& runs,
     }
     if (!check.xfail.empty() && !section.has("xfail_within")) {
         section.error("xfail_within",
-                      "is missing: how far may it be off what is expected before it fails?",
+                      "is missing: the largest error of the known failure, beyond which it fails",
                       "give a distance in the unit of the value");
     }
 }

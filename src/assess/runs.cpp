@@ -226,7 +226,7 @@ std::vector<BenchmarkRun> read_runs(Section& root, const Definitions& definition
     for (const BenchmarkRun& run : runs) {
         if (run.name.empty() || run.name.front() == '.' ||
             run.name.find_first_of("/\\*,;\"\n") != std::string::npos) {
-            root.error("run", fmt::format("\"{}\" is no name of a run", run.name),
+            root.error("run", fmt::format("\"{}\" is not the name of a run", run.name),
                        "it names a folder: use letters, digits, `_`, `-`, `=` and `.`");
         }
     }

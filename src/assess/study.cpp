@@ -115,7 +115,7 @@ StudySweep read_sweep(Section& section)
         read_values(section, sweep);
     }
     if (has_choices && !sweep.key.empty()) {
-        section.error("key", "has no meaning with `choices`, which say what they set");
+        section.error("key", "has no meaning with `choices`, which contain the keys that they set");
     }
     sweep.finest = static_cast<StudySweep::Finest>(section.choice("finest", ends).value_or(0));
     if (sweep.key == threads_key && !std::ranges::all_of(sweep.values, is_count)) {
@@ -142,7 +142,7 @@ void read_expected(Section& section, StudyQuantity& quantity)
         section.error("measure", "is a difference already; give `expected` or `reference`");
     }
     if (quantity.quantity.measure == Measure::share_within) {
-        section.error("measure", "is no quantity with an error");
+        section.error("measure", "is not a quantity with an error");
     }
 }
 

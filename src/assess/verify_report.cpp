@@ -226,7 +226,7 @@ std::string against_line(const Tally& tally)
         add(words[k], tally.against[k]);
     }
     if (tally.unstated.judged > 0) {
-        add("what their file does not say", tally.unstated);
+        add("an unstated reference", tally.unstated);
     }
     return line;
 }

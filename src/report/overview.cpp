@@ -136,7 +136,7 @@ std::string forecast_table(const RunResults& run)
     }
     const ordered_json& cost = run.summary.at("cost");
     TextTable table{
-        .heads = {{"asked"}, {"why"}, {"foretold", Align::right}, {"measured", Align::right}},
+        .heads = {{"effect"}, {"reason"}, {"predicted", Align::right}, {"measured", Align::right}},
         .rows = {}};
     const auto cell = [](const ordered_json& value, double factor, const char* unit) {
         return value.is_number() ? readable(factor * value.get<double>()) + unit : std::string();

@@ -51,7 +51,7 @@ inline void check_name(TableReader& table, std::string_view key, const std::stri
 {
     const std::string fault = name_fault(name);
     if (!fault.empty()) {
-        table.error(key, "is no name: " + fault,
+        table.error(key, "is not a valid name: " + fault,
                     "use letters, digits, blanks within, `_`, `-` and `.`");
     }
 }

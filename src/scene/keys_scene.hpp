@@ -80,7 +80,7 @@ inline void find_periods(TableReader& table, const std::vector<std::string>& nam
         const auto found = std::find(axes.begin(), axes.end(), name);
         const bool flat = scene.dimensions == 2 && name == "y";
         if (found == axes.end() || flat) {
-            table.error("periodic", fmt::format("\"{}\" is no direction of this case", name),
+            table.error("periodic", fmt::format("\"{}\" is not a direction of this case", name),
                         scene.dimensions == 2 ? "there are \"x\" and \"z\""
                                               : "there are \"x\", \"y\" and \"z\"");
             continue;
@@ -152,7 +152,7 @@ void keys_of(auto& keys, Is<OutputSettings> auto& output, const Scene& scene)
                "Fields of each particle in a frame besides its position; an empty list is the "
                "default set.");
     keys.positive("checkpoint_every", output.checkpoint_every, "s",
-                  "Wall-clock time between two checkpoints, from which `run --resume` goes on.");
+                  "Wall-clock time between two checkpoints, from which `run --resume` continues.");
 }
 
 /// Keys that hold for the whole case.

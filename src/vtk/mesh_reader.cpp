@@ -96,7 +96,7 @@ void check_text(const std::filesystem::path& file)
 {
     using vtksys::SystemTools;
     if (SystemTools::DetectFileType(file.c_str()) != SystemTools::FileTypeText) {
-        refuse(file, "is a text file with so many characters beyond ASCII near its start that it "
+        refuse(file, "is a text file with too many non-ASCII characters near its start: it "
                      "would be read as binary; use a plain name after `solid`");
     }
 }

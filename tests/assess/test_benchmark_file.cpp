@@ -66,8 +66,8 @@ TEST_F(BenchmarkFiles, ACheckSaysWhatItIsHeldAgainst)
 TEST_F(BenchmarkFiles, AKnownFailureNeedsABound)
 {
     EXPECT_EQ(mistake(head + check + "xfail = \"why\"\n"),
-              "4:check[0].xfail_within: is missing: how far may it be off what is expected before "
-              "it fails? (give a distance in the unit of the value)");
+              "4:check[0].xfail_within: is missing: the largest error of the known failure, beyond "
+              "which it fails (give a distance in the unit of the value)");
     EXPECT_EQ(mistake(head + check + "xfail_within = 2\n"),
               "11:check[0].xfail_within: has no meaning without `xfail` ()");
     EXPECT_EQ(read(head + check + "xfail = \"why\"\nxfail_within = 2\n").checks[0].xfail_within,

@@ -136,7 +136,7 @@ TEST_F(Verdicts, AreCountedByWhatTheyAreHeldAgainst)
               "the program itself: 0 (0 pass)");
     add(std::nullopt, Verdict::fail);
     EXPECT_TRUE(against_line(tally({{.benchmark = {}, .runs = {made}}}))
-                    .ends_with(", what their file does not say: 1 (0 pass)"));
+                    .ends_with(", an unstated reference: 1 (0 pass)"));
 }
 
 TEST_F(Verdicts, NothingMeasuredIsAFailureAndABrokenCheckIsNoKnownOne)

@@ -113,8 +113,8 @@ class Mistakes(ProgramTest):
 
     def test_no_name_leads_out_of_the_results_folder(self):
         for name in ("../evil", "a/b", "/tmp/evil", "a\\\\b", "nul\\u0000", "line\\n"):
-            self.refused(FLOOD.replace('"crate"', f'"{name}"'), "is no name")
-            self.refused(FLOOD.replace('"basin"\nshape', f'"{name}"\nshape'), "is no name")
+            self.refused(FLOOD.replace('"crate"', f'"{name}"'), "is not a valid name")
+            self.refused(FLOOD.replace('"basin"\nshape', f'"{name}"\nshape'), "is not a valid name")
 
 
 if __name__ == "__main__":

@@ -134,7 +134,7 @@ TEST(CaseFileEntry, NamesOfEverythingFollowOneRule)
             SCOPED_TRACE(key + " = " + name);
             const Diagnostic d =
                 mistake_at(mistakes(short_case + head + "\"" + name + "\"\n"), key);
-            EXPECT_NE(d.what.find("is no name"), std::string::npos) << to_string(d);
+            EXPECT_NE(d.what.find("is not a valid name"), std::string::npos) << to_string(d);
         }
         for (const std::string& name : good) {
             SCOPED_TRACE(key + " = " + name);

@@ -12,7 +12,7 @@ namespace hyoryu {
 inline constexpr std::size_t longest_name = 100;
 inline constexpr std::size_t longest_label = 500;
 
-/// What is wrong with the name of a wall, body, gauge or material, as it follows "is no name: ".
+/// The fault of the name of a wall, body, gauge or material, as it follows "is not a valid name: ".
 /// Empty if nothing is. A name has 1 to 100 bytes and none of `" , ; # / \` and control characters;
 /// it neither begins nor ends with a blank, does not begin with `= + - @`, by which programs of
 /// tables know a formula, and is not `.` or `..`, which are folders.
