@@ -3,7 +3,8 @@
 // added mass (measured: -29 % acceleration; rings: -4 %), so round shapes get rings and shells.
 #include "hyoryu/scene/fill.hpp"
 
-#include "hyoryu/scene/triangle_tree.hpp"
+#include "mesh_points.hpp"
+
 #include "hyoryu/scene/voxels.hpp"
 
 #include <algorithm>
@@ -15,17 +16,6 @@ namespace hyoryu {
 namespace {
 
 using std::numbers::pi;
-
-Index cells(double length, double spacing)
-{
-    return std::max<Index>(1, std::llround(length / spacing));
-}
-
-// Middle of cell k of n over [-length/2, length/2].
-double middle(Index k, Index n, double length)
-{
-    return ((static_cast<double>(k) + 0.5) / static_cast<double>(n) - 0.5) * length;
-}
 
 bool outermost(Index k, Index n)
 {
@@ -112,34 +102,14 @@ void fill_shape(Aggregate& body, const CylinderShape& cylinder, double spacing, 
     }
 }
 
-void fill_shape(Aggregate& body, const MeshShape& mesh, double spacing, int dimensions)
+void fill_shape(Aggregate& body, const MeshShape& mesh, double spacing, int)
 {
-    const Shape shape = mesh;
-    const Placed placed{.shape = &shape, .dimensions = dimensions};
-    const Bounds box = bounds(placed);
-    const Vec3 size = box.max - box.min;
-    const Index nx = cells(size.x(), spacing);
-    const Index ny = cells(size.y(), spacing);
-    const Index nz = cells(size.z(), spacing);
-    const Vec3 centre = (box.min + box.max) / 2;
     const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
-    for (Index k = 0; k < nz; ++k) {
-        for (Index j = 0; j < ny; ++j) {
-            for (Index i = 0; i < nx; ++i) {
-                const Vec3 p = centre + Vec3{middle(i, nx, size.x()), middle(j, ny, size.y()),
-                                             middle(k, nz, size.z())};
-                const double distance = nearest_place(tree, p, infinity).distance;
-                if (distance < 0) {
-                    place(body, p, distance > -spacing);
-                }
-            }
-        }
+    const MeshPoints found = points_within(mesh, tree, spacing, infinity);
+    for (const MeshPoint& point : found.points) {
+        place(body, point.place, point.nearest.distance > -spacing);
     }
-    body.cell = size.cwiseQuotient(
-        Vec3(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz)));
-    if (body.points.empty()) {
-        place(body, centre, true); // thinner than a lattice cell everywhere
-    }
+    body.cell = found.cell;
 }
 
 void fill_shape(Aggregate& body, const ParticleShape& shape, double, int)

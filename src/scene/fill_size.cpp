@@ -26,11 +26,27 @@ double half_surface(const Vec3& size, int dimensions)
                            : size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
 }
 
+// The layers below the surface of a mesh, which are all that walls take of it.
+double shell_volume(const MeshShape& mesh, const Scene& scene)
+{
+    const double layers = scene.fluid ? wall_layers(scene.fluid->smoothing_ratio) : 0;
+    double area = 0;
+    for (const auto& t : mesh.triangles) {
+        const auto corner = [&](std::size_t k) {
+            return mesh.corners[static_cast<std::size_t>(t[k])];
+        };
+        area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    }
+    return area * layers * scene.spacing;
+}
+
 // The source of particles of a wall: an obstacle, or one layer of a surface.
 double wall_volume(const Scene& scene, const Wall& wall)
 {
     if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
-        return volume(solid->shape, scene.dimensions);
+        const auto* mesh = std::get_if<MeshShape>(&solid->shape);
+        const double all = volume(solid->shape, scene.dimensions);
+        return mesh == nullptr ? all : std::min(all, shell_volume(*mesh, scene));
     }
     const Bounds domain = domain_of(scene);
     double surface = half_surface(domain.max - domain.min, scene.dimensions);

@@ -8,6 +8,7 @@
 #include "hyoryu/scene/parameter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <optional>
 #include <string>
@@ -37,6 +38,16 @@ template <class T>
 inline constexpr bool is_optional<T&> = is_optional<T>;
 template <class T>
 inline constexpr bool is_optional<const T> = is_optional<T>;
+
+/// Length of an array, or of the array that an optional may hold.
+template <class T>
+inline constexpr std::size_t list_length = 0;
+template <class T, std::size_t n>
+inline constexpr std::size_t list_length<std::array<T, n>> = n;
+template <class T>
+inline constexpr std::size_t list_length<std::optional<T>> = list_length<T>;
+template <class T>
+inline constexpr std::size_t list_length<const T> = list_length<T>;
 
 /// What a visitor does with a table: `what(visitor, ...)`, or else the keys of that struct.
 template <class Visitor, class What, class... Context>
@@ -169,6 +180,15 @@ public:
     void direction(Text name, auto& member, Text meaning, Default fallback = {})
     {
         self().planar(name, member, "", meaning, fallback);
+    }
+    /// A list of as many numbers as the array has.
+    template <class Numbers>
+    void numbers(Text name, Numbers& member, Text unit, Text meaning, Default fallback = {})
+    {
+        constexpr auto count = static_cast<int>(list_length<Numbers>);
+        Parameter rule = row(name, ValueKind::vector, unit, meaning);
+        rule.shortest = rule.longest = count;
+        self().key(rule, member, fallback);
     }
     void quaternion(Text name, auto& member, Text meaning)
     {

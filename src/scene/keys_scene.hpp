@@ -191,7 +191,7 @@ void keys_of(auto& keys, Is<Scene> auto& scene)
     general_keys(keys, scene);
     keys.table("fluid", "The fluid; without this table no fluid is simulated.", scene.fluid);
     keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
-                scene.gravity.norm());
+                scene.gravity.norm(), scene.spacing);
     keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,
                 scene);
     keys.rule(check_bodies, scene.bodies);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "keys_shapes.hpp"
+#include "keys_terrain.hpp"
 
 #include "hyoryu/scene/piston.hpp"
 
@@ -181,31 +182,58 @@ void keys_of(auto& keys, Is<Motion> auto& motion, double gravity)
     }
 }
 
+inline bool is_terrain(const Wall& wall)
+{
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
+    return mesh != nullptr && mesh->terrain;
+}
+
+/// The mesh of a wall as terrain, which a reader makes it.
+auto& terrain_of(auto& keys, Is<SolidWall> auto& solid)
+{
+    constexpr std::size_t mesh = 3;
+    keys.select(solid.shape, mesh);
+    auto& shape = std::get<mesh>(solid.shape);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(solid)>>) {
+        shape.terrain.emplace();
+    }
+    return shape;
+}
+
 /// The shape of a wall and its keys.
-void geometry_keys(auto& keys, Is<Wall> auto& wall)
+void geometry_keys(auto& keys, Is<Wall> auto& wall, double spacing)
 {
     constexpr std::size_t round = 2;
     constexpr std::size_t solid = 3;
+    constexpr std::size_t mesh = 6;
+    constexpr std::size_t terrain = 7;
     constexpr ShapeWords words{"Lower corner of a basin or box.",
                                "Upper corner of a basin or box.",
                                "Edge lengths of a box, instead of min and max.",
                                "Radius of a sphere, cylinder or round basin.",
                                "Length of a cylinder, along x before rotation.",
-                               "STL or OBJ file of a mesh, relative to the case file."};
+                               "STL or OBJ file of a mesh, or ESRI ASCII grid of the "
+                               "heights of a terrain, relative to the case file."};
     const auto* held = std::get_if<SolidWall>(&wall.geometry);
-    std::size_t kind = held != nullptr ? solid + held->shape.index() : wall.geometry.index();
+    std::size_t kind = is_terrain(wall)  ? terrain
+                       : held != nullptr ? solid + held->shape.index()
+                                         : wall.geometry.index();
     const bool known = keys.alternatives(
-        "shape", kind, {"plane", "basin", "round_basin", "box", "sphere", "cylinder", "mesh"},
+        "shape", kind,
+        {"plane", "basin", "round_basin", "box", "sphere", "cylinder", "mesh", "terrain"},
         "plane: point and normal; basin: the inside of a box; round_basin: the inside of a "
         "sphere, of a circle in two dimensions; box: min and max, or size and position; sphere, "
-        "cylinder and mesh as for bodies.",
+        "cylinder and mesh as for bodies; terrain: the ground from a height grid.",
         required, [&](std::size_t k) {
             keys.select(wall.geometry, std::min(k, solid));
             if (auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
                 keys_of(keys, *plane);
             } else if (auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
                 keys_of(keys, *basin);
-            } else if (auto* block = std::get_if<SolidWall>(&wall.geometry)) {
+            } else if (auto* block = std::get_if<SolidWall>(&wall.geometry); k == terrain) {
+                terrain_keys(keys, terrain_of(keys, *block), spacing, words.file);
+            } else if (block != nullptr) {
                 keys.select(block->shape, k - solid);
                 placed_keys(keys, block->shape, block->centre, words);
             }
@@ -216,21 +244,21 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall)
         keys.positive("radius", basin.radius, "m", words.radius, needed);
         keys.planar("position", basin.centre, "m", "", no_default);
     }
-    if (keys.applies(known && kind >= solid)) {
+    if (keys.applies(known && kind >= solid && kind <= mesh)) {
         keys.select(wall.geometry, solid);
         rotation_keys(keys, std::get<SolidWall>(wall.geometry).rotation,
                       "Rotation about the centre of the shape.");
     }
 }
 
-void keys_of(auto& keys, Is<Wall> auto& wall, double gravity)
+void keys_of(auto& keys, Is<Wall> auto& wall, double gravity, double spacing)
 {
     keys.rule(number_name, "wall", wall.name);
     keys.text("name", wall.name, "Name in results; unique among walls and bodies.",
               "wall.1, wall.2 ...");
     keys.rule(check_name, "name", wall.name);
     keys.rule(claim_name, wall.name);
-    geometry_keys(keys, wall);
+    geometry_keys(keys, wall, spacing);
     keys.text("material", wall.material, "Name of its material, for contact.pair.");
     keys.rule(check_material, wall.material);
     keys.table("motion", "Motion of the wall; without it the wall is fixed.", wall.motion, gravity);

@@ -173,7 +173,8 @@ void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, co
 {
     const double size = across(box, scene.dimensions);
     const double others = across(rest, scene.dimensions);
-    if (!std::holds_alternative<MeshShape>(shape)) {
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    if (mesh == nullptr || mesh->terrain) {
         return;
     }
     const std::string hint =

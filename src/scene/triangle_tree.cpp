@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <compare>
 #include <numbers>
 #include <numeric>
 
@@ -40,26 +40,55 @@ double angle_at(const Triangle& t, std::size_t k)
     return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
 }
 
+// An edge of a triangle by the numbers of its ends, the lower one first.
+struct Edge {
+    int low, high;
+    std::size_t triangle, side; // on which side of which triangle
+    auto operator<=>(const Edge&) const = default;
+};
+
+// The edges of all triangles, those between the same corners together.
+std::vector<Edge> sorted_edges(const Numbers& numbers)
+{
+    std::vector<Edge> all;
+    all.reserve(3 * numbers.size());
+    for (std::size_t t = 0; t < numbers.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(numbers[t][k], numbers[t][(k + 1) % 3]);
+            all.push_back({low, high, t, k});
+        }
+    }
+    std::ranges::sort(all);
+    return all;
+}
+
 // The normals of all features, from those of the faces that meet there.
 void set_normals(const Numbers& numbers, std::size_t corner_count, std::vector<Triangle>& all)
 {
-    std::map<std::pair<int, int>, Vec3> of_edge;
     std::vector<Vec3> of_corner(corner_count, Vec3::Zero());
-    const auto edge = [&](std::size_t t, std::size_t k) {
-        return std::minmax(numbers[t][k], numbers[t][(k + 1) % 3]);
-    };
     for (std::size_t t = 0; t < all.size(); ++t) {
         const Vec3 n = area_of(all[t]).normalized();
         all[t].normal[face] = n;
         for (std::size_t k = 0; k < 3; ++k) {
-            of_edge.try_emplace(edge(t, k), Vec3::Zero()).first->second += n;
             of_corner[at(numbers[t][k])] += angle_at(all[t], k) * n;
         }
     }
     for (std::size_t t = 0; t < all.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            all[t].normal[edges + k] = of_edge.at(edge(t, k));
             all[t].normal[corners_of + k] = of_corner[at(numbers[t][k])];
+        }
+    }
+    const std::vector<Edge> sorted = sorted_edges(numbers);
+    for (auto first = sorted.begin(); first != sorted.end();) {
+        const auto last = std::find_if(first, sorted.end(), [&](const Edge& e) {
+            return e.low != first->low || e.high != first->high;
+        });
+        Vec3 sum = Vec3::Zero();
+        for (auto e = first; e != last; ++e) {
+            sum += all[e->triangle].normal[face];
+        }
+        for (; first != last; ++first) {
+            all[first->triangle].normal[edges + first->side] = sum;
         }
     }
 }

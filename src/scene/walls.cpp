@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "walls.hpp"
 
-#include "hyoryu/scene/triangle_tree.hpp"
+#include "mesh_points.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,19 +125,17 @@ void add_points(const RoundWall& round, const Lattice& lattice, std::vector<Vec3
 }
 
 // Wall particles of a mesh that its lattice puts nearer to the surface than half a spacing move to
-// that depth; otherwise they would crowd the fluid.
+// that depth; otherwise they would crowd the fluid. Points farther inside than the layers are out
+// of reach of the fluid.
 void add_mesh_points(const SolidWall& solid, const MeshShape& mesh, const Lattice& lattice,
                      std::vector<Vec3>& points)
 {
     const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
-    std::vector<Vec3> all = aggregate(solid.shape, lattice.spacing, lattice.dimensions).points;
-    for (Vec3& p : all) {
-        const NearestPlace nearest = nearest_place(tree, p, lattice.layers * lattice.spacing);
-        if (nearest.distance < infinity) {
-            const double lacking = nearest.distance + lattice.spacing / 2;
-            p -= std::max(lacking, 0.0) * nearest.normal;
-            points.push_back(solid.centre + solid.rotation * p);
-        }
+    const double depth = lattice.layers * lattice.spacing;
+    for (const MeshPoint& found : points_within(mesh, tree, lattice.spacing, depth).points) {
+        const double lacking = found.nearest.distance + lattice.spacing / 2;
+        const Vec3 p = found.place - std::max(lacking, 0.0) * found.nearest.normal;
+        points.push_back(solid.centre + solid.rotation * p);
     }
 }
 

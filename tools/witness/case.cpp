@@ -2,6 +2,7 @@
 // The resolved case, read with tomlplusplus.
 #include "mass.hpp"
 #include "scene.hpp"
+#include "terrain.hpp"
 
 #include <toml++/toml.h>
 
@@ -80,11 +81,12 @@ std::vector<Vec3> points_of(const std::filesystem::path& file)
 
 Kind kind_of(const std::string& shape)
 {
-    constexpr std::array<std::pair<const char*, Kind>, 8> kinds{
+    constexpr std::array<std::pair<const char*, Kind>, 9> kinds{
         {{"box", Kind::box},
          {"sphere", Kind::ball},
          {"cylinder", Kind::cylinder},
          {"mesh", Kind::mesh},
+         {"terrain", Kind::mesh},
          {"particles", Kind::cubes},
          {"plane", Kind::plane},
          {"basin", Kind::basin},
@@ -111,6 +113,24 @@ void read_basin(const toml::table& table, const Scene& scene, Solid& solid)
     }
 }
 
+Placement placement_of(const toml::table& table)
+{
+    const auto number = [&](const char* key, std::size_t k) {
+        return table[key][k].value_or(std::nan(""));
+    };
+    return {.east = number("origin", 0),
+            .north = number("origin", 1),
+            .azimuth = table["azimuth_deg"].value_or(90.0),
+            .datum = table["datum"].value_or(0.0),
+            .bottom = table["bottom"].value_or(std::nan("")),
+            .low_x = number("extent", 0),
+            .low_y = number("extent", 1),
+            .high_x = number("extent", 2),
+            .high_y = number("extent", 3),
+            .resolution = table["resolution"].value_or(std::nan("")),
+            .nodata = table["nodata"].value_or(0.0)};
+}
+
 Solid read_solid(const toml::table& table, const Scene& scene)
 {
     Solid solid;
@@ -129,7 +149,9 @@ Solid read_solid(const toml::table& table, const Scene& scene)
     solid.given = table["mass"].value<double>();
     solid.held = table["fixed"].value_or(false);
     const std::filesystem::path file = table["file"].value_or(std::string());
-    if (solid.kind == Kind::mesh) {
+    if (table["shape"].value_or(std::string()) == "terrain") {
+        solid.mesh = ground_of(file, placement_of(table));
+    } else if (solid.kind == Kind::mesh) {
         solid.mesh = read_mesh(file, table["scale"].value_or(1.0));
     } else if (solid.kind == Kind::cubes) {
         solid.points = points_of(file);

@@ -8,6 +8,7 @@
 #include "hyoryu/core/types.hpp"
 #include "hyoryu/fluid/effects.hpp"
 #include "hyoryu/fluid/parameters.hpp"
+#include "hyoryu/geometry/height_grid.hpp"
 #include "hyoryu/rigid/law.hpp"
 
 #include <array>
@@ -38,10 +39,11 @@ struct CylinderShape {
     double radius = 0; // [m]
     double length = 0; // [m], along the body's x axis; a rectangle in two dimensions
 };
-/// A closed triangle surface (STL or OBJ), read and checked when the case is read.
+/// A closed triangle surface (STL, OBJ or a height grid), read and checked when the case is read.
 struct MeshShape {
     std::string file;
     double scale = 1;
+    std::optional<TerrainPatch> terrain;       // if the file is a height grid
     std::vector<Vec3> corners;                 // [m], scaled
     std::vector<std::array<int, 3>> triangles; // outward orientation
 };
