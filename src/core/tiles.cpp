@@ -160,6 +160,31 @@ private:
     Index chunks_ = 1;
 };
 
+// Puts the rows of each cell into the order of their numbers. A block of keys has the cells that
+// begin in it: the order of one cell has one writer.
+void order_cells(SortSpace& space, Index count, std::span<const std::int64_t> id)
+{
+    constexpr Index block = 1024;
+    const auto number = [&](std::int32_t row) { return id[static_cast<std::size_t>(row)]; };
+    parallel_blocks(
+        0, (count + block - 1) / block,
+        [&](Index b) {
+            Index first = b * block;
+            while (first > 0 && first < count && space.key[at(first)] == space.key[at(first - 1)]) {
+                ++first;
+            }
+            while (first < std::min(count, (b + 1) * block)) {
+                Index last = first + 1;
+                while (last < count && space.key[at(last)] == space.key[at(first)]) {
+                    ++last;
+                }
+                std::ranges::sort(space.row.begin() + first, space.row.begin() + last, {}, number);
+                first = last;
+            }
+        },
+        2);
+}
+
 void find_tiles(Tiles& tiles, const SortSpace& space, Index count)
 {
     tiles.tile.clear();
@@ -298,24 +323,28 @@ Index Tiles::find(std::uint64_t number) const
     return found != tile.end() && *found == number ? found - tile.begin() : -1;
 }
 
-Index sort_rows(const TileLattice& lattice, std::span<const Vec3> x, Rows rows, const Vec3& low,
+Index sort_rows(const TileLattice& lattice, const NumberedPoints& points, const Vec3& low,
                 const Vec3& high, SortSpace& space)
 {
-    const Index n = rows.size();
+    const auto n = static_cast<Index>(points.x.size());
+    expects(points.id.size() == points.x.size());
     make_room(space.key, at(n));
     make_room(space.row, at(n));
     if (n == 0) {
         return 0;
     }
     parallel_for(0, n, [&](Index k) {
-        const Vec3& point = x[at(rows.begin + k)];
+        const Vec3& point = points.x[at(k)];
         const bool inside =
             (point.array() >= low.array()).all() && (point.array() <= high.array()).all();
         space.key[at(k)] = inside ? lattice.cell_of(point) : outside;
-        space.row[at(k)] = static_cast<std::int32_t>(rows.begin + k);
+        space.row[at(k)] = static_cast<std::int32_t>(k);
     });
     RadixSort(space, n).sort();
-    return std::lower_bound(space.key.begin(), space.key.end(), outside) - space.key.begin();
+    const Index inside =
+        std::lower_bound(space.key.begin(), space.key.end(), outside) - space.key.begin();
+    order_cells(space, inside, points.id);
+    return inside;
 }
 
 void make_tiles(Tiles& tiles, const TileLattice& lattice, std::span<const Vec3> x,

@@ -147,7 +147,7 @@ void sort_fluid(Fluid& fluid)
         const auto x = store[field::position];
         parallel_for(0, store.size(), [&](Index i) { x[i] = lattice.wrapped(x[i]); });
     }
-    const Index kept = sort_rows(lattice, store[field::position], store.rows(), fluid.domain_min,
+    const Index kept = sort_rows(lattice, {store[field::position], store.id()}, fluid.domain_min,
                                  fluid.domain_max, space);
     const std::span<const std::int32_t> order = space.row;
     count_lost(fluid, order.subspan(at(kept)));
@@ -168,7 +168,7 @@ void sort_solids(Fluid& fluid, Store& store, Tiles& tiles)
         parallel_for(0, store.size(), [&](Index i) { x[i] = lattice.wrapped(x[i]); });
     }
     SortSpace& space = fluid.neighbours.space;
-    sort_rows(lattice, x, store.rows(), everywhere_low, everywhere_high, space);
+    sort_rows(lattice, {x, store.id()}, everywhere_low, everywhere_high, space);
     make_tiles(tiles, lattice, x, space, store.size());
 }
 

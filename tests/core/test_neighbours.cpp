@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -34,9 +35,10 @@ Tiles tiles_of(const std::vector<Vec3>& points, Index first_slot)
     const TileLattice lattice = make_lattice({-0.3, 0.1, 0}, 2 * radius);
     SortSpace space;
     const Vec3 far = Vec3::Constant(infinity);
-    const Rows rows{0, static_cast<Index>(points.size())};
+    std::vector<std::int64_t> id(points.size());
+    std::iota(id.begin(), id.end(), 0);
     Tiles tiles;
-    make_tiles(tiles, lattice, points, space, sort_rows(lattice, points, rows, -far, far, space));
+    make_tiles(tiles, lattice, points, space, sort_rows(lattice, {points, id}, -far, far, space));
     tiles.first_slot = first_slot;
     return tiles;
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace hyoryu {
@@ -56,6 +57,7 @@ struct Cloud {
     {
         particles.reset(static_cast<Index>(points.size()));
         particles.add(Fields<Position, Density, Force, ShepardSum>{});
+        std::iota(particles.id().begin(), particles.id().end(), 0);
         for (std::size_t k = 0; k < points.size(); ++k) {
             particles[field::position][k] = points[k];
             particles[field::density][k] = 1.0 + 0.1 * static_cast<real>(k % 7);
@@ -64,7 +66,7 @@ struct Cloud {
         SortSpace space;
         const Vec3 far = Vec3::Constant(infinity);
         const Index n =
-            sort_rows(lattice, particles[field::position], particles.rows(), -far, far, space);
+            sort_rows(lattice, {particles[field::position], particles.id()}, -far, far, space);
         make_tiles(tiles, lattice, particles[field::position], space, n);
         const Tiles* const sources[] = {&tiles};
         pairs.build(tiles, sources,

@@ -85,9 +85,16 @@ struct SortSpace {
     std::vector<std::int32_t> histogram;
 };
 
-/// Sorts rows by their cells into `space.key` and `space.row`; rows of one cell keep their order.
-/// Points outside [low, high] come last; returns how many are inside.
-Index sort_rows(const TileLattice& lattice, std::span<const Vec3> x, Rows rows, const Vec3& low,
+/// Positions [m] and numbers of points, by row; a number is held by one point only.
+struct NumberedPoints {
+    std::span<const Vec3> x;
+    std::span<const std::int64_t> id;
+};
+
+/// Sorts rows by their cells, and within a cell by the numbers of the points, into `space.key` and
+/// `space.row`: the order of the points follows from places and numbers, whatever the order of the
+/// rows. Points outside [low, high] come last, in any order; returns how many are inside.
+Index sort_rows(const TileLattice& lattice, const NumberedPoints& points, const Vec3& low,
                 const Vec3& high, SortSpace& space);
 
 /// Makes tiles of the first `count` sorted rows.
