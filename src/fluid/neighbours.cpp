@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // When the lists of the fluid are made, and from what.
 #include "hyoryu/fluid/fluid.hpp"
+#include "hyoryu/fluid/sum_units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,21 +67,29 @@ bool stale(const Fluid& fluid, const Displacement& motion)
            2 * motion.absolute > between;
 }
 
-// Books the particles that left the domain.
+// Adds up the particles that left the domain, which are in no order.
 void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
 {
     const Store& store = fluid.particles.fluid;
     const auto x = store[field::position];
     const auto v = store[field::velocity];
     const real m = fluid.parameters.mass;
-    for (const std::int32_t i : rows) {
-        const Vec3& vi = v[i];
-        fluid.lost.count += 1;
-        fluid.lost.momentum += m * vi;
-        fluid.lost.energy += 0.5 * m * vi.squaredNorm() - m * fluid.parameters.gravity.dot(x[i]);
-        if (store.has(field::viscous_force)) {
-            fluid.lost.force += store[field::viscous_force][i];
-        }
+    const auto count = static_cast<Index>(rows.size());
+    const SumUnits units = sum_units(fluid.parameters);
+    const FixedUnit of_v = units.velocity;
+    const auto [vx, vy, vz, energy] =
+        sum_of_each<4>(count, {of_v, of_v, of_v, units.energy}, [&](Index k) {
+            const Vec3& vi = v[rows[at(k)]];
+            const real e = 0.5 * vi.squaredNorm() - fluid.parameters.gravity.dot(x[rows[at(k)]]);
+            return std::array{vi.x(), vi.y(), vi.z(), e};
+        });
+    fluid.lost.count += count;
+    fluid.lost.momentum += m * Vec3(vx, vy, vz);
+    fluid.lost.energy += m * energy;
+    if (store.has(field::viscous_force)) {
+        const auto F = store[field::viscous_force];
+        fluid.lost.force += sum_of_vectors(count, units.force,
+                                           [&](Index k) -> const Vec3& { return F[rows[at(k)]]; });
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/conservation.hpp"
 
+#include "hyoryu/fluid/sum_units.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
@@ -31,18 +32,14 @@ MomentumSum motion(const Simulation& sim)
 {
     MomentumSum all;
     if (sim.fluid) {
-        const Store& store = sim.fluid->particles.fluid;
-        const auto v = store[field::velocity];
-        all = reduce(
-            0, store.size(), MomentumSum{},
-            [&](Index i) {
-                return MomentumSum{v[i], v[i].norm()};
-            },
-            [](const MomentumSum& a, const MomentumSum& b) {
-                return MomentumSum{a.momentum + b.momentum, a.scale + b.scale};
+        const auto v = sim.fluid->particles.fluid[field::velocity];
+        const FluidParameters& f = sim.fluid->parameters;
+        const FixedUnit unit = sum_units(f).velocity;
+        const auto [x, y, z, speed] =
+            sum_by_tile<4>(sim.fluid->neighbours.fluid, {unit, unit, unit, unit}, [&](Index i) {
+                return std::array{v[i].x(), v[i].y(), v[i].z(), v[i].norm()};
             });
-        all.momentum *= sim.fluid->parameters.mass;
-        all.scale *= sim.fluid->parameters.mass;
+        all = {f.mass * Vec3(x, y, z), f.mass * speed};
     }
     for (const Body& body : sim.rigid.bodies) {
         all.momentum += body.mass.mass * body.velocity;
@@ -105,18 +102,14 @@ FluidEnergy fluid_energy(const Fluid& fluid)
     const auto v = store[field::velocity];
     const auto rho = store[field::density];
     const FluidParameters& f = fluid.parameters;
-    FluidEnergy sum_ = reduce(
-        0, store.size(), FluidEnergy{},
-        [&](Index i) {
+    const FixedUnit unit = sum_units(f).energy;
+    const auto [kinetic, potential, internal] =
+        sum_by_tile<3>(fluid.neighbours.fluid, {unit, unit, unit}, [&](Index i) {
             const double s = rho[i] / f.eos.rho0;
-            return FluidEnergy{0.5 * v[i].squaredNorm(), -f.gravity.dot(x[i]),
-                               sq(f.eos.c0) * (std::log(s) + 1 / s - 1)};
-        },
-        [](const FluidEnergy& a, const FluidEnergy& b) {
-            return FluidEnergy{a.kinetic + b.kinetic, a.potential + b.potential,
-                               a.internal + b.internal};
+            return std::array{0.5 * v[i].squaredNorm(), -f.gravity.dot(x[i]),
+                              sq(f.eos.c0) * (std::log(s) + 1 / s - 1)};
         });
-    return {f.mass * sum_.kinetic, f.mass * sum_.potential, f.mass * sum_.internal};
+    return {f.mass * kinetic, f.mass * potential, f.mass * internal};
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // Forces on the walls and bodies that are gauged, summed over the steps between rows.
 #include "hyoryu/sim/gauges.hpp"
 
+#include "hyoryu/fluid/sum_units.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
@@ -28,17 +29,14 @@ Rows rows_of(const Store& store, int target)
 // Sum of the viscous forces on the particles of a wall or body; zero where the fluid slips.
 Vec3 viscous_force(const Simulation& sim, int target)
 {
-    Vec3 total = Vec3::Zero();
     const Store& store = target >= 0 ? sim.fluid->particles.body : sim.fluid->particles.wall;
     if (!sticks_to_solids(*sim.fluid) || !store.has(field::viscous_force)) {
-        return total;
+        return Vec3::Zero();
     }
     const auto F = store[field::viscous_force];
     const Rows rows = rows_of(store, target);
-    for (Index k = rows.begin; k < rows.end; ++k) {
-        total += F[k];
-    }
-    return total;
+    return sum_of_vectors(rows.size(), sum_units(sim.fluid->parameters).force,
+                          [&](Index k) -> const Vec3& { return F[rows.begin + k]; });
 }
 
 Vec3 contact_impulse(const std::vector<Contact>& contacts, int target)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gauge_readings.hpp"
 
+#include "hyoryu/fluid/sum_units.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -214,12 +216,6 @@ Vec3 velocity(const Fluid& fluid, const GaugeSearch& search, const Vec3& place)
                    Vec3(Vec3::Constant(nothing)), [&](std::size_t j) { return v[j]; });
 }
 
-// Rows per chunk of a sum: those of `reduce`, whose order of additions is reproduced.
-Index chunk_length(Index rows)
-{
-    return std::max(chunk_rows, (rows + most_chunks - 1) / most_chunks);
-}
-
 double flux(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
 {
     const auto x = fluid.particles.fluid[field::position];
@@ -232,21 +228,15 @@ double flux(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
     };
     std::vector<Index> rows;
     append_rows_near(fluid.neighbours.fluid, search.fluid, x, near, rows);
-    const Index length = chunk_length(fluid.particles.fluid.size());
-    double total = 0;
-    double of_chunk = 0;
-    Index chunk = 0;
-    for (const Index i : rows) {
-        if (i / length != chunk) {
-            total += of_chunk;
-            of_chunk = 0;
-            chunk = i / length;
-        }
-        const double distance = std::abs(gauge.normal.dot(x[i] - gauge.at));
-        const double hat = std::max(0.0, 1 - distance / reach) / reach;
-        of_chunk += V[i] * gauge.normal.dot(v[i]) * hat;
-    }
-    return total + of_chunk;
+    const auto of_rows =
+        sum_of_each<1>(static_cast<Index>(rows.size()), {sum_units(fluid.parameters).flux},
+                       [&](Index k) -> std::array<double, 1> {
+                           const Index i = rows[at(k)];
+                           const double distance = std::abs(gauge.normal.dot(x[i] - gauge.at));
+                           const double hat = std::max(0.0, 1 - distance / reach) / reach;
+                           return {V[i] * gauge.normal.dot(v[i]) * hat};
+                       });
+    return of_rows[0];
 }
 
 } // namespace

@@ -32,14 +32,13 @@ struct TileExtent {
 };
 TileExtent extent_of(const Bounds& bounds);
 
-/// Appends the rows of particles that may be near, in ascending order: `may_be_near(extent)` says
-/// false only of extents that hold no point that is.
+/// Appends the rows of particles that may be near, in the order of their slots:
+/// `may_be_near(extent)` says false only of extents that hold no point that is.
 template <class Test>
 void append_rows_near(const Tiles& tiles, const TileBounds& bounds, std::span<const Vec3> x,
                       const Test& may_be_near, std::vector<Index>& rows)
 {
     const auto at = [](Index k) { return static_cast<std::size_t>(k); };
-    const auto first = static_cast<std::ptrdiff_t>(rows.size());
     for (std::size_t group = 0; group < bounds.group.size(); ++group) {
         if (!may_be_near(extent_of(bounds.group[group]))) {
             continue;
@@ -57,9 +56,6 @@ void append_rows_near(const Tiles& tiles, const TileBounds& bounds, std::span<co
                 }
             }
         }
-    }
-    if (!std::is_sorted(rows.begin() + first, rows.end())) { // the fluid is, by its tiles
-        std::sort(rows.begin() + first, rows.end());
     }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Gauges read in the clear way: every gauge looks at every particle, and sums are those of
-// `reduce`. What the readings of the program are held against, to the bit.
+// Gauges read in the clear way: every gauge looks at every particle, in the order of the tiles.
+// What the readings of the program are held against, to the bit.
 #pragma once
 
+#include "hyoryu/fluid/sum_units.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
@@ -40,9 +41,9 @@ struct Column {
 
 inline Column column_about(const Fluid& fluid, const Vec3& place)
 {
-    const auto rows_about = [&](const Store& store) {
+    const auto rows_about = [&](const Store& store, const Tiles& tiles) {
         std::vector<Index> rows;
-        for (Index j = 0; j < store.size(); ++j) {
+        for (const Index j : tiles.row) {
             const Vec3 r = way(fluid, store[field::position][j], place);
             if (std::hypot(r.x(), r.y()) < fluid.kernel.support) {
                 rows.push_back(j);
@@ -50,8 +51,10 @@ inline Column column_about(const Fluid& fluid, const Vec3& place)
         }
         return rows;
     };
-    Column column{rows_about(fluid.particles.fluid), rows_about(fluid.particles.wall),
-                  rows_about(fluid.particles.body)};
+    const FluidNeighbours& n = fluid.neighbours;
+    Column column{rows_about(fluid.particles.fluid, n.fluid),
+                  rows_about(fluid.particles.wall, n.wall),
+                  rows_about(fluid.particles.body, n.body)};
     const auto x = fluid.particles.fluid[field::position];
     for (const Index j : column.fluid) {
         column.top = std::max(column.top, x[j].z());
@@ -170,13 +173,15 @@ inline double flux(const Fluid& fluid, const Gauge& gauge)
     const auto x = fluid.particles.fluid[field::position];
     const auto v = fluid.particles.fluid[field::velocity];
     const auto V = fluid.particles.fluid[field::volume];
-    const Rows rows = fluid.particles.fluid.rows();
     const double reach = 2 * fluid.parameters.spacing;
-    return sum(rows.begin, rows.end, 0.0, [&](Index i) {
-        const double distance = std::abs(gauge.normal.dot(x[at(i)] - gauge.at));
+    const FixedUnit unit = sum_units(fluid.parameters).flux;
+    FixedSum total;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double distance = std::abs(gauge.normal.dot(x[i] - gauge.at));
         const double hat = std::max(0.0, 1 - distance / reach) / reach;
-        return V[at(i)] * gauge.normal.dot(v[at(i)]) * hat;
-    });
+        total.add(V[i] * gauge.normal.dot(v[i]) * hat, unit);
+    }
+    return total.value(unit);
 }
 
 inline std::vector<double> read_fluid(const Fluid& fluid, const Gauge& gauge)
@@ -206,14 +211,15 @@ inline std::vector<double> read_fluid(const Fluid& fluid, const Gauge& gauge)
 /// Sum of the viscous forces on the particles of a body, or of wall -1 - target.
 inline Vec3 viscous_force(const Fluid& fluid, int target)
 {
-    Vec3 total = Vec3::Zero();
+    const FixedUnit unit = sum_units(fluid.parameters).force;
+    std::array<FixedSum, 3> total;
     const Store& store = target >= 0 ? fluid.particles.body : fluid.particles.wall;
     for (Index k = 0; k < store.size(); ++k) {
-        if (store.owner()[k] == target) {
-            total += store[field::viscous_force][k];
+        for (std::size_t axis = 0; axis < 3 && store.owner()[k] == target; ++axis) {
+            total[axis].add(store[field::viscous_force][k][static_cast<Index>(axis)], unit);
         }
     }
-    return total;
+    return {total[0].value(unit), total[1].value(unit), total[2].value(unit)};
 }
 
 } // namespace hyoryu::by_all_particles

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parallel loops and sums that give the same bits for any number of threads: a loop body writes
-// only its own row, and sums are taken over fixed chunks in a fixed order.
+// only its own row, and sums are taken over fixed chunks in a fixed order. Where rows begin decides
+// the chunks: sums of rounded numbers that belong to the state are those of fixed_sum.hpp.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
