@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/coupling/coupling.hpp"
 
+#include "hyoryu/fluid/sum_units.hpp"
+
 namespace hyoryu {
 
 namespace {
@@ -24,6 +26,7 @@ public:
     {
         return friction_.empty() ? F_[row] : Vec3(F_[row] + friction_[row]);
     }
+    bool has_friction() const { return !friction_.empty(); }
 
 private:
     ColumnView<const Vec3> F_, friction_;
@@ -66,32 +69,54 @@ void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const Body
     }
 }
 
-void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const BodyParticles& bodies,
+void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& sums,
                    std::vector<Wrench>& loads)
 {
-    const auto x = fluid.particles.body[field::position];
-    const SolidForce force(fluid, fluid.particles.body);
-    loads.resize(bodies.of.size());
-    // One body a row of the loop: its sum has one writer and one order.
-    parallel_for(0, static_cast<Index>(bodies.of.size()), [&](Index b) {
-        Wrench load;
-        for (Index k = bodies.of[at(b)].begin; k < bodies.of[at(b)].end; ++k) {
-            const Vec3 f = force(k);
-            load.force += f;
-            load.torque += (x[k] - poses[at(b)].position).cross(f);
-        }
-        loads[at(b)] = load;
-    });
+    const Store& store = fluid.particles.body;
+    const Tiles& tiles = fluid.neighbours.body;
+    const auto x = store[field::position];
+    const auto owner = store.owner();
+    const SolidForce force(fluid, store);
+    const auto body_of = [&](std::int32_t row) { return static_cast<std::size_t>(owner[row]); };
+    const auto wrench = [&](std::int32_t row) {
+        const Vec3 f = force(row);
+        const Vec3 torque = (x[row] - poses[body_of(row)].position).cross(f);
+        return std::array{f.x(), f.y(), f.z(), torque.x(), torque.y(), torque.z()};
+    };
+    const SumUnits units = sum_units(fluid.parameters);
+    sums.begin(poses.size(),
+               {units.force, units.force, units.force, units.torque, units.torque, units.torque});
+    parallel_blocks(0, tiles.tiles(),
+                    [&](Index tile) { sums.add_tile(tiles, tile, body_of, wrench); });
+    loads.resize(poses.size());
+    for (std::size_t b = 0; b < poses.size(); ++b) {
+        const auto [fx, fy, fz, tx, ty, tz] = sums.of(b);
+        loads[b] = {Vec3(fx, fy, fz), Vec3(tx, ty, tz)};
+    }
 }
 
-void collect_wall_forces(const Fluid& fluid, std::span<Vec3> forces)
+void collect_wall_forces(const Fluid& fluid, OwnerSums<3>& sums, std::span<Vec3> forces)
 {
-    std::fill(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
-    const Store& walls = fluid.particles.wall;
-    const SolidForce force(fluid, walls);
-    const auto owner = walls.owner();
-    for (Index k = 0; k < walls.size(); ++k) {
-        forces[at(-1 - owner[k])] += force(k);
+    const Store& store = fluid.particles.wall;
+    const Tiles& tiles = fluid.neighbours.wall;
+    const auto owner = store.owner();
+    const SolidForce force(fluid, store);
+    const auto wall_of = [&](std::int32_t row) { return at(-1 - owner[row]); };
+    const auto force_of = [&](std::int32_t row) {
+        const Vec3 f = force(row);
+        return std::array{f.x(), f.y(), f.z()};
+    };
+    const FixedUnit unit = sum_units(fluid.parameters).force;
+    sums.begin(forces.size(), {unit, unit, unit});
+    // Dry walls feel nothing, but for friction of the step before.
+    const std::vector<std::int32_t>& wet = fluid.neighbours.wet_walls;
+    const bool all = force.has_friction();
+    parallel_blocks(0, all ? tiles.tiles() : static_cast<Index>(wet.size()), [&](Index k) {
+        sums.add_tile(tiles, all ? k : wet[at(k)], wall_of, force_of);
+    });
+    for (std::size_t wall = 0; wall < forces.size(); ++wall) {
+        const auto [x, y, z] = sums.of(wall);
+        forces[wall] = Vec3(x, y, z);
     }
 }
 

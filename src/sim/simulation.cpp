@@ -180,10 +180,10 @@ void seep(Simulation& sim, double dt)
 void load_solids(Simulation& sim)
 {
     if constexpr (is_built<BodyLoad>) {
-        collect_loads(*sim.fluid, sim.poses, sim.body_particles, sim.loads.bodies);
+        collect_loads(*sim.fluid, sim.poses, sim.loads.sums, sim.loads.bodies);
     }
     sim.loads.walls.resize(sim.scene.walls.size());
-    collect_wall_forces(*sim.fluid, sim.loads.walls);
+    collect_wall_forces(*sim.fluid, sim.loads.sums_of_walls, sim.loads.walls);
     if (has_seepage(sim)) {
         add_joint_loads(sim.seepage, sim.poses, sim.loads.bodies, sim.loads.walls);
     }

@@ -2,7 +2,12 @@
 // Poses place particles, pair forces load bodies: equal and opposite to what the fluid feels.
 #include "hyoryu/coupling/coupling.hpp"
 
+#include "../dice.hpp"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
 
 namespace hyoryu {
 namespace {
@@ -82,7 +87,8 @@ TEST_P(Reaction, TheLoadIsTheReactionOfTheFluid)
     const auto [precision, bound] = GetParam();
     Immersed scene(precision);
     std::vector<Wrench> loads;
-    collect_loads(scene.fluid, scene.poses, scene.bodies, loads);
+    OwnerSums<6> sums;
+    collect_loads(scene.fluid, scene.poses, sums, loads);
     Vec3 on_fluid = Vec3::Zero();
     Vec3 torque_on_fluid = Vec3::Zero();
     real scale = 0;
@@ -102,6 +108,114 @@ TEST_P(Reaction, TheLoadIsTheReactionOfTheFluid)
 INSTANTIATE_TEST_SUITE_P(Coupling, Reaction,
                          testing::Values(Closure{Precision::single_precision, 1e-8},
                                          Closure{Precision::double_precision, 1e-14}));
+
+// Points in a box with owners in patches, forces of many sizes on them, sorted into tiles.
+Fluid loaded_solids(Dice& dice, double spacing, Index walls, Index bodies)
+{
+    constexpr int count = 3000;
+    Fluid fluid;
+    fluid.parameters = {.eos = {1000, 30}, .spacing = spacing, .h = 1.5 * spacing, .mass = 1};
+    fluid.kernel = make_kernel(fluid.parameters.h, spacing, 3);
+    allocate(fluid, 1, count, count);
+    fluid.body_particle_mass.assign(static_cast<std::size_t>(bodies), 1.0);
+    const double size = 20 * spacing;
+    for_solids(fluid.particles, [&](Store& store) {
+        const bool body = &store == &fluid.particles.body;
+        for (Index k = 0; k < store.size(); ++k) {
+            const double x = dice.between(0, size);
+            const double y = dice.between(0, size);
+            store[field::position][k] = {x, y, dice.between(0, size)};
+            const auto owner = static_cast<std::int32_t>(x / size * (body ? bodies : walls));
+            store.owner()[k] = body ? owner : -1 - owner;
+        }
+    });
+    update_neighbours(fluid);
+    for_solids(fluid.particles, [&](Store& store) {
+        for (Vec3& force : store[field::force]) {
+            const double scale = std::pow(10.0, dice.between(-12, 3));
+            const double x = dice.between(-scale, scale);
+            const double y = dice.between(-scale, scale);
+            force = {x, y, dice.between(-scale, scale)};
+        }
+    });
+    FluidNeighbours& n = fluid.neighbours; // forces act on walls that water is near
+    n.wet_walls.resize(static_cast<std::size_t>(n.wall.tiles()));
+    std::iota(n.wet_walls.begin(), n.wet_walls.end(), 0);
+    return fluid;
+}
+
+TEST(Coupling, LoadsAreTheSerialSumsForAnyNumberOfThreads)
+{
+    for (int seed = 1; seed <= 6; ++seed) {
+        SCOPED_TRACE(seed);
+        Dice dice(static_cast<std::uint64_t>(seed));
+        const Index owners = 1 + dice.below(9);
+        const Fluid fluid = loaded_solids(dice, seed % 2 == 0 ? 0.1 : 0.02, owners, owners);
+        std::vector<Pose> poses(static_cast<std::size_t>(owners));
+        std::vector<Wrench> expected(poses.size());
+        std::vector<Vec3> expected_on_walls(poses.size(), Vec3(0, 0, 0));
+        const Store& body = fluid.particles.body;
+        const Store& wall = fluid.particles.wall;
+        for (Index k = 0; k < body.size(); ++k) { // the same number of either
+            const Vec3& f = body[field::force][k];
+            Wrench& load = expected[static_cast<std::size_t>(body.owner()[k])];
+            load.force += f;
+            load.torque += body[field::position][k].cross(f);
+            expected_on_walls[static_cast<std::size_t>(-1 - wall.owner()[k])] +=
+                wall[field::force][k];
+        }
+        std::vector<Wrench> first;
+        std::vector<Vec3> first_on_walls;
+        OwnerSums<6> sums;
+        OwnerSums<3> sums_of_walls;
+        for (const int threads : {1, 2, 3, 4}) {
+            set_threads(threads);
+            std::vector<Wrench> loads;
+            std::vector<Vec3> on_walls(poses.size());
+            collect_loads(fluid, poses, sums, loads);
+            collect_wall_forces(fluid, sums_of_walls, on_walls);
+            ASSERT_EQ(loads.size(), poses.size());
+            first = threads == 1 ? loads : first;
+            first_on_walls = threads == 1 ? on_walls : first_on_walls;
+            for (std::size_t b = 0; b < poses.size(); ++b) {
+                // Rounding of 3000 terms below 1000 N, at arms below 4 m.
+                EXPECT_NEAR((loads[b].force - expected[b].force).norm(), 0, 1e-7);
+                EXPECT_NEAR((loads[b].torque - expected[b].torque).norm(), 0, 4e-7);
+                EXPECT_NEAR((on_walls[b] - expected_on_walls[b]).norm(), 0, 1e-7);
+                EXPECT_EQ(loads[b].force, first[b].force);
+                EXPECT_EQ(loads[b].torque, first[b].torque);
+                EXPECT_EQ(on_walls[b], first_on_walls[b]);
+            }
+        }
+        set_threads(0);
+    }
+}
+
+// A force that is lost is told by the load: it is not a number.
+TEST(Coupling, ALoadOfForcesThatAreNotFiniteIsNotFinite)
+{
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e200}) {
+        Dice dice(7);
+        Fluid fluid = loaded_solids(dice, 0.05, 3, 3);
+        fluid.particles.body[field::force][17].y() = bad;
+        fluid.particles.wall[field::force][18].z() = bad;
+        const auto body = static_cast<std::size_t>(fluid.particles.body.owner()[17]);
+        const auto wall = static_cast<std::size_t>(-1 - fluid.particles.wall.owner()[18]);
+        OwnerSums<6> sums;
+        OwnerSums<3> sums_of_walls;
+        std::vector<Wrench> loads;
+        std::vector<Vec3> on_walls(3);
+        collect_loads(fluid, std::vector<Pose>(3), sums, loads);
+        collect_wall_forces(fluid, sums_of_walls, on_walls);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(std::isfinite(loads[k].force.y()), k != body) << bad;
+            EXPECT_EQ(loads[k].torque.allFinite(), k != body) << bad;
+            EXPECT_TRUE(std::isfinite(loads[k].force.x())) << bad;
+            EXPECT_EQ(on_walls[k].allFinite(), k != wall) << bad;
+        }
+    }
+}
 
 TEST(Coupling, FreeFlightTurnsAboutTheCentre)
 {

@@ -5,6 +5,7 @@
 // own (seepage).
 #pragma once
 
+#include "hyoryu/core/owner_sums.hpp"
 #include "hyoryu/fluid/fluid.hpp"
 #include "hyoryu/rigid/rigid.hpp"
 
@@ -32,11 +33,12 @@ void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const Body
                   Fluid& fluid);
 
 /// Force and torque (about the centre of mass of the pose) on each body: sums of the particle
-/// forces in the order of the rows, equal and opposite to the forces on the fluid.
-void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, const BodyParticles& bodies,
+/// forces, equal and opposite to the forces on the fluid. Not-a-number where a force is not finite
+/// or beyond all scales of the fluid (`FixedSum`). `sums` is memory kept from step to step.
+void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& sums,
                    std::vector<Wrench>& loads);
 
-/// Force on the particles of each wall [N].
-void collect_wall_forces(const Fluid& fluid, std::span<Vec3> forces);
+/// Force on the particles of each wall [N], in the same way.
+void collect_wall_forces(const Fluid& fluid, OwnerSums<3>& sums, std::span<Vec3> forces);
 
 } // namespace hyoryu

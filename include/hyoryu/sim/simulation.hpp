@@ -22,6 +22,8 @@ namespace hyoryu {
 struct Loads {
     std::vector<Wrench> bodies;
     std::vector<Vec3> walls; // [N]
+    OwnerSums<6> sums;       // memory of their sums
+    OwnerSums<3> sums_of_walls;
 };
 
 struct Simulation {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Sums over the points of each owner, such as the forces on each wall, in parallel over tiles. The
+// bits depend neither on the threads nor on the order of the rows: plain numbers are added along
+// runs of slots of one owner within a tile, runs in fixed point.
+#pragma once
+
+#include "hyoryu/core/fixed_sum.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+/// Sums of n numbers for each owner; its memory serves from step to step.
+template <std::size_t n>
+class OwnerSums {
+public:
+    /// Sets the sums of so many owners to zero.
+    void begin(std::size_t owners, const FixedUnits<n>& units)
+    {
+        units_ = units;
+        by_thread_.resize(static_cast<std::size_t>(thread_count()));
+        for (std::vector<FixedSums<n>>& sums : by_thread_) {
+            sums.assign(owners, {});
+        }
+    }
+
+    /// Adds the terms of the points of a tile, `owner_of(row)` and `term(row)`. Called from a
+    /// parallel loop over tiles.
+    void add_tile(const Tiles& tiles, Index tile, const auto& owner_of, const auto& term)
+    {
+        const auto t = static_cast<std::size_t>(tile);
+        const auto row_at = [&](std::int32_t slot) {
+            return tiles.row[static_cast<std::size_t>(slot)];
+        };
+        std::vector<FixedSums<n>>& sums = by_thread_[static_cast<std::size_t>(worker())];
+        std::array<double, n> run{};
+        std::size_t owner = owner_of(row_at(tiles.start[t]));
+        for (std::int32_t slot = tiles.start[t]; slot < tiles.start[t + 1]; ++slot) {
+            const std::size_t next = owner_of(row_at(slot));
+            if (next != owner) {
+                sums[owner].add(run, units_);
+                run = {};
+                owner = next;
+            }
+            const std::array<double, n> own = term(row_at(slot));
+            for (std::size_t k = 0; k < n; ++k) {
+                run[k] += own[k];
+            }
+        }
+        sums[owner].add(run, units_);
+    }
+
+    /// The sums of an owner.
+    std::array<double, n> of(std::size_t owner) const
+    {
+        FixedSums<n> all;
+        for (const std::vector<FixedSums<n>>& sums : by_thread_) {
+            all.add(sums[owner]);
+        }
+        return all.values(units_);
+    }
+
+private:
+    FixedUnits<n> units_;
+    std::vector<std::vector<FixedSums<n>>> by_thread_;
+};
+
+} // namespace hyoryu
