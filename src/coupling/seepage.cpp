@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -69,14 +70,28 @@ ParticlePressure pressure_of(const Fluid& fluid)
             .density = fluid.parameters.eos.rho0};
 }
 
-void make_faces(BodyJoints& body, const Body& rigid, std::span<const Vec3> points,
+// The faces see the particles in the order of their numbers, whatever that of the rows.
+void make_faces(BodyJoints& body, const Body& rigid, std::span<const Vec3> points, Index first,
                 const Fluid& fluid, double particle_mass)
 {
     const FluidParameters& f = fluid.parameters;
     const double volume = particle_mass / f.eos.rho0;
+    const auto id = fluid.particles.body.id();
+    std::vector<int> row(points.size());
+    std::iota(row.begin(), row.end(), 0);
+    std::ranges::sort(row, {}, [&](int k) { return id[first + k]; });
+    std::vector<Vec3> numbered;
+    for (const int k : row) {
+        numbered.push_back(points[at(k)]);
+    }
     body.faces = joint_faces(
-        rigid.shape, points,
+        rigid.shape, numbered,
         {f.spacing, std::pow(volume, 1.0 / f.dimensions), fluid.kernel.support, f.dimensions});
+    const auto to_row = [&](int& particle) { particle = particle < 0 ? -1 : row[at(particle)]; };
+    std::ranges::for_each(body.faces.particles, to_row);
+    for (JointCell& cell : body.faces.cells) {
+        std::ranges::for_each(cell.probe, to_row);
+    }
     body.joined.assign(body.faces.faces.size(), 0);
     body.has_faces = true;
 }
@@ -212,8 +227,8 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             const Rows rows = bodies.of[at(b)];
             if (!body.has_faces) {
                 make_faces(body, rigid.bodies[at(b)],
-                           std::span(bodies.points).subspan(at(rows.begin), at(rows.size())), fluid,
-                           fluid.body_particle_mass[at(b)]);
+                           std::span(bodies.points).subspan(at(rows.begin), at(rows.size())),
+                           rows.begin, fluid, fluid.body_particle_mass[at(b)]);
                 for (const auto& [of, face] : seepage.joined) {
                     if (of == b && at(face) < body.joined.size()) {
                         body.joined[at(face)] = 1;
