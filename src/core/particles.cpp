@@ -10,7 +10,7 @@ namespace {
 
 // Row k of the column becomes row order[k].
 template <class T>
-void permute_column(std::vector<T>& column, std::span<const std::int32_t> order,
+void permute_column(ColumnValues<T>& column, std::span<const std::int32_t> order,
                     std::span<std::byte> room)
 {
     const auto rows = static_cast<Index>(order.size());
@@ -39,7 +39,7 @@ void Store::reset(Index rows)
 ColumnPointers Store::pointers()
 {
     ColumnPointers all;
-    for_each_column([&]<class T>(const FieldInfo& field, std::vector<T>& values) {
+    for_each_column([&]<class T>(const FieldInfo& field, ColumnValues<T>& values) {
         if constexpr (std::is_same_v<T, Vec3>) {
             all.add(&field, values.empty() ? nullptr : values.front().data());
         } else {

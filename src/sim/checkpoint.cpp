@@ -175,7 +175,7 @@ bool lasts(const Fluid& fluid, ViscousForce)
 void save_fluid(const Fluid& fluid, Snapshot& snapshot)
 {
     const Store& store = fluid.particles.fluid;
-    store.for_each_column([&]<class T>(const FieldInfo& column, const std::vector<T>& values_of) {
+    store.for_each_column([&]<class T>(const FieldInfo& column, const ColumnValues<T>& values_of) {
         if (column.state) {
             add(snapshot, fmt::format("fluid/{}", column.name),
                 flat(std::span<const T>(values_of)));
@@ -243,7 +243,7 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     fluid.lost.momentum = numbers.vector();
     fluid.lost.energy = numbers.number();
     const auto rows = static_cast<std::size_t>(kept);
-    store.for_each_column([&]<class T>(const FieldInfo& column, std::vector<T>& values_of) {
+    store.for_each_column([&]<class T>(const FieldInfo& column, ColumnValues<T>& values_of) {
         if (column.state) {
             const Reader saved(snapshot, fmt::format("fluid/{}", column.name));
             unflat(saved.all(), std::span<T>(values_of));

@@ -6,6 +6,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/fields.hpp"
+#include "hyoryu/core/first_touch.hpp"
 #include "hyoryu/core/parallel.hpp"
 
 #include <algorithm>
@@ -104,14 +105,14 @@ public:
     {
         auto* const column = find(&F::info);
         expects(column != nullptr);
-        return std::span(std::get<std::vector<typename F::type>>(column->values));
+        return std::span(std::get<ColumnValues<typename F::type>>(column->values));
     }
     template <Field F>
     ColumnView<const typename F::type> operator[](F) const
     {
         const auto* const column = find(&F::info);
         expects(column != nullptr);
-        return std::span(std::get<std::vector<typename F::type>>(column->values));
+        return std::span(std::get<ColumnValues<typename F::type>>(column->values));
     }
 
     ColumnPointers pointers();
@@ -129,7 +130,8 @@ public:
     /// memory is taken.
     void permute(std::span<const std::int32_t> order, std::span<std::byte> room = {});
 
-    /// Calls f(info, values) for each column, `values` a vector of real or Vec3.
+    /// Calls f(info, values) for each column, `values` of type ColumnValues<real> or
+    /// ColumnValues<Vec3>.
     void for_each_column(auto&& f)
     {
         for (StoredColumn& column : columns_) {
@@ -148,13 +150,13 @@ public:
 private:
     struct StoredColumn {
         const FieldInfo* field;
-        std::variant<std::vector<real>, std::vector<Vec3>> values;
+        std::variant<ColumnValues<real>, ColumnValues<Vec3>> values;
     };
 
     template <Field F>
     void make_column()
     {
-        using Values = std::vector<typename F::type>;
+        using Values = ColumnValues<typename F::type>;
         const Holders others = kind_ == Kind::fluid ? Holders::solids : Holders::fluid;
         if (F::info.holders == others) {
             return;
@@ -184,8 +186,8 @@ private:
 
     Kind kind_;
     std::vector<StoredColumn> columns_;
-    std::vector<std::int64_t> id_;
-    std::vector<std::int32_t> owner_;
+    ColumnValues<std::int64_t> id_;
+    ColumnValues<std::int32_t> owner_;
 };
 
 /// All particles of a scene.
