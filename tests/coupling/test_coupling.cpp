@@ -125,7 +125,8 @@ Fluid loaded_solids(Dice& dice, double spacing, Index walls, Index bodies)
             const double x = dice.between(0, size);
             const double y = dice.between(0, size);
             store[field::position][k] = {x, y, dice.between(0, size)};
-            const auto owner = static_cast<std::int32_t>(x / size * (body ? bodies : walls));
+            const auto owner =
+                static_cast<std::int32_t>(x / size * static_cast<double>(body ? bodies : walls));
             store.owner()[k] = body ? owner : -1 - owner;
         }
     });
