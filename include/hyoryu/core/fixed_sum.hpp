@@ -108,8 +108,8 @@ FixedSums<n> sum_of_blocks(Index blocks, const F& add)
         },
         2);
     FixedSums<n> all;
-    for (const FixedSums<n>& part : partial) {
-        all.add(part);
+    for (Index part = 0; part < parts; ++part) {
+        all.add(partial[static_cast<std::size_t>(part)]);
     }
     return all;
 }
