@@ -26,8 +26,8 @@ Fluid make_cube(const LoopSetting& setting)
     fluid.neighbours.skins = {setting.skin * dp, setting.skin * dp};
     f.precision = setting.precision;
     fluid.kernel = make_kernel(f.h, dp, 3);
-    fluid.effects.viscosity = Viscosity{1000, artificial_kappa(0.02, f.h, f.eos.c0), f.h};
-    fluid.effects.diffusion =
+    fluid.effects[slot::viscosity] = Viscosity{1000, artificial_kappa(0.02, f.h, f.eos.c0), f.h};
+    fluid.effects[slot::diffusion] =
         DensityDiffusion{0.2 * f.h * f.eos.c0, f.eos, Vec3(f.eos.rho0 / sq(f.eos.c0) * f.gravity)};
     const int n = setting.edge;
     allocate(fluid, Index(n) * n * n, 0, 0);

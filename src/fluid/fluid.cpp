@@ -14,7 +14,7 @@ FluidTerms terms_of(const Fluid& fluid, real dt)
     const FluidParameters& f = fluid.parameters;
     FluidTerms terms{
         {f.eos, f.gravity}, {f.spacing, dt > 0 ? f.mass / (2 * dt) : 0}, fluid.effects, {}};
-    if (const auto* collision = held<ParticleCollision>(fluid.effects.collision)) {
+    if (const auto* collision = held<ParticleCollision>(fluid.effects)) {
         terms.collision = collision->term(f.spacing, f.mass, dt);
     }
     return terms;
@@ -22,7 +22,7 @@ FluidTerms terms_of(const Fluid& fluid, real dt)
 
 bool sticks_to_solids(const Fluid& fluid)
 {
-    return held<NoSlip>(fluid.effects.slip) != nullptr;
+    return held<NoSlip>(fluid.effects) != nullptr;
 }
 
 real stand_in_mass(const Fluid& fluid, std::int32_t owner)
@@ -41,10 +41,9 @@ void expect_built(const FluidEffects& effects)
                             "configure it without HYORYU_WITHOUT");
         }
     };
-    const auto look_at = [&](const auto& slot) {
-        std::visit([&](const auto& effect) { look(&effect); }, slot);
-    };
-    std::apply([&](const auto&... slot) { (look_at(slot), ...); }, slots_of(effects));
+    for_each(AllSlots{}, [&](auto slot) {
+        std::visit([&](const auto& effect) { look(&effect); }, effects[slot]);
+    });
 }
 
 // The columns that an effect needs.
@@ -127,7 +126,7 @@ void drift(Fluid& fluid, real dt)
     if (store.has(field::gap)) {
         part_from_solids(fluid, dt);
     }
-    if (const auto* cavitation = held<Cavitation>(fluid.effects.cavitation)) {
+    if (const auto* cavitation = held<Cavitation>(fluid.effects)) {
         open_cavities(store, *cavitation);
     }
 }
@@ -227,13 +226,13 @@ void update_forces(Fluid& fluid, real dt)
     if (fluid.particles.solids() > 0) {
         add_solid_forces(fluid, terms);
     }
-    if (held<ParticleCollision>(fluid.effects.collision) != nullptr) {
+    if (held<ParticleCollision>(fluid.effects) != nullptr) {
         run<ParticleCollision::Sum>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     }
     if (mps) {
         add_corrected_pressure(fluid.parameters, store);
     }
-    if (held<RenormalisedDiffusion>(fluid.effects.diffusion) != nullptr) {
+    if (held<RenormalisedDiffusion>(fluid.effects) != nullptr) {
         add_renormalised_diffusion(fluid);
     }
 }
@@ -285,13 +284,13 @@ real top_acceleration(const Fluid& fluid)
 real effective_viscosity(const Fluid& fluid)
 {
     const real unit = laminar_kappa(1, fluid.parameters.dimensions);
-    if (const auto* viscosity = held<Viscosity>(fluid.effects.viscosity)) {
+    if (const auto* viscosity = held<Viscosity>(fluid.effects)) {
         return viscosity->kappa / unit;
     }
-    if (const auto* morris = held<MorrisViscosity>(fluid.effects.viscosity)) {
+    if (const auto* morris = held<MorrisViscosity>(fluid.effects)) {
         return morris->mu / fluid.parameters.eos.rho0;
     }
-    const auto* eddies = held<EddyViscosity>(fluid.effects.viscosity);
+    const auto* eddies = held<EddyViscosity>(fluid.effects);
     if (eddies == nullptr) {
         return 0;
     }
@@ -304,7 +303,7 @@ real effective_viscosity(const Fluid& fluid)
 
 void shift(Fluid& fluid, real dt)
 {
-    const auto* shifting = held<Shifting>(fluid.effects.shifting);
+    const auto* shifting = held<Shifting>(fluid.effects);
     if (shifting == nullptr) {
         return;
     }

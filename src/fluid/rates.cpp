@@ -125,7 +125,7 @@ void update_rates(Fluid& fluid)
     if (sticks) {
         mirror_velocities(fluid);
     }
-    if (const auto* eddies = held<EddyViscosity>(fluid.effects.viscosity)) {
+    if (const auto* eddies = held<EddyViscosity>(fluid.effects)) {
         update_turbulence(fluid, *eddies, sticks);
     }
     run<pass::FluidRates>(fluid, fluid.neighbours.fluid_fluid, to_fluid(fluid), terms);

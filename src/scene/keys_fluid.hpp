@@ -26,7 +26,7 @@ inline void check_field(TableReader& table, std::string_view key, const std::str
 
 inline void check_slip(TableReader& table, const FluidSettings& fluid)
 {
-    if (fluid.walls.sticks && std::holds_alternative<Off>(fluid.effects.viscosity)) {
+    if (fluid.walls.sticks && std::holds_alternative<Off>(fluid.effects[slot::viscosity])) {
         table.error("walls", "has no meaning without viscosity",
                     "give `fluid.viscosity` another model than \"none\"");
     }
@@ -173,9 +173,10 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid)
                 "Driving acceleration of the fluid in addition to gravity, for instance the "
                 "pressure gradient of a channel, divided by the density: it exerts no hydrostatic "
                 "pressure on walls and bodies.");
-    each_slot(fluid.effects, [&](const SlotTable& table, auto& choice, auto /*slot*/) {
-        keys.effect(table.key, table.meaning,
-                    [&](auto& inside) { model_keys(inside, table, choice, fluid.formulation); });
+    for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
+        keys.effect(slot.table.key, slot.table.meaning, [&](auto& inside) {
+            model_keys(inside, slot.table, fluid.effects[slot], fluid.formulation);
+        });
     });
     keys.rule(check_slip, fluid);
     keys.tables("block", "A region filled with fluid at the start.", fluid.blocks);

@@ -146,7 +146,7 @@ void list_walls_and_drive(const Scene& scene, const Plan& plan, Census& census)
     const std::string none = "the scene has no fluid";
     const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
     census.add("no_slip",
-               when(solids && !std::holds_alternative<Off>(plan.effects.slip),
+               when(solids && !std::holds_alternative<Off>(plan.effects[slot::slip]),
                     "`fluid.walls` is \"no_slip\": friction at walls and bodies"),
                !fluid   ? none
                : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
@@ -179,10 +179,10 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                               "exact surfaces are stopped, and their momentum acts on the solid"),
                fluid ? "the scene has no wall and no body" : none);
     const FluidChoices choices = fluid ? scene.fluid->effects : FluidChoices{};
-    each_slot(choices, [&](const SlotTable& table, const auto& choice, auto slot) {
-        const bool runs = !std::holds_alternative<Off>(plan.effects.*slot);
-        list_slot(choice, runs, fluid ? std::string(table.off) : none, census);
-        if (table.key == "viscosity") { // of which friction is
+    for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
+        const bool runs = !std::holds_alternative<Off>(plan.effects[slot]);
+        list_slot(choices[slot], runs, fluid ? std::string(slot.table.off) : none, census);
+        if (std::same_as<decltype(slot), ViscositySlot>) { // of which friction is
             list_walls_and_drive(scene, plan, census);
         }
     });

@@ -30,21 +30,21 @@ std::vector<Variant> variants(const Simulation& sim)
         if (sim.plan.runs(name)) {
             FluidEffects& effects =
                 all.emplace_back(Variant{std::string(name), sim.plan.effects}).effects;
-            effects.*slot = Off{};
-            if (std::holds_alternative<Off>(effects.viscosity)) {
-                effects.slip = Off{}; // it is viscosity at solids
+            effects[slot] = Off{};
+            if (std::holds_alternative<Off>(effects[slot::viscosity])) {
+                effects[slot::slip] = Off{}; // it is viscosity at solids
             }
         }
     };
-    each_slot(sim.scene.fluid->effects, [&](const SlotTable&, const auto& choice, auto slot) {
+    for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
         const auto add_model = [&]<class Model>(const Model&) {
             if constexpr (!std::is_same_v<Model, Off>) {
                 add(Model::name, slot);
             }
         };
-        std::visit(add_model, choice);
+        std::visit(add_model, sim.scene.fluid->effects[slot]);
     });
-    add(NoSlip::name, &FluidEffects::slip);
+    add(NoSlip::name, slot::slip);
     return all;
 }
 

@@ -43,7 +43,7 @@ std::string probable_cause(const Simulation& sim)
                            "so that water has no wall there",
                            cut);
     }
-    if (sim.scene.fluid && std::holds_alternative<Off>(sim.scene.fluid->effects.viscosity)) {
+    if (sim.scene.fluid && std::holds_alternative<Off>(sim.scene.fluid->effects[slot::viscosity])) {
         return "probably the fluid has no damping: `fluid.viscosity.model` is \"none\"";
     }
     if (sim.plan.fluid && sim.plan.expected_speed > 0.2 * sim.plan.fluid->eos.c0) {

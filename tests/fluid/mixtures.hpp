@@ -59,11 +59,11 @@ inline Fluid make_mixture(const Choice& choice)
     fluid.kernel = make_kernel(f.h, dp, 3);
     fluid.mps_kernel = make_mps_kernel(2 * f.h, dp, 3);
     if (choice.diffusion) {
-        fluid.effects.diffusion =
+        fluid.effects[slot::diffusion] =
             DensityDiffusion{0.2 * f.h * 30, f.eos, Vec3(f.eos.rho0 / sq(f.eos.c0) * f.gravity)};
     }
     if (choice.viscosity) {
-        fluid.effects.viscosity = Viscosity{1000, artificial_kappa(0.1, f.h, 30), f.h};
+        fluid.effects[slot::viscosity] = Viscosity{1000, artificial_kappa(0.1, f.h, 30), f.h};
     }
     allocate(fluid, static_cast<Index>(places[0].size()), static_cast<Index>(places[1].size()),
              static_cast<Index>(places[2].size()));

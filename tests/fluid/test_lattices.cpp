@@ -113,7 +113,7 @@ TEST(Shifting, LeavesALatticeAndEvensOutACrowd)
     Fluid fluid =
         make_mixture({Precision::double_precision, widest_instruction_set(), false, false});
     const Kernel& kernel = fluid.kernel;
-    fluid.effects.shifting = Shifting{8, 1 / kernel(Vec<real>{dp, 0, 0}).w};
+    fluid.effects[slot::shifting] = Shifting{8, 1 / kernel(Vec<real>{dp, 0, 0}).w};
     constexpr int n = 10;
     allocate(fluid, n * n * n, 0, 0);
     fluid.domain_min = Vec3(0, 0, 0);

@@ -173,7 +173,7 @@ TEST_P(Loops, EveryStageEqualsItsReference)
     if (GetParam().diffusion) {
         clear(clearly.fluid, Fields<DiffusionRate>{});
         sweep_clearly(clearly, fluid, n.fluid_fluid,
-                      std::get<DensityDiffusion>(fluid.effects.diffusion));
+                      std::get<DensityDiffusion>(fluid.effects[slot::diffusion]));
         expect_same_fluid(p, clearly, field::diffusion_rate, tolerance(), "diffusion");
     }
 }
@@ -204,7 +204,8 @@ TEST_P(Loops, RatesEqualTheirReference)
     expect_same_fluid(p, clearly, field::density_rate, tolerance(), "rate of density");
     if (GetParam().viscosity) {
         clear(clearly.fluid, Fields<ViscousForce>{});
-        sweep_clearly(clearly, fluid, n.fluid_fluid, std::get<Viscosity>(fluid.effects.viscosity));
+        sweep_clearly(clearly, fluid, n.fluid_fluid,
+                      std::get<Viscosity>(fluid.effects[slot::viscosity]));
         expect_same_fluid(p, clearly, field::viscous_force, tolerance(), "viscous force");
     }
 }
@@ -218,10 +219,10 @@ Fluid make_rare(const Choice& choice,
     Fluid fluid = make_mixture(plain);
     const Particles before = fluid.particles;
     const FluidParameters& f = fluid.parameters;
-    fluid.effects.diffusion = RenormalisedDiffusion{0.2 * f.h * 30, f.eos};
-    fluid.effects.collision = ParticleCollision{0.5};
-    fluid.effects.slip = NoSlip{};
-    std::visit([&](const auto& v) { fluid.effects.viscosity = v; }, viscosity);
+    fluid.effects[slot::diffusion] = RenormalisedDiffusion{0.2 * f.h * 30, f.eos};
+    fluid.effects[slot::collision] = ParticleCollision{0.5};
+    fluid.effects[slot::slip] = NoSlip{};
+    std::visit([&](const auto& v) { fluid.effects[slot::viscosity] = v; }, viscosity);
     allocate(fluid, before.fluid.size(), before.wall.size(), before.body.size());
     for (auto store : {&Particles::fluid, &Particles::wall, &Particles::body}) {
         for_each(Fields<Position, Velocity, Density>{}, [&](auto column) {
@@ -282,7 +283,7 @@ TEST_P(Loops, RareForcesEqualTheirReference)
             M.inverse() * clearly.fluid[field::pressure_gradient][k];
     }
     sweep_clearly(clearly, fluid, n.fluid_fluid,
-                  std::get<RenormalisedDiffusion>(fluid.effects.diffusion));
+                  std::get<RenormalisedDiffusion>(fluid.effects[slot::diffusion]));
     // The gradient takes some digits: its matrix is inverted.
     expect_same_fluid(p, clearly, field::diffusion_rate, 5 * tolerance(), "renormalised diffusion");
 }
@@ -291,7 +292,7 @@ TEST_P(Loops, CollisionsAreTheBackstopOfTheFluid)
 {
     Fluid with = make_rare(GetParam(), Viscosity{1000, 0.2, 1.5 * dp});
     Fluid without = make_rare(GetParam(), Viscosity{1000, 0.2, 1.5 * dp});
-    without.effects.collision = Off{};
+    without.effects[slot::collision] = Off{};
     const real dt = 1e-4;
     for (Fluid* fluid : {&with, &without}) {
         update_neighbours(*fluid);

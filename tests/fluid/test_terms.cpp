@@ -225,8 +225,8 @@ TEST(Effects, AnAbsentEffectHasNoColumn)
     EXPECT_FALSE(bare.particles.fluid.has(field::moments));
     EXPECT_FALSE(bare.particles.fluid.has(field::depth));
     Fluid full;
-    full.effects.diffusion = DensityDiffusion{};
-    full.effects.viscosity = Viscosity{};
+    full.effects[slot::diffusion] = DensityDiffusion{};
+    full.effects[slot::viscosity] = Viscosity{};
     allocate(full, 4, 2, 0);
     EXPECT_TRUE(full.particles.fluid.has(field::viscous_force));
     EXPECT_TRUE(full.particles.fluid.has(field::diffusion_rate));
@@ -234,9 +234,9 @@ TEST(Effects, AnAbsentEffectHasNoColumn)
     EXPECT_FALSE(full.particles.fluid.has(field::strain));
     EXPECT_FALSE(full.particles.wall.has(field::velocity_sum));
     Fluid rare;
-    rare.effects.diffusion = RenormalisedDiffusion{};
-    rare.effects.viscosity = EddyViscosity{};
-    rare.effects.slip = NoSlip{};
+    rare.effects[slot::diffusion] = RenormalisedDiffusion{};
+    rare.effects[slot::viscosity] = EddyViscosity{};
+    rare.effects[slot::slip] = NoSlip{};
     allocate(rare, 4, 2, 0);
     EXPECT_TRUE(rare.particles.fluid.has(field::moments));
     EXPECT_TRUE(rare.particles.fluid.has(field::strain));

@@ -70,8 +70,8 @@ TEST(CaseFile, FillsInTheDefaults)
     EXPECT_FALSE(scene.time.step);
     EXPECT_FALSE(scene.domain);
     EXPECT_EQ(scene.fluid->density, 1000);
-    EXPECT_EQ(std::get<ArtificialViscosity>(scene.fluid->effects.viscosity).alpha, 0.02);
-    EXPECT_EQ(std::get<FourtakasDiffusion>(scene.fluid->effects.diffusion).delta, 0.1);
+    EXPECT_EQ(std::get<ArtificialViscosity>(scene.fluid->effects[slot::viscosity]).alpha, 0.02);
+    EXPECT_EQ(std::get<FourtakasDiffusion>(scene.fluid->effects[slot::diffusion]).delta, 0.1);
     EXPECT_EQ(scene.fluid->smoothing_ratio, 1.5);
     EXPECT_EQ(scene.contact.restitution, 0.4);
     EXPECT_EQ(scene.contact.friction, 0.3);
@@ -231,11 +231,11 @@ TEST(CaseFile, OverridesReplaceAndAddKeys)
     EXPECT_EQ(std::get<SphereShape>(scene.bodies[6].shape).radius, 0.2);
     EXPECT_EQ(scene.time.end, 120);
     EXPECT_EQ(scene.spacing, 0.05);
-    EXPECT_TRUE(std::holds_alternative<LaminarViscosity>(scene.fluid->effects.viscosity));
+    EXPECT_TRUE(std::holds_alternative<LaminarViscosity>(scene.fluid->effects[slot::viscosity]));
     EXPECT_EQ(scene.output.fields, std::vector<std::string>{"density"});
     EXPECT_EQ(scene.title, "flood");
     const Scene added = parse_case(short_case, "case.toml", {"fluid.density_diffusion.model=none"});
-    EXPECT_TRUE(std::holds_alternative<Off>(added.fluid->effects.diffusion));
+    EXPECT_TRUE(std::holds_alternative<Off>(added.fluid->effects[slot::diffusion]));
 }
 
 TEST(CaseFile, DiagnosticAtAPlaceShowsTheLine)

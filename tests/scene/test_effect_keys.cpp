@@ -18,17 +18,16 @@ namespace {
 template <class Look>
 void each_model(Look&& look)
 {
-    FluidChoices choices;
-    each_slot(choices, [&](const SlotTable& table, auto& choice, auto slot) {
+    for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
         const auto each = [&]<class... Models>(const std::variant<Models...>& /*choice*/) {
             const auto one = [&]<class Model>() {
                 if constexpr (!std::same_as<Model, Off>) {
-                    look(table, Model{}, slot);
+                    look(slot.table, Model{}, slot);
                 }
             };
             (one.template operator()<Models>(), ...);
         };
-        each(choice);
+        each(FluidChoices{}[slot]);
     });
 }
 
@@ -113,7 +112,7 @@ TEST(EffectKeys, ThePlanNamesTheModelAndMakesItsTerm)
         };
         const Plan on = with(std::string(model.model));
         EXPECT_TRUE(on.runs(model.name)) << model.name;
-        EXPECT_FALSE(std::holds_alternative<Off>(on.effects.*slot)) << model.name;
+        EXPECT_FALSE(std::holds_alternative<Off>(on.effects[slot])) << model.name;
         const auto said = std::ranges::find(on.on, model.name, &Plan::Effect::name);
         EXPECT_EQ(said->why, model.why());
         each_model([&](const SlotTable& of, const auto& other, auto /*slot*/) {
@@ -123,7 +122,7 @@ TEST(EffectKeys, ThePlanNamesTheModelAndMakesItsTerm)
         });
         const Plan off = with("none");
         EXPECT_FALSE(off.runs(model.name)) << model.name;
-        EXPECT_TRUE(std::holds_alternative<Off>(off.effects.*slot)) << model.name;
+        EXPECT_TRUE(std::holds_alternative<Off>(off.effects[slot])) << model.name;
         const auto missing = std::ranges::find(off.off, model.name, &Plan::Effect::name);
         ASSERT_NE(missing, off.off.end());
         EXPECT_EQ(missing->why, table.off);

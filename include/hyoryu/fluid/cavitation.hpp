@@ -4,6 +4,7 @@
 
 #include "hyoryu/core/particles.hpp"
 #include "hyoryu/fluid/parameters.hpp"
+#include "hyoryu/fluid/slot.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ struct Cavitation {
 /// Cavitation, as the user chooses it.
 struct VoidCavitation {
     static constexpr std::string_view name = Cavitation::name;
+    using Makes = TermList<Cavitation>;
     static constexpr std::string_view model = "void";
     static constexpr std::string_view says = "lets a void open if the pressure would fall below "
                                              "that of the void, as in a closed tank that is shaken";
@@ -53,5 +55,18 @@ struct VoidCavitation {
         slot = Cavitation{f.eos.density(pressure)};
     }
 };
+
+/// Acts where density moves on.
+struct CavitationSlot {
+    using Models = std::variant<Off, VoidCavitation>;
+    using Terms = TermsOf<Models>;
+    static constexpr SlotTable table{
+        "cavitation", "Voids that open under tension.", "; \"none\": the fluid sustains tension.",
+        "`fluid.cavitation.model` is \"none\": the fluid sustains tension"};
+};
+
+namespace slot {
+inline constexpr CavitationSlot cavitation{};
+}
 
 } // namespace hyoryu

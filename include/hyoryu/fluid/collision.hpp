@@ -2,6 +2,7 @@
 // Collisions of fluid particles, for splashes.
 #pragma once
 
+#include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"
 #include "hyoryu/fluid/wall.hpp"
 
@@ -32,6 +33,7 @@ struct ParticleCollision {
 /// Collisions, as the user chooses them.
 struct DynamicCollision {
     static constexpr std::string_view name = ParticleCollision::name;
+    using Makes = TermList<ParticleCollision>;
     static constexpr std::string_view model = "dynamic";
     static constexpr std::string_view says =
         "stops fluid particles that approach each other closer than a spacing, which calms "
@@ -49,5 +51,18 @@ struct DynamicCollision {
         slot = ParticleCollision{restitution};
     }
 };
+
+/// With the pressure force.
+struct CollisionSlot {
+    using Models = std::variant<Off, DynamicCollision>;
+    using Terms = TermsOf<Models>;
+    static constexpr SlotTable table{"collision", "Collisions of fluid particles, for splashes.",
+                                     "; \"none\" switches it off.",
+                                     "`fluid.collision.model` is \"none\""};
+};
+
+namespace slot {
+inline constexpr CollisionSlot collision{};
+}
 
 } // namespace hyoryu

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hyoryu/fluid/parameters.hpp"
+#include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"
 
 #include <string>
@@ -61,7 +62,7 @@ struct RenormalisedDiffusion {
     struct Sum {
         static void call(const auto&, const auto& terms, const auto& f)
         {
-            if (const auto* own = std::get_if<RenormalisedDiffusion>(&terms.effects.diffusion)) {
+            if (const auto* own = held<RenormalisedDiffusion>(terms.effects)) {
                 f(*own);
             }
         }
@@ -100,6 +101,7 @@ struct DiffusionSettings {
     }
 };
 struct FourtakasDiffusion : DiffusionSettings {
+    using Makes = TermList<DensityDiffusion>;
     static constexpr std::string_view model = "fourtakas";
     static constexpr std::string_view says =
         "corrects for the hydrostatic part and suits deep still water";
@@ -109,11 +111,13 @@ struct FourtakasDiffusion : DiffusionSettings {
     }
 };
 struct MolteniDiffusion : DiffusionSettings {
+    using Makes = TermList<DensityDiffusion>;
     static constexpr std::string_view model = "molteni";
     static constexpr std::string_view says = "does not";
     void fill(auto& slot, const FluidParameters& f) const { fill_with(slot, f, Vec3::Zero()); }
 };
 struct AntuonoDiffusion : DiffusionSettings {
+    using Makes = TermList<RenormalisedDiffusion>;
     static constexpr std::string_view model = "antuono";
     static constexpr std::string_view says =
         "corrects for any gradient, at the cost of two more sums";
@@ -128,5 +132,18 @@ struct AntuonoDiffusion : DiffusionSettings {
         }
     }
 };
+
+/// With the pressure force; diffuses density.
+struct DiffusionSlot {
+    using Models = std::variant<FourtakasDiffusion, MolteniDiffusion, AntuonoDiffusion, Off>;
+    using Terms = TermsOf<Models>;
+    static constexpr SlotTable table{
+        "density_diffusion", "Diffusion of density, which removes noise of the pressure.",
+        ", \"none\" switches it off.", "`fluid.density_diffusion.model` is \"none\""};
+};
+
+namespace slot {
+inline constexpr DiffusionSlot diffusion{};
+}
 
 } // namespace hyoryu

@@ -2,6 +2,7 @@
 // Walls and bodies to which the fluid sticks.
 #pragma once
 
+#include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"
 
 namespace hyoryu {
@@ -19,7 +20,11 @@ struct NoSlip {
     struct Friction {
         static void call(const auto&, const auto& terms, const auto& f)
         {
-            with_held(terms.effects.viscosity, [&](const auto& v) { f(v.at_wall()); });
+            for_each_effect(terms.effects, [&](const auto& effect) {
+                if constexpr (requires { effect.at_wall(); }) {
+                    f(effect.at_wall());
+                }
+            });
         }
     };
     struct Mirror; // sums this term
@@ -59,5 +64,14 @@ struct SlipSettings {
                     "to them by its viscosity.");
     }
 };
+
+/// Viscosity at solids; `SlipSettings` and a viscosity decide whether it holds its term.
+struct SlipSlot {
+    using Terms = std::variant<Off, NoSlip>;
+};
+
+namespace slot {
+inline constexpr SlipSlot slip{};
+}
 
 } // namespace hyoryu

@@ -5,6 +5,8 @@
 
 #include "hyoryu/fluid/effects.hpp"
 #include "hyoryu/fluid/formulation.hpp"
+#include "hyoryu/fluid/parting.hpp"
+#include "hyoryu/fluid/wall.hpp"
 
 #include <array>
 #include <tuple>
@@ -38,7 +40,7 @@ struct FluidForces {
     template <class Formulation>
     static void call(Formulation, const FluidTerms& terms, const auto& f)
     {
-        with_terms_of<stage::Forces>(slots_of(terms.effects), [&](const auto&... more) {
+        with_terms_of<stage::Forces>(terms.effects, [&](const auto&... more) {
             f(typename Formulation::FluidPressure{}, more...);
         });
     }
@@ -64,7 +66,7 @@ using FilmForces = PassOf<WallPressureForce>;
 struct FluidRates {
     static void call(const auto&, const FluidTerms& terms, const auto& f)
     {
-        with_terms_of<stage::Rates>(slots_of(terms.effects),
+        with_terms_of<stage::Rates>(terms.effects,
                                     [&](const auto&... more) { f(Continuity{}, more...); });
     }
 };
@@ -74,7 +76,7 @@ using SolidRates = PassOf<SolidContinuity>;
 struct CrowdingSums {
     static void call(const auto&, const FluidTerms& terms, const auto& f)
     {
-        with_terms_of<stage::Crowding>(slots_of(terms.effects), f);
+        with_terms_of<stage::Crowding>(terms.effects, f);
     }
 };
 

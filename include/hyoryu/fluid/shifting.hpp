@@ -4,6 +4,7 @@
 
 #include "hyoryu/core/kernel.hpp"
 #include "hyoryu/fluid/parameters.hpp"
+#include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"
 
 #include <string>
@@ -33,6 +34,7 @@ struct Shifting {
 /// Shifting, as the user chooses it.
 struct SunShifting {
     static constexpr std::string_view name = Shifting::name;
+    using Makes = TermList<Shifting>;
     static constexpr std::string_view model = "sun";
     static constexpr std::string_view says = "moves particles from where they are dense, for "
                                              "flows without a free surface, at which the "
@@ -58,5 +60,18 @@ struct SunShifting {
         }
     }
 };
+
+/// After the rates.
+struct ShiftingSlot {
+    using Models = std::variant<Off, SunShifting>;
+    using Terms = TermsOf<Models>;
+    static constexpr SlotTable table{
+        "shifting", "Particle shifting, which evens out the particle positions.",
+        "; \"none\" switches it off.", "`fluid.shifting.model` is \"none\""};
+};
+
+namespace slot {
+inline constexpr ShiftingSlot shifting{};
+}
 
 } // namespace hyoryu

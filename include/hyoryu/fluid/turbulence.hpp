@@ -2,6 +2,7 @@
 // Sub-particle-scale turbulence: an eddy viscosity from the rate of strain.
 #pragma once
 
+#include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"
 #include "hyoryu/fluid/viscosity.hpp"
 
@@ -64,6 +65,7 @@ struct EddyViscosity {
 /// The eddy viscosity over a kinematic one, as the user chooses it.
 struct SpsViscosity {
     static constexpr std::string_view name = "sps_turbulence"; // in the plan
+    using Makes = TermList<Viscosity, EddyViscosity>;
     static constexpr std::string_view model = "sps";
     static constexpr std::string_view says = "adds an eddy viscosity to that";
     double kinematic = 1e-6;   // [m2/s]
@@ -92,5 +94,18 @@ struct SpsViscosity {
         }
     }
 };
+
+/// Viscosity of every kind, with continuity.
+struct ViscositySlot {
+    using Models = std::variant<ArtificialViscosity, LaminarViscosity, SpsViscosity, Off>;
+    using Terms = TermsOf<Models>;
+    static constexpr SlotTable table{"viscosity", "Viscosity of the fluid.",
+                                     ", \"none\" is inviscid.",
+                                     "`fluid.viscosity` selects another model or none"};
+};
+
+namespace slot {
+inline constexpr ViscositySlot viscosity{};
+}
 
 } // namespace hyoryu

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hyoryu/fluid/parameters.hpp"
+#include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"
 
 #include <fmt/format.h>
@@ -69,6 +70,7 @@ inline real laminar_kappa(real nu, int dimensions)
 /// The artificial viscosity, as the user chooses it.
 struct ArtificialViscosity {
     static constexpr std::string_view name = "artificial_viscosity"; // in the plan
+    using Makes = TermList<Viscosity>;
     static constexpr std::string_view model = "artificial";
     static constexpr std::string_view says = "damps with `alpha`";
     double alpha = 0.02; // [1]
@@ -94,6 +96,7 @@ struct ArtificialViscosity {
 /// The laminar viscosity, as the user chooses it.
 struct LaminarViscosity {
     static constexpr std::string_view name = "laminar_viscosity"; // in the plan
+    using Makes = TermList<Viscosity, MorrisViscosity>;
     static constexpr std::string_view model = "laminar";
     static constexpr std::string_view says = "takes a physical viscosity (`kinematic`)";
     double kinematic = 1e-6; // [m2/s]

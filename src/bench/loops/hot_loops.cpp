@@ -41,8 +41,8 @@ struct Loops {
                           typename PairLoops<Real>::Row* local, const FluidTerms& terms)
     {
         sweep_block<bytes>(view, block, local, PressureForce{},
-                           *std::get_if<DensityDiffusion>(&terms.effects.diffusion), Continuity{},
-                           *std::get_if<Viscosity>(&terms.effects.viscosity));
+                           *std::get_if<DensityDiffusion>(&terms.effects[slot::diffusion]),
+                           Continuity{}, *std::get_if<Viscosity>(&terms.effects[slot::viscosity]));
     }
 
     static constexpr HotLoops<Real> table{chains, 2.0 * chain_count* Pack<Real, bytes>::lanes,
