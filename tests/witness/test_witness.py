@@ -205,7 +205,7 @@ class Overlaps(Folder):
     def test_random_pairs_of_known_depth(self):
         done = subprocess.run([WITNESS, "--self-test"], capture_output=True, text=True, timeout=100)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(len(json.loads(done.stdout)["self_test"]), 36)
+        self.assertEqual(len(json.loads(done.stdout)["self_test"]), 40)
 
 
 class Books(Folder):

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace witness {
 
@@ -14,6 +15,8 @@ namespace {
 constexpr double convex_body = 1e-3;
 // The same of a wall, whose surface counts as it is: round-off of single precision.
 constexpr double convex_wall = 1e-6;
+// A hull of more edges is so smooth that the descent finds its valleys.
+constexpr std::size_t most_edges = 100;
 
 void measure(Convex& part)
 {
@@ -35,6 +38,27 @@ std::vector<Vec3> face_normals(const Mesh& mesh)
         }
     }
     return normals;
+}
+
+// Directions of the edges, each once; none if they are many. Without them an edge of a hull over
+// that of another is a valley that the descent may miss by its whole depth.
+std::vector<Vec3> edge_directions(const Mesh& mesh)
+{
+    std::set<std::pair<int, int>> edges;
+    for (const auto& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
+        }
+    }
+    std::vector<Vec3> directions;
+    for (const auto& [i, j] : edges) {
+        const Vec3 along =
+            mesh.corners[static_cast<std::size_t>(j)] - mesh.corners[static_cast<std::size_t>(i)];
+        if (along.norm() > 0 && edges.size() <= most_edges) {
+            directions.push_back(along.normalized());
+        }
+    }
+    return directions;
 }
 
 // How far a corner lies out of a face at most, over the size of the mesh.
@@ -116,6 +140,7 @@ Convex hull_of(const Mesh& mesh)
         part.middle += corner / static_cast<double>(mesh.corners.size());
     }
     part.normals = face_normals(mesh);
+    part.edges = edge_directions(mesh);
     measure(part);
     return part;
 }
@@ -155,6 +180,7 @@ Convex triangle_of(const Vec3& a, const Vec3& b, const Vec3& c)
     const Vec3 n = (b - a).cross(c - a).normalized();
     part.normals = {n, -n};
     part.edges = {(b - a).normalized(), (c - b).normalized(), (a - c).normalized()};
+    part.faces = {{0, 1, 2}, {0, 2, 1}};
     measure(part);
     return part;
 }

@@ -6,7 +6,6 @@
 #include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
-#include <fcl/geometry/shape/triangle_p.h>
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
@@ -52,10 +51,6 @@ Shape shape_of(const Convex& part, int dimensions)
         shape.pose.linear() = z_along(Vec3::UnitY());
     } else if (part.corners.size() == 1) {
         shape.geometry = std::make_shared<fcl::Sphered>(part.radius);
-    } else if (part.corners.size() == 3) {
-        shape.geometry =
-            std::make_shared<fcl::TrianglePd>(part.corners[0], part.corners[1], part.corners[2]);
-        shape.pose.translation().setZero();
     } else if (part.box.norm() > 0) {
         Vec3 size = part.box;
         size.y() = dimensions == 2 ? deep * part.reach : size.y();

@@ -5,6 +5,7 @@
 #include "second_opinion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -88,28 +89,97 @@ void try_pair(const std::string& one, const std::string& other, Random& random, 
     }
 }
 
+// An octahedron, stretched and sheared.
+Mesh octahedron(Random& random)
+{
+    Mat3 stretch = Mat3::Zero();
+    stretch.diagonal() =
+        Vec3(between(random, 0.1, 1), between(random, 0.1, 1), between(random, 0.1, 1));
+    const Mat3 map = turn(random) * stretch * turn(random).toRotationMatrix();
+    Mesh mesh;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        mesh.corners.insert(mesh.corners.end(), {map.col(k), -map.col(k)});
+    }
+    for (const int x : {0, 1}) {
+        for (const int y : {2, 3}) {
+            for (const int z : {4, 5}) {
+                const bool out = (x + y + z) % 2 == 0;
+                mesh.triangles.push_back({x, out ? y : z, out ? z : y});
+            }
+        }
+    }
+    return mesh;
+}
+
+// The edge of a hull and that of a triangle cross within both and overlap by `depth` along n, which
+// lies well within what the faces beside the edge of the hull span. All other directions are as
+// much deeper as the solids are large.
+void try_edges(Random& random, double depth, Errors& errors)
+{
+    const Mesh mesh = octahedron(random);
+    const Convex hull = hull_of(mesh);
+    const Placed a{&hull, turn(random).toRotationMatrix(), {between(random, -5, 5), 1, 0.3}};
+    const auto corner = [&](int k) {
+        return Vec3(a.origin + a.turn * mesh.corners[static_cast<std::size_t>(k)]);
+    };
+    const Vec3 along = (corner(2) - corner(0)).normalized(); // between the faces to 4 and to 5
+    const auto out = [&](int k) {
+        const Vec3 normal = along.cross(corner(k) - corner(0)).normalized();
+        return Vec3(normal.dot(a.origin - corner(0)) > 0 ? -normal : normal);
+    };
+    const double part = between(random, 0.3, 0.7);
+    const Vec3 n = (part * out(4) + (1 - part) * out(5)).normalized();
+    const Vec3 across = (n.cross(along) + between(random, -2, 2) * along).normalized();
+    // A triangle all but along the hull, near a corner of it, has other directions hardly deeper.
+    const double tilt = std::pow(10.0, between(random, -2, 0));
+    const Vec3 back = (tilt * n + (random() % 2 == 0 ? -1 : 1) * n.cross(across)).normalized();
+    const double part_along = std::max(std::pow(10.0, between(random, -4, -0.3)), 1e4 * depth);
+    const Vec3 point = corner(0) + std::min(part_along, 0.7) * (corner(2) - corner(0)) - depth * n;
+    const Convex triangle = triangle_of(point - between(random, 0.3, 1) * across,
+                                        point + between(random, 0.3, 1) * across,
+                                        point + between(random, 0.3, 1) * back);
+    const Placed b{&triangle, Mat3::Identity(), Vec3::Zero()};
+    const double found = overlap(a, b, Vec3::Zero(), -INFINITY).value;
+    errors.ours = std::max(errors.ours, std::abs(found - depth));
+    errors.fcl = std::max(errors.fcl, std::abs(depth_by_fcl(a, b, 3) - depth));
+}
+
+void tell(nlohmann::ordered_json& json, const std::string& pair, double depth, const Errors& errors)
+{
+    json["self_test"].push_back({{"pair", pair},
+                                 {"depth", depth},
+                                 {"largest_error", errors.ours},
+                                 {"largest_error_of_fcl_alone", errors.fcl}});
+}
+
 } // namespace
 
 int self_test(nlohmann::ordered_json& json)
 {
     constexpr double allowed = 1e-9;
     constexpr int pairs = 400;
+    constexpr std::array depths{1e-3, 1e-5, 1e-7, -1e-6};
     int failures = 0;
     Random random(22);
     for (const std::string one : {"box", "ball", "cylinder"}) {
         for (const std::string other : {"box", "ball", "cylinder"}) {
-            for (const double depth : {1e-3, 1e-5, 1e-7, -1e-6}) {
+            for (const double depth : depths) {
                 Errors errors;
                 for (int k = 0; k < pairs; ++k) {
                     try_pair(one, other, random, depth, errors);
                 }
                 failures += errors.ours > allowed ? 1 : 0;
-                json["self_test"].push_back({{"pair", one + " and " + other},
-                                             {"depth", depth},
-                                             {"largest_error", errors.ours},
-                                             {"largest_error_of_fcl_alone", errors.fcl}});
+                tell(json, one + " and " + other, depth, errors);
             }
         }
+    }
+    for (const double depth : depths) {
+        Errors errors;
+        for (int k = 0; k < pairs; ++k) {
+            try_edges(random, depth, errors);
+        }
+        failures += errors.ours > allowed ? 1 : 0;
+        tell(json, "edges of hull and triangle", depth, errors);
     }
     return failures;
 }
