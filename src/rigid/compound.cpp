@@ -135,6 +135,11 @@ bool face_is_open(const Solid& whole, const Solid& part, int f, const Vec3& poin
     return false;
 }
 
+double depth_of_cover(const Solid& whole)
+{
+    return whole.form == Form::compound ? 0.8 * look_aside * whole.reach : infinity;
+}
+
 bool edge_is_open(const Solid& whole, const Solid& part, const Edge& edge, const Vec3& point)
 {
     return face_is_open(whole, part, edge.left, point) &&

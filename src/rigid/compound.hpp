@@ -22,6 +22,9 @@ const Solid& part_of_corner(const Solid& solid, int corner);
 /// the face is open.
 bool face_is_open(const Solid& whole, const Solid& part, int f, const Vec3& point);
 
+/// Deeper than this in a corner that looks inwards each part may cover the faces of the other [m].
+double depth_of_cover(const Solid& whole);
+
 /// Whether both faces beside an edge are open at a point of it: an edge within the surface, or in a
 /// corner that looks inwards, has no normal of its own.
 bool edge_is_open(const Solid& whole, const Solid& part, const Edge& edge, const Vec3& point);

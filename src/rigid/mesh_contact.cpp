@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_contact.hpp"
 #include "compound.hpp"
+#include "covered.hpp"
 #include "mesh_axis.hpp"
 #include "mesh_round.hpp"
 
@@ -21,6 +22,9 @@ constexpr double edge_end = 1e-6;
 constexpr double parallel_edges = 1e-4;
 // What round-off does to an edge that lies flat (unit vectors).
 constexpr double lying_flat = 1e-6;
+
+// Features show an overlap if they are this part as deep as the axis.
+constexpr double shown = 0.5;
 
 std::size_t number(int k)
 {
@@ -62,10 +66,12 @@ public:
                 edges_across(triangle.crease[k]);
             }
         }
-        if (axis.distance < -near_ && lowest_ >= 0) {
+        if (axis.distance < -near_ && lowest_ > shown * axis.distance) {
             add_axis(axis, triangle);
         }
     }
+
+    void finish() { add_covered(covered_, near_, first_, found_); }
 
 private:
     void add(const Feature& feature)
@@ -162,9 +168,25 @@ private:
             found.i = triangle.corner[number(axis.corner)];
             found.f = part_.solid.first_face + axis.index;
             add(found);
-        } else {
-            add(corner_feature(axis.corner, triangle.patch));
+            return;
         }
+        const Feature found = corner_feature(axis.corner, triangle.patch);
+        const Touch touch = touch_of(found, at_);
+        if (touch.gap < deepest_ && ends_inwards(triangle, part_.corners[number(axis.corner)])) {
+            covered_.push_back({found, touch});
+        }
+        add(found);
+    }
+
+    // Whether a point is past the triangle only where the next one leads on or rises from it: what
+    // leaves the triangle there is in the next one.
+    static bool ends_inwards(const FlatTriangle& t, const Vec3& p)
+    {
+        bool inwards = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            inwards = inwards && (t.crease[k] < 0 || t.sideways[k].dot(p - t.point[k]) <= 0);
+        }
+        return inwards;
     }
 
     Vec3 in_body(const Vec3& p) const { return part_.pose.R.transpose() * (p - part_.pose.x); }
@@ -174,6 +196,7 @@ private:
     const MeshTable& mesh_;
     const PartAt& part_;
     std::vector<Candidate>& found_;
+    std::vector<Candidate> covered_;
     std::size_t first_;
     double near_; // [m]
     double deepest_ = 0;
@@ -200,6 +223,7 @@ void find_mesh_candidates(const BodyPair& pair, const Configuration& at,
         for (const int t : near) {
             search.over(wall.mesh.triangles[number(t)]);
         }
+        search.finish();
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "narrow_phase.hpp"
 #include "compound.hpp"
+#include "covered.hpp"
 #include "manifold.hpp"
 #include "mesh_contact.hpp"
 #include "rod_contact.hpp"
@@ -135,25 +136,40 @@ bool has_rod(const PartPair& parts)
     return parts.a.solid.form == Form::rod || parts.b.solid.form == Form::rod;
 }
 
+// Moves what another part of a compound covers, from `first` on, to `covered`.
+void part_covered(const Separation& axis, const PartPair& parts, const Configuration& at,
+                  std::size_t first, std::vector<Candidate>& found, std::vector<Candidate>& covered)
+{
+    const auto begin = found.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto closed = std::stable_partition(
+        begin, found.end(), [&](const Candidate& c) { return is_open(c, axis, parts, at); });
+    covered.insert(covered.end(), closed, found.end());
+    found.erase(closed, found.end());
+}
+
 void between_parts(const BodyPair& pair, const Configuration& at, double near,
                    std::vector<Candidate>& found)
 {
+    const double depth = std::min(depth_of_cover(placed(at, pair.a).solid),
+                                  depth_of_cover(placed(at, pair.b).solid));
+    const std::size_t first = found.size();
+    std::vector<Candidate> covered;
     for_each_part_pair(pair, at, near, [&](const PartPair& parts) {
         if (has_rod(parts)) {
-            add_rod_contacts(pair, parts, at, near, found);
+            add_rod_contacts(pair, parts, at, near, found, covered);
             return;
         }
         const Separation axis = separation(parts.a, parts.b, near, at.geometry.unit);
         if (axis.distance > near) {
             return;
         }
-        const auto first = static_cast<std::ptrdiff_t>(found.size());
+        const std::size_t of_parts = found.size();
         add_manifold(pair, parts, axis, at, found);
-        found.erase(
-            std::remove_if(found.begin() + first, found.end(),
-                           [&](const Candidate& c) { return !is_open(c, axis, parts, at); }),
-            found.end());
+        if (depth < infinity) {
+            part_covered(axis, parts, at, of_parts, found, covered);
+        }
     });
+    add_covered(covered, depth, first, found);
 }
 
 // A ball and every convex part of the other; only what is nearer than that is asked whether another

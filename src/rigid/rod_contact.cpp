@@ -332,10 +332,15 @@ public:
                 const Vec3 d = k.touch.point - c.touch.point;
                 return (d - c.touch.normal * c.touch.normal.dot(d)).norm() < tolerance_;
             });
-        if (!known && c.touch.gap >= deepest_ && c.touch.gap <= highest_) {
+        if (!known && fits(c)) {
             lowest_ = std::min(lowest_, c.touch.gap);
             found_.push_back(c);
         }
+    }
+
+    bool fits(const Candidate& c) const
+    {
+        return c.touch.gap >= deepest_ && c.touch.gap <= highest_;
     }
 
     double lowest() const { return lowest_; }
@@ -380,18 +385,20 @@ double rod_distance(const BodyPair& pair, const PartPair& parts, const Configura
 }
 
 void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configuration& at,
-                      double near, std::vector<Candidate>& found)
+                      double near, std::vector<Candidate>& found, std::vector<Candidate>& covered)
 {
     Look look = look_at(pair, parts, at, near);
     if (look.distance > near) {
         return;
     }
     Collection collection(look, near, found);
-    bool covered = false; // by another part of a compound
+    bool any_covered = false;
     const auto add = [&](bool open, const Candidate& c) {
-        covered = covered || !open;
+        any_covered = any_covered || !open;
         if (open) {
             collection.add(c);
+        } else if (collection.fits(c)) {
+            covered.push_back(c);
         }
     };
     std::erase_if(look.faces,
@@ -409,7 +416,7 @@ void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configu
             add(is_open(look, meeting), {meeting.feature, meeting.at.touch});
         }
     }
-    if (!covered && collection.lowest() > look.distance + exact * at.geometry.unit) {
+    if (!any_covered && collection.lowest() > look.distance + exact * at.geometry.unit) {
         found.push_back(nearest_feature(look));
     }
 }

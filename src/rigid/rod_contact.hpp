@@ -14,7 +14,8 @@ double rod_distance(const BodyPair& pair, const PartPair& parts, const Configura
 
 /// Appends the features that face each other if the solids are not more than `near` apart: what
 /// lies over a face, and pairs of curves whose normal separates the solids as well as they do.
+/// Those that another part of a compound covers are appended to `covered`.
 void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configuration& at,
-                      double near, std::vector<Candidate>& found);
+                      double near, std::vector<Candidate>& found, std::vector<Candidate>& covered);
 
 } // namespace hyoryu
