@@ -2,7 +2,7 @@
 // Solids made of several convex parts.
 #pragma once
 
-#include "mesh_axis.hpp"
+#include "mesh_separation.hpp"
 
 #include <span>
 

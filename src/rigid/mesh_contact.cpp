@@ -2,8 +2,8 @@
 #include "mesh_contact.hpp"
 #include "compound.hpp"
 #include "covered.hpp"
-#include "mesh_axis.hpp"
-#include "mesh_round.hpp"
+#include "mesh_ball_rod.hpp"
+#include "mesh_separation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -86,8 +86,8 @@ double aim(double gap, double unit)
 // zero, and a tenth of what passes for contact is left open [units].
 constexpr double play_of_a_pile = 1e-8;
 
-// Pressed contacts close in both senses, but for that play; all others only open. In a jam all only
-// open, and what is open closes by itself.
+// Pressed contacts close in both senses, but for that play; all others only open. Unlocated, all
+// only open, and what is open closes by itself.
 std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;

@@ -167,7 +167,7 @@ void advance(const StepContext& context, const Cluster& cluster)
     const double once = work_of_sub_step * std::pow(cluster.bodies.size(), 1.5);
     const double done = once > memory.worth ? 0 : locate_impacts(context, cluster);
     if (done < context.dt) {
-        advance_jam(context, cluster, done);
+        advance_unlocated(context, cluster, done);
     }
     close_cluster(context);
     memory.jammed = memory.jammed || memory.stepped;

@@ -76,8 +76,8 @@ void let_go_of_rattle(ContactMemory& memory, const Cluster& cluster);
 /// Finds all possible contacts of the cluster at the current poses.
 void find_contacts(const StepContext& context, const Cluster& cluster, double time);
 
-/// Takes the contacts of tired bodies as a jam does: those that touch, and those that close within
-/// the sub-step on the free paths, of length `sub.h`.
+/// Takes the contacts of tired bodies as an unlocated step does: those that touch, and those that
+/// close within the sub-step on the free paths, of length `sub.h`.
 void find_contacts_of_tired(const StepContext& context, const SubStep& sub);
 
 /// The features of a pair that touch, or that close on the free paths within the sub-step.
@@ -141,7 +141,7 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time);
 /// -gap/h at its end. Momentum is exact, energy never grows, the time of an impact is off by less
 /// than the sub-step. Source: collisions ahead of contacts, Guendelman, Bridson and Fedkiw (2003);
 /// the constraint on the gap, Stewart and Trinkle (1996).
-void advance_jam(const StepContext& context, const Cluster& cluster, double done);
+void advance_unlocated(const StepContext& context, const Cluster& cluster, double done);
 
 /// Solves the rows island by island; returns the worst residual.
 double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort);

@@ -129,7 +129,7 @@ TEST(Piles, HeapSettlesWithoutGainOfEnergyAndStaysInItsBasin)
         EXPECT_LT(body.position.cwiseAbs().head<2>().maxCoeff(), 3 * 0.07 - 0.045);
     }
     EXPECT_LE(motion, 1e-3 * start); // what is left is rattle
-    // v dt of the fastest fall, 2.5 m/s, twice over: a jam does not locate its impacts
+    // v dt of the fastest fall, 2.5 m/s, twice over: an unlocated step does not locate its impacts
     EXPECT_LE(rigid.counters.worst_penetration, 5e-3);
 }
 

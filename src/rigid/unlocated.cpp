@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Clusters of so many bodies, or with so many impacts, that locating each would cost without end.
+// Unlocated (time-stepping) contact steps: of clusters of so many bodies, or with so many impacts,
+// that locating each would cost without end.
 #include "groups.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -80,7 +81,7 @@ void find_all_closing(const StepContext& context, const SubStep& sub)
 }
 
 // Blows on what closes within the sub-step, and the motion with the contacts that they leave.
-void plan_jam(const StepContext& context, const SubStep& sub)
+void plan_unlocated(const StepContext& context, const SubStep& sub)
 {
     set_responses(context, sub.cluster);
     predict_free_motion(context, sub);
@@ -187,7 +188,7 @@ bool ends_deep(const StepContext& context, const SubStep& sub)
            after > deepest(context, sub, memory.poses, sub.time);
 }
 
-void advance_jam(const StepContext& context, const Cluster& cluster, double done)
+void advance_unlocated(const StepContext& context, const Cluster& cluster, double done)
 {
     ContactMemory& memory = context.memory;
     memory.stepped = true;
@@ -201,11 +202,11 @@ void advance_jam(const StepContext& context, const Cluster& cluster, double done
             std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
         SubStep sub{cluster,       context.start + done, h,         slow,  most_rounds,
                     impact_effort, contact_effort,       Arms::now, no_gap};
-        plan_jam(context, sub);
+        plan_unlocated(context, sub);
         const int tries = shortened < most_shortened ? halvings : 0;
         for (int k = 0; k < tries && ends_deep(context, sub); ++k) {
             sub.h *= 0.5;
-            plan_jam(context, sub);
+            plan_unlocated(context, sub);
         }
         shortened += sub.h < h ? 1 : 0;
         move_to(context, sub, sub.h);

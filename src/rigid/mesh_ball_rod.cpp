@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh_round.hpp"
+#include "mesh_ball_rod.hpp"
 #include "mesh_contact.hpp"
 #include "rod_touch.hpp"
 

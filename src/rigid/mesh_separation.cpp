@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh_axis.hpp"
+#include "mesh_separation.hpp"
 
 #include <algorithm>
 #include <cmath>
