@@ -231,6 +231,26 @@ void look_for_thin_walls(const Scene& scene, Slips& slips)
     }
 }
 
+// Water below the underside of the ground has nothing to stand on.
+void look_below_terrain(const Scene& scene, Slips& slips)
+{
+    for (std::size_t b = 0; scene.fluid && b < scene.fluid->blocks.size(); ++b) {
+        const FluidBlock& block = scene.fluid->blocks[b];
+        const double lowest = box_of(scene, block).min.z();
+        for (const Wall& wall : scene.walls) {
+            const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+            const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
+            if (mesh != nullptr && mesh->terrain && lowest < mesh->terrain->bottom) {
+                slips.add(block.place, fmt::format("fluid.block[{}]", b),
+                          fmt::format("the block reaches down to {:.4g} m, below the underside of "
+                                      "the ground \"{}\" at {:.4g} m: water fills in there, too",
+                                      lowest, wall.name, mesh->terrain->bottom),
+                          "raise the lower side of the block, or lower `wall.bottom`");
+            }
+        }
+    }
+}
+
 bool inside(const Bounds& box, const Scene& scene, double slack)
 {
     const DomainSettings& domain = *scene.domain;
@@ -297,6 +317,7 @@ void warn_about_slips(const Scene& scene, Plan& plan)
     look_for_bodies_far_away(scene, slips);
     look_at_meshes(scene, slips);
     look_for_thin_walls(scene, slips);
+    look_below_terrain(scene, slips);
     const std::string cut = cut_by_domain(scene);
     if (!cut.empty()) {
         slips.add({}, "domain",

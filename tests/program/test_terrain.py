@@ -16,7 +16,7 @@ spacing = {spacing}
 [fluid]
 [[fluid.block]]
 shape = "box"
-min = [0.0, 0.0, -0.3]
+min = [0.0, 0.0, -0.15]
 max = [1.2, 1.0, 0.5]
 [[wall]]
 name = "ground"
@@ -112,6 +112,13 @@ class Terrain(ProgramTest):
         self.refused("", "ground.asc:")
         (self.dir / "ground.asc").unlink()
         self.refused("", "does not exist")
+
+    def test_water_below_the_ground_is_warned_of(self):
+        keys = self.grid((4e5, 4e6), 90.0, 0.05)
+        for bottom, warned in (-0.14, True), (-0.16, False):
+            self.write(CASE.format(keys=keys + f"bottom = {bottom}", spacing=0.1, end=0.02))
+            done = self.call("check", "case.toml")
+            self.assertEqual("below the underside" in done.stderr, warned, done.stderr)
 
     def test_missing_heights_are_replaced_only_on_request(self):
         self.grid((0.0, 0.0), 90.0, 0.1, lambda x, y: -9999 if x > 1.1 else 0.0)
