@@ -75,11 +75,11 @@ class Terrain(ProgramTest):
                 summary = self.ran(keys, spacing)
                 self.assertEqual(summary["particles_lost"], 0, seed)
                 self.assertEqual(summary["particles_in_solids"], 0, seed)
-                kinetic = summary["energy"]["end"]["kinetic"]
-                mass = summary["particles"]["fluid"] * 1000 * spacing ** 3
+                kinetic = summary["energy"]["end"]["fluid_kinetic"]
+                mass = summary["counts"]["fluid"] * 1000 * spacing ** 3
                 # 1 % of sqrt(g H) while the pressure settles, H about 0.5 m.
                 self.assertLess(2 * kinetic / mass, 1e-4 * 9.81 * 0.5, (seed, keys))
-                energies.append(summary["particles"]["fluid"])
+                energies.append(summary["counts"]["fluid"])
             # The grids differ by their rounding and interpolation: less than a hundredth of the water.
             self.assertLess(max(energies) - min(energies), 0.01 * max(energies), (seed, energies))
 
