@@ -35,8 +35,7 @@ struct PlannedShape {
     std::string_view table;
     std::string_view name;
 };
-constexpr std::array planned{PlannedShape{"fluid.block[", "particles"},
-                             PlannedShape{"wall[", "terrain"}};
+constexpr std::array planned{PlannedShape{"fluid.block[", "particles"}};
 
 /// The number of a text with a unit.
 std::optional<double> quantity_of(const Asked& asked, const std::string& text)

@@ -95,8 +95,8 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
         {"[[output]]\nevery = 1\n", 1, 1, 10, "output", "expected a table", "[output]"},
         {"[[wall]]\nshape = \"plane\"\nnormal = [0, 0, 0]\n", 3, 10, 9, "wall[0].normal",
          "no direction", ""},
-        {"[[wall]]\nshape = \"terrain\"\n", 2, 9, 9, "wall[0].shape",
-         "\"terrain\" is not supported yet", ""},
+        {"[[wall]]\nshape = \"terrain\"\n", 1, 1, 8, "wall[0].file", "is missing",
+         "ESRI ASCII grid"},
         {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntable = \"x.csv\"\n", 4, 9, 7,
          "wall[0].motion.table", "x.csv does not exist", "relative to the case file"},
         {"[[wall]]\nshape = \"plane\"\n[wall.motion]\ntimes = [0, 1, 1]\n"

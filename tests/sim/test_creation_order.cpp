@@ -268,7 +268,7 @@ TEST(CreationOrder, ChangesNoBitNorDoesTheNumberOfThreads)
     for (int seed = first; seed < first + count; ++seed) {
         const Draw draw = draw_of(static_cast<std::uint64_t>(seed));
         SCOPED_TRACE(fmt::format("HYORYU_SEED={} HYORYU_PLACEMENTS=1\n{}", seed, case_of(draw)));
-        const int steps = draw.dimensions == 2 ? 300 : 120;
+        const int steps = draw.dimensions == 2 ? 300 : 200;
         const Bits expected = run(draw, nullptr, 1, steps);
         Dice dice(static_cast<std::uint64_t>(1000 + seed));
         expect_same(expected, run(draw, &dice, 1, steps), "another order");
