@@ -156,7 +156,10 @@ void watch_energy(const Simulation& sim, const Totals& now)
     const double lost = sim.fluid ? sim.fluid->lost.energy : 0;
     const double gain = energy(now) + lost - energy(sim.conservation.start);
     const double motion = now.fluid_kinetic + now.fluid_internal + now.body_kinetic;
-    if (gain > gain_of_motion * motion && gain > gain_of_scale * energy_scale(sim)) {
+    // False for sums that are not a number, as those with a term out of all range are.
+    const bool bounded =
+        gain <= gain_of_motion * motion || gain <= gain_of_scale * energy_scale(sim);
+    if (!bounded) {
         report(sim, "the whole scene",
                fmt::format("energy has grown by {:.4g} J; its kinetic energy is {:.4g} J", gain,
                            motion),
