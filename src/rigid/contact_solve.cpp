@@ -153,6 +153,17 @@ bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& b
     return same;
 }
 
+// The wanted normal velocity at the end of the sub-step. A gap that the projection closes is no
+// freedom: v = gap / h of its noise would rattle. What opens at the start, and comes back within
+// the sub-step, may come as fast as it went: to stop it at the end, when it is still open, would
+// give the energy of the height that it has gained by then.
+double target_of(const ContactMemory& memory, const SubStep& sub, const Persistent& p)
+{
+    const Touch& touch = p.candidate.touch;
+    const double closing = touch.gap > clearly_apart(memory.geometry) ? -touch.gap / sub.h : 0;
+    return sub.arms == Arms::now ? std::min(closing, -touch.normal.dot(p.before)) : closing;
+}
+
 // Returns whether all contacts go on.
 bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
 {
@@ -184,10 +195,7 @@ bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
                               wall_velocity(memory, f.b, sub.time), memory.responses);
             }
             row.before = velocity(row, memory.responses);
-            // A gap that the projection closes is no freedom: v = gap / h of its noise would
-            // rattle.
-            const double gap = p.candidate.touch.gap;
-            row.target = gap > clearly_apart(memory.geometry) ? -gap / sub.h : 0;
+            row.target = target_of(memory, sub, p);
             memory.rows.push_back(row);
         }
     }
@@ -215,6 +223,9 @@ bool solve_pass(const StepContext& context, const SubStep& sub, double ahead)
     const double left = solve_islands(memory.rows, memory, sub.contact_effort);
     double& worst = context.rigid.counters.worst_residual;
     worst = std::max(worst, left);
+    if (ahead <= 0) {
+        make_passive(memory);
+    }
     for (const Row& row : memory.rows) {
         const Vec3 P = row.impulse();
         memory.persistent[row.contact].impulse = P;
@@ -374,6 +385,7 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     ContactMemory& memory = context.memory;
     plan_free_motion(context, sub);
     choose_persistent(context, sub);
+    memory.rows.clear();
     if (!memory.persistent.empty()) {
         set_velocities_before(memory, sub);
         if (sub.arms == Arms::now || !solve_ahead(context, sub)) {

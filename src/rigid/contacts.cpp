@@ -123,7 +123,8 @@ void find_contacts(const StepContext& context, const Cluster& cluster, double ti
 
 double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort)
 {
-    const std::vector<std::size_t> ends = sort_into_islands(rows, memory);
+    memory.island_ends = sort_into_islands(rows, memory);
+    const std::vector<std::size_t>& ends = memory.island_ends;
     memory.solvers.resize(std::max(memory.solvers.size(), ends.size()));
     memory.left.assign(ends.size(), 0);
     const auto rows_of = [&](std::size_t island) {

@@ -94,6 +94,7 @@ void book(const std::vector<Row>& rows, const StepContext& context, const SubSte
         total += loss;
         positive += losses.back();
     }
+    memory.lost += total;
     const double dissipated_share = positive > 0 ? std::max(total, 0.0) / positive : 0;
     const double share = may_gain ? 1 : dissipated_share;
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -116,6 +117,17 @@ void book(const std::vector<Row>& rows, const StepContext& context, const SubSte
         entry.tangential_impulse += row.impulse() - row.p[0] * c.touch.normal;
         entry.energy_lost += share * losses[k];
     }
+}
+
+// Removes the entries from `first` on that took part in rounds without an impulse: in a heap they
+// are half of all.
+void forget_idle(std::vector<Contact>& log, std::size_t first)
+{
+    const auto is_idle = [](const Contact& contact) {
+        return contact.normal_impulse == 0 && contact.tangential_impulse.isZero(0);
+    };
+    const auto begin = log.begin() + static_cast<std::ptrdiff_t>(first);
+    log.erase(std::remove_if(begin, log.end(), is_idle), log.end());
 }
 
 } // namespace
@@ -145,6 +157,7 @@ double solve_impacts(const StepContext& context, const SubStep& sub, double time
         const bool enough = count >= sub.most_rounds || !is_worth_locating(memory);
         round.least = enough ? infinity : std::max(round.least, rattle * fastest(memory.rows));
     }
+    forget_idle(context.log, first);
     counters.impacts += static_cast<long long>(context.log.size() - first);
     return left;
 }

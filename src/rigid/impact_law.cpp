@@ -32,6 +32,21 @@ double exchanged(const std::vector<Row>& rows)
     return sum;
 }
 
+// The inelastic impulse takes energy; as far as it was not solved for, only a share of it does.
+void take_passive_share(std::vector<Row>& rows, std::vector<Response>& bodies)
+{
+    WorkOfShare work;
+    for (const Row& row : rows) {
+        work.linear += row.p.dot(row.before);
+        work.square += 0.5 * row.p.dot(velocity(row, bodies) - row.before);
+    }
+    std::vector<Vec3> p;
+    for (const Row& row : rows) {
+        p.emplace_back(passive_share(work) * row.p);
+    }
+    set_impulses(rows, p, bodies);
+}
+
 // Largest s in [0, 1] with work(s) <= 0 on the line from the inelastic impulse P0 to P.
 double dissipative_share(double work0, double work_half, double work1)
 {
@@ -90,6 +105,7 @@ void clamp_energy(std::vector<Row>& rows, ContactMemory& memory, const Effort& e
         row.target = 0;
     }
     solve_islands(rows, memory, effort);
+    take_passive_share(rows, memory.responses);
     const double work0 = work_done(rows, memory.responses);
     std::vector<Vec3> p0;
     std::vector<Vec3> p_half;

@@ -119,11 +119,13 @@ struct ContactMemory {
     bool stepped = false;     // contacts of the cluster in hand were not located
     int event_limit = 0;      // of a body of the cluster in this step
     double work = 0;          // spent on the cluster in this step, in updates of rows
+    double lost = 0;          // taken by impacts and unlocated contacts in the step [J]
     double worth = 0;         // what it may cost to locate
     std::vector<int> entries; // in the log, of each candidate; -1 if none
     std::vector<int> parents, island_of_root, island_of_row;
-    std::vector<SolverWork> solvers; // of each island
-    std::vector<double> left;        // residual of each island [m/s]
+    std::vector<std::size_t> island_ends; // of the rows as solved last
+    std::vector<SolverWork> solvers;      // of each island
+    std::vector<double> left;             // residual of each island [m/s]
 };
 
 /// What one step works on.

@@ -86,16 +86,14 @@ double aim(double gap, double unit)
 // zero, and a tenth of what passes for contact is left open [units].
 constexpr double play_of_a_pile = 1e-8;
 
-// Pressed contacts close in both senses, but for that play; all others only open. Unlocated, all
-// only open, and what is open closes by itself.
-std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double time)
+// Pressed contacts close in both senses, but for that play; all others only open.
+std::vector<Goal> goals(const StepContext& context, double time)
 {
     ContactMemory& memory = context.memory;
     const Configuration now = configuration(memory, memory.poses, time);
     const double unit = context.rigid.settings.unit;
-    const double play = sub.arms == Arms::now                           ? infinity
-                        : memory.persistent.size() > contacts_of_a_pile ? play_of_a_pile * unit
-                                                                        : 0;
+    const bool pile = memory.persistent.size() > contacts_of_a_pile;
+    const double play = pile ? play_of_a_pile * unit : 0;
     std::vector<Goal> list;
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
@@ -119,7 +117,103 @@ std::vector<Goal> goals(const StepContext& context, const SubStep& sub, double t
     return list;
 }
 
+// Passes of the opening: the second for what turned on the way.
+constexpr int opening_passes = 2;
+// An overlap is opened to within a ten-thousandth of the deepest one that is corrected at once.
+constexpr Effort opening_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
+
+// The contacts as rows without friction whose velocities are displacements, all still: what opens
+// their gaps.
+void lay_out_opening(const StepContext& context, const SubStep& sub, double time)
+{
+    ContactMemory& memory = context.memory;
+    const Configuration now = configuration(memory, memory.poses, time);
+    set_responses(context, sub.cluster);
+    for (const int k : sub.cluster.bodies) {
+        memory.responses[k].v.setZero();
+        memory.responses[k].omega.setZero();
+    }
+    memory.rows.clear();
+    for (const Candidate& c : memory.candidates) {
+        const Touch touch = touch_of(c.feature, now);
+        Row row;
+        row.a = c.feature.a;
+        row.b = std::max(c.feature.b, -1);
+        const Vec3 xa = memory.poses[row.a].x;
+        const Vec3 xb = row.b >= 0 ? memory.poses[row.b].x : xa;
+        complete(row, {touch, touch}, {xa, xb, xa, xb}, memory.responses,
+                 context.rigid.settings.dimensions);
+        if (row.cone.K(0, 0) > 0) {
+            row.target = aim(c.touch.gap, context.rigid.settings.unit) - touch.gap;
+            memory.rows.push_back(row);
+        }
+    }
+}
+
+// What the displacements of the responses cost against gravity and loads, and what they give to
+// the spin, whose momentum stays [J].
+double work_of_opening(const StepContext& context, const Cluster& cluster)
+{
+    double work = 0;
+    for (const int k : cluster.bodies) {
+        const Response& moved = context.memory.responses[k];
+        const Body& body = context.rigid.bodies[k];
+        const Vec3 omega = moved.inverse_inertia * body.angular_momentum;
+        work -= body.mass.mass * acceleration(context, k).dot(moved.v);
+        work += moved.omega.dot(omega.cross(body.angular_momentum) - context.loads[k].torque);
+    }
+    return work;
+}
+
+// Overlap beyond what a step of 5 ms may leave: its energy was lost in steps before, or it was
+// there from the start [units].
+constexpr double from_before = 1e-4;
+
+// The part of the displacements that the energy lost in this step pays for, unless an overlap is
+// from before it.
+double share_of_opening(const StepContext& context, const Cluster& cluster)
+{
+    ContactMemory& memory = context.memory;
+    const double work = work_of_opening(context, cluster);
+    const double unit = context.rigid.settings.unit;
+    const bool free =
+        work <= memory.lost || std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
+            return c.touch.gap < -from_before * unit;
+        });
+    const double share = free ? 1 : std::max(memory.lost, 0.0) / work;
+    memory.lost -= share * work;
+    return share;
+}
+
+void update_gaps(ContactMemory& memory, double time)
+{
+    const Configuration now = configuration(memory, memory.poses, time);
+    for (Candidate& candidate : memory.candidates) {
+        candidate.touch = touch_of(candidate.feature, now);
+    }
+}
+
 } // namespace
+
+void open_gaps(const StepContext& context, const SubStep& sub, double time)
+{
+    ContactMemory& memory = context.memory;
+    const double no_gap = sub.no_gap * context.rigid.settings.unit;
+    const auto closed = [&](const Row& row) { return row.target > no_gap; };
+    for (int pass = 0; pass < opening_passes; ++pass) {
+        lay_out_opening(context, sub, time);
+        if (std::ranges::none_of(memory.rows, closed)) {
+            break;
+        }
+        solve_islands(memory.rows, memory, opening_effort);
+        const double share = share_of_opening(context, sub.cluster);
+        for (const int k : sub.cluster.bodies) {
+            memory.poses[k].x += share * memory.responses[k].v;
+            turn_by(memory.poses[k], share * memory.responses[k].omega);
+        }
+    }
+    update_gaps(memory, time);
+}
 
 void move_to(const StepContext& context, const SubStep& sub, double s)
 {
@@ -140,7 +234,7 @@ void move_to(const StepContext& context, const SubStep& sub, double s)
 void project_gaps(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
-    std::vector<Goal> list = goals(context, sub, time);
+    std::vector<Goal> list = goals(context, time);
     if (list.empty()) {
         return;
     }
@@ -162,10 +256,7 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
         }
         sweep();
     }
-    const Configuration now = configuration(memory, memory.poses, time);
-    for (Candidate& candidate : memory.candidates) {
-        candidate.touch = touch_of(candidate.feature, now);
-    }
+    update_gaps(memory, time);
 }
 
 } // namespace hyoryu

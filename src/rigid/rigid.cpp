@@ -163,6 +163,7 @@ void advance(const StepContext& context, const Cluster& cluster)
     memory.stepped = false;
     memory.event_limit = event_limit;
     memory.work = 0;
+    memory.lost = 0;
     memory.worth = located_work(context, cluster);
     const double once = work_of_sub_step * std::pow(cluster.bodies.size(), 1.5);
     const double done = once > memory.worth ? 0 : locate_impacts(context, cluster);

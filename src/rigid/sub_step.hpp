@@ -131,9 +131,14 @@ bool gains_energy(const StepContext& context, const SubStep& sub);
 /// Moves the bodies along their paths to s and books the share of the contact impulses.
 void move_to(const StepContext& context, const SubStep& sub, double s);
 
-/// Brings the gaps of pressed contacts to zero, and pushes overlapping ones apart, by position
-/// alone; the possible contacts that were found move with the bodies.
+/// After a located sub-step: brings the gaps of pressed contacts to zero, and pushes overlapping
+/// ones apart, by position alone; the possible contacts that were found move with the bodies.
 void project_gaps(const StepContext& context, const SubStep& sub, double time);
+
+/// After an unlocated sub-step: moves the bodies, by position alone and as little as their masses
+/// let them, until the possible contacts that were found are open. What is lifted for it gets no
+/// more energy than contacts took in this step.
+void open_gaps(const StepContext& context, const SubStep& sub, double time);
 
 /// Advances the cluster from `done` into the step to its end without locating impacts. A contact
 /// that closes within the sub-step and approaches faster than gravity explains bounces at its
@@ -142,6 +147,20 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time);
 /// than the sub-step. Source: collisions ahead of contacts, Guendelman, Bridson and Fedkiw (2003);
 /// the constraint on the gap, Stewart and Trinkle (1996).
 void advance_unlocated(const StepContext& context, const Cluster& cluster, double done);
+
+/// The work of contacts as a function of the share s of their impulses that acts,
+/// s (linear + s square) [J]. Seen from walls that move it leaves out what those give.
+struct WorkOfShare {
+    double linear = 0, square = 0;
+};
+/// The largest share of the impulses, at most all, whose work is not positive.
+double passive_share(const WorkOfShare& work);
+/// The work of persistent contacts in a planned motion with the arms of its start: sum
+/// P . (u0 + u1) / 2, u0 before the loads and u1 after them and the contacts.
+WorkOfShare work_of_contacts(const ContactMemory& memory, std::span<const Row> rows);
+/// Reduces the impulses of each island, as solved last, to their passive share. What that leaves
+/// approaching, the projection opens and the next sub-step stops.
+void make_passive(ContactMemory& memory);
 
 /// Solves the rows island by island; returns the worst residual.
 double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort);

@@ -108,19 +108,6 @@ double deepest(const StepContext& context, const SubStep& sub, const std::vector
     return most;
 }
 
-// The gaps of the known features where the bodies are now.
-void update_gaps(ContactMemory& memory, double time)
-{
-    const Configuration now = configuration(memory, memory.poses, time);
-    parallel_blocks(
-        0, static_cast<Index>(memory.candidates.size()),
-        [&](Index k) {
-            Candidate& c = memory.candidates[static_cast<std::size_t>(k)];
-            c.touch = touch_of(c.feature, now);
-        },
-        worth_sharing_rows);
-}
-
 } // namespace
 
 void find_closing(const StepContext& context, const BodyPair& pair, const SubStep& sub,
@@ -209,10 +196,12 @@ void advance_unlocated(const StepContext& context, const Cluster& cluster, doubl
             plan_unlocated(context, sub);
         }
         shortened += sub.h < h ? 1 : 0;
+        const WorkOfShare work = work_of_contacts(memory, memory.rows);
+        memory.lost -= work.linear + work.square;
         move_to(context, sub, sub.h);
         remember(memory, sub.h);
-        update_gaps(memory, sub.time + sub.h);
-        project_gaps(context, sub, sub.time + sub.h);
+        find_contacts(context, cluster, sub.time + sub.h); // also those that the plan did not know
+        open_gaps(context, sub, sub.time + sub.h);
         note_motion(context, sub, sub.h);
         done = sub.h < rest ? done + sub.h : context.dt;
     }
