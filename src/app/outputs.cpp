@@ -281,16 +281,20 @@ Snapshot Outputs::snapshot(const Simulation& sim) const
     return snapshot;
 }
 
-void Outputs::write_checkpoint(const Snapshot& snapshot)
+void Outputs::settle()
 {
-    // Rows that the checkpoint counts as written must be on disk before it.
     for (auto* history : {&bodies_, &contacts_, &energy_, &gauges_}) {
         if (*history) {
             (*history)->flush();
         }
     }
     frames_->finish();
-    hyoryu::write_checkpoint(folder_, snapshot);
+}
+
+void Outputs::write_checkpoint(Snapshot snapshot)
+{
+    settle(); // rows that the checkpoint counts as written must be on disk before it
+    hyoryu::write_checkpoint(folder_, std::move(snapshot));
 }
 
 void Outputs::close_interval(const Simulation& sim)

@@ -21,7 +21,9 @@ public:
     void update(Simulation& sim);
     /// The state for a restart: of the simulation and of the sums below.
     Snapshot snapshot(const Simulation& sim) const;
-    void write_checkpoint(const Snapshot& snapshot);
+    /// Waits until all rows and frames so far are on disk.
+    void settle();
+    void write_checkpoint(Snapshot snapshot);
     /// At the end of a run: writes the resting contacts since the last frame.
     void close_interval(const Simulation& sim);
     /// Cost of the thread that writes frames.

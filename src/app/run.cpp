@@ -106,10 +106,11 @@ struct Job {
     Simulation sim;
     Progress progress;
     std::optional<Outputs> outputs;
-    Snapshot last_good; // at the last frame
     std::int64_t first_step = 0;
     std::int64_t good_step = 0;  // of `last_good`
     std::int64_t saved_step = 0; // of the last checkpoint
+    /// At the last frame; none while the checkpoint on disk is newer and no recovery needs it.
+    std::optional<Snapshot> last_good = {};
     double until = infinity;
     std::string command_to_go_on; // for the user, where the run stops before its end
     CoreWatch cores = {};
@@ -134,16 +135,23 @@ Snapshot state_of(const Job& job)
 void keep_good_state(Job& job)
 {
     job.outputs->timer().begin("good state");
-    job.last_good = {};
+    job.last_good.reset();
     job.last_good = state_of(job);
     job.good_step = job.sim.clock.step;
     job.outputs->timer().end();
 }
 
-void write_checkpoint(Job& job, const Snapshot& state)
+// Writes the present state to the disk. It takes the place of an older one in memory, unless the
+// run may return to that: a recovery must not depend on when checkpoints were written.
+void write_checkpoint(Job& job)
 {
     job.outputs->timer().begin("checkpoints");
-    job.outputs->write_checkpoint(state);
+    if (!job.sim.scene.time.recover) {
+        job.last_good.reset();
+    }
+    job.outputs->settle(); // frames on their way are nearly as large as the state
+    job.outputs->write_checkpoint(state_of(job));
+    job.saved_step = job.sim.clock.step;
     job.outputs->timer().end();
 }
 
@@ -153,7 +161,7 @@ void recover(Job& job, const NumericalError& error)
 {
     const Scene& scene = job.sim.scene;
     Simulation sim = make_simulation(scene, job.sim.plan, fill(scene));
-    restore(sim, job.last_good);
+    restore(sim, *job.last_good);
     sim.clock.share = 0.5 * job.sim.clock.share;
     job.sim.timer.end(); // of the failed stage
     sim.timer = job.sim.timer;
@@ -164,7 +172,7 @@ void recover(Job& job, const NumericalError& error)
         "recovery: back to t = {} s, then to the end with time steps of {} of the limits",
         sim.clock.time, sim.clock.share));
     job.outputs.reset(); // all that it holds back is on disk before it is read again
-    job.outputs.emplace(job.folder, sim, job.last_good);
+    job.outputs.emplace(job.folder, sim, *job.last_good);
     job.sim = std::move(sim);
 }
 
@@ -201,8 +209,7 @@ void advance(Job& job)
             keep_good_state(job);
         }
         if (job.progress.wall_seconds() - saved > sim.scene.output.checkpoint_every) {
-            write_checkpoint(job, state_of(job));
-            job.saved_step = sim.clock.step;
+            write_checkpoint(job);
             saved = job.progress.wall_seconds();
         }
         job.progress.update(sim);
@@ -256,8 +263,7 @@ int finish(Job& job)
         job.outputs->close_interval(job.sim);
     }
     count_in_solids(job.sim);
-    keep_good_state(job);
-    write_checkpoint(job, job.last_good);
+    write_checkpoint(job);
     write_closing(job, reason);
     job.progress.end(job.sim);
     tell_doubts(job);
@@ -284,8 +290,8 @@ int carry_out(Job& job)
         // The state of the last frame was good; a run can go on from it with other settings.
         job.progress.abandon(
             fmt::format("error: the simulation became unstable: {}", error.what()));
-        if (job.good_step > job.saved_step) {
-            write_checkpoint(job, job.last_good);
+        if (job.last_good && job.good_step > job.saved_step) {
+            job.outputs->write_checkpoint(std::move(*job.last_good));
         }
         write_closing(job, "numerical error");
         throw;
@@ -304,7 +310,7 @@ TimingBudget timing_budget(const RunOptions& options, const Scene& scene, const 
 }
 
 Job start(const RunOptions& options, const fs::path& folder, const Scene& scene, const Plan& plan,
-          const Filling& filling)
+          Filling filling)
 {
     const std::string case_text = to_toml(scene);
     keep_the_case(options, folder, case_text);
@@ -316,13 +322,17 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
         time_case({options.case_file, options.overrides}, scene, plan, filling, budget);
     write_text(folder / "plan.json", plan_json(scene, plan, timed));
     Simulation sim = make_simulation(scene, plan, filling);
+    const Bounds domain = filling.domain;
+    filling = {}; // as large as the state of the fluid, and no more needed
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, 0);
-    Outputs outputs(folder, sim, filling.domain);
-    Job job{std::move(lock),    folder, case_text, std::move(sim), std::move(progress),
-            std::move(outputs), {}};
+    Outputs outputs(folder, sim, domain);
+    Job job{std::move(lock),   folder, case_text, std::move(sim), std::move(progress),
+            std::move(outputs)};
     job.outputs->update(job.sim);
-    keep_good_state(job);
-    write_checkpoint(job, job.last_good);
+    if (scene.time.recover) {
+        keep_good_state(job);
+    }
+    write_checkpoint(job);
     return job;
 }
 
@@ -334,11 +344,12 @@ void write_case(const fs::path& folder, const Scene& scene, const Plan& plan)
 }
 
 Job resume(const RunOptions& options, const fs::path& folder, Resumption from, const Plan& plan,
-           const Filling& filling)
+           Filling filling)
 {
     const Scene& scene = from.scene;
     FolderLock lock = prepare_results(folder, Existing::extend);
     Simulation sim = make_simulation(scene, plan, filling);
+    filling = {}; // as large as the state of the fluid, and no more needed
     restore(sim, from.state);
     const std::int64_t first_step = sim.clock.step;
     Progress progress(folder, options.quiet ? Verbosity::quiet : Verbosity::normal, sim.clock.time);
@@ -364,13 +375,12 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
             std::move(sim),
             std::move(progress),
             std::move(outputs),
-            std::move(from.state),
             first_step,
             first_step,
-            first_step};
+            first_step,
+            scene.time.recover ? std::optional(std::move(from.state)) : std::nullopt};
     if (changed) { // or a kill would leave a checkpoint of the case before
-        keep_good_state(job);
-        write_checkpoint(job, job.last_good);
+        write_checkpoint(job);
     }
     return job;
 }
@@ -397,9 +407,8 @@ int run_case(const RunOptions& options)
         }
     }
     check_memory(plan);
-    Job job = from ? resume(options, folder, std::move(*from), plan, filling)
-                   : start(options, folder, scene, plan, filling);
-    filling = {}; // as large as the state of the fluid, and no more needed
+    Job job = from ? resume(options, folder, std::move(*from), plan, std::move(filling))
+                   : start(options, folder, scene, plan, std::move(filling));
     from.reset();
     job.until = options.until.value_or(infinity);
     job.command_to_go_on = command_to_go_on(options, folder);

@@ -127,7 +127,7 @@ StepRates measure_steps(Simulation& sim, const std::string& name, const Extent& 
                     .time = sim.clock.time,
                     .spacing = sim.scene.spacing,
                     .fluid = sim.fluid->particles.fluid.size(),
-                    .solid = sim.fluid->particles.solids(),
+                    .solid = sim.plan.counts.wall + sim.plan.counts.body,
                     .steps = extent.steps,
                     .threads = threads,
                     .one = infinity,

@@ -18,7 +18,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr int format_version = 4;
+constexpr int format_version = 5;
 constexpr std::size_t header_size = 512; // the first place after 0 where HDF5 looks for a file
 constexpr std::string_view magic = "hyoryu checkpoint";
 
@@ -72,10 +72,13 @@ std::string name_of(std::string_view link)
 }
 
 /// Texts as bytes: a string type of HDF5 would lose zero bytes at their end.
-void put_snapshot(hid_t file, const Snapshot& snapshot)
+void put_snapshot(hid_t file, Snapshot snapshot)
 {
     const hdf5::Handle arrays = hdf5::create_group(file, "arrays");
-    for (const auto& [name, column] : snapshot.arrays) {
+    // An array is freed once it is in the file: together they are as large as the state.
+    for (auto array = snapshot.arrays.begin(); array != snapshot.arrays.end();
+         array = snapshot.arrays.erase(array)) {
+        const auto& [name, column] = *array;
         expects(!name.empty());
         put_array(arrays, link_name(name), raw(view_of(column)), column.unit);
         const hdf5::Handle dataset(H5Dopen2(arrays, link_name(name).c_str(), H5P_DEFAULT), H5Dclose,
@@ -191,12 +194,12 @@ Snapshot read_generation(const std::filesystem::path& file)
 
 } // namespace
 
-void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snapshot)
+void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot)
 {
     AtomicFile atomic(checkpoint_file(folder));
     const hdf5::Session session;
     hdf5::FileImage image(stored_bytes(snapshot));
-    put_snapshot(image, snapshot);
+    put_snapshot(image, std::move(snapshot));
     const std::span<const std::byte> bytes = image.bytes();
     atomic.write(header(bytes.size(), libdeflate_crc32(0, bytes.data(), bytes.size())));
     atomic.write(bytes);

@@ -44,10 +44,12 @@ Handle in_memory_access(std::size_t content)
 {
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepare an HDF5 file");
     // Few reallocations, little waste: HDF5 fills a portion with zeros before anything is in it,
-    // and 8 MiB per file were a fifth of the memory of a small run.
+    // so equal portions are chosen that together hold what is expected.
     constexpr std::size_t around_content = std::size_t{64} << 10; // headers, groups, attributes
     constexpr std::size_t largest = std::size_t{8} << 20;
-    const std::size_t growth = std::min(content + around_content, largest);
+    const std::size_t expected = content + around_content;
+    const std::size_t portions = (expected + largest - 1) / largest;
+    const std::size_t growth = (expected + portions - 1) / portions;
     check(H5Pset_fapl_core(access, growth, false), "prepare an HDF5 file");
     // The oldest file format that can hold the content is the one that most programs read.
     check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST),

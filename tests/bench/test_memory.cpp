@@ -15,7 +15,7 @@ constexpr double most = 450; // [B] a particle, at h/dp = 1.5
 double bytes_a_particle(const Simulation& sim)
 {
     return static_cast<double>(total(memory_of(*sim.fluid))) /
-           static_cast<double>(sim.fluid->particles.size());
+           static_cast<double>(sim.plan.counts.particles());
 }
 
 TEST(Memory, OfADamBreakInSpaceWithAllOn)

@@ -138,8 +138,8 @@ void write_master(const std::filesystem::path& folder, const std::string& case_t
                   const std::string& version);
 
 /// Writes `checkpoint.h5`; the one that stood there becomes `checkpoint.previous.h5`. At every
-/// moment at least one of the two is whole.
-void write_checkpoint(const std::filesystem::path& folder, const Snapshot& snapshot);
+/// moment at least one of the two is whole. Arrays of the snapshot are freed as they are written.
+void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot);
 
 /// Reads `checkpoint.h5`. Throws IoError if the file is missing, damaged (checksum), of another
 /// format version or of another program.
