@@ -8,23 +8,31 @@ namespace hyoryu {
 
 namespace {
 
-// Row k of the column becomes row order[k].
+// Row k of the column becomes row from[k]; zero where that is -1.
 template <class T>
-void permute_column(ColumnValues<T>& column, std::span<const std::int32_t> order,
-                    std::span<std::byte> room)
+void gather_column(ColumnValues<T>& column, std::span<const std::int32_t> from,
+                   std::span<std::byte> room)
 {
-    const auto rows = static_cast<Index>(order.size());
-    std::byte* const sorted = room.data();
-    parallel_for(0, rows, [&](Index k) {
-        const auto at = static_cast<std::size_t>(k);
-        std::memcpy(sorted + at * sizeof(T), &column[static_cast<std::size_t>(order[at])],
-                    sizeof(T));
+    const std::size_t rows = from.size();
+    std::byte* const gathered = room.data();
+    parallel_for(0, static_cast<Index>(rows), [&](Index k) {
+        const auto to = static_cast<std::size_t>(k);
+        std::byte* const place = gathered + to * sizeof(T);
+        if (from[to] < 0) {
+            std::memset(place, 0, sizeof(T));
+        } else {
+            std::memcpy(place, &column[static_cast<std::size_t>(from[to])], sizeof(T));
+        }
     });
-    parallel_for(0, rows, [&](Index k) {
-        const auto at = static_cast<std::size_t>(k);
-        std::memcpy(static_cast<void*>(&column[at]), sorted + at * sizeof(T), sizeof(T));
+    if (column.capacity() < rows) { // by itself a vector would take twice what it had
+        column = {};
+        column.reserve(rows + rows / 8);
+    }
+    column.resize(rows);
+    parallel_for(0, static_cast<Index>(rows), [&](Index k) {
+        const auto to = static_cast<std::size_t>(k);
+        std::memcpy(static_cast<void*>(&column[to]), gathered + to * sizeof(T), sizeof(T));
     });
-    column.resize(order.size());
 }
 
 } // namespace
@@ -49,17 +57,17 @@ ColumnPointers Store::pointers()
     return all;
 }
 
-void Store::permute(std::span<const std::int32_t> order, std::span<std::byte> room)
+void Store::gather(std::span<const std::int32_t> from, std::span<std::byte> room)
 {
     std::vector<std::byte> own;
-    if (room.size() < order.size() * sizeof(Vec3)) {
-        own.resize(order.size() * sizeof(Vec3));
+    if (room.size() < from.size() * sizeof(Vec3)) {
+        own.resize(from.size() * sizeof(Vec3));
         room = own;
     }
-    for_each_column([&](const FieldInfo&, auto& values) { permute_column(values, order, room); });
-    permute_column(id_, order, room);
+    for_each_column([&](const FieldInfo&, auto& values) { gather_column(values, from, room); });
+    gather_column(id_, from, room);
     if (kind_ != Kind::fluid) {
-        permute_column(owner_, order, room);
+        gather_column(owner_, from, room);
     }
 }
 
@@ -88,12 +96,12 @@ std::vector<ColumnInfo> active_columns(const Particles& particles)
     std::vector<ColumnInfo> columns;
     for (const Store* store : {&particles.fluid, &particles.wall, &particles.body}) {
         store->for_each_column([&](const FieldInfo& field, const auto& values) {
-            const auto known = [&](const ColumnInfo& column) {
-                return column.field.name == field.name;
-            };
-            if (std::ranges::none_of(columns, known)) {
-                columns.push_back({field, sizeof(values[0])});
+            auto known = std::ranges::find_if(
+                columns, [&](const ColumnInfo& column) { return column.field.name == field.name; });
+            if (known == columns.end()) {
+                known = columns.insert(known, {field, sizeof(values[0])});
             }
+            (store == &particles.fluid ? known->of_fluid : known->of_solids) = true;
         });
     }
     return columns;

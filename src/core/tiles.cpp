@@ -218,6 +218,11 @@ std::uint64_t TileLattice::cell_of(const Vec3& point) const
     return interleave(tile) << cell_bits | place_along_curve[static_cast<std::size_t>(cell)];
 }
 
+std::uint64_t TileLattice::tile_of(const Vec3& point) const
+{
+    return cell_of(point) >> cell_bits;
+}
+
 std::array<std::int64_t, 3> TileLattice::place_of(std::uint64_t tile)
 {
     std::array<std::int64_t, 3> place{};

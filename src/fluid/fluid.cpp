@@ -46,25 +46,41 @@ void expect_built(const FluidEffects& effects)
     });
 }
 
-// The columns that an effect needs.
 template <class Effect>
-void add_columns_of(Particles& particles, const Effect&)
+struct ColumnsOf {
+    using type = typename Effect::Writes;
+};
+template <class Effect>
+requires requires
 {
+    typename Effect::Columns;
+}
+struct ColumnsOf<Effect> {
+    using type = typename Effect::Columns;
+};
+
+// The columns that an effect needs: those of solids have them only if it acts on them.
+template <class Effect>
+void add_columns_of(Fluid& fluid, const Effect&)
+{
+    const typename ColumnsOf<Effect>::type columns{};
     constexpr bool needs_solids = requires
     {
         Effect::needs_solids;
     };
-    if (needs_solids && particles.solids() == 0) {
-        return;
-    }
-    if constexpr (requires { typename Effect::Columns; }) {
-        add_columns(particles, typename Effect::Columns{});
-    } else {
-        add_columns(particles, typename Effect::Writes{});
+    if constexpr (!needs_solids) {
+        fluid.particles.fluid.add(columns);
+    } else if (has_solids(fluid)) {
+        add_columns(fluid.particles, columns);
     }
 }
 
 } // namespace
+
+bool has_solids(const Fluid& fluid)
+{
+    return fluid.particles.solids() + fluid.fixed_walls.size() > 0;
+}
 
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count)
 {
@@ -75,9 +91,8 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
     reset(fluid.particles, fluid_count, wall_count, body_count);
     add_columns(fluid.particles,
                 Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>{});
-    for_each_effect(fluid.effects,
-                    [&](const auto& effect) { add_columns_of(fluid.particles, effect); });
-    if (wall_count + body_count > 0) {
+    for_each_effect(fluid.effects, [&](const auto& effect) { add_columns_of(fluid, effect); });
+    if (has_solids(fluid)) {
         add_columns(fluid.particles,
                     Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
     }
@@ -144,7 +159,7 @@ void update_pressure(Fluid& fluid)
         V[i] = f.mass / rho[i];
     });
     load_fluid(fluid, Stored{});
-    if (fluid.particles.solids() == 0) {
+    if (!has_solids(fluid)) {
         return;
     }
     load_solids(fluid, Stored{});
@@ -223,7 +238,7 @@ void update_forces(Fluid& fluid, real dt)
         clear(store, MpsGradient::Writes{});
     }
     run<pass::FluidForces>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
-    if (fluid.particles.solids() > 0) {
+    if (has_solids(fluid)) {
         add_solid_forces(fluid, terms);
     }
     if (held<ParticleCollision>(fluid.effects) != nullptr) {

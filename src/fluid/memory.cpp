@@ -45,6 +45,7 @@ std::vector<MemoryUse> memory_of(const Fluid& fluid)
         lists += list->bytes();
     }
     return {{"columns", bytes_of(fluid.particles)},
+            {"fixed walls", fluid.fixed_walls.bytes()},
             {"records", std::visit([](const auto& data) { return held(data); }, fluid.pair_data)},
             {"lists", lists},
             {"tiles", held(n.fluid) + held(n.wall) + held(n.body)},

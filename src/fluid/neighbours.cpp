@@ -161,7 +161,7 @@ void sort_fluid(Fluid& fluid)
     const std::span<const std::int32_t> order = space.row;
     count_lost(fluid, order.subspan(at(kept)));
     // The records are written anew before anyone reads them again.
-    std::visit([&](auto& data) { store.permute(order.first(at(kept)), data.records.room()); },
+    std::visit([&](auto& data) { store.gather(order.first(at(kept)), data.records.room()); },
                fluid.pair_data);
     part_coincident(fluid, space.key);
     std::iota(space.row.begin(), space.row.begin() + kept, 0);
@@ -186,11 +186,12 @@ void sort_particles(Fluid& fluid)
     Particles& particles = fluid.particles;
     FluidNeighbours& n = fluid.neighbours;
     sort_fluid(fluid);
+    sort_solids(fluid, particles.body, n.body);
+    place_fixed_walls(fluid);
     if (fluid.moving_walls ||
         n.wall.count() != particles.wall.size()) { // others stay where they are
         sort_solids(fluid, particles.wall, n.wall);
     }
-    sort_solids(fluid, particles.body, n.body);
 }
 
 // Room for the records of all slots, and for those that a block looks at, on each thread.
@@ -293,7 +294,7 @@ void build_lists(Fluid& fluid)
     const Tiles* const of_bodies[] = {&n.body};
     const Tiles* const of_solids[] = {&n.wall, &n.body};
     n.fluid_fluid.build(n.fluid, of_fluid, of_pairs);
-    if (particles.solids() > 0) {
+    if (has_solids(fluid)) {
         n.fluid_solid.build(n.fluid, of_solids, settings);
         // Dry walls have met nothing and get no lists of their own.
         n.met.assign(at(particles.size()), 0);
@@ -323,6 +324,22 @@ void build_lists(Fluid& fluid)
 }
 
 } // namespace
+
+void place_fixed_walls(Fluid& fluid)
+{
+    FixedWalls& walls = fluid.fixed_walls;
+    FluidNeighbours& n = fluid.neighbours;
+    const TileLattice lattice = lattice_of(fluid);
+    if (walls.tile_of.size() != walls.place.size()) {
+        sort_into_tiles(walls, lattice);
+    }
+    const Tiles* const wet[] = {&n.fluid, &n.body};
+    const auto room = std::visit([](auto& data) { return data.records.room(); }, fluid.pair_data);
+    const bool changed = update_rows(walls, lattice, wet, fluid.particles.wall, room);
+    if (changed && !fluid.moving_walls) { // those that move are sorted with all lists
+        sort_solids(fluid, fluid.particles.wall, n.wall);
+    }
+}
 
 void update_neighbours(Fluid& fluid)
 {

@@ -27,15 +27,14 @@ void mirror_velocities(Fluid& fluid)
     });
 }
 
-// Records of the solids lend a place to another column, or take their own field again.
-template <Field From, Field To>
-void lend_solids(Fluid& fluid, From from, To to)
+// Records of the solids lend the place of a velocity to what solids show to the viscosity.
+void lend_mirrored_velocities(Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
     std::visit(
         [&](auto& data) {
-            data.records.lend(fluid.particles.wall, n.wall, from, to);
-            data.records.lend(fluid.particles.body, n.body, from, to);
+            data.records.lend(fluid.particles.wall, n.wall, field::velocity_sum, field::velocity);
+            data.records.lend(fluid.particles.body, n.body, field::velocity_sum, field::velocity);
         },
         fluid.pair_data);
 }
@@ -49,7 +48,7 @@ void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
     clear(store, StrainRate::Writes{});
     run<PassOf<StrainRate>>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     if (sticks) {
-        lend_solids(fluid, field::velocity_sum, field::velocity);
+        lend_mirrored_velocities(fluid);
         run<PassOf<StrainRate>>(fluid, n.fluid_solid, to_fluid(fluid), terms);
         load_solids(fluid, Fields<Velocity>{});
     }
@@ -61,11 +60,13 @@ void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
     std::visit(
         [&](auto& data) {
             data.records.lend(store, n.fluid, field::turbulent_viscosity, field::pressure);
+            if (sticks) { // solids have no eddies
+                const auto none = [](std::size_t) { return real(0); };
+                data.records.lend(n.wall, field::pressure, none);
+                data.records.lend(n.body, field::pressure, none);
+            }
         },
         fluid.pair_data);
-    if (sticks) {
-        lend_solids(fluid, field::turbulent_viscosity, field::pressure); // theirs stays zero
-    }
 }
 
 // Viscous forces between the fluid and the solids to which it sticks.
@@ -73,7 +74,7 @@ void add_friction(Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, 0);
-    lend_solids(fluid, field::velocity_sum, field::velocity);
+    lend_mirrored_velocities(fluid);
     for_solids(fluid.particles, [](Store& solids) { clear(solids, Fields<ViscousForce>{}); });
     run<NoSlip::Friction>(fluid, n.fluid_solid, to_fluid(fluid), terms);
     run<NoSlip::Friction>(fluid, n.wall_fluid, to_walls(fluid), terms);
@@ -121,7 +122,7 @@ void update_rates(Fluid& fluid)
     load_fluid(fluid, Fields<Velocity>{});
     load_solids(fluid, Fields<Velocity>{});
     clear(store, Union<Continuity::Writes, StageWrites<stage::Rates>>{});
-    const bool sticks = sticks_to_solids(fluid) && fluid.particles.solids() > 0;
+    const bool sticks = sticks_to_solids(fluid) && has_solids(fluid);
     if (sticks) {
         mirror_velocities(fluid);
     }

@@ -19,13 +19,14 @@ constexpr double mesh_reader = 31e6;
 // cells [B].
 constexpr double of_particle = 64 + 24 + 16 + 12;
 
-// Of a fluid particle: the last good state; and on its way to the disk, a checkpoint and two
-// frames [B].
+// Of a fluid particle: the last good state, which becomes the image of a checkpoint; and two frames
+// on their way to the disk [B].
 constexpr double good_state = 150;
-constexpr double on_its_way = 150 + 2 * 62;
+constexpr double on_its_way = 2 * 62;
 
 // A solid particle of a frame: numbers and cells, and where it was placed; that of a frame of what
-// moves, which wait two at a time and have tiles that lists are made from [B].
+// moves, which wait two at a time and have tiles that lists are made from [B]. The first are
+// written before there is a good state.
 constexpr double drawn_once = 100;
 constexpr double drawn_always = 2 * 62 + 30;
 
@@ -83,16 +84,18 @@ double memory_bytes(const Scene& scene, const Plan& plan, const Course& course)
     for (const Plan::FieldUse& field : plan.fields) {
         lasting += static_cast<double>(field.bytes());
     }
-    lasting +=
-        n * of_particle + good_state * fluid + of_body * static_cast<double>(plan.counts.bodies);
+    // As if water came to all walls: those that stay dry have no columns and records.
+    lasting += n * of_particle + of_body * static_cast<double>(plan.counts.bodies);
     if (plan.fluid) {
         // The lists of solid rows are short.
         lasting += fluid * list_bytes(*plan.fluid);
     }
     const bool moving = has_moving_walls(scene);
-    const double frames = on_its_way * fluid + drawn_once * (wall + drawn) +
-                          drawn_always * (drawn + (moving ? wall : 0));
-    return lasting + std::max(frames, closing(histories(scene, plan, course)));
+    const double at_start = drawn_once * (wall + drawn);
+    const double between =
+        (good_state + on_its_way) * fluid + drawn_always * (drawn + (moving ? wall : 0));
+    const double at_end = closing(histories(scene, plan, course));
+    return lasting + std::max({at_start, between, at_end});
 }
 
 } // namespace hyoryu

@@ -108,19 +108,14 @@ void unflat(std::span<const double> numbers, std::span<T> column)
     }
 }
 
-// The tiles of the last list build, from which the lists are built again. The file numbers the rows
-// of all kinds consecutively, from `first`.
-void save_tiles(const Tiles& tiles, Index first, const std::string& name, Snapshot& snapshot)
+// The tiles of the last list build, from which the lists are built again.
+void save_tiles(const Tiles& tiles, const std::string& name, Snapshot& snapshot)
 {
-    std::vector<std::int32_t> rows(tiles.row);
-    for (std::int32_t& row : rows) {
-        row += static_cast<std::int32_t>(first);
-    }
     add_values(
         snapshot, name + "/number",
         std::span(reinterpret_cast<const std::int64_t*>(tiles.tile.data()), tiles.tile.size()));
     add_values(snapshot, name + "/start", std::span<const std::int32_t>(tiles.start));
-    add_values(snapshot, name + "/row", std::span<const std::int32_t>(rows));
+    add_values(snapshot, name + "/row", std::span<const std::int32_t>(tiles.row));
     add_values(snapshot, name + "/x", std::span<const float>(tiles.x));
     add_values(snapshot, name + "/y", std::span<const float>(tiles.y));
     add_values(snapshot, name + "/z", std::span<const float>(tiles.z));
@@ -144,16 +139,13 @@ void check_tiles(const Tiles& tiles, Rows rows)
     }
 }
 
-void restore_tiles(Tiles& tiles, Index first, const Store& store, const std::string& name,
+void restore_tiles(Tiles& tiles, const Store& store, const std::string& name,
                    const Snapshot& snapshot)
 {
     const auto& number = values<std::int64_t>(snapshot, name + "/number");
     tiles.tile.assign(number.begin(), number.end());
     tiles.start = values<std::int32_t>(snapshot, name + "/start");
     tiles.row = values<std::int32_t>(snapshot, name + "/row");
-    for (std::int32_t& row : tiles.row) {
-        row = static_cast<std::int32_t>(std::clamp<Index>(row - first, -1, store.size()));
-    }
     tiles.x = values<float>(snapshot, name + "/x");
     tiles.y = values<float>(snapshot, name + "/y");
     tiles.z = values<float>(snapshot, name + "/z");
@@ -190,13 +182,11 @@ void save_fluid(const Fluid& fluid, Snapshot& snapshot)
         }
     });
     add_values(snapshot, "fluid/id", std::span(store.id()));
-    const Index walls = store.size();
-    save_tiles(fluid.neighbours.fluid, 0, "fluid/tiles", snapshot);
+    save_tiles(fluid.neighbours.fluid, "fluid/tiles", snapshot);
     if (fluid.moving_walls) {
-        save_tiles(fluid.neighbours.wall, walls, "fluid/wall_tiles", snapshot);
+        save_tiles(fluid.neighbours.wall, "fluid/wall_tiles", snapshot);
     }
-    save_tiles(fluid.neighbours.body, walls + fluid.particles.wall.size(), "fluid/body_tiles",
-               snapshot);
+    save_tiles(fluid.neighbours.body, "fluid/body_tiles", snapshot);
     Numbers numbers;
     put(numbers, static_cast<double>(store.size()));
     put(numbers, static_cast<double>(fluid.neighbours.builds));
@@ -217,6 +207,27 @@ void check_places(const Numbers& places)
     }
 }
 
+// Which fixed walls have rows follows from the tiles of fluid and bodies.
+void restore_solids(Fluid& fluid, const Snapshot& snapshot)
+{
+    Store& wall = fluid.particles.wall;
+    Store& body = fluid.particles.body;
+    restore_tiles(fluid.neighbours.body, body, "fluid/body_tiles", snapshot);
+    place_fixed_walls(fluid);
+    for_each(LastingOfSolids{}, [&](auto column) {
+        if (lasts(fluid, column)) {
+            const Reader saved(snapshot, fmt::format("solids/{}", column.info.name));
+            const std::span<const double> both(saved.all());
+            const auto of_walls = std::min(both.size(), wall[column].size_bytes() / sizeof(real));
+            unflat(both.first(of_walls), std::span(wall[column]));
+            unflat(both.subspan(of_walls), std::span(body[column]));
+        }
+    });
+    if (fluid.moving_walls) {
+        restore_tiles(fluid.neighbours.wall, wall, "fluid/wall_tiles", snapshot);
+    }
+}
+
 void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
 {
     Store& store = fluid.particles.fluid;
@@ -234,7 +245,7 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
     for (std::size_t k = 0; k < order.size(); ++k) {
         order[k] = static_cast<std::int32_t>(k);
     }
-    store.permute(order);
+    store.gather(order);
     fluid.neighbours.builds = static_cast<long long>(numbers.number());
     fluid.neighbours.steps = static_cast<long long>(numbers.number());
     fluid.neighbours.skins.fluid = numbers.number();
@@ -249,28 +260,14 @@ void restore_fluid(Fluid& fluid, const Snapshot& snapshot)
             unflat(saved.all(), std::span<T>(values_of));
         }
     });
-    Store& wall = fluid.particles.wall;
-    Store& body = fluid.particles.body;
-    for_each(LastingOfSolids{}, [&](auto column) {
-        if (lasts(fluid, column)) {
-            const Reader saved(snapshot, fmt::format("solids/{}", column.info.name));
-            const std::span<const double> both(saved.all());
-            const auto of_walls = std::min(both.size(), wall[column].size_bytes() / sizeof(real));
-            unflat(both.first(of_walls), std::span(wall[column]));
-            unflat(both.subspan(of_walls), std::span(body[column]));
-        }
-    });
     const auto& id = values<std::int64_t>(snapshot, "fluid/id");
     if (id.size() != rows) {
         throw IoError("the checkpoint has other particle numbers: it belongs to another case");
     }
     std::copy(id.begin(), id.end(), store.id().begin());
     check_places(flat(std::span(store[field::position])));
-    restore_tiles(fluid.neighbours.fluid, 0, store, "fluid/tiles", snapshot);
-    if (fluid.moving_walls) {
-        restore_tiles(fluid.neighbours.wall, kept, wall, "fluid/wall_tiles", snapshot);
-    }
-    restore_tiles(fluid.neighbours.body, kept + wall.size(), body, "fluid/body_tiles", snapshot);
+    restore_tiles(fluid.neighbours.fluid, store, "fluid/tiles", snapshot);
+    restore_solids(fluid, snapshot);
     rebuild_neighbours(fluid);
 }
 

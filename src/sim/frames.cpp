@@ -4,6 +4,7 @@
 #include "hyoryu/scene/triangles.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -74,6 +75,32 @@ Cloud cloud_of(const Simulation& sim, std::string name, const Store& store, Kind
     return cloud;
 }
 
+// The value that a column has for a wall particle without a row, which no fluid is near.
+double dry_value(const Fluid& fluid, const std::string& column)
+{
+    const real rho0 = fluid.parameters.eos.rho0;
+    return column == field::density.info.name  ? rho0
+           : column == field::volume.info.name ? fluid.parameters.mass / rho0
+           : column == "Kind"                  ? static_cast<double>(Kind::wall)
+           : column == "Body"                  ? -1
+                                               : 0;
+}
+
+// Puts each row of a column at its place, and the value of dry walls at all others.
+void spread(Column& column, std::span<const std::size_t> place, std::size_t count, double dry)
+{
+    const auto width = static_cast<std::size_t>(column.components);
+    std::visit(
+        [&]<class T>(std::vector<T>& values) {
+            std::vector<T> all(count * width, static_cast<T>(dry));
+            for (std::size_t row = 0; row < place.size(); ++row) {
+                std::copy_n(&values[row * width], width, &all[place[row] * width]);
+            }
+            values = std::move(all);
+        },
+        column.values);
+}
+
 // Appends a surface and returns the number of corners it added.
 std::size_t append(Surface& all, const TriangleSurface& part, const Pose& pose)
 {
@@ -96,9 +123,34 @@ Cloud fluid_cloud(const Simulation& sim)
     return cloud_of(sim, "fluid", sim.fluid->particles.fluid, Kind::fluid);
 }
 
+// All particles of walls in the order of their numbers, with rows or without.
 Cloud wall_cloud(const Simulation& sim)
 {
-    return cloud_of(sim, "walls", sim.fluid->particles.wall, Kind::wall);
+    const Fluid& fluid = *sim.fluid;
+    const Store& store = fluid.particles.wall;
+    const FixedWalls& fixed = fluid.fixed_walls;
+    const Index first = sim.plan.counts.fluid; // number of the first
+    const auto count = at(sim.plan.counts.wall);
+    std::vector<std::size_t> place(at(store.size()));
+    std::ranges::transform(store.id(), place.begin(),
+                           [&](std::int64_t number) { return at(number - first); });
+    Cloud cloud = cloud_of(sim, "walls", store, Kind::wall);
+    for (Column& column : cloud.columns) {
+        spread(column, place, count, dry_value(fluid, column.name));
+    }
+    std::vector<std::int64_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), first);
+    cloud.columns.front().values = std::move(numbers);
+    Column points{"", "", 3, std::move(cloud.points)};
+    spread(points, place, count, 0);
+    cloud.points = std::move(std::get<std::vector<float>>(points.values));
+    for (std::size_t k = 0; k < fixed.place.size(); ++k) {
+        for (Index axis = 0; axis < 3; ++axis) {
+            cloud.points[3 * at(fixed.number[k] - first) + at(axis)] =
+                static_cast<float>(fixed.place[k][axis]);
+        }
+    }
+    return cloud;
 }
 
 Cloud body_cloud(const Simulation& sim)

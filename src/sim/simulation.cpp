@@ -7,6 +7,7 @@
 #include "hyoryu/sim/watch.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 namespace hyoryu {
@@ -59,19 +60,57 @@ void fill_fluid_rows(const Filling& filling, Fluid& fluid)
     }
 }
 
+// Numbers a store from `first` on.
+void number_rows(Store& store, Index first)
+{
+    std::iota(store.id().begin(), store.id().end(), static_cast<std::int64_t>(first));
+}
+
+bool is_moving(const Scene& scene, std::int32_t wall)
+{
+    return moves(scene.walls[at(wall)].motion);
+}
+
+// Walls that do not move: places, which get rows when fluid comes near.
+FixedWalls fixed_walls(const Scene& scene, const Filling& filling)
+{
+    FixedWalls walls;
+    for (std::size_t k = 0; k < filling.wall.size(); ++k) {
+        const std::int32_t wall = filling.wall_owner[k];
+        if (is_moving(scene, wall)) {
+            ++walls.moving_rows;
+            continue;
+        }
+        walls.place.push_back(filling.wall[k]);
+        walls.owner.push_back(-1 - wall);
+        walls.number.push_back(static_cast<std::int64_t>(filling.fluid.size() + k));
+        if (!filling.wall_depth.empty()) {
+            walls.depth.push_back(filling.wall_depth[k]);
+        }
+    }
+    return walls;
+}
+
+// Walls that move have rows always.
 void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
 {
     Store& store = fluid.particles.wall;
+    Index row = 0;
     for (std::size_t k = 0; k < filling.wall.size(); ++k) {
         const std::int32_t wall = filling.wall_owner[k];
-        store[field::position][k] = filling.wall[k];
-        store[field::velocity][k] = velocity(scene.walls[at(wall)].motion, 0);
-        store.owner()[k] = -1 - wall;
-        if (store.has(field::depth)) {
-            store[field::depth][k] = filling.wall_depth[k];
+        if (!is_moving(scene, wall)) {
+            continue;
         }
-        fluid.moving_walls = fluid.moving_walls || moves(scene.walls[at(wall)].motion);
+        store[field::position][row] = filling.wall[k];
+        store[field::velocity][row] = velocity(scene.walls[at(wall)].motion, 0);
+        store.owner()[row] = -1 - wall;
+        store.id()[row] = static_cast<std::int64_t>(filling.fluid.size() + k);
+        if (store.has(field::depth)) {
+            store[field::depth][row] = filling.wall_depth[k];
+        }
+        ++row;
     }
+    fluid.moving_walls = row > 0;
 }
 
 // Particles of moving walls take the position of their wall at one time, its velocity at another.
@@ -91,7 +130,7 @@ void move_walls(Simulation& sim, double place_time, double velocity_time)
     const auto v = store[field::velocity];
     const auto owner = store.owner();
     const TileLattice& lattice = sim.fluid->neighbours.wall.lattice;
-    parallel_for(0, store.size(), [&](Index i) {
+    parallel_for(0, static_cast<Index>(sim.wall_start.size()), [&](Index i) {
         const auto wall = at(-1 - owner[i]);
         // In a periodic domain the image that the lists know.
         const Vec3 place = sim.wall_start[at(i)] + places[wall];
@@ -103,6 +142,7 @@ void move_walls(Simulation& sim, double place_time, double velocity_time)
 void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
 {
     Store& store = fluid.particles.body;
+    number_rows(store, static_cast<Index>(filling.fluid.size() + filling.wall.size()));
     for (std::size_t b = 0; b < filling.bodies.size(); ++b) {
         const Rows rows = sim.body_particles.of[b];
         for (Index k = rows.begin; k < rows.end; ++k) {
@@ -137,8 +177,8 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
             fluid.period[axis] = filling.domain.max[axis] - filling.domain.min[axis];
         }
     }
-    allocate(fluid, static_cast<Index>(filling.fluid.size()),
-             static_cast<Index>(filling.wall.size()),
+    fluid.fixed_walls = fixed_walls(sim.scene, filling);
+    allocate(fluid, static_cast<Index>(filling.fluid.size()), fluid.fixed_walls.moving_rows,
              static_cast<Index>(sim.body_particles.points.size()));
     fill_fluid_rows(filling, fluid);
     fill_wall_rows(sim.scene, filling, fluid);
@@ -226,9 +266,8 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         }
         sim.rigid.settings.located_work = scene.contact.locating_share * updates_of_particle *
                                           static_cast<double>(sim.plan.counts.fluid);
-        if (sim.fluid->moving_walls) {
-            sim.wall_start = filling.wall;
-        }
+        const auto of_walls = sim.fluid->particles.wall[field::position];
+        sim.wall_start.assign(of_walls.begin(), of_walls.end());
         if (plan.runs("seepage")) {
             for (const BodySettings& body : scene.bodies) {
                 sim.seepage.open.push_back(body.sealed ? 0 : 1);

@@ -53,7 +53,7 @@ TEST(Particles, SortingAndDroppingMovesAllColumnsAlikeAndNoOtherStore)
     }
     const std::int32_t order[] = {2, 0, 3}; // row 1 leaves
     std::vector<std::byte> room(3 * sizeof(Vec3));
-    particles.fluid.permute(order, room);
+    particles.fluid.gather(order, room);
     ASSERT_EQ(particles.size(), 6);
     ASSERT_EQ(particles.fluid.size(), 3);
     const real expected[] = {2, 0, 3};
@@ -64,6 +64,32 @@ TEST(Particles, SortingAndDroppingMovesAllColumnsAlikeAndNoOtherStore)
         EXPECT_EQ(particles.fluid.id()[k], static_cast<std::int64_t>(expected[k]));
     }
     EXPECT_EQ(particles.wall[field::density][1], 5); // as it was
+}
+
+TEST(Particles, GatheringMakesRowsThatComeBack)
+{
+    Store store(Kind::wall);
+    store.reset(3);
+    store.add(Fields<Density, Velocity>{});
+    for (Index k = 0; k < 3; ++k) {
+        store.id()[k] = 7 + k;
+        store.owner()[k] = -1;
+        store[field::density][k] = static_cast<real>(k + 1);
+        store[field::velocity][k].setConstant(static_cast<real>(k + 1));
+    }
+    const std::int32_t from[] = {-1, 2, -1, 0, -1, 1};
+    store.gather(from);
+    const real expected[] = {0, 3, 0, 1, 0, 2};
+    ASSERT_EQ(store.size(), 6);
+    for (std::size_t k = 0; k < 6; ++k) {
+        EXPECT_EQ(store[field::density][k], expected[k]);
+        EXPECT_EQ(store[field::velocity][k], Vec3(Vec3::Constant(expected[k])));
+        EXPECT_EQ(store.id()[k], from[k] < 0 ? 0 : 7 + from[k]);
+        EXPECT_EQ(store.owner()[k], from[k] < 0 ? 0 : -1);
+    }
+    store.gather({});
+    EXPECT_EQ(store.size(), 0);
+    EXPECT_TRUE(store.has(field::density)); // columns stay
 }
 
 TEST(Particles, AFieldExistsOnlyOnTheKindsThatHoldIt)

@@ -152,14 +152,14 @@ void create_again(Simulation& sim, Dice* dice)
     Fluid& fluid = *sim.fluid;
     if (dice != nullptr) {
         Particles& p = fluid.particles;
-        p.fluid.permute(drawn_order(*dice, p.fluid));
+        p.fluid.gather(drawn_order(*dice, p.fluid));
         const std::vector<std::int32_t> of_walls = drawn_order(*dice, p.wall);
-        p.wall.permute(of_walls);
+        p.wall.gather(of_walls);
         if (!sim.wall_start.empty()) {
             permute(sim.wall_start, of_walls);
         }
         const std::vector<std::int32_t> of_bodies = drawn_order(*dice, p.body);
-        p.body.permute(of_bodies);
+        p.body.gather(of_bodies);
         permute(sim.body_particles.points, of_bodies);
     }
     fluid.neighbours = FluidNeighbours();

@@ -41,6 +41,8 @@ public:
 struct ColumnInfo {
     FieldInfo field;
     std::size_t bytes_per_particle = 0;
+    bool of_fluid = false;
+    bool of_solids = false;
 };
 
 /// Addresses of the columns of a store as plain numbers, three to a vector. The hot loops find the
@@ -125,10 +127,10 @@ public:
     ColumnView<std::int32_t> owner() { return std::span(owner_); }
     ColumnView<const std::int32_t> owner() const { return std::span(owner_); }
 
-    /// Reorders the rows: row k becomes what row `order[k]` was. Rows that `order` leaves out are
-    /// removed. `room` is memory that nobody needs meanwhile, 24 B a row; where it is too small,
-    /// memory is taken.
-    void permute(std::span<const std::int32_t> order, std::span<std::byte> room = {});
+    /// Makes the store anew from rows of its own: row k becomes what row `from[k]` was, or a row of
+    /// zeros where that is -1; rows that `from` leaves out are removed. `room` is memory that
+    /// nobody needs meanwhile, 24 B a row; where it is too small, memory is taken.
+    void gather(std::span<const std::int32_t> from, std::span<std::byte> room = {});
 
     /// Calls f(info, values) for each column, `values` of type ColumnValues<real> or
     /// ColumnValues<Vec3>.

@@ -30,6 +30,8 @@ struct TileLattice {
 
     /// The number of the cell of a point; the tile is all but its last six bits.
     std::uint64_t cell_of(const Vec3& point) const;
+    /// The number of the tile of a point.
+    std::uint64_t tile_of(const Vec3& point) const;
     /// Tile indices along x, y, z of the number of a tile, and back.
     static std::array<std::int64_t, 3> place_of(std::uint64_t tile);
     static std::uint64_t tile_at(const std::array<std::int64_t, 3>& place);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hyoryu/core/timer.hpp"
+#include "hyoryu/fluid/fixed_walls.hpp"
 #include "hyoryu/fluid/list_schedule.hpp"
 #include "hyoryu/fluid/pair_loops.hpp"
 #include "hyoryu/fluid/parameters.hpp"
@@ -54,8 +55,9 @@ struct Fluid {
     InstructionSet instruction_set = widest_instruction_set();
     FluidEffects effects;
     Particles particles;
-    Kernel kernel;        // of the loops in SPH, and of gauges in any formulation
-    MpsKernel mps_kernel; // of the loops in MPS
+    FixedWalls fixed_walls; // those of them that are near fluid or bodies have rows
+    Kernel kernel;          // of the loops in SPH, and of gauges in any formulation
+    MpsKernel mps_kernel;   // of the loops in MPS
     FluidNeighbours neighbours;
     std::variant<PairData<float>, PairData<double>> pair_data; // as the precision says
     Vec3 domain_min{-infinity, -infinity, -infinity};
@@ -75,8 +77,12 @@ bool sticks_to_solids(const Fluid& fluid);
 /// Mass of the fluid that a particle of this owner stands in for [kg].
 real stand_in_mass(const Fluid& fluid, std::int32_t owner);
 
+/// Whether there are walls, with rows or without, or bodies.
+bool has_solids(const Fluid& fluid);
+
 /// Makes the columns that the active effects need, and no others, for so many particles of each
-/// kind, and what the pair loops need in the precision of the parameters.
+/// kind, and what the pair loops need in the precision of the parameters. Fixed walls, which get
+/// rows when fluid comes near, must be known.
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count);
 
 // The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves
@@ -88,6 +94,9 @@ void drift(Fluid& fluid, real dt);
 /// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and
 /// drops those outside the domain when it does. Positions must be finite.
 void update_neighbours(Fluid& fluid);
+/// Gives rows to the fixed walls near the tiles of fluid and bodies, as lists do that are made
+/// anew: a restart needs them for the columns of solids.
+void place_fixed_walls(Fluid& fluid);
 /// Makes the lists again from the recorded positions, as a restart needs.
 void rebuild_neighbours(Fluid& fluid);
 

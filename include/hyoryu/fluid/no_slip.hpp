@@ -14,7 +14,7 @@ struct NoSlip {
     static constexpr std::string_view name = "no_slip";
     using Reads = Fields<Velocity>;
     using Writes = Fields<ShepardSum, VelocitySum, OffsetSum>;
-    using Columns = Union<Writes, Fields<Depth>>;
+    using Columns = Union<Writes, Fields<Depth, ViscousForce>>;
     static constexpr bool needs_solids = true;
     /// Viscous forces between the fluid and the solids to which it sticks.
     struct Friction {

@@ -33,7 +33,7 @@ struct Simulation {
     std::optional<WallBarrier> barrier; // none without fluid or without solids
     Rigid rigid;
     BodyParticles body_particles;
-    std::vector<Vec3> wall_start; // of the particles of walls at time 0 [m]; empty if none moves
+    std::vector<Vec3> wall_start; // of the particles of walls that move at time 0 [m]
     std::vector<Pose> poses;      // of the bodies when the loads were taken
     Loads loads;
     Seepage seepage; // of the joints of standing bodies
