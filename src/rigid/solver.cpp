@@ -36,6 +36,11 @@ double change_asked(std::span<const Row> rows)
     return most;
 }
 
+bool without_friction(std::span<const Row> rows)
+{
+    return std::ranges::all_of(rows, [](const Row& row) { return row.cone.size == 1; });
+}
+
 struct Turns {
     int direct_tries = 0;
     int sweeps = 0;    // in each turn
@@ -173,6 +178,9 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
     if (rows.size() == 1) {
         gauss_seidel(rows, bodies, {1, 0});
         return 0;
+    }
+    if (rows.size() <= effort.pivoted && without_friction(rows)) {
+        return solve_by_pivoting(rows, bodies, work);
     }
     if (rows.size() > few_contacts || !one_body(rows, bodies)) {
         return solve_rows(rows, bodies, work, effort, effort.enough);

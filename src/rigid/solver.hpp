@@ -78,6 +78,8 @@ struct Effort {
     double enough = 1e-6;
     int direct_tries = 2; // direct solutions of a small island, each before sweeps
     int sweeps = 300;     // in each turn
+    /// Rows of an island without friction up to which it is solved by pivoting.
+    std::size_t pivoted = 0;
 };
 
 /// Solves normal velocity >= target, impulse >= 0, Coulomb friction for all rows together, from the
@@ -110,6 +112,11 @@ void load_all_that_slide(std::span<const Row> rows, const std::vector<Response>&
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
 /// Prepares `solve_by_bodies` for the rows, whatever their states.
 void order_bodies(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
+/// Solves rows without friction exactly, blind to mass ratios, by block principal pivoting
+/// (Portugal, Judice and Vicente 1994): rows whose impulse pulls or whose velocity falls short of
+/// its target change sides, all at once while that gets on, else one by one. Costs the cube of the
+/// rows. Returns the residual; goes back to the impulses that there were if they leave less.
+double solve_by_pivoting(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
 /// The solution of the linear problem that is laid out in `work`; false if it is none.
 bool solve_by_bodies(std::span<const Row> rows, SolverWork& work);
 /// Sweeps with Nesterov's momentum and its restart (O'Donoghue and Candes 2015), which settle high

@@ -27,9 +27,10 @@ constexpr Effort contact_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60}
 constexpr double no_gap = 1e-9;
 // A sub-step may leave solids deeper in each other by this [units].
 constexpr double deep = 1e-5;
-// Sub-steps of a step that are shortened for it at most: what a moving wall crushes goes deeper
-// however short they are.
-constexpr int most_shortened = 40;
+// Sub-steps of a cluster are shortened for it while that has cost less [updates of rows], so that
+// the cost grows no faster than the cluster: what a moving wall crushes goes deeper however short
+// they are, and a heap has some place that does in every step.
+constexpr double shortening_work = 4e5;
 // Pairs that share a list of found contacts, whatever the number of threads.
 constexpr Index pairs_per_block = 32;
 
@@ -180,22 +181,25 @@ void advance_unlocated(const StepContext& context, const Cluster& cluster, doubl
     ContactMemory& memory = context.memory;
     memory.stepped = true;
     const double change = fastest_change(context, cluster);
-    int shortened = 0;
+    const double enough_work = memory.work + shortening_work;
+    double longest = context.dt;
     while (done < context.dt) {
         set_responses(context, cluster);
         const double rest = context.dt - done;
-        const double h = sub_step_length(context, cluster, rest);
+        const double h = std::min(sub_step_length(context, cluster, rest), longest);
         const double slow =
             std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
         SubStep sub{cluster,       context.start + done, h,         slow,  most_rounds,
                     impact_effort, contact_effort,       Arms::now, no_gap};
         plan_unlocated(context, sub);
-        const int tries = shortened < most_shortened ? halvings : 0;
-        for (int k = 0; k < tries && ends_deep(context, sub); ++k) {
+        const auto may_be_shorter = [&] {
+            return memory.work < enough_work && 0.5 * sub.h >= context.dt / most_sub_steps;
+        };
+        while (may_be_shorter() && ends_deep(context, sub)) {
             sub.h *= 0.5;
             plan_unlocated(context, sub);
         }
-        shortened += sub.h < h ? 1 : 0;
+        longest = memory.work < enough_work ? 2 * sub.h : context.dt;
         const WorkOfShare work = work_of_contacts(memory, memory.rows);
         memory.lost -= work.linear + work.square;
         move_to(context, sub, sub.h);
