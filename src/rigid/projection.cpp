@@ -122,6 +122,10 @@ constexpr int opening_passes = 2;
 // An overlap is opened to within a ten-thousandth of the deepest one that is corrected at once.
 // Sweeps get nowhere where a light body lies under a heavy one: few rows are solved exactly.
 constexpr Effort opening_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60, .pivoted = 64};
+// Where walls leave no room, no displacement opens all: the exact solution then has one without
+// bound, and the sweeps share the overlap.
+constexpr Effort swept_opening{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
+constexpr double farthest = 10; // times the widest opening
 
 // The contacts as rows without friction whose velocities are displacements, all still: what opens
 // their gaps.
@@ -149,6 +153,19 @@ void lay_out_opening(const StepContext& context, const SubStep& sub, double time
             memory.rows.push_back(row);
         }
     }
+}
+
+bool goes_too_far(const ContactMemory& memory, const Cluster& cluster)
+{
+    double widest = 0;
+    for (const Row& row : memory.rows) {
+        widest = std::max(widest, row.target);
+    }
+    return std::ranges::any_of(cluster.bodies, [&](int k) {
+        const Response& moved = memory.responses[k];
+        const double turned = memory.geometry.solids[k].reach * moved.omega.norm();
+        return moved.v.norm() + turned > farthest * widest;
+    });
 }
 
 // What the displacements of the responses cost against gravity and loads, and what they give to
@@ -206,6 +223,10 @@ void open_gaps(const StepContext& context, const SubStep& sub, double time)
             break;
         }
         solve_islands(memory.rows, memory, opening_effort);
+        if (goes_too_far(memory, sub.cluster)) {
+            lay_out_opening(context, sub, time);
+            solve_islands(memory.rows, memory, swept_opening);
+        }
         const double share = share_of_opening(context, sub.cluster);
         for (const int k : sub.cluster.bodies) {
             memory.poses[k].x += share * memory.responses[k].v;
