@@ -2,6 +2,7 @@
 #include "outputs.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/state.hpp"
 #include "hyoryu/scene/moving_walls.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/frames.hpp"
@@ -15,8 +16,40 @@ namespace hyoryu {
 
 namespace {
 
-constexpr const char* resting_array = "outputs/resting";
-constexpr const char* rows_array = "outputs/rows"; // of bodies, contacts, energy, gauges
+// What a restart needs of the outputs.
+struct OutputState {
+    std::int64_t bodies = 0, contacts = 0, energy = 0, gauges = 0; // rows of the histories
+    std::vector<RestingPair> resting;
+};
+
+template <class State, class Output>
+void describe_outputs(State& state, Output& output)
+{
+    state("rows/bodies", "", output.bodies);
+    state("rows/contacts", "", output.contacts);
+    state("rows/energy", "", output.energy);
+    state("rows/gauges", "", output.gauges);
+    auto& resting = output.resting;
+    const auto sum = [](auto member) {
+        return [member](auto& rest) -> auto&
+        {
+            return rest.sum.*member;
+        };
+    };
+    state.resize("resting/time", resting, &RestingPair::time);
+    state.each("resting/time", "s", resting, &RestingPair::time);
+    state.each("resting/weight", "", resting, &RestingPair::weight);
+    state.each("resting/a", "", resting, sum(&Contact::a));
+    state.each("resting/b", "", resting, sum(&Contact::b));
+    state.each("resting/point", "m", resting, sum(&Contact::point));
+    state.each("resting/normal", "", resting, sum(&Contact::normal));
+    state.each("resting/approach_speed", "m/s", resting, sum(&Contact::approach_speed));
+    state.each("resting/normal_impulse", "N s", resting, sum(&Contact::normal_impulse));
+    state.each("resting/tangential_impulse", "N s", resting, sum(&Contact::tangential_impulse));
+    state.each("resting/effective_mass", "kg", resting, sum(&Contact::effective_mass));
+    state.each("resting/energy_lost", "J", resting, sum(&Contact::energy_lost));
+    state.each("resting/located", "", resting, sum(&Contact::located));
+}
 
 std::vector<std::string> cells(std::initializer_list<double> values)
 {
@@ -32,19 +65,6 @@ void append(std::vector<std::string>& row, const Vec3& v)
     for (const double value : v) {
         row.push_back(cell(value));
     }
-}
-
-const std::vector<std::int64_t>& rows_in(const Snapshot& snapshot)
-{
-    const auto found = snapshot.arrays.find(rows_array);
-    const auto* rows = found == snapshot.arrays.end()
-                           ? nullptr
-                           : std::get_if<std::vector<std::int64_t>>(&found->second.values);
-    if (rows == nullptr || rows->size() != 4) {
-        throw IoError(
-            "the checkpoint has no row counts of the histories: it was written by another version");
-    }
-    return *rows;
 }
 
 // The two that touch are bodies, or a body and a wall, of this case.
@@ -84,31 +104,27 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
 {
     const int d = sim.scene.dimensions;
     const double now = sim.clock.time;
-    const std::vector<std::int64_t>& rows = rows_in(resumed);
+    OutputState state;
+    StateReader reader(resumed);
+    describe_outputs(reader, state);
     if (!sim.scene.bodies.empty()) {
-        bodies_.emplace(folder_, bodies_table(d), now, rows[0]);
+        bodies_.emplace(folder_, bodies_table(d), now, state.bodies);
     }
     if (sim.plan.contact) {
-        contacts_.emplace(folder_, contacts_table(d), now, rows[1]);
+        contacts_.emplace(folder_, contacts_table(d), now, state.contacts);
     }
-    energy_.emplace(folder_, energy_table(d), now, rows[2]);
+    energy_.emplace(folder_, energy_table(d), now, state.energy);
     if (!sim.scene.gauges.empty()) {
-        gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now, rows[3]);
+        gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now, state.gauges);
     }
     frames_->forget_after(now); // behind the histories, which may refuse
-    const auto found = resumed.arrays.find(resting_array);
-    if (found != resumed.arrays.end()) {
-        if (!std::holds_alternative<std::vector<double>>(found->second.values)) {
-            throw IoError("the contacts of the checkpoint are not numbers: it is damaged");
+    for (RestingPair& rest : state.resting) {
+        if (!is_of(sim, rest.sum)) {
+            throw IoError("the checkpoint has a contact of an unknown body: it is damaged");
         }
-        const auto& n = std::get<std::vector<double>>(found->second.values);
-        for (std::size_t k = 0; k + resting_numbers <= n.size(); k += resting_numbers) {
-            const Contact sum = contact_of(std::span(n).subspan(k, resting_numbers));
-            if (!is_of(sim, sum)) {
-                throw IoError("the checkpoint has a contact of an unknown body: it is damaged");
-            }
-            resting_[{sum.a, sum.b}] = {sum.time, sum, n[k + resting_numbers - 1]};
-        }
+        rest.sum.kind = Contact::Kind::resting;
+        rest.sum.time = rest.time;
+        resting_[{rest.sum.a, rest.sum.b}] = rest;
     }
 }
 
@@ -213,7 +229,7 @@ void Outputs::log_contacts(const Simulation& sim)
             continue;
         }
         // Impulses add up as vectors; place and normal are means weighted with the normal impulse.
-        Resting& rest = resting_[{contact.a, contact.b}];
+        RestingPair& rest = resting_[{contact.a, contact.b}];
         const double before = rest.weight;
         rest.weight += contact.normal_impulse;
         rest.time = sim.clock.time;
@@ -264,20 +280,13 @@ void Outputs::write_frame(const Simulation& sim)
 Snapshot Outputs::snapshot(const Simulation& sim) const
 {
     Snapshot snapshot = save(sim);
-    std::vector<double> numbers;
+    const auto rows = [](const auto& history) { return history ? history->rows() : 0; };
+    OutputState state{rows(bodies_), rows(contacts_), rows(energy_), rows(gauges_), {}};
     for (const auto& [key, rest] : resting_) {
-        Contact sum = rest.sum;
-        sum.time = rest.time;
-        const std::vector<double> row = numbers_of(sum);
-        numbers.insert(numbers.end(), row.begin(), row.end());
-        numbers.push_back(rest.weight);
+        state.resting.push_back(rest);
     }
-    std::vector<std::int64_t> rows;
-    for (const auto* history : {&bodies_, &contacts_, &energy_, &gauges_}) {
-        rows.push_back(*history ? (*history)->rows() : 0);
-    }
-    snapshot.arrays[rows_array] = {rows_array, "", 1, std::move(rows)};
-    snapshot.arrays[resting_array] = {resting_array, "", 1, std::move(numbers)};
+    StateWriter writer(snapshot);
+    describe_outputs(writer, state);
     return snapshot;
 }
 

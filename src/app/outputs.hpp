@@ -11,6 +11,13 @@
 
 namespace hyoryu {
 
+/// What a pair has exchanged since the last history row.
+struct RestingPair {
+    double time = 0; // of the last contact [s]
+    Contact sum;
+    double weight = 0;
+};
+
 class Outputs {
 public:
     /// Opens all files; a resumed run keeps the rows up to the present time of `sim`.
@@ -33,11 +40,6 @@ public:
 
 private:
     // Sum of the resting contacts of one pair over the present output interval.
-    struct Resting {
-        double time = 0;
-        Contact sum;
-        double weight = 0;
-    };
     using PairKey = std::pair<int, int>;
 
     void write_histories(const Simulation& sim);
@@ -52,7 +54,7 @@ private:
     std::filesystem::path folder_;
     std::unique_ptr<FrameWriter> frames_;
     std::optional<History> bodies_, contacts_, energy_, gauges_;
-    std::map<PairKey, Resting> resting_;
+    std::map<PairKey, RestingPair> resting_;
     StageTimer timer_;
 };
 

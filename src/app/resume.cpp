@@ -61,18 +61,6 @@ Scene case_of(const Snapshot& state)
     }
 }
 
-double time_of(const Snapshot& state)
-{
-    const auto clock = state.arrays.find(clock_array);
-    const auto* numbers = clock == state.arrays.end()
-                              ? nullptr
-                              : std::get_if<std::vector<double>>(&clock->second.values);
-    if (numbers == nullptr || numbers->empty()) {
-        throw IoError("the checkpoint has no clock: it is damaged");
-    }
-    return numbers->front();
-}
-
 bool leaves_frames_to_default(const Scene& scene)
 {
     return scene.output.every == scene.time.end / 100;

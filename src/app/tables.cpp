@@ -72,32 +72,4 @@ Table gauges_table(std::vector<Table::Head> gauges)
     return table;
 }
 
-std::vector<double> numbers_of(const Contact& c)
-{
-    std::vector<double> n{c.time, static_cast<double>(c.a), static_cast<double>(c.b)};
-    for (const Vec3* v : {&c.point, &c.normal, &c.tangential_impulse}) {
-        n.insert(n.end(), v->begin(), v->end());
-    }
-    n.insert(n.end(), {c.approach_speed, c.normal_impulse, c.effective_mass, c.energy_lost,
-                       c.located ? 1.0 : 0.0});
-    return n;
-}
-
-Contact contact_of(std::span<const double> n)
-{
-    const auto vector = [&](std::size_t k) { return Vec3(n[k], n[k + 1], n[k + 2]); };
-    return {.kind = Contact::Kind::resting,
-            .time = n[0],
-            .a = static_cast<int>(n[1]),
-            .b = static_cast<int>(n[2]),
-            .point = vector(3),
-            .normal = vector(6),
-            .approach_speed = n[12],
-            .normal_impulse = n[13],
-            .tangential_impulse = vector(9),
-            .effective_mass = n[14],
-            .energy_lost = n[15],
-            .located = n[16] != 0};
-}
-
 } // namespace hyoryu

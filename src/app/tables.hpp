@@ -16,9 +16,4 @@ Table contacts_table(int dimensions);
 Table energy_table(int dimensions);
 Table gauges_table(std::vector<Table::Head> gauges);
 
-/// Numbers of one resting contact in a checkpoint: the contact and its weight.
-inline constexpr std::size_t resting_numbers = 18;
-std::vector<double> numbers_of(const Contact& contact);
-Contact contact_of(std::span<const double> numbers);
-
 } // namespace hyoryu

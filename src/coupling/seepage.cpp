@@ -182,22 +182,14 @@ Seepage::~Seepage() = default;
 Seepage::Seepage(Seepage&&) noexcept = default;
 Seepage& Seepage::operator=(Seepage&&) noexcept = default;
 
-void restore_joints(Seepage& seepage, std::span<const double> numbers)
+void restart_joints(Seepage& seepage)
 {
-    const auto fits = [&](double number, double end) { return number >= 0 && number < end; };
-    const bool whole = !numbers.empty() &&
-                       numbers[0] == static_cast<double>((numbers.size() - 1) / 2) &&
-                       numbers.size() % 2 == 1;
+    const auto bodies = static_cast<int>(seepage.open.size());
+    const auto is_of_case = [&](const std::array<int, 2>& joint) {
+        return joint[0] >= 0 && joint[0] < bodies && joint[1] >= 0;
+    };
     seepage.tables.reset();
-    seepage.joined.clear();
-    for (std::size_t k = 1; whole && k < numbers.size(); k += 2) {
-        if (fits(numbers[k], static_cast<double>(seepage.open.size())) &&
-            fits(numbers[k + 1], std::numeric_limits<int>::max())) {
-            seepage.joined.push_back(
-                {static_cast<int>(numbers[k]), static_cast<int>(numbers[k + 1])});
-        }
-    }
-    if (!whole || static_cast<double>(seepage.joined.size()) != numbers[0]) {
+    if (!std::ranges::all_of(seepage.joined, is_of_case)) {
         throw IoError("the checkpoint has joints of other bodies: it belongs to another case");
     }
 }

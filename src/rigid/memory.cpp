@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "memory.hpp"
 
+#include "hyoryu/core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace hyoryu {
-
-namespace {
-
-// Numbers of one remembered force: the feature, three components and its place.
-constexpr std::size_t numbers_per_force = 15;
-
-} // namespace
 
 SolidPose pose_at(const Path& path, const Rotor& rotor, double s)
 {
@@ -119,35 +114,32 @@ double separation_speed(const ContactMemory& memory, const Candidate& contact, d
     return touch.normal.dot(at_point(feature.a) - other);
 }
 
-std::vector<double> save_memory(const Rigid& rigid)
+ContactStart contact_start(const Rigid& rigid)
 {
-    std::vector<double> numbers;
-    if (!rigid.memory) {
-        return numbers;
-    }
-    for (const Remembered& r : rigid.memory->forces) {
-        const Feature& f = r.feature;
-        for (const int index :
-             {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f}) {
-            numbers.push_back(index);
+    ContactStart start;
+    if (rigid.memory) {
+        for (const Remembered& r : rigid.memory->forces) {
+            const Feature& f = r.feature;
+            start.features.push_back(
+                {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f});
+            start.forces.push_back(r.force);
+            start.places.push_back(r.place);
         }
-        numbers.insert(numbers.end(), r.force.begin(), r.force.end());
-        numbers.insert(numbers.end(), r.place.begin(), r.place.end());
     }
-    return numbers;
+    return start;
 }
 
-void load_memory(Rigid& rigid, std::span<const double> numbers)
+void set_contact_start(Rigid& rigid, const ContactStart& start)
 {
+    const std::size_t n = start.features.size();
+    if (start.forces.size() != n || start.places.size() != n) {
+        throw IoError("the contact forces of the checkpoint differ in number: it is damaged");
+    }
     rigid.memory = std::make_unique<ContactMemory>();
-    for (std::size_t k = 0; k + numbers_per_force <= numbers.size(); k += numbers_per_force) {
-        const auto index = [&](std::size_t m) { return static_cast<int>(numbers[k + m]); };
-        const Feature feature{index(0), index(1), static_cast<FeatureKind>(index(2)),
-                              index(3), index(4), index(5),
-                              index(6), index(7), index(8)};
-        rigid.memory->forces.push_back({feature,
-                                        Vec3(numbers[k + 9], numbers[k + 10], numbers[k + 11]),
-                                        Vec3(numbers[k + 12], numbers[k + 13], numbers[k + 14])});
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto& [a, b, kind, owner, i, j, l, m, f] = start.features[k];
+        const Feature feature{a, b, static_cast<FeatureKind>(kind), owner, i, j, l, m, f};
+        rigid.memory->forces.push_back({feature, start.forces[k], start.places[k]});
     }
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/carry_over.hpp"
 
-#include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/gauge_columns.hpp"
-#include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/gauges.hpp"
+#include "state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,26 +12,13 @@ namespace hyoryu {
 
 namespace {
 
-using Numbers = std::vector<double>;
-
 // Rounding of a sum of steps, as a share of the time between outputs.
 constexpr double rounding = 1e-9;
 
-Numbers& numbers_at(Snapshot& state, const std::string& name)
-{
-    const auto found = state.arrays.find(name);
-    auto* numbers =
-        found == state.arrays.end() ? nullptr : std::get_if<Numbers>(&found->second.values);
-    if (numbers == nullptr) {
-        throw IoError("the checkpoint has no `" + name + "`: it is damaged");
-    }
-    return *numbers;
-}
-
 // Number of the first multiple of `every` after the time.
-double next_after(double time, double every)
+std::int64_t next_after(double time, double every)
 {
-    return std::floor(time / every + rounding) + 1;
+    return static_cast<std::int64_t>(std::floor(time / every + rounding)) + 1;
 }
 
 bool same_gauge(const Gauge& a, const Gauge& b)
@@ -80,51 +66,46 @@ GaugeMemory carried_gauges(const GaugeMemory& memory, const Scene& before, const
     return carried;
 }
 
-void carry_gauges(Snapshot& state, const Scene& before, const Scene& now, double time)
+// The number of the next row goes with the clock.
+void carry_gauges(Snapshot& state, const Scene& before, const Scene& now, Clock& clock)
 {
     GaugeMemory memory = make_gauge_memory(before);
-    memory.last_row = time;
-    double next = 0; // number of the next row
+    memory.last_row = clock.time;
     if (!before.gauges.empty()) {
-        const Numbers& numbers = numbers_at(state, gauges_array);
-        if (numbers.empty()) {
-            throw IoError("the checkpoint has no gauges: it is damaged");
-        }
-        restore(memory, std::span(numbers).first(numbers.size() - 1));
-        next = numbers.back();
+        StateReader reader(state);
+        describe_gauges(reader, memory);
     }
-    state.arrays.erase(gauges_array);
+    std::erase_if(state.arrays,
+                  [](const auto& array) { return array.first.starts_with("gauges/"); });
     if (now.gauges.empty()) {
+        clock.gauge = 0;
         return;
     }
     const double every = now.output.gauge_every;
     if (every > 0 && (every != before.output.gauge_every || before.gauges.empty())) {
-        next = next_after(time, every);
+        clock.gauge = next_after(clock.time, every);
     }
-    Numbers numbers = numbers_of(carried_gauges(memory, before, now));
-    numbers.push_back(next);
-    state.arrays[gauges_array] = {gauges_array, "", 1, std::move(numbers)};
+    const GaugeMemory carried = carried_gauges(memory, before, now);
+    StateWriter writer(state);
+    describe_gauges(writer, carried);
 }
 
 } // namespace
 
 void carry_over(Snapshot& state, const Scene& before, const Scene& now)
 {
-    Numbers& clock = numbers_at(state, clock_array);
-    constexpr std::size_t frame = 3; // in the order of `save`
-    constexpr std::size_t history = 4;
-    if (clock.size() <= history) {
-        throw IoError("the clock of the checkpoint is too short: it is damaged");
-    }
-    const double time = clock.front();
+    Clock clock;
+    StateReader reader(state);
+    describe_clock(reader, clock);
     if (now.output.every != before.output.every) {
-        const double offset = clock[frame] - next_after(time, now.output.every);
-        state.arrays[frame_offset_array] = {frame_offset_array, "", 1, Numbers{offset}};
+        clock.frame_offset = clock.frame - next_after(clock.time, now.output.every);
     }
     if (now.output.history_every > 0 && now.output.history_every != before.output.history_every) {
-        clock[history] = next_after(time, now.output.history_every);
+        clock.history = next_after(clock.time, now.output.history_every);
     }
-    carry_gauges(state, before, now, time);
+    carry_gauges(state, before, now, clock);
+    StateWriter writer(state);
+    describe_clock(writer, clock);
 }
 
 } // namespace hyoryu

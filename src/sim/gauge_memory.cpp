@@ -3,6 +3,7 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/simulation.hpp"
+#include "state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -113,48 +114,37 @@ std::vector<double> next_gauge_row(Simulation& sim)
     return row;
 }
 
-std::vector<double> numbers_of(const GaugeMemory& memory)
+FilterSamples samples_of(const GaugeMemory& memory)
 {
-    std::vector<double> numbers{memory.last_row};
-    for (const GaugedForce& force : memory.forces) {
-        for (const Vec3* v : {&force.pressure, &force.viscous, &force.fluid_impulse,
-                              &force.contact_impulse, &force.contact_at_row}) {
-            numbers.insert(numbers.end(), v->begin(), v->end());
-        }
-    }
+    FilterSamples samples;
     for (const FilterMemory& filter : memory.filters) {
-        numbers.push_back(static_cast<double>(filter.times.size()));
-        numbers.insert(numbers.end(), filter.times.begin(), filter.times.end());
-        numbers.insert(numbers.end(), filter.values.begin(), filter.values.end());
+        samples.counts.push_back(static_cast<std::int64_t>(filter.times.size()));
+        samples.times.insert(samples.times.end(), filter.times.begin(), filter.times.end());
+        samples.values.insert(samples.values.end(), filter.values.begin(), filter.values.end());
     }
-    return numbers;
+    return samples;
 }
 
-void restore(GaugeMemory& memory, std::span<const double> numbers)
+void take_samples(GaugeMemory& memory, const FilterSamples& samples)
 {
-    std::size_t next = 0;
-    const auto take = [&] {
-        if (next >= numbers.size()) {
-            throw IoError("the checkpoint has fewer gauges than the case");
+    auto left = static_cast<std::int64_t>(samples.times.size());
+    auto time = samples.times.begin();
+    auto value = samples.values.begin();
+    for (std::size_t k = 0; k < memory.filters.size(); ++k) {
+        const std::int64_t count = samples.counts[k];
+        if (count < 0 || count > left || samples.values.size() != samples.times.size()) {
+            throw IoError(
+                "the samples of the gauges in the checkpoint do not fit their filters: it is "
+                "damaged");
         }
-        return numbers[next++];
-    };
-    memory.last_row = take();
-    for (GaugedForce& force : memory.forces) {
-        for (Vec3* v : {&force.pressure, &force.viscous, &force.fluid_impulse,
-                        &force.contact_impulse, &force.contact_at_row}) {
-            std::generate(v->begin(), v->end(), take);
-        }
+        memory.filters[k].times.assign(time, time + count);
+        memory.filters[k].values.assign(value, value + count);
+        time += count;
+        value += count;
+        left -= count;
     }
-    for (FilterMemory& filter : memory.filters) {
-        const auto samples = static_cast<std::size_t>(take());
-        filter.times.clear();
-        filter.values.clear();
-        std::generate_n(std::back_inserter(filter.times), samples, take);
-        std::generate_n(std::back_inserter(filter.values), samples, take);
-    }
-    if (next != numbers.size()) {
-        throw IoError("the checkpoint has more gauges than the case");
+    if (left != 0) {
+        throw IoError("the checkpoint has more samples of gauges than their filters");
     }
 }
 

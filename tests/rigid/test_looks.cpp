@@ -64,7 +64,7 @@ TEST_P(LooksOfSeed, DoNotShowWhereBodiesAndWallsMoveAndRest)
     Rigid other = pushed(GetParam());
     for (int n = 0; n * dt < 0.4; ++n) {
         run(one, dt, 1, {}, n * dt);
-        load_memory(other, save_memory(other)); // forgets all looks
+        set_contact_start(other, contact_start(other)); // forgets all looks
         run(other, dt, 1, {}, n * dt);
         expect_same_bits(one, other);
         ASSERT_FALSE(HasFatalFailure()) << "step " << n;

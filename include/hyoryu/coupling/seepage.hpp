@@ -48,9 +48,8 @@ struct JointTime {
     double dt = 0;
 };
 
-/// The state of a restart: how many joints there were, then body and face of each. Throws IoError
-/// if they are not of these bodies.
-void restore_joints(Seepage& seepage, std::span<const double> numbers);
+/// After `joined` was read from a checkpoint. Throws IoError if it has joints of other bodies.
+void restart_joints(Seepage& seepage);
 
 /// Finds the joints at these poses, with walls where they are at that time, and their pressures
 /// from those of the fluid and solid particles; tells the fluid which particles of bodies leave

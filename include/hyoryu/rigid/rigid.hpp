@@ -8,6 +8,7 @@
 #include "hyoryu/rigid/law.hpp"
 #include "hyoryu/rigid/penalty.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -93,9 +94,16 @@ struct Rigid {
 void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
           std::vector<Contact>& log);
 
-/// The contact memory as numbers, and back, so that a restarted run continues with the same bits.
-std::vector<double> save_memory(const Rigid& rigid);
-void load_memory(Rigid& rigid, std::span<const double> numbers);
+/// The contact forces of the last sub-step, from which the next starts: with them a restarted run
+/// continues with the same bits. One entry a contact.
+struct ContactStart {
+    std::vector<std::array<int, 9>> features; // the bodies, and which features of them touch
+    std::vector<Vec3> forces;                 // on the first body [N]
+    std::vector<Vec3> places;                 // in its axes, from its centre of mass [m]
+};
+ContactStart contact_start(const Rigid& rigid);
+/// Throws IoError if the lists differ in length.
+void set_contact_start(Rigid& rigid, const ContactStart& start);
 
 /// Largest distance of a point of the body from its centre of mass [m].
 double bounding_radius(const Body& body, int dimensions);

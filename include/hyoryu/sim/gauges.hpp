@@ -57,9 +57,4 @@ std::vector<double> read_gauges(const Simulation& sim);
 /// The next row of `gauges.csv` behind the time: raw and filtered readings.
 std::vector<double> next_gauge_row(Simulation& sim);
 
-/// The memory as numbers, and back into one made from the same scene.
-std::vector<double> numbers_of(const GaugeMemory& memory);
-/// Throws IoError if the numbers do not fit.
-void restore(GaugeMemory& memory, std::span<const double> numbers);
-
 } // namespace hyoryu

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// State as named datasets. A function template `describe(state, part)` names each quantity once,
+// with its unit and its place; a StateWriter in `state` stores them, a StateReader takes them back.
+// No quantity depends on the order or the number of others.
+#pragma once
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/core/snapshot.hpp"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace hyoryu {
+
+/// How a value is stored: `components` numbers of one type. Whole numbers of other types are stored
+/// in 64 bits.
+template <class T>
+struct Encoded {
+    static constexpr bool is_native = std::is_floating_point_v<T> ||
+                                      std::is_same_v<T, std::int32_t> ||
+                                      std::is_same_v<T, std::int64_t>;
+    using Number = std::conditional_t<is_native, T, std::int64_t>;
+    static constexpr int components = 1;
+    static std::array<Number, 1> put(const T& value) { return {static_cast<Number>(value)}; }
+    static T get(const Number* n) { return static_cast<T>(*n); }
+};
+template <>
+struct Encoded<Vec3> {
+    using Number = double;
+    static constexpr int components = 3;
+    static std::array<double, 3> put(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+    static Vec3 get(const double* n) { return {n[0], n[1], n[2]}; }
+};
+template <>
+struct Encoded<Quat> {
+    using Number = double;
+    static constexpr int components = 4;
+    static std::array<double, 4> put(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+    static Quat get(const double* n) { return {n[0], n[1], n[2], n[3]}; }
+};
+template <std::size_t n>
+struct Encoded<std::array<int, n>> {
+    using Number = std::int32_t;
+    static constexpr int components = n;
+    static std::array<int, n> put(const std::array<int, n>& values) { return values; }
+    static std::array<int, n> get(const Number* from)
+    {
+        std::array<int, n> values{};
+        std::copy_n(from, n, values.begin());
+        return values;
+    }
+};
+
+/// The type of a member of the elements of a range.
+template <class Range, class Member>
+using MemberOf =
+    std::remove_cvref_t<std::invoke_result_t<Member, decltype(*std::declval<Range&>().begin())>>;
+
+/// Stores a state in a snapshot.
+class StateWriter {
+public:
+    static constexpr bool reads = false;
+
+    explicit StateWriter(Snapshot& snapshot) : snapshot_(&snapshot) {}
+
+    /// One value.
+    template <class T>
+    void operator()(const std::string& name, const std::string& unit, const T& value)
+    {
+        each(name, unit, std::span(&value, 1), std::identity());
+    }
+    /// A member of each element of a range whose length the case gives.
+    template <class Range, class Member>
+    void each(const std::string& name, const std::string& unit, const Range& range, Member member)
+    {
+        using Value = Encoded<MemberOf<const Range, Member>>;
+        std::vector<typename Value::Number> numbers;
+        numbers.reserve(range.size() * Value::components);
+        for (const auto& element : range) {
+            const auto some = Value::put(std::invoke(member, element));
+            numbers.insert(numbers.end(), some.begin(), some.end());
+        }
+        snapshot_->arrays[name] = {name, unit, Value::components, std::move(numbers)};
+    }
+    /// The values of a range whose length the case gives.
+    template <class T>
+    void values(const std::string& name, const std::string& unit, std::span<T> range)
+    {
+        each(name, unit, range, std::identity());
+    }
+    /// A list whose length is part of the state.
+    template <class T, class Allocator>
+    void list(const std::string& name, const std::string& unit,
+              const std::vector<T, Allocator>& list)
+    {
+        each(name, unit, list, std::identity());
+    }
+    /// Before the members of a list whose length is part of the state: one of them.
+    template <class Range, class Member>
+    void resize(const std::string&, const Range&, Member)
+    {
+    }
+
+private:
+    Snapshot* snapshot_;
+};
+
+/// Takes a state from a snapshot. Throws IoError if a dataset is missing or has another type or
+/// length than the case needs.
+class StateReader {
+public:
+    static constexpr bool reads = true;
+
+    explicit StateReader(const Snapshot& snapshot) : snapshot_(&snapshot) {}
+
+    template <class T>
+    void operator()(const std::string& name, const std::string& unit, T& value)
+    {
+        each(name, unit, std::span(&value, 1), std::identity());
+    }
+    template <class Range, class Member>
+    void each(const std::string& name, const std::string&, Range&& range, Member member)
+    {
+        using Value = Encoded<MemberOf<Range, Member>>;
+        const auto& numbers = numbers_of<typename Value::Number>(name);
+        if (numbers.size() != range.size() * Value::components) {
+            throw IoError("`" + name + "` of the checkpoint has " + std::to_string(numbers.size()) +
+                          " numbers, expected " + std::to_string(range.size() * Value::components) +
+                          ": it belongs to another case");
+        }
+        const auto* next = numbers.data();
+        for (auto&& element : range) {
+            std::invoke(member, element) = Value::get(next);
+            next += Value::components;
+        }
+    }
+    template <class T>
+    void values(const std::string& name, const std::string& unit, std::span<T> range)
+    {
+        each(name, unit, range, std::identity());
+    }
+    template <class T, class Allocator>
+    void list(const std::string& name, const std::string& unit, std::vector<T, Allocator>& list)
+    {
+        resize(name, list, std::identity());
+        each(name, unit, list, std::identity());
+    }
+    template <class Range, class Member>
+    void resize(const std::string& name, Range& range, Member)
+    {
+        using Value = Encoded<MemberOf<Range, Member>>;
+        range.resize(numbers_of<typename Value::Number>(name).size() / Value::components);
+    }
+
+private:
+    template <class Number>
+    const std::vector<Number>& numbers_of(const std::string& name) const
+    {
+        const auto found = snapshot_->arrays.find(name);
+        const auto* numbers = found == snapshot_->arrays.end()
+                                  ? nullptr
+                                  : std::get_if<std::vector<Number>>(&found->second.values);
+        if (numbers == nullptr) {
+            throw IoError("the checkpoint has no `" + name + "`: it belongs to another case");
+        }
+        return *numbers;
+    }
+
+    const Snapshot* snapshot_;
+};
+
+} // namespace hyoryu
