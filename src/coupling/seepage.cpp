@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace hyoryu {
 
@@ -161,18 +162,29 @@ void book_loads(const BodyJoints& body, std::vector<JointLoad>& loads)
 }
 
 // The particles under a cell leave their films to it.
-void share_films(const BodyJoints& body, Index first, std::span<real> share)
+void cut_films(const BodyJoints& body, Index first, std::vector<FilmCut>& cuts)
 {
+    const auto begin = static_cast<std::ptrdiff_t>(cuts.size());
     for (std::size_t c = 0; c < body.nodes.size(); ++c) {
-        if (body.nodes[c].other == JointNode::none) {
-            continue;
-        }
+        const JointNode& node = body.nodes[c];
         const JointCell& cell = body.faces.cells[c];
-        for (int k = cell.first; k < cell.last; ++k) {
-            real& own = share[at(first + body.faces.particles[at(k)])];
-            own = std::min(own, body.nodes[c].film);
+        for (int k = cell.first; node.other != JointNode::none && k < cell.last; ++k) {
+            cuts.push_back({.row = first + body.faces.particles[at(k)],
+                            .face = cell.face,
+                            .other = node.other,
+                            .part = 1 - node.film,
+                            .normal = node.normal});
         }
     }
+    // A particle behind several cells of a face leaves what the one that takes most takes.
+    const auto by_particle = [](const FilmCut& a, const FilmCut& b) {
+        return std::tuple(a.row, a.face, -a.part) < std::tuple(b.row, b.face, -b.part);
+    };
+    const auto same = [](const FilmCut& a, const FilmCut& b) {
+        return a.row == b.row && a.face == b.face;
+    };
+    std::stable_sort(cuts.begin() + begin, cuts.end(), by_particle);
+    cuts.erase(std::unique(cuts.begin() + begin, cuts.end(), same), cuts.end());
 }
 
 } // namespace
@@ -245,31 +257,34 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             }
         }
     }
-    fluid.film_share.clear();
+    fluid.film_cuts.clear();
     for (std::size_t b = 0; b < poses.size(); ++b) {
         if (!seepage.loads[b].empty()) {
-            fluid.film_share.resize(at(fluid.particles.body.size()), 1);
-            share_films(tables.bodies[b], bodies.of[b].begin, fluid.film_share);
+            cut_films(tables.bodies[b], bodies.of[b].begin, fluid.film_cuts);
         }
     }
 }
 
-void add_joint_loads(const Seepage& seepage, const std::vector<Pose>& poses,
+void add_joint_loads(const Seepage& seepage, const Fluid& fluid, const std::vector<Pose>& poses,
                      std::vector<Wrench>& bodies, std::span<Vec3> walls)
 {
-    const auto add = [&](int body, const Vec3& force, const Vec3& point) {
-        bodies[at(body)].force += force;
-        bodies[at(body)].torque += (point - poses[at(body)].position).cross(force);
+    const auto add = [&](int solid, const Vec3& force, const Vec3& point) {
+        if (solid >= 0) {
+            bodies[at(solid)].force += force;
+            bodies[at(solid)].torque += (point - poses[at(solid)].position).cross(force);
+        } else {
+            walls[at(-1 - solid)] += force;
+        }
     };
     for (std::size_t b = 0; b < seepage.loads.size(); ++b) {
         for (const JointLoad& load : seepage.loads[b]) {
             add(static_cast<int>(b), load.force, load.point);
-            if (load.other >= 0) {
-                add(load.other, -load.force, load.point);
-            } else {
-                walls[at(-1 - load.other)] -= load.force;
-            }
+            add(load.other, -load.force, load.point);
         }
+    }
+    const auto x = fluid.particles.body[field::position];
+    for (const FilmCut& cut : fluid.film_cuts) {
+        add(cut.other, cut.removed, x[cut.row]);
     }
 }
 

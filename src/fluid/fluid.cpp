@@ -181,25 +181,24 @@ void update_pressure(Fluid& fluid)
 
 namespace {
 
-// Forces of solids on each other in thin films, less what is left to joints: with the volumes of
-// the particles, both sides of a pair shrink alike.
+// Forces of solids on each other in thin films, less what is left to joints: of each particle
+// behind one the part along its normal. The joint returns it to the other side, so that momentum
+// closes.
 void add_film_forces(Fluid& fluid, const FluidTerms& terms)
 {
     const FluidNeighbours& n = fluid.neighbours;
-    const bool shared = !fluid.film_share.empty();
-    if (shared) {
-        const auto V = std::as_const(fluid.particles).body[field::volume];
-        std::visit(
-            [&](auto& data) {
-                data.records.lend(n.body, field::volume,
-                                  [&](std::size_t i) { return V[i] * fluid.film_share[i]; });
-            },
-            fluid.pair_data);
+    const auto F = fluid.particles.body[field::force];
+    for (FilmCut& cut : fluid.film_cuts) {
+        cut.removed = -F[cut.row];
     }
     run<pass::FilmForces>(fluid, n.body_solid, to_bodies(fluid), terms);
     run<pass::FilmForces>(fluid, n.wall_body, to_walls(fluid), terms);
-    if (shared) {
-        load_bodies(fluid, Fields<Volume>{});
+    for (FilmCut& cut : fluid.film_cuts) {
+        const Vec3 film = cut.removed + F[cut.row];
+        cut.removed = cut.part * cut.normal.dot(film) * cut.normal;
+    }
+    for (const FilmCut& cut : fluid.film_cuts) {
+        F[cut.row] -= cut.removed;
     }
 }
 

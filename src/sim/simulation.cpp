@@ -225,7 +225,7 @@ void load_solids(Simulation& sim)
     sim.loads.walls.resize(sim.scene.walls.size());
     collect_wall_forces(*sim.fluid, sim.loads.sums_of_walls, sim.loads.walls);
     if (has_seepage(sim)) {
-        add_joint_loads(sim.seepage, sim.poses, sim.loads.bodies, sim.loads.walls);
+        add_joint_loads(sim.seepage, *sim.fluid, sim.poses, sim.loads.bodies, sim.loads.walls);
     }
 }
 

@@ -53,15 +53,16 @@ void restart_joints(Seepage& seepage);
 
 /// Finds the joints at these poses, with walls where they are at that time, and their pressures
 /// from those of the fluid and solid particles; tells the fluid which particles of bodies leave
-/// their film forces to the joints (`Fluid::film_share`). Makes the surfaces at its first call;
+/// their film forces to the joints (`Fluid::film_cuts`). Makes the surfaces at its first call;
 /// after that nothing is allocated and no ray is cast while no body comes within two spacings of
 /// another solid.
 void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>& poses,
                    const BodyParticles& bodies, const JointTime& step, Fluid& fluid);
 
 /// Adds the forces of the joints to the loads of the bodies, about the centres of mass of the
-/// poses, and to the forces on the walls.
-void add_joint_loads(const Seepage& seepage, const std::vector<Pose>& poses,
+/// poses, and to the forces on the walls; with them what the film forces left to the joints
+/// (`Fluid::film_cuts`), of which the other side has felt the reaction.
+void add_joint_loads(const Seepage& seepage, const Fluid& fluid, const std::vector<Pose>& poses,
                      std::vector<Wrench>& bodies, std::span<Vec3> walls);
 
 } // namespace hyoryu

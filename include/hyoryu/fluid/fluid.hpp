@@ -43,6 +43,18 @@ struct PairData {
 };
 
 /// What left the domain and was taken out of the run.
+/// A body particle behind a joint: the part of its film forces along the normal of the joint that
+/// the joint replaces. What acts along the joint stays: it is that of the fluid at the rim.
+struct FilmCut {
+    Index row = 0;
+    int face = 0;         // of the body
+    int other = 0;        // opposite: a body, or -1 - (index of the boundary)
+    real part = 0;        // [1]
+    Vec3 normal{0, 0, 1}; // of the face, outward
+    Vec3 removed{0, 0,
+                 0}; // force that the particle did not get, and that the other side gives back [N]
+};
+
 struct LostParticles {
     Index count = 0;
     Vec3 momentum{0, 0, 0}; // [kg m/s]
@@ -66,9 +78,9 @@ struct Fluid {
     LostParticles lost;
     bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
-    /// By body row: the share of its film forces that a particle keeps, 0 where the joint below it
-    /// carries the pressure; empty while no body has a joint.
-    std::vector<real> film_share;
+    /// Where joints carry the pressure between solids, in the order of the rows; empty while no
+    /// body has a joint.
+    std::vector<FilmCut> film_cuts;
 };
 
 /// Whether friction acts between the fluid and solids.
