@@ -162,7 +162,8 @@ void book_loads(const BodyJoints& body, std::vector<JointLoad>& loads)
 }
 
 // The particles under a cell leave their films to it.
-void cut_films(const BodyJoints& body, Index first, std::vector<FilmCut>& cuts)
+void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t> id,
+               std::vector<FilmCut>& cuts)
 {
     const auto begin = static_cast<std::ptrdiff_t>(cuts.size());
     for (std::size_t c = 0; c < body.nodes.size(); ++c) {
@@ -176,9 +177,11 @@ void cut_films(const BodyJoints& body, Index first, std::vector<FilmCut>& cuts)
                             .normal = node.normal});
         }
     }
-    // A particle behind several cells of a face leaves what the one that takes most takes.
-    const auto by_particle = [](const FilmCut& a, const FilmCut& b) {
-        return std::tuple(a.row, a.face, -a.part) < std::tuple(b.row, b.face, -b.part);
+    // A particle behind several cells of a face leaves what the one that takes most takes. By
+    // number, so that the sums do not depend on the order of the rows.
+    const auto by_particle = [&](const FilmCut& a, const FilmCut& b) {
+        return std::tuple(id[at(a.row)], a.face, -a.part) <
+               std::tuple(id[at(b.row)], b.face, -b.part);
     };
     const auto same = [](const FilmCut& a, const FilmCut& b) {
         return a.row == b.row && a.face == b.face;
@@ -260,7 +263,8 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     fluid.film_cuts.clear();
     for (std::size_t b = 0; b < poses.size(); ++b) {
         if (!seepage.loads[b].empty()) {
-            cut_films(tables.bodies[b], bodies.of[b].begin, fluid.film_cuts);
+            cut_films(tables.bodies[b], bodies.of[b].begin,
+                      std::span(std::as_const(fluid.particles).body.id()), fluid.film_cuts);
         }
     }
 }

@@ -78,8 +78,8 @@ struct Fluid {
     LostParticles lost;
     bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
-    /// Where joints carry the pressure between solids, in the order of the rows; empty while no
-    /// body has a joint.
+    /// Where joints carry the pressure between solids, body by body, in the order of the numbers
+    /// of the particles; empty while no body has a joint.
     std::vector<FilmCut> film_cuts;
 };
 
