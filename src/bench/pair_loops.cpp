@@ -52,15 +52,17 @@ void sweep_all(Fluid& fluid)
     std::visit(
         [&]<class Real>(PairData<Real>& data) {
             const auto& loops = std::get<HotLoops<Real>>(hot_loops_for(fluid.instruction_set));
-            const SweepView<Stored, Real> view{n.fluid_fluid.blocks().data(),
-                                               data.records.data(),
-                                               fluid.particles.fluid.pointers(),
-                                               n.fluid.row.data(),
-                                               0,
-                                               n.fluid.lattice.edge,
-                                               fluid.kernel};
+            const SweepView<Real> view{n.fluid_fluid.blocks().data(),
+                                       data.records().data(),
+                                       fluid.particles.fluid.pointers(),
+                                       n.fluid.row.data(),
+                                       0,
+                                       n.fluid.lattice.edge,
+                                       fluid.kernel};
+            const auto rows = static_cast<std::size_t>(chunk_slots * n.fluid_fluid.most_chunks());
+            std::byte* const local = data.local[0].at_least(rows * sizeof(RecordRow<Stored, Real>));
             for (Index b = 0; b < static_cast<Index>(n.fluid_fluid.blocks().size()); ++b) {
-                loops.all_terms(view, b, data.local[0].data(), terms);
+                loops.all_terms(view, b, local, terms);
             }
         },
         fluid.pair_data);

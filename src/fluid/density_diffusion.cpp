@@ -30,11 +30,6 @@ void add_renormalised_diffusion(Fluid& fluid)
     parallel_for(0, store.size(), [&](Index i) {
         G[i] = renormalised(G[i], moment_matrix(moments[i], mixed[i], fluid.parameters.dimensions));
     });
-    std::visit(
-        [&](auto& data) {
-            data.records.lend(store, n.fluid, field::pressure_gradient, field::velocity);
-        },
-        fluid.pair_data);
     run<RenormalisedDiffusion::Sum>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
 }
 

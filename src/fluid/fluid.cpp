@@ -212,8 +212,8 @@ void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
     const auto gap = store[field::gap];
     std::visit(
         [&](auto& data) {
-            data.records.lend(n.fluid, field::pressure,
-                              [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
+            data.records().show(n.fluid, field::pressure,
+                                [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
         },
         fluid.pair_data);
     run<pass::SolidForces>(fluid, n.fluid_solid, to_fluid(fluid), terms);

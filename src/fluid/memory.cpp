@@ -26,9 +26,9 @@ std::size_t held(const DisplacementSpace& space)
 template <class Real>
 std::size_t held(const PairData<Real>& data)
 {
-    std::size_t bytes = data.records.bytes();
-    for (const auto& local : data.local) {
-        bytes += held(local);
+    std::size_t bytes = data.common.bytes() + data.wide.bytes();
+    for (const RecordMemory& local : data.local) {
+        bytes += local.bytes();
     }
     return bytes;
 }

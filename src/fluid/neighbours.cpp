@@ -160,8 +160,8 @@ void sort_fluid(Fluid& fluid)
                                  fluid.domain_max, space);
     const std::span<const std::int32_t> order = space.row;
     count_lost(fluid, order.subspan(at(kept)));
-    // The records are written anew before anyone reads them again.
-    std::visit([&](auto& data) { store.gather(order.first(at(kept)), data.records.room()); },
+    // The records are written anew before they are read again.
+    std::visit([&](auto& data) { store.gather(order.first(at(kept)), data.common.room()); },
                fluid.pair_data);
     part_coincident(fluid, space.key);
     std::iota(space.row.begin(), space.row.begin() + kept, 0);
@@ -192,27 +192,6 @@ void sort_particles(Fluid& fluid)
         n.wall.count() != particles.wall.size()) { // others stay where they are
         sort_solids(fluid, particles.wall, n.wall);
     }
-}
-
-// Room for the records of all slots, and for those that a block looks at, on each thread.
-void make_room(Fluid& fluid)
-{
-    const FluidNeighbours& n = fluid.neighbours;
-    std::int32_t chunks = 0;
-    for (const PairList* list : {&n.fluid_fluid, &n.fluid_solid, &n.wall_fluid, &n.body_fluid,
-                                 &n.body_solid, &n.wall_body}) {
-        chunks = std::max(chunks, list->most_chunks());
-    }
-    std::visit(
-        [&](auto& data) {
-            data.records.resize(fluid.particles.size());
-            data.local.resize(
-                std::max(data.local.size(), static_cast<std::size_t>(thread_count())));
-            for (auto& room : data.local) {
-                room.resize(std::max(room.size(), at(chunk_slots * chunks)));
-            }
-        },
-        fluid.pair_data);
 }
 
 // Which tiles touch, and which tiles of walls matter.
@@ -311,7 +290,7 @@ void build_lists(Fluid& fluid)
         n.wall_body.build(n.wall, of_bodies, settings, {.wanted = n.met});
     }
     connect(fluid);
-    make_room(fluid);
+    std::visit([&](auto& data) { data.slots = fluid.particles.size(); }, fluid.pair_data);
     const Index of_fluid_alone = n.fluid_fluid.entries();
     const Index with_solids =
         n.fluid_solid.entries() + n.wall_fluid.entries() + n.body_fluid.entries();
@@ -319,7 +298,7 @@ void build_lists(Fluid& fluid)
     n.entries = {of_fluid_alone, with_solids + films};
     // Pressure and velocity loops of the fluid; extrapolation and loads of the solids; films.
     n.visits = 2 * (of_fluid_alone + with_solids) + films;
-    std::visit([&](auto& data) { data.records.load(particles.wall, n.wall, Stored{}); },
+    std::visit([&](auto& data) { data.records().load(particles.wall, n.wall, Stored{}); },
                fluid.pair_data);
 }
 
@@ -334,7 +313,7 @@ void place_fixed_walls(Fluid& fluid)
         sort_into_tiles(walls, lattice);
     }
     const Tiles* const wet[] = {&n.fluid, &n.body};
-    const auto room = std::visit([](auto& data) { return data.records.room(); }, fluid.pair_data);
+    const auto room = std::visit([](auto& data) { return data.common.room(); }, fluid.pair_data);
     const bool changed = update_rows(walls, lattice, wet, fluid.particles.wall, room);
     if (changed && !fluid.moving_walls) { // those that move are sorted with all lists
         sort_solids(fluid, fluid.particles.wall, n.wall);

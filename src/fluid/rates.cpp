@@ -8,7 +8,7 @@ namespace hyoryu {
 
 namespace {
 
-// What solid particles show to the viscosity, in the column of the velocity sums.
+// The velocity that solid particles show to the viscosity, in the column of the velocity sums.
 void mirror_velocities(Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -27,19 +27,24 @@ void mirror_velocities(Fluid& fluid)
     });
 }
 
-// Records of the solids lend the place of a velocity to what solids show to the viscosity.
-void lend_mirrored_velocities(Fluid& fluid)
-{
-    const FluidNeighbours& n = fluid.neighbours;
-    std::visit(
-        [&](auto& data) {
-            data.records.lend(fluid.particles.wall, n.wall, field::velocity_sum, field::velocity);
-            data.records.lend(fluid.particles.body, n.body, field::velocity_sum, field::velocity);
-        },
-        fluid.pair_data);
-}
+// While it lives, the records of solids hold the mirrored velocities; then their own again.
+class MirroredVelocities {
+public:
+    explicit MirroredVelocities(Fluid& fluid) : fluid_(fluid) { show(true); }
+    MirroredVelocities(const MirroredVelocities&) = delete;
+    MirroredVelocities& operator=(const MirroredVelocities&) = delete;
+    ~MirroredVelocities() { show(false); }
 
-// nu_t of every fluid particle, in its column and in the place of the pressure of the records.
+private:
+    void show(bool mirrored)
+    {
+        fluid_.mirrors_velocities = mirrored;
+        load_solids(fluid_, Fields<Velocity>{});
+    }
+    Fluid& fluid_;
+};
+
+// nu_t of every fluid particle.
 void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
 {
     Store& store = fluid.particles.fluid;
@@ -48,25 +53,14 @@ void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
     clear(store, StrainRate::Writes{});
     run<PassOf<StrainRate>>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     if (sticks) {
-        lend_mirrored_velocities(fluid);
+        const MirroredVelocities mirrored(fluid);
         run<PassOf<StrainRate>>(fluid, n.fluid_solid, to_fluid(fluid), terms);
-        load_solids(fluid, Fields<Velocity>{});
     }
     const auto strain = store[field::strain];
     const auto mixed = store[field::mixed_strain];
     const auto nu = store[field::turbulent_viscosity];
     parallel_for(0, store.size(),
                  [&](Index i) { nu[i] = eddy_viscosity(strain[i], mixed[i], eddies.length); });
-    std::visit(
-        [&](auto& data) {
-            data.records.lend(store, n.fluid, field::turbulent_viscosity, field::pressure);
-            if (sticks) { // solids have no eddies
-                const auto none = [](std::size_t) { return real(0); };
-                data.records.lend(n.wall, field::pressure, none);
-                data.records.lend(n.body, field::pressure, none);
-            }
-        },
-        fluid.pair_data);
 }
 
 // Viscous forces between the fluid and the solids to which it sticks.
@@ -74,7 +68,7 @@ void add_friction(Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, 0);
-    lend_mirrored_velocities(fluid);
+    const MirroredVelocities mirrored(fluid);
     for_solids(fluid.particles, [](Store& solids) { clear(solids, Fields<ViscousForce>{}); });
     run<NoSlip::Friction>(fluid, n.fluid_solid, to_fluid(fluid), terms);
     run<NoSlip::Friction>(fluid, n.wall_fluid, to_walls(fluid), terms);
@@ -122,6 +116,10 @@ void update_rates(Fluid& fluid)
     load_fluid(fluid, Fields<Velocity>{});
     load_solids(fluid, Fields<Velocity>{});
     clear(store, Union<Continuity::Writes, StageWrites<stage::Rates>>{});
+    const bool corrects = held<CorrectedGradient>(fluid.effects) != nullptr;
+    if (corrects) {
+        clear(store, GradientMoments::Writes{});
+    }
     const bool sticks = sticks_to_solids(fluid) && has_solids(fluid);
     if (sticks) {
         mirror_velocities(fluid);
@@ -141,6 +139,9 @@ void update_rates(Fluid& fluid)
         add_part(store, field::solid_rate);
     }
     add_part(store, field::diffusion_rate);
+    if (corrects) {
+        update_corrections(fluid.parameters, store);
+    }
 }
 
 } // namespace hyoryu

@@ -14,7 +14,7 @@ inline std::size_t at(Index row)
 /// The terms of a step of length dt; 0 for stages that do not depend on it.
 FluidTerms terms_of(const Fluid& fluid, real dt);
 
-/// D of the renormalised diffusion, from the pressures that the records hold; they lose velocities.
+/// D of the renormalised diffusion, from the pressures that the records hold.
 void add_renormalised_diffusion(Fluid& fluid);
 
 /// Copies fields of the fluid particles to the records of the pair loops.
@@ -22,7 +22,7 @@ void load_fluid(Fluid& fluid, const auto& fields)
 {
     std::visit(
         [&](auto& data) {
-            data.records.load(fluid.particles.fluid, fluid.neighbours.fluid, fields);
+            data.records().load(fluid.particles.fluid, fluid.neighbours.fluid, fields);
         },
         fluid.pair_data);
 }
@@ -31,18 +31,36 @@ void load_fluid(Fluid& fluid, const auto& fields)
 void load_bodies(Fluid& fluid, const auto& fields)
 {
     std::visit(
-        [&](auto& data) { data.records.load(fluid.particles.body, fluid.neighbours.body, fields); },
+        [&](auto& data) {
+            data.records().load(fluid.particles.body, fluid.neighbours.body, fields);
+        },
         fluid.pair_data);
 }
 
-/// The same for the solid particles that fluid or a body may be near.
-void load_solids(Fluid& fluid, const auto& fields)
+/// Copies fields of the solid particles that fluid or a body may be near to some records; of their
+/// velocities those that they show.
+template <class List, class Real>
+void load_solids(const Fluid& fluid, Records<List, Real> records, const auto& fields)
 {
     const FluidNeighbours& n = fluid.neighbours;
-    std::visit(
-        [&](auto& data) { data.records.load(fluid.particles.wall, n.wall, n.wet_walls, fields); },
-        fluid.pair_data);
-    load_bodies(fluid, fields);
+    records.load(fluid.particles.wall, n.wall, n.wet_walls, fields);
+    records.load(fluid.particles.body, n.body, fields);
+    if constexpr (contains<Velocity, std::remove_cvref_t<decltype(fields)>>) {
+        if (fluid.mirrors_velocities) {
+            const auto show = [&](const Store& store, const Tiles& tiles) {
+                const auto shown = store[field::velocity_sum];
+                records.show(tiles, field::velocity, [&](std::size_t row) { return shown[row]; });
+            };
+            show(fluid.particles.wall, n.wall);
+            show(fluid.particles.body, n.body);
+        }
+    }
+}
+
+/// The same for the common records.
+void load_solids(Fluid& fluid, const auto& fields)
+{
+    std::visit([&](auto& data) { load_solids(fluid, data.records(), fields); }, fluid.pair_data);
 }
 
 /// For the walls that fluid or a body may be near and for the bodies: `of_store(store)` is called
@@ -103,18 +121,49 @@ inline Destination to_bodies(Fluid& fluid)
     return {fluid.particles.body, fluid.neighbours.body};
 }
 
-/// Runs the loop of a pass over all blocks of a list. The pass must be part of this build: passes of
-/// effects that are left out have no loop, and nothing that holds such an effect can be made.
+/// The records that the terms of a pass read, and the bytes of one: the common ones, or wide ones
+/// that are filled from the columns first.
+struct PassRecords {
+    const void* first = nullptr;
+    std::size_t bytes = 0;
+};
+template <class Pass, class Real, class Formulation>
+PassRecords records_of(const Fluid& fluid, PairData<Real>& data, Formulation formulation,
+                       const PairList& pairs, const FluidTerms& terms)
+{
+    PassRecords found;
+    Pass::call(formulation, terms, [&]<class... Terms>(const Terms&...) {
+        using List = RecordList<Stored, Terms...>;
+        Records<List, Real> records = data.template records<List>();
+        if constexpr (!std::is_same_v<List, Stored>) {
+            records.load(fluid.particles.fluid, fluid.neighbours.fluid);
+            if (&pairs != &fluid.neighbours.fluid_fluid) {
+                load_solids(fluid, records, List{});
+            }
+        }
+        found = {records.data(), sizeof(RecordRow<List, Real>)};
+    });
+    return found;
+}
+
+/// Runs the loop of a pass over all blocks of a list. The pass must be part of this build: passes
+/// of effects that are left out have no loop, and nothing that holds such an effect can be made.
 template <class Pass>
 void run(Fluid& fluid, const PairList& pairs, const Destination& to, const FluidTerms& terms)
 {
-    const auto sweep = [&]<class Real, class Formulation>(PairData<Real>& data, Formulation,
-                                                          const auto& kernel) {
+    const auto sweep = [&]<class Real, class Formulation>(
+                           PairData<Real>& data, Formulation formulation, const auto& kernel) {
         using Loops = PairLoops<Real, Formulation>;
         constexpr auto pass = static_cast<std::size_t>(pass_index<Pass, AllPasses>);
         const auto loop = std::get<Loops>(fluid_loops(fluid.instruction_set)).loop[pass];
+        const PassRecords records = records_of<Pass>(fluid, data, formulation, pairs, terms);
+        const std::size_t bytes = at(chunk_slots * pairs.most_chunks()) * records.bytes;
+        data.local.resize(std::max(data.local.size(), at(thread_count())));
+        for (RecordMemory& local : data.local) {
+            local.at_least(bytes);
+        }
         const typename Loops::View view{pairs.blocks().data(),
-                                        data.records.data(),
+                                        records.first,
                                         to.store.pointers(),
                                         to.tiles.row.data(),
                                         to.tiles.first_slot,

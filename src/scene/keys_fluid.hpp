@@ -32,6 +32,14 @@ inline void check_slip(TableReader& table, const FluidSettings& fluid)
     }
 }
 
+inline void check_gradient(TableReader& table, const FluidSettings& fluid)
+{
+    if (fluid.gradient.corrected && fluid.formulation == FormulationKind::mps) {
+        table.error("gradient", "is available for SPH only",
+                    "leave gradient out with formulation = \"mps\", which corrects its own");
+    }
+}
+
 inline void expect_sph(TableReader& table, FormulationKind formulation, std::string_view effect)
 {
     if (formulation == FormulationKind::mps) {
@@ -166,7 +174,9 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid)
     constexpr double most = 2.0;
     keys.between("smoothing_ratio", fluid.smoothing_ratio, least, most, "1.2 .. 2.0",
                  "Smoothing length over particle spacing: a larger ratio is smoother and slower.");
-    // The first slot's table is listed before what else is said of walls.
+    GradientSettings::keys(keys, fluid.gradient);
+    keys.rule(check_gradient, fluid);
+    // The first slot's table is listed before the other keys of walls.
     keys.heading("viscosity", "Viscosity of the fluid.");
     SlipSettings::keys(keys, fluid.walls);
     keys.planar("acceleration", fluid.acceleration, "m/s2",

@@ -169,6 +169,10 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                                : "the scene has a fluid"),
                none);
     census.add("continuity", when(fluid, "the scene has a fluid"), none);
+    census.add("corrected_gradient",
+               when(fluid && !std::holds_alternative<Off>(plan.effects[slot::gradient]),
+                    "`fluid.gradient` is \"corrected\": reverse kernel gradient correction"),
+               fluid ? "`fluid.gradient` is \"plain\"" : none);
     census.add("wall_extrapolation", when(solids, "the fluid meets walls or bodies"),
                fluid ? "the fluid meets no wall and no body" : none);
     census.add("solid_backstop", when(solids, "the fluid meets walls or bodies"),
@@ -314,7 +318,8 @@ Plan make_plan(const Scene& scene, const Filling& filling)
         plan.counts.body = plan.counts.drawn;
         plan.expected_speed = expected_speed(scene, filling);
         plan.fluid = fluid_parameters(scene, plan.expected_speed);
-        plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->walls, *plan.fluid);
+        plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->gradient,
+                                      scene.fluid->walls, *plan.fluid);
         Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
         const auto limits =
             fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));

@@ -45,6 +45,7 @@ std::vector<Variant> variants(const Simulation& sim)
         std::visit(add_model, sim.scene.fluid->effects[slot]);
     });
     add(NoSlip::name, slot::slip);
+    add(CorrectedGradient::name, slot::gradient);
     return all;
 }
 

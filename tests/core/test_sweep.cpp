@@ -49,7 +49,7 @@ struct Cloud {
     Store particles{Kind::fluid};
     Tiles tiles;
     PairList pairs;
-    Records<In, Real> records;
+    RecordMemory memory;
     Kernel kernel;
 
     explicit Cloud(const std::vector<Vec3>& points, real h, int dimensions)
@@ -71,8 +71,7 @@ struct Cloud {
         const Tiles* const sources[] = {&tiles};
         pairs.build(tiles, sources,
                     {kernel.support, Pack<Real, bytes>::lanes, widest_instruction_set()});
-        records.resize(n);
-        records.load(particles, tiles);
+        Records<In, Real>(memory, n).load(particles, tiles);
     }
 
     void sweep(const auto&... terms)
@@ -82,8 +81,8 @@ struct Cloud {
         for (auto& room : local) {
             room.resize(static_cast<std::size_t>(chunk_slots * pairs.most_chunks()));
         }
-        const SweepView<In, Real> view{
-            pairs.blocks().data(), records.data(), particles.pointers(), tiles.row.data(), 0,
+        const SweepView<Real> view{
+            pairs.blocks().data(), memory.data(), particles.pointers(), tiles.row.data(), 0,
             tiles.lattice.edge,    kernel};
         parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
             sweep_block<bytes>(view, block, local[static_cast<std::size_t>(worker())].data(),

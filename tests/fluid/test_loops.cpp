@@ -25,10 +25,11 @@ void sweep_clearly(Particles& particles, const Fluid& fluid, const PairList& pai
                : slot < n.body.first_slot ? row_of(particles.wall, n.wall)
                                           : row_of(particles.body, n.body);
     };
+    using List = RecordList<Stored, std::remove_cvref_t<decltype(terms)>...>;
     if (fluid.parameters.formulation == FormulationKind::mps) {
-        sweep_reference<Stored>(pairs, place, fluid.mps_kernel, terms...);
+        sweep_reference<List>(pairs, place, fluid.mps_kernel, terms...);
     } else {
-        sweep_reference<Stored>(pairs, place, fluid.kernel, terms...);
+        sweep_reference<List>(pairs, place, fluid.kernel, terms...);
     }
 }
 
@@ -279,8 +280,8 @@ TEST_P(Loops, RareForcesEqualTheirReference)
         M(1, 2) = M(2, 1) = m[0];
         M(0, 2) = M(2, 0) = m[1];
         M(0, 1) = M(1, 0) = m[2];
-        clearly.fluid[field::velocity][k] =
-            M.inverse() * clearly.fluid[field::pressure_gradient][k];
+        clearly.fluid[field::pressure_gradient][k] =
+            M.inverse() * Vec3(clearly.fluid[field::pressure_gradient][k]);
     }
     sweep_clearly(clearly, fluid, n.fluid_fluid,
                   std::get<RenormalisedDiffusion>(fluid.effects[slot::diffusion]));
@@ -337,17 +338,23 @@ TEST_P(Loops, FrictionAndEddiesEqualTheirReference)
             expect_same_fluid(p, clearly, field::strain, tolerance(), "strain");
             expect_same_fluid(p, clearly, field::mixed_strain, tolerance(), "mixed strain");
             for (Index k = 0; k < p.fluid.size(); ++k) {
-                clearly.fluid[field::pressure][k] =
+                clearly.fluid[field::turbulent_viscosity][k] =
                     eddy_viscosity(clearly.fluid[field::strain][k],
                                    clearly.fluid[field::mixed_strain][k], term->length);
             }
-            for_solids(clearly, [](Store& solids) { clear(solids, Fields<Pressure>{}); });
         }
         std::visit(rub, viscosity);
         expect_same_fluid(p, clearly, field::viscous_force, 2 * tolerance(),
                           "viscous force on fluid");
         expect_same_solids(p, clearly, field::viscous_force, 2 * tolerance(),
                            "viscous force on solids");
+        Particles rates = p; // continuity sees solids at their own velocities
+        clear(rates.fluid, SolidContinuity::Writes{});
+        sweep_clearly(rates, fluid, n.fluid_solid, SolidContinuity{});
+        for (Index k = 0; k < p.fluid.size(); ++k) {
+            rates.fluid[field::solid_rate][k] *= p.fluid[field::density][k];
+        }
+        expect_same_fluid(p, rates, field::solid_rate, tolerance(), "rate of density by solids");
         Vec3 sum(0, 0, 0);
         real scale = 0;
         for (const Store* store : {&p.fluid, &p.wall, &p.body}) {

@@ -87,7 +87,8 @@ void sum_clearly(const Fluid& fluid, Store& store)
     Pass::call(Sph{}, terms, [&](const auto&... term) {
         if constexpr (sizeof...(term) > 0) {
             (clear(store, typename std::remove_cvref_t<decltype(term)>::Writes{}), ...);
-            sweep_reference<Stored>(fluid.neighbours.fluid_fluid, place, fluid.kernel, term...);
+            using List = RecordList<Stored, std::remove_cvref_t<decltype(term)>...>;
+            sweep_reference<List>(fluid.neighbours.fluid_fluid, place, fluid.kernel, term...);
         }
     });
 }

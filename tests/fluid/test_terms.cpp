@@ -9,7 +9,10 @@
 namespace hyoryu {
 namespace {
 
-using One = Record<Stored, real>;
+using One =
+    Record<Union<Stored,
+                 Fields<TurbulentViscosity, PressureGradient, GradientCorrection, MixedCorrection>>,
+           real>;
 
 One particle(real x, real vx, real V, real p)
 {
@@ -147,18 +150,23 @@ TEST(Terms, EddyViscosityByHand)
     EXPECT_DOUBLE_EQ(eddy_viscosity(Vec3(4, 0, -4), Vec3(0, 0, 0), 0.1), 0.04);
     Record<EddyViscosity::Writes, real> sum;
     const EddyViscosity eddies{1000, 0.4, 0, 5, 0.1};
-    eddies(hand, particle(0.5, -4, 2, 0.03), particle(0, 0, 3, 0.01), sum);
+    One i = particle(0.5, -4, 2, 0);
+    One j = particle(0, 0, 3, 0);
+    i[field::turbulent_viscosity] = 0.03;
+    j[field::turbulent_viscosity] = 0.01;
+    eddies(hand, i, j, sum);
     // kappa = 0.4 + 5 (0.03 + 0.01); the rest as for Viscosity above.
     EXPECT_DOUBLE_EQ(sum[field::viscous_force].x, 24000 * 0.6 / 0.5);
 }
 
-// With the exact gradient in the place of the velocity, a linear pressure does not diffuse.
+// With the exact gradient a linear pressure does not diffuse.
 TEST(Terms, LinearPressureDoesNotDiffuseRenormalised)
 {
     const RenormalisedDiffusion antuono{1.0, {1000, 20}};
     const Pair<real> apart{{0.1, 0, 0.2}, std::sqrt(0.05), 0.05, 3.0, -2.0};
-    One i = particle(0.1, 70, 1, 100 + 7);
-    One j = particle(0, 70, 1, 100);
+    One i = particle(0.1, 0, 1, 100 + 7);
+    One j = particle(0, 0, 1, 100);
+    i[field::pressure_gradient] = j[field::pressure_gradient] = {70, 0, 0};
     Record<Fields<DiffusionRate>, real> sum;
     antuono(apart, i, j, sum);
     EXPECT_NEAR(sum[field::diffusion_rate], 0, 1e-12);
@@ -192,6 +200,11 @@ void expect_pairwise(const Term& term, auto written)
     for (int k = 0; k < 50; ++k) {
         One a = particle(at(random), at(random), 1 + 0.1 * at(random), at(random));
         One b = particle(at(random), at(random), 1 + 0.1 * at(random), at(random));
+        for (One* one : {&a, &b}) {
+            (*one)[field::turbulent_viscosity] = sq(at(random));
+            (*one)[field::gradient_correction] = {at(random), 0.1, at(random)};
+            (*one)[field::mixed_correction] = {0.2, at(random), at(random)};
+        }
         a[field::position].y = at(random);
         b[field::velocity].z = at(random);
         Record<typename Term::Writes, real> ab;
@@ -207,6 +220,7 @@ void expect_pairwise(const Term& term, auto written)
 TEST(Terms, ForcesAreAntisymmetricBitForBit)
 {
     expect_pairwise(PressureForce{}, field::force);
+    expect_pairwise(CorrectedGradient{}, field::force);
     expect_pairwise(WallPressureForce{}, field::force);
     expect_pairwise(SolidBackstop{0.6, 2.0}, field::force);
     expect_pairwise(Viscosity{1000, 0.1, 0.9}, field::viscous_force);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Friction, eddies, renormalised diffusion, collisions, drive: same bits for any thread count and
-// across a restart, momentum closes, and nothing of them where they are not asked for.
+// Friction, eddies, renormalised diffusion, corrected gradient, collisions, drive: same bits for
+// any thread count and across a restart, momentum closes, and nothing of them where they are not
+// asked for.
 #include "runs.hpp"
 
 #include <gtest/gtest.h>
@@ -24,6 +25,7 @@ max = [0.8, 0.0, 1.0]
 periodic = ["x"]
 [fluid]
 sound_speed = 10.0
+gradient = "corrected"
 walls = "no_slip"
 acceleration = [0.5, 0.0, 0.0]
 [fluid.viscosity]
@@ -60,6 +62,7 @@ end = 10.0
 [particles]
 spacing = 0.05
 [fluid]
+gradient = "corrected"
 walls = "no_slip"
 [fluid.viscosity]
 model = "laminar"
@@ -152,13 +155,14 @@ velocity_field = ["1 + z", "0", "x*z"]
 
 TEST(RareEffects, AreAbsentUnlessAskedFor)
 {
-    const std::array<const char*, 6> effects{
-        "no_slip", "sps_turbulence", "drive", "particle_collision", "cavitation", "moving_walls"};
+    const std::array<const char*, 7> effects{
+        "no_slip",      "sps_turbulence",    "drive", "particle_collision", "cavitation",
+        "moving_walls", "corrected_gradient"};
     const Simulation with = make(channel);
     for (const char* effect : effects) {
         EXPECT_TRUE(with.plan.runs(effect)) << effect;
     }
-    const Simulation without = make(basin, {"fluid.walls=free_slip"});
+    const Simulation without = make(basin, {"fluid.walls=free_slip", "fluid.gradient=plain"});
     for (const char* effect : effects) {
         EXPECT_FALSE(without.plan.runs(effect)) << effect;
     }
@@ -166,7 +170,7 @@ TEST(RareEffects, AreAbsentUnlessAskedFor)
     for (const Store* p : {&particles.fluid, &particles.wall, &particles.body}) {
         EXPECT_FALSE(p->has(field::velocity_sum) || p->has(field::depth) || p->has(field::strain) ||
                      p->has(field::turbulent_viscosity) || p->has(field::moments) ||
-                     p->has(field::cavity));
+                     p->has(field::cavity) || p->has(field::gradient_correction));
     }
 }
 

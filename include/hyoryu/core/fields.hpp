@@ -68,12 +68,15 @@ struct CrowdingGradient { using type = Vec3; static constexpr FieldInfo info{"Cr
 /// Second moments of V grad W, by which a gradient is corrected: xx, yy, zz and yz, xz, xy.
 struct Moments         { using type = Vec3; static constexpr FieldInfo info{"Moments", "1", Holders::fluid}; };
 struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"MixedMoments", "1", Holders::fluid}; };
+/// B - 1 of the corrected gradient, B the inverse of those moments: xx, yy, zz and yz, xz, xy.
+struct GradientCorrection { using type = Vec3; static constexpr FieldInfo info{"GradientCorrection", "1", Holders::fluid, true}; };
+struct MixedCorrection { using type = Vec3; static constexpr FieldInfo info{"MixedCorrection", "1", Holders::fluid, true}; };
 /// Sum that points to where particles are dense, by which they are shifted.
 struct ShiftGradient   { using type = Vec3; static constexpr FieldInfo info{"ShiftGradient", "1/m", Holders::fluid}; };
 /// Twice the rate of strain, xx, yy, zz and yz, xz, xy, and the eddy viscosity that it makes.
 struct Strain          { using type = Vec3; static constexpr FieldInfo info{"Strain", "1/s", Holders::fluid}; };
 struct MixedStrain     { using type = Vec3; static constexpr FieldInfo info{"MixedStrain", "1/s", Holders::fluid}; };
-struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"TurbulentViscosity", "m2/s"}; };
+struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"TurbulentViscosity", "m2/s", Holders::fluid}; };
 /// Kernel sums over particles of the other kind, fluid or solid; by them a solid particle takes over
 /// the state of the fluid before it.
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
@@ -100,6 +103,8 @@ inline constexpr PressureGradient pressure_gradient{};
 inline constexpr CrowdingGradient crowding_gradient{};
 inline constexpr Moments         moments{};
 inline constexpr MixedMoments    mixed_moments{};
+inline constexpr GradientCorrection gradient_correction{};
+inline constexpr MixedCorrection mixed_correction{};
 inline constexpr ShiftGradient   shift_gradient{};
 inline constexpr ShepardSum      shepard_sum{};
 inline constexpr VelocitySum     velocity_sum{};

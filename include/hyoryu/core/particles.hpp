@@ -100,6 +100,13 @@ public:
     {
         return find(&F::info) != nullptr;
     }
+    /// Whether particles of this kind have the field where an effect needs it.
+    template <Field F>
+    bool may_have(F) const
+    {
+        return F::info.holders == Holders::all ||
+               (F::info.holders == Holders::fluid) == (kind_ == Kind::fluid);
+    }
 
     /// The column of a field, which must exist.
     template <Field F>
@@ -159,8 +166,7 @@ private:
     void make_column()
     {
         using Values = ColumnValues<typename F::type>;
-        const Holders others = kind_ == Kind::fluid ? Holders::solids : Holders::fluid;
-        if (F::info.holders == others) {
+        if (!may_have(F{})) {
             return;
         }
         StoredColumn* column = find(&F::info);

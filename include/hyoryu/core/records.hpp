@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What the pair loops read: the fields of a point side by side, in the number of the loops.
+// The input of the pair loops: the fields of a point side by side, in the number of the loops.
+// A loop whose terms read no more than the common list shares the common records; any other has
+// records of its own list, made for it from the columns.
 #pragma once
 
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/core/tiles.hpp"
 
+#include <algorithm>
 #include <span>
+#include <vector>
 
 namespace hyoryu {
 
@@ -29,14 +33,51 @@ struct alignas(detail::row_alignment((List::scalars * sizeof(Real) + 15) / 16 * 
     Real value[size]{};
 };
 
-/// Records of all slots.
+/// The list of the records for a loop over some terms: the common one if that holds all that they
+/// read, else positions and the union of what they read.
+template <class Common, class... Terms>
+using RecordList =
+    std::conditional_t<std::is_same_v<Union<Common, typename Terms::Reads...>, Common>, Common,
+                       Union<Fields<Position>, typename Terms::Reads...>>;
+
+/// Memory for the records of one list or another, in lines of the cache.
+class RecordMemory {
+public:
+    /// At least so many bytes, aligned to 64; they are not kept when the memory grows.
+    std::byte* at_least(std::size_t bytes)
+    {
+        const std::size_t lines = (bytes + sizeof(Line) - 1) / sizeof(Line);
+        if (lines > lines_.size()) {
+            lines_ = std::vector<Line>(); // freed first: the two need not exist side by side
+            lines_.resize(lines);
+        }
+        return data();
+    }
+    std::byte* data() { return reinterpret_cast<std::byte*>(lines_.data()); }
+    /// The memory, for use between two uses of the records.
+    std::span<std::byte> room() { return std::as_writable_bytes(std::span(lines_)); }
+    /// Bytes held.
+    std::size_t bytes() const { return lines_.capacity() * sizeof(Line); }
+
+private:
+    struct alignas(64) Line {
+        std::byte byte[64];
+    };
+    std::vector<Line> lines_;
+};
+
+/// The records of all slots, in memory that another object owns.
 template <class List, class Real>
 class Records {
 public:
     using Row = RecordRow<List, Real>;
 
-    /// Room for so many slots, and for a chunk that begins at the last one.
-    void resize(Index slots) { rows_.resize(static_cast<std::size_t>(slots + chunk_slots)); }
+    /// For so many slots, and a chunk that begins at the last one.
+    Records(RecordMemory& memory, Index slots)
+        : rows_(reinterpret_cast<Row*>(
+              memory.at_least(static_cast<std::size_t>(slots + chunk_slots) * sizeof(Row))))
+    {
+    }
 
     /// Copies columns to the records of the points; by default all of the list, else only the named
     /// ones. Positions are rounded to the unit of the lattice, half a millionth of a spacing in
@@ -57,10 +98,10 @@ public:
         });
     }
 
-    /// Puts value_of(row) to the place that records have for a field, on loan until that is loaded
-    /// again: a record holds no more than most loops read.
+    /// Sets a field of the records to value_of(row): what particles show of it to their neighbours
+    /// where that is not the value of the column.
     template <Field To>
-    void lend(const Tiles& tiles, To, const auto& value_of)
+    void show(const Tiles& tiles, To, const auto& value_of)
     {
         constexpr int to = offset<To, List>;
         parallel_for(0, tiles.count(), [&](Index k) {
@@ -73,23 +114,11 @@ public:
             }
         });
     }
-    /// The same with the values of another column.
-    template <Field From, Field To>
-    void lend(const Store& store, const Tiles& tiles, From from, To to)
-    {
-        static_assert(width<From> == width<To>);
-        const auto column = store[from];
-        lend(tiles, to, [&](std::size_t row) { return column[row]; });
-    }
 
-    const Row* data() const { return rows_.data(); }
-    /// Their memory, for who needs some between two uses of the records.
-    std::span<std::byte> room() { return std::as_writable_bytes(std::span(rows_)); }
-    /// Bytes held.
-    std::size_t bytes() const { return rows_.capacity() * sizeof(Row); }
+    Row* data() { return rows_; }
 
 private:
-    Row& at(Index slot) { return rows_[static_cast<std::size_t>(slot)]; }
+    Row& at(Index slot) { return rows_[slot]; }
 
     template <class Some>
     void load_tile(const Store& store, const Tiles& tiles, Index tile_index, Some fields)
@@ -99,8 +128,15 @@ private:
         const real unit = tiles.lattice.unit(std::min(std::numeric_limits<Real>::digits, 50));
         const Vec3 centre = tiles.lattice.centre(tiles.tile[tile]);
         for_each(fields, [&](auto field) {
-            const auto column = store[field];
             constexpr int to = offset<decltype(field), List>;
+            if (!store.may_have(field)) { // of the other kind of particles alone
+                for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
+                    std::fill_n(&at(tiles.first_slot + k).value[to], width<decltype(field)>,
+                                Real(0));
+                }
+                return;
+            }
+            const auto column = store[field];
             for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
                 const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
                 Real* const value = &at(tiles.first_slot + k).value[to];
@@ -128,7 +164,7 @@ private:
         return ((r.array() + large) - large).matrix();
     }
 
-    std::vector<Row> rows_;
+    Row* rows_;
 };
 
 } // namespace hyoryu

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstring>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -49,12 +50,12 @@ concept PairTerm = std::copyable<T> &&
 
 /// All that the sweeps of one pair kind read and write, as plain addresses: the hot loops call
 /// nothing that is shared between instruction sets.
-template <class List, class Real, class PairKernel = Kernel>
+template <class Real, class PairKernel = Kernel>
 struct SweepView {
     const ListBlock* blocks = nullptr;
-    const RecordRow<List, Real>* records = nullptr; // by slot
-    ColumnPointers columns;                         // by row
-    const std::int32_t* row = nullptr;              // of the destination slots, from `first_slot`
+    const void* records = nullptr;     // by slot: RecordRow<List, Real>, List as the loop has it
+    ColumnPointers columns;            // by row
+    const std::int32_t* row = nullptr; // of the destination slots, from `first_slot`
     Index first_slot = 0;
     Vec3 edge{0, 0, 0}; // of a tile [m]
     PairKernel kernel;
@@ -65,12 +66,13 @@ namespace detail {
 /// The points that a block looks at, copied side by side, relative to the centre of its tile. What
 /// is nothing is far from everything and otherwise zero.
 template <int bytes, class List, class Real>
-void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>* local)
+void copy_chunks(const ListBlock& block, const Vec3& of_tile, const RecordRow<List, Real>* records,
+                 RecordRow<List, Real>* local)
 {
     using Row = RecordRow<List, Real>;
-    constexpr int width = std::min<int>(bytes, sizeof(Row)); // copied at once [bytes]
+    constexpr int width = std::gcd(bytes, static_cast<int>(sizeof(Row))); // copied at once [bytes]
     constexpr int lanes = Pack<Real, width>::lanes;
-    const real edge[3] = {view.edge.x(), view.edge.y(), view.edge.z()};
+    const real edge[3] = {of_tile.x(), of_tile.y(), of_tile.z()};
     constexpr real far_in_edges = 1e6; // its square is finite, and it is beyond every support
     Row nothing;
     nothing.value[0] = static_cast<Real>(far_in_edges * edge[0]);
@@ -84,7 +86,7 @@ void copy_chunks(const ListBlock& block, const auto& view, RecordRow<List, Real>
         for (int axis = 0; axis < 3; ++axis) {
             step.value[axis] = static_cast<Real>(static_cast<real>(chunk.step[axis]) * edge[axis]);
         }
-        const Real* from = view.records[chunk.slot].value;
+        const Real* from = records[chunk.slot].value;
         Real* to = local[c * chunk_slots].value;
         for (int k = 0; k < chunk_slots * Row::size; k += lanes) {
             const auto moved =
@@ -131,7 +133,7 @@ void accumulate(const OutColumns<Out>& columns, Index row, const auto& sum)
 // Flat: a record of packs that is handed over through memory costs more than the pair. Kernel and
 // terms are copies: what only this function sees need not be read again after every store.
 template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms>
-[[gnu::flatten]] void sweep_block(const SweepView<List, Real, PairKernel>& view, Index block_index,
+[[gnu::flatten]] void sweep_block(const SweepView<Real, PairKernel>& view, Index block_index,
                                   RecordRow<List, Real>* local, const Terms... terms)
 {
     using Out = Union<typename Terms::Writes...>;
@@ -140,7 +142,8 @@ template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms
         const ListBlock block = view.blocks[block_index];
         const PairKernel kernel = view.kernel;
         const detail::OutColumns<Out> out(view.columns);
-        detail::copy_chunks<bytes>(block, view, local);
+        const auto* const records = static_cast<const RecordRow<List, Real>*>(view.records);
+        detail::copy_chunks<bytes>(block, view.edge, records, local);
         const std::uint8_t* entry = block.entry;
         for (std::int32_t slot = block.first; slot < block.last; ++slot) {
             const ListHead list = block.list[slot - block.first];
@@ -149,7 +152,7 @@ template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms
                 continue;
             }
             const RecordRow<List, Real>* at = local + list.start;
-            const Real* const own = view.records[slot].value;
+            const Real* const own = records[slot].value;
             const auto i =
                 detail::assemble<List, N>([&](int k) { return N(static_cast<double>(own[k])); });
             Record<Out, N> sum;
@@ -179,6 +182,9 @@ void sweep_reference(const PairList& pairs, const auto& place, const auto& kerne
     const auto record = [](const StoreRow& from) {
         Record<List, real> values;
         for_each(List{}, [&](auto field) {
+            if (!from.store->may_have(field)) {
+                return; // of the other kind of particles alone: zero
+            }
             const auto& value = std::as_const(*from.store)[field][from.row];
             if constexpr (width<decltype(field)> == 3) {
                 values[field] = {value.x(), value.y(), value.z()};

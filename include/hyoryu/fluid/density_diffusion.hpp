@@ -51,12 +51,12 @@ struct DensityGradient {
 };
 
 /// D_i = -2 delta h c0 sum_j V_j [(rho_j - rho_i) - (g_i + g_j)/2 . (r_j - r_i)] F(r), g the
-/// renormalised gradient of the density: what is linear does not diffuse, whatever drives it. The
-/// records lend the place of the velocity to c0^2 g. Source: Antuono, Colagrossi, Marrone & Molteni
-/// (2010), eq. 7.
+/// renormalised gradient of the density, kept as c0^2 g in the column of `PressureGradient`: a
+/// linear part does not diffuse, whatever drives it. Source: Antuono, Colagrossi, Marrone &
+/// Molteni (2010), eq. 7.
 struct RenormalisedDiffusion {
     static constexpr std::string_view name = "renormalised_diffusion";
-    using Reads = Fields<Volume, Pressure, Velocity>;
+    using Reads = Fields<Volume, Pressure, PressureGradient>;
     using Writes = Fields<DiffusionRate>;
     using Columns = Union<Writes, DensityGradient::Writes>;
     struct Sum {
@@ -74,7 +74,7 @@ struct RenormalisedDiffusion {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        const N linear = 0.5 * dot(i[field::velocity] + j[field::velocity], ij.r);
+        const N linear = 0.5 * dot(i[field::pressure_gradient] + j[field::pressure_gradient], ij.r);
         const N difference = (j[field::pressure] - i[field::pressure] + linear) * (1 / sq(eos.c0));
         sum[field::diffusion_rate] += -strength * j[field::volume] * difference * ij.f;
     }

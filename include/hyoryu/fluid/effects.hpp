@@ -163,8 +163,8 @@ template <class Stage>
 using StageWrites = typename detail::WritesOfAll<AllSlots, Stage>::type;
 
 /// The effects of a fluid that the user has chosen.
-inline FluidEffects chosen_effects(const FluidChoices& choices, const SlipSettings& walls,
-                                   const FluidParameters& fluid)
+inline FluidEffects chosen_effects(const FluidChoices& choices, const GradientSettings& gradient,
+                                   const SlipSettings& walls, const FluidParameters& fluid)
 {
     FluidEffects effects;
     for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
@@ -175,6 +175,9 @@ inline FluidEffects chosen_effects(const FluidChoices& choices, const SlipSettin
         };
         std::visit(fill, choices[slot]);
     });
+    if (gradient.corrected) {
+        effects[slot::gradient] = CorrectedGradient{};
+    }
     if (walls.sticks && !std::holds_alternative<Off>(effects[slot::viscosity])) {
         effects[slot::slip] = NoSlip{};
     }

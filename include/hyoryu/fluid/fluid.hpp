@@ -38,8 +38,16 @@ struct FluidNeighbours {
 /// What the pair loops work with, in their number.
 template <class Real>
 struct PairData {
-    Records<Stored, Real> records;
-    std::vector<std::vector<RecordRow<Stored, Real>>> local; // room for one block, by thread
+    RecordMemory common; // the common records
+    RecordMemory wide;   // those of the last pass that reads more
+    Index slots = 0;
+    std::vector<RecordMemory> local; // records of one block, by thread
+
+    template <class List = Stored>
+    Records<List, Real> records()
+    {
+        return {std::is_same_v<List, Stored> ? common : wide, slots};
+    }
 };
 
 /// What left the domain and was taken out of the run.
@@ -76,7 +84,8 @@ struct Fluid {
     Vec3 domain_max{infinity, infinity, infinity};
     Vec3 period{0, 0, 0}; // from domain_min on; 0 along an axis that does not repeat itself [m]
     LostParticles lost;
-    bool moving_walls = false; // the caller places their particles, which takes new grids
+    bool moving_walls = false;       // the caller places their particles, which takes new grids
+    bool mirrors_velocities = false; // solids show `VelocitySum` for their velocity
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
     /// Where joints carry the pressure between solids, body by body, in the order of the numbers
     /// of the particles; empty while no body has a joint.

@@ -11,6 +11,7 @@ namespace hyoryu {
 /// Weakly compressible SPH.
 struct Sph {
     static constexpr std::string_view name = "sph";
+    static constexpr bool may_correct = true; // see fluid/gradient
     using PairKernel = Kernel;
     using FluidPressure = PressureForce;     // fluid <- fluid
     using SolidPressure = WallPressureForce; // fluid <- solid
@@ -24,6 +25,7 @@ struct Sph {
 /// symmetric force in either formulation.
 struct Mps {
     static constexpr std::string_view name = "mps";
+    static constexpr bool may_correct = false; // it has a correction of its own
     using PairKernel = MpsKernel;
     using FluidPressure = MpsGradient;
     using SolidPressure = MpsWallGradient;

@@ -13,7 +13,7 @@
 
 namespace hyoryu {
 
-/// All that a particle shows its neighbours: one record of 32 bytes in single precision.
+/// The common records, which serve most loops: 32 bytes in single precision.
 using Stored = Fields<Position, Velocity, Volume, Pressure>;
 
 /// The terms of a run with their parameters.
@@ -28,6 +28,32 @@ struct FluidTerms {
 /// take in the terms of the effects that name it.
 namespace pass {
 
+/// f(pressure, more...): the pressure term of the fluid among itself.
+template <class Formulation>
+void with_pressure(Formulation, const FluidTerms& terms, const auto& f, const auto&... more)
+{
+    if constexpr (Formulation::may_correct) {
+        if (const auto* corrected = held<CorrectedGradient>(terms.effects)) {
+            f(*corrected, more...);
+            return;
+        }
+    }
+    f(typename Formulation::FluidPressure{}, more...);
+}
+/// f(continuity, more...): the continuity that belongs to that pressure, and sums for the next.
+template <class Formulation>
+void with_continuity(Formulation, const FluidTerms& terms, const auto& plain, const auto& corrected,
+                     const auto& f, const auto&... more)
+{
+    if constexpr (Formulation::may_correct) {
+        if (held<CorrectedGradient>(terms.effects) != nullptr) {
+            f(corrected, GradientMoments{}, more...);
+            return;
+        }
+    }
+    f(plain, more...);
+}
+
 /// solid <- fluid: the pressure before a solid
 struct Extrapolation {
     static void call(const auto&, const FluidTerms& terms, const auto& f)
@@ -37,11 +63,10 @@ struct Extrapolation {
 };
 /// fluid <- fluid: pressure and what belongs to it
 struct FluidForces {
-    template <class Formulation>
-    static void call(Formulation, const FluidTerms& terms, const auto& f)
+    static void call(auto formulation, const FluidTerms& terms, const auto& f)
     {
         with_terms_of<stage::Forces>(terms.effects, [&](const auto&... more) {
-            f(typename Formulation::FluidPressure{}, more...);
+            with_pressure(formulation, terms, f, more...);
         });
     }
 };
@@ -64,14 +89,20 @@ struct SolidLoads {
 using FilmForces = PassOf<WallPressureForce>;
 /// fluid <- fluid: continuity, viscosity and what else depends on velocities
 struct FluidRates {
-    static void call(const auto&, const FluidTerms& terms, const auto& f)
+    static void call(auto formulation, const FluidTerms& terms, const auto& f)
     {
-        with_terms_of<stage::Rates>(terms.effects,
-                                    [&](const auto&... more) { f(Continuity{}, more...); });
+        with_terms_of<stage::Rates>(terms.effects, [&](const auto&... more) {
+            with_continuity(formulation, terms, Continuity{}, CorrectedContinuity{}, f, more...);
+        });
     }
 };
 /// fluid <- solid: continuity
-using SolidRates = PassOf<SolidContinuity>;
+struct SolidRates {
+    static void call(auto formulation, const FluidTerms& terms, const auto& f)
+    {
+        with_continuity(formulation, terms, SolidContinuity{}, SolidContinuity{}, f);
+    }
+};
 /// fluid <- fluid and solid: crowding
 struct CrowdingSums {
     static void call(const auto&, const FluidTerms& terms, const auto& f)
@@ -90,9 +121,10 @@ using AllPasses = JoinedPasses<
 /// The loops of a formulation in the number Real, one for each pass, each over one block of lists.
 template <class Real, class Formulation = Sph>
 struct PairLoops {
-    using View = SweepView<Stored, Real, typename Formulation::PairKernel>;
-    using Row = RecordRow<Stored, Real>;
-    using Loop = void (*)(const View& view, Index block, Row* local, const FluidTerms& terms);
+    using View = SweepView<Real, typename Formulation::PairKernel>;
+    /// `local`: room for the records of all chunks of the block. Both it and the records of the
+    /// view have the list `RecordList<Stored, ...>` of the terms that the pass sums.
+    using Loop = void (*)(const View& view, Index block, std::byte* local, const FluidTerms& terms);
 
     int lanes = 1; // of a pack
     std::array<Loop, static_cast<std::size_t>(AllPasses::count)> loop{};

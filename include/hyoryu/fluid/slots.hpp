@@ -5,6 +5,7 @@
 #include "hyoryu/fluid/cavitation.hpp"
 #include "hyoryu/fluid/collision.hpp"
 #include "hyoryu/fluid/density_diffusion.hpp"
+#include "hyoryu/fluid/gradient.hpp"
 #include "hyoryu/fluid/no_slip.hpp"
 #include "hyoryu/fluid/shifting.hpp"
 #include "hyoryu/fluid/turbulence.hpp"
@@ -12,7 +13,7 @@
 namespace hyoryu {
 
 /// All slots, in the order of the manual.
-using AllSlots =
-    SlotList<ViscositySlot, SlipSlot, DiffusionSlot, ShiftingSlot, CollisionSlot, CavitationSlot>;
+using AllSlots = SlotList<GradientSlot, ViscositySlot, SlipSlot, DiffusionSlot, ShiftingSlot,
+                          CollisionSlot, CavitationSlot>;
 
 } // namespace hyoryu

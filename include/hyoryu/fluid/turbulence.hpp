@@ -33,14 +33,13 @@ inline real eddy_viscosity(const Vec3& strain, const Vec3& mixed_strain, real le
 }
 
 /// The pair viscosity with kappa = 2 (d + 2) [nu + (nu_t,i + nu_t,j)/2]; to a solid, which has no
-/// nu_t of its own, that of the fluid particle. The records lend the place of the pressure to nu_t.
-/// Source: Di Mascio, Antuono, Colagrossi & Marrone (2017), with the arithmetic mean; Dalrymple &
-/// Rogers (2006) have the divergence of the stress in its place, which turns rigid rotation at a
-/// free surface into a force.
+/// nu_t of its own, that of the fluid particle. Source: Di Mascio, Antuono, Colagrossi & Marrone
+/// (2017), with the arithmetic mean; Dalrymple & Rogers (2006) have the divergence of the stress in
+/// its place, which turns rigid rotation at a free surface into a force.
 struct EddyViscosity {
     static constexpr std::string_view name = "eddy_viscosity";
     using Stage = stage::Rates;
-    using Reads = Fields<Velocity, Volume, Pressure>;
+    using Reads = Fields<Velocity, Volume, TurbulentViscosity>;
     using Writes = Fields<ViscousForce>;
     using Columns = Union<Writes, StrainRate::Writes, Fields<TurbulentViscosity>>;
     using Passes = PassList<PassOf<StrainRate>>;
@@ -56,7 +55,8 @@ struct EddyViscosity {
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
         const N approach = dot(i[field::velocity] - j[field::velocity], ij.r);
-        const N both = kappa + share * (i[field::pressure] + j[field::pressure]);
+        const N both =
+            kappa + share * (i[field::turbulent_viscosity] + j[field::turbulent_viscosity]);
         const N mu = rho0 * both * approach / (ij.distance_squared + 0.01 * sq(h));
         sum[field::viscous_force] += (i[field::volume] * j[field::volume]) * mu * ij.f * ij.r;
     }

@@ -37,10 +37,11 @@ struct Loops {
         return all;
     }
 
-    static void all_terms(const typename PairLoops<Real>::View& view, Index block,
-                          typename PairLoops<Real>::Row* local, const FluidTerms& terms)
+    static void all_terms(const typename PairLoops<Real>::View& view, Index block, std::byte* local,
+                          const FluidTerms& terms)
     {
-        sweep_block<bytes>(view, block, local, PressureForce{},
+        sweep_block<bytes>(view, block, reinterpret_cast<RecordRow<Stored, Real>*>(local),
+                           PressureForce{},
                            *std::get_if<DensityDiffusion>(&terms.effects[slot::diffusion]),
                            Continuity{}, *std::get_if<Viscosity>(&terms.effects[slot::viscosity]));
     }

@@ -13,11 +13,13 @@ struct Loops {
     using Table = PairLoops<Real, Formulation>;
 
     template <class Pass>
-    static void sweep(const typename Table::View& view, Index block, typename Table::Row* local,
+    static void sweep(const typename Table::View& view, Index block, std::byte* local,
                       const FluidTerms& terms)
     {
-        Pass::call(Formulation{}, terms,
-                   [&](const auto&... term) { sweep_block<bytes>(view, block, local, term...); });
+        Pass::call(Formulation{}, terms, [&]<class... Terms>(const Terms&... term) {
+            using Row = RecordRow<RecordList<Stored, Terms...>, Real>;
+            sweep_block<bytes>(view, block, reinterpret_cast<Row*>(local), term...);
+        });
     }
 
     template <class... Pass>

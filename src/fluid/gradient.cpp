@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/fluid/gradient.hpp"
+
+#include "moments.hpp"
+
+namespace hyoryu {
+
+Mat3 correction(const Mat3& M)
+{
+    const real share = inner_share(M);
+    return share > 0 ? Mat3(share * (M.inverse() - Mat3::Identity())) : Mat3(Mat3::Zero());
+}
+
+void update_corrections(const FluidParameters& fluid, Store& store)
+{
+    const auto moments = store[field::moments];
+    const auto mixed = store[field::mixed_moments];
+    const auto diagonal = store[field::gradient_correction];
+    const auto off = store[field::mixed_correction];
+    parallel_for(0, store.size(), [&](Index i) {
+        const Mat3 C = correction(moment_matrix(moments[i], mixed[i], fluid.dimensions));
+        diagonal[i] = C.diagonal();
+        off[i] = Vec3(C(1, 2), C(0, 2), C(0, 1));
+    });
+}
+
+} // namespace hyoryu

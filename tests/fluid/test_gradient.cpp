@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+// The corrected pressure gradient: energy by its adjoint divergence, accuracy against an exact
+// gradient, the loops against the terms one pair at a time.
+#include "dice.hpp"
+#include "hyoryu/fluid/fluid.hpp"
+#include "hyoryu/fluid/gradient.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace hyoryu {
+namespace {
+
+struct Cloud {
+    int dimensions = 3;
+    real spacing = 0.1;
+    int edge = 9;
+    real jitter = 0.2; // of a spacing
+    Precision precision = Precision::double_precision;
+    bool corrected = true;
+};
+
+// Fluid alone, on a jittered lattice, its density drawn at random.
+Fluid make_fluid(const Cloud& cloud, Dice& dice)
+{
+    Fluid fluid;
+    const real dp = cloud.spacing;
+    FluidParameters& f = fluid.parameters;
+    f = {.dimensions = cloud.dimensions, .eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp};
+    f.mass = 1000 * std::pow(dp, cloud.dimensions);
+    f.precision = cloud.precision;
+    fluid.kernel = make_kernel(f.h, dp, cloud.dimensions);
+    if (cloud.corrected) {
+        fluid.effects[slot::gradient] = CorrectedGradient{};
+    }
+    const bool plane = cloud.dimensions == 2;
+    const int layers = plane ? 1 : cloud.edge;
+    allocate(fluid, Index(cloud.edge) * cloud.edge * layers, 0, 0);
+    Store& store = fluid.particles.fluid;
+    const auto off = [&](real most) {
+        const real x = dice.between(-most, most);
+        const real y = dice.between(-most, most);
+        return Vec3(x, plane ? 0 : y, dice.between(-most, most));
+    };
+    for (Index k = 0; k < store.size(); ++k) {
+        const Vec3 lattice(static_cast<real>(k % cloud.edge),
+                           static_cast<real>(k / cloud.edge / cloud.edge),
+                           static_cast<real>(k / cloud.edge % cloud.edge));
+        store[field::position][k] = dp * (lattice + off(cloud.jitter));
+        store[field::velocity][k] = off(0.5);
+        store[field::density][k] = 1005 + dice.between(-10, 10);
+    }
+    return fluid;
+}
+
+// The corrections from the places, then forces and rates with them.
+void evaluate(Fluid& fluid)
+{
+    update_neighbours(fluid);
+    update_pressure(fluid);
+    update_rates(fluid);
+    update_pressure(fluid);
+    update_forces(fluid, 1e-4);
+}
+
+TEST(CorrectedGradient, WorkOfThePressureIsTheChangeOfTheCompression)
+{
+    Dice dice(static_cast<std::uint64_t>(number_from("HYORYU_SEED", 11)));
+    for (const int dimensions : {2, 3}) {
+        for (const real spacing : {0.1, 0.013}) {
+            Fluid fluid = make_fluid({dimensions, spacing, dimensions == 2 ? 25 : 9}, dice);
+            evaluate(fluid);
+            const Store forces = fluid.particles.fluid;
+            update_rates(fluid);
+            const Store& p = fluid.particles.fluid;
+            real work = 0;
+            real compression = 0;
+            real scale = 0;
+            real corrections = 0;
+            for (Index i = 0; i < p.size(); ++i) {
+                const real of_force = forces[field::velocity][i].dot(forces[field::force][i]);
+                work += of_force;
+                scale += std::abs(of_force);
+                compression += forces[field::pressure][i] * forces[field::volume][i] *
+                               p[field::density_rate][i] / p[field::density][i];
+                corrections = std::max(corrections, forces[field::gradient_correction][i].norm());
+            }
+            EXPECT_GT(corrections, 0.05); // else the test is of the plain gradient
+            EXPECT_LT(std::abs(work + compression), 1e-12 * scale) << dimensions << " " << spacing;
+        }
+    }
+}
+
+// |F_i/V_i + grad p|/|grad p| of one particle, for a linear pressure that is zero at it.
+real error_at(Index i, Fluid& fluid)
+{
+    const Vec3 slope(700, fluid.parameters.dimensions == 2 ? 0 : -300, 500); // [Pa/m]
+    Store& store = fluid.particles.fluid;
+    const Vec3 origin = store[field::position][i];
+    for (Index k = 0; k < store.size(); ++k) {
+        const Vec3 x = store[field::position][k];
+        store[field::density][k] = fluid.parameters.eos.density(slope.dot(x - origin));
+    }
+    evaluate(fluid);
+    return (store[field::force][i] / store[field::volume][i] + slope).norm() / slope.norm();
+}
+
+// Whether the least eigenvalue of the moments asks for the whole correction.
+bool is_inside(const Store& store, Index i)
+{
+    const Vec3& m = store[field::mixed_moments][i];
+    Mat3 M = store[field::moments][i].asDiagonal();
+    M(1, 2) = M(2, 1) = m[0];
+    M(0, 2) = M(2, 0) = m[1];
+    M(0, 1) = M(1, 0) = m[2];
+    M(1, 1) = M(1, 1) == 0 ? 1 : M(1, 1); // in the plane
+    return Eigen::SelfAdjointEigenSolver<Mat3>(M).eigenvalues().minCoeff() > 0.95;
+}
+
+// About a particle without pressure p_i B_j is nothing, and M_i^-1 makes a linear pressure exact.
+TEST(CorrectedGradient, IsExactForALinearPressureAboutAParticle)
+{
+    const auto seed = static_cast<std::uint64_t>(number_from("HYORYU_SEED", 12));
+    for (const int dimensions : {2, 3}) {
+        for (const real spacing : {0.1, 0.025}) {
+            const Cloud cloud{.dimensions = dimensions,
+                              .spacing = spacing,
+                              .edge = dimensions == 2 ? 14 : 10,
+                              .jitter = 0.06};
+            Dice dice(seed);
+            Dice same(seed);
+            Fluid fluid = make_fluid(cloud, dice);
+            Cloud uncorrected = cloud;
+            uncorrected.corrected = false;
+            Fluid plain = make_fluid(uncorrected, same);
+            evaluate(fluid); // in the order of the tiles from here on
+            evaluate(plain);
+            int inside = 0;
+            for (Index i = 0; i < fluid.particles.fluid.size() && inside < 5; ++i) {
+                if (is_inside(fluid.particles.fluid, i)) {
+                    ++inside;
+                    EXPECT_LT(error_at(i, fluid), 1e-9) << dimensions << " " << spacing;
+                    EXPECT_GT(error_at(i, plain), 1e-4) << dimensions << " " << spacing;
+                }
+            }
+            EXPECT_EQ(inside, 5);
+        }
+    }
+}
+
+void expect_same(const Store& fast, const Store& clearly, auto column, real tolerance)
+{
+    const auto length = [](const auto& value) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Vec3>) {
+            return value.norm();
+        } else {
+            return std::abs(value);
+        }
+    };
+    real largest = 0;
+    for (const auto& value : clearly[column]) {
+        largest = std::max(largest, length(value));
+    }
+    ASSERT_GT(largest, 0) << column.info.name;
+    for (Index k = 0; k < fast.size(); ++k) {
+        const auto difference =
+            std::remove_cvref_t<decltype(fast[column][k])>(fast[column][k] - clearly[column][k]);
+        ASSERT_LE(length(difference), tolerance * largest) << column.info.name << " of row " << k;
+    }
+}
+
+TEST(CorrectedGradient, LoopsEqualTheirReference)
+{
+    Dice dice(static_cast<std::uint64_t>(number_from("HYORYU_SEED", 13)));
+    for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+        // Places in units of 1e-6 spacings, a hundred roundings; double has its own.
+        const real tolerance = precision == Precision::single_precision ? 2e-5 : 1e-12;
+        Fluid fluid = make_fluid({3, 0.013, 9, 0.2, precision}, dice);
+        fluid.effects[slot::viscosity] = Off{};
+        evaluate(fluid);
+        Store clearly = fluid.particles.fluid;
+        const auto place = [&](Index slot) {
+            return StoreRow{&clearly, fluid.neighbours.fluid.row[static_cast<std::size_t>(slot)]};
+        };
+        const auto sum = [&]<class Term>(const Term& term) {
+            clear(clearly, typename Term::Writes{});
+            sweep_reference<RecordList<Stored, Term>>(fluid.neighbours.fluid_fluid, place,
+                                                      fluid.kernel, term);
+        };
+        sum(CorrectedGradient{});
+        expect_same(fluid.particles.fluid, clearly, field::force, tolerance);
+        update_rates(fluid);
+        sum(CorrectedContinuity{});
+        for (Index i = 0; i < clearly.size(); ++i) {
+            clearly[field::density_rate][i] *= clearly[field::density][i];
+        }
+        expect_same(fluid.particles.fluid, clearly, field::density_rate, tolerance);
+        sum(GradientMoments{});
+        expect_same(fluid.particles.fluid, clearly, field::moments, tolerance);
+        expect_same(fluid.particles.fluid, clearly, field::mixed_moments, tolerance);
+    }
+}
+
+TEST(CorrectedGradient, IsPlainAtASurfaceAndWholeInside)
+{
+    EXPECT_EQ(correction(Mat3::Identity()).norm(), 0);
+    const Mat3 flat_surface = Vec3(1, 1, 0.5).asDiagonal();
+    EXPECT_EQ(correction(flat_surface).norm(), 0);
+    Mat3 inside = Vec3(1.1, 0.98, 1.05).asDiagonal();
+    inside(0, 1) = inside(1, 0) = 0.01;
+    EXPECT_LT(((correction(inside) + Mat3::Identity()) * inside - Mat3::Identity()).norm(), 1e-14);
+}
+
+TEST(CorrectedGradient, AbsentHasNoColumnAndNoRecords)
+{
+    Dice dice(1);
+    Fluid fluid = make_fluid({.corrected = false}, dice);
+    evaluate(fluid);
+    EXPECT_FALSE(fluid.particles.fluid.has(field::gradient_correction));
+    EXPECT_FALSE(fluid.particles.fluid.has(field::moments));
+    std::visit([](const auto& data) { EXPECT_EQ(data.wide.bytes(), 0U); }, fluid.pair_data);
+}
+
+} // namespace
+} // namespace hyoryu
