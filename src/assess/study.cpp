@@ -54,7 +54,7 @@ void read_values(Section& section, StudySweep& sweep)
         }
     }
     if (nodes.empty() && section.has("values")) {
-        section.error("values", "expected the values to try, a list of numbers or texts",
+        section.error("values", "is empty: expected the values to try, numbers or texts",
                       "for instance [0.1, 0.05]");
     }
 }
