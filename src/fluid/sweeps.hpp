@@ -103,8 +103,8 @@ inline Destination to_bodies(Fluid& fluid)
     return {fluid.particles.body, fluid.neighbours.body};
 }
 
-/// Runs the loop of a pass over all blocks of a list. The pass must be part of this build: passes of
-/// effects that are left out have no loop, and nothing that holds such an effect can be made.
+/// Runs the loop of a pass over all blocks of a list. The pass must be part of this build: passes
+/// of effects that are left out have no loop, and nothing that holds such an effect can be made.
 template <class Pass>
 void run(Fluid& fluid, const PairList& pairs, const Destination& to, const FluidTerms& terms)
 {
