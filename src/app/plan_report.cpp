@@ -264,7 +264,7 @@ std::string readable_seconds(double seconds)
     if (seconds < 60) {
         return fmt::format("{:.0f} s", seconds);
     }
-    const auto whole = static_cast<long long>(seconds + 0.5);
+    const auto whole = std::llround(seconds);
     return whole < 3600 ? fmt::format("{} min {:02} s", whole / 60, whole % 60)
                         : fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }

@@ -3,6 +3,8 @@
 
 #include "plan_report.hpp"
 
+#include "hyoryu/core/error.hpp"
+
 #include <fmt/format.h>
 
 #include <unistd.h>
@@ -25,10 +27,21 @@ void tell(const std::string& text)
     std::fflush(stderr);
 }
 
+// A pipe there would be waited for without end.
+std::filesystem::path log_file(const std::filesystem::path& folder)
+{
+    const std::filesystem::path file = folder / "run.log";
+    std::error_code fault;
+    if (std::filesystem::exists(file, fault) && !std::filesystem::is_regular_file(file, fault)) {
+        throw IoError(fmt::format("cannot write `{}`: it is not a file", file.string()));
+    }
+    return file;
+}
+
 } // namespace
 
 Progress::Progress(const std::filesystem::path& folder, Verbosity verbosity, double from)
-    : log_(folder / "run.log", std::ios::app), verbosity_(verbosity),
+    : log_(log_file(folder), std::ios::app), verbosity_(verbosity),
       terminal_(isatty(STDERR_FILENO) == 1), from_(from)
 {
 }

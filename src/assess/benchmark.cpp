@@ -12,7 +12,6 @@
 #include <array>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 namespace hyoryu {
 
@@ -75,14 +74,11 @@ OpenedFile open_toml(const fs::path& file)
     OpenedFile opened{{.file = file, .lines = {}, .mistakes = {}}, {}};
     const std::string why = why_unreadable(file, largest_text);
     if (!why.empty()) {
-        opened.file.error({}, "", "the file " + why);
+        opened.file.error({}, "", "the file " + why, "expected the path of a .toml file");
         opened.file.expect_no_mistakes();
     }
     const std::string whole = bytes_of_file(file);
-    std::istringstream lines(whole);
-    for (std::string line; std::getline(lines, line);) {
-        opened.file.lines.push_back(line);
-    }
+    opened.file.lines = lines_to_show(whole);
     try {
         opened.document = parse_toml(whole);
     } catch (const TomlFault& fault) {

@@ -26,7 +26,7 @@ void append_numbers(const nlohmann::json& value, const std::string& name, CsvTab
 {
     if (value.is_object()) {
         for (const auto& [key, inner] : value.items()) {
-            append_numbers(inner, name.empty() ? key : name + "." + key, table);
+            append_numbers(inner, name.empty() ? key : fmt::format("{}.{}", name, key), table);
         }
     } else if (value.is_number()) {
         table.columns.push_back({name, {value.get<double>()}, {}});

@@ -90,7 +90,7 @@ void Section::mistyped(const TomlEntry& entry, std::string_view expected)
 void Section::require(std::string_view key)
 {
     if (!has(key)) {
-        error(key, "is missing");
+        error(key, "is missing", fmt::format("write {} = and its value", key));
     }
 }
 

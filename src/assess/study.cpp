@@ -44,7 +44,8 @@ void check_label(Section& section, std::string_view key, const Place& place,
 
 void read_values(Section& section, StudySweep& sweep)
 {
-    for (const TomlNode* node : section.items("values")) {
+    const auto nodes = section.items("values");
+    for (const TomlNode* node : nodes) {
         if (const auto value = read_parameter(section.file(), *node, section.full("values"))) {
             if (const auto* text = std::get_if<std::string>(&*value)) {
                 check_label(section, "values", node->place, *text);
@@ -52,8 +53,9 @@ void read_values(Section& section, StudySweep& sweep)
             sweep.values.push_back(*value);
         }
     }
-    if (sweep.values.empty() && section.has("values")) {
-        section.error("values", "is empty: give the values to try");
+    if (nodes.empty() && section.has("values")) {
+        section.error("values", "is empty: expected the values to try, numbers or texts",
+                      "for instance [0.1, 0.05]");
     }
 }
 
@@ -104,6 +106,9 @@ StudySweep read_sweep(Section& section)
         section.error("", "says nothing to vary", "give `key`, or `set` with a `name`");
     }
     sweep.key = section.text("key");
+    if (section.has("key") && sweep.key.empty()) {
+        section.error("key", "expected a key of the case", "for instance \"particles.spacing\"");
+    }
     sweep.set = section.texts("set");
     const auto dot = sweep.key.find_last_of('.');
     sweep.name =
@@ -123,7 +128,7 @@ StudySweep read_sweep(Section& section)
     }
     if (!sweep.key.empty() || section.has("name")) {
         check_name(section, sweep);
-    } else {
+    } else if (!section.has("key")) {
         section.require("name");
     }
     section.finish();

@@ -41,10 +41,30 @@ StudyValue value_in(const StudyQuantity& q, const std::string& error, MadeRun& m
     v.value = found.got;
     v.expected = found.expected;
     v.why = found.why;
+    if (v.why.empty() && !std::isfinite(q.against_finest ? v.value : v.value + v.expected)) {
+        v.why = "the value, or what is expected, is not a finite number";
+    }
     if (!q.against_finest && std::isfinite(v.value)) {
         set_error(q, made.scope, v);
     }
     return v;
+}
+
+// The columns of a run are known only when it is done: a name that is not among them is told now.
+StudyValue value_in(const Study& study, std::size_t quantity, const std::string& error,
+                    MadeRun& made)
+{
+    try {
+        return value_in(study.quantities[quantity], error, made);
+    } catch (const FormulaError& fault) {
+        throw CaseError({Diagnostic{
+            .file = study.file.string(),
+            .key = fmt::format("quantity[{}]", quantity),
+            .what = fmt::format("\"{}\" of the run {}: {}", study.quantities[quantity].name,
+                                made.run.name, fault.what()),
+            .hint =
+                "the finished runs are kept: correct the expression and start the study again"}});
+    }
 }
 
 double work_of(const std::string& expression, MadeRun& made)
@@ -211,8 +231,8 @@ StudyResult evaluate_study(const Study& study, const std::vector<std::filesystem
             run.cost = read_cost(made[k].files);
             run.work = work_of(result.work_unit, made[k]);
         }
-        for (const StudyQuantity& q : study.quantities) {
-            run.values.push_back(value_in(q, run.error, made[k]));
+        for (std::size_t q = 0; q < study.quantities.size(); ++q) {
+            run.values.push_back(value_in(study, q, run.error, made[k]));
         }
         result.runs.push_back(std::move(run));
     }

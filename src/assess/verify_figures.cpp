@@ -93,7 +93,7 @@ DrawnFigures draw_figures(const std::vector<BenchmarkResult>& results, const fs:
     for (const BenchmarkResult& result : results) {
         for (const Figure& figure : result.benchmark.figures) {
             std::string why = missing_runs(result, figure);
-            why = why.empty() ? why : "without results of " + why;
+            why = why.empty() ? why : fmt::format("without results of {}", why);
             // A picture that cannot be made takes nothing from the verdicts.
             try {
                 if (why.empty()) {

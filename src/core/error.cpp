@@ -14,11 +14,22 @@ namespace hyoryu {
 
 namespace {
 
+// In the order of the file; of many, the first and how many more there are.
 std::vector<Diagnostic> sorted(std::vector<Diagnostic> diagnostics)
 {
+    constexpr std::size_t most = 100;
     std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const auto& a, const auto& b) {
         return std::tie(a.line, a.column) < std::tie(b.line, b.column);
     });
+    if (diagnostics.size() > most) {
+        const std::size_t more = diagnostics.size() - most;
+        diagnostics.resize(most);
+        const Diagnostic& last = diagnostics.back();
+        diagnostics.push_back({.file = last.file,
+                               .line = last.line,
+                               .column = last.column,
+                               .what = fmt::format("and {} more errors", more)});
+    }
     return diagnostics;
 }
 

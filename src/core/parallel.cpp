@@ -43,6 +43,12 @@ void set_threads(int threads)
     // Before it is first set, this is what OMP_NUM_THREADS says, else the number of processors.
     static const int offered = omp_get_max_threads();
     const int wanted = threads > 0 ? threads : offered;
+    constexpr int most = 4096; // as of --threads
+    if (wanted > most) {
+        throw CaseError(fmt::format("OMP_NUM_THREADS asks for {} threads, at most {} are allowed",
+                                    wanted, most),
+                        "set it to the number of processors, or give --threads");
+    }
     expect_threads(wanted);
     omp_set_num_threads(wanted);
 }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <libdeflate.h>
 
+#include <charconv>
 #include <fstream>
 
 namespace hyoryu {
@@ -62,7 +63,12 @@ std::string name_of(std::string_view link)
     std::string name;
     for (std::size_t i = 0; i < link.size(); ++i) {
         if (link[i] == '%' && i + 2 < link.size()) {
-            name += static_cast<char>(std::stoi(std::string(link.substr(i + 1, 2)), nullptr, 16));
+            int code = 0;
+            const char* const end = link.data() + i + 3;
+            if (std::from_chars(link.data() + i + 1, end, code, 16).ptr != end) {
+                throw IoError(fmt::format("the checkpoint is damaged: it names `{}`", link));
+            }
+            name += static_cast<char>(code);
             i += 2;
         } else {
             name += link[i];

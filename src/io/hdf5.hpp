@@ -52,8 +52,8 @@ void check(herr_t status, std::string_view action);
 /// that it failed to write, and its message hides the reason.
 class FileImage {
 public:
-    /// `content`: expected size of the file in bytes. Memory for it is allocated in equal portions of
-    /// at most 8 MiB, and each portion is touched as a whole.
+    /// `content`: expected size of the file in bytes. Memory for it is allocated in equal portions
+    /// of at most 8 MiB, and each portion is touched as a whole.
     explicit FileImage(std::size_t content);
     operator hid_t() const { return file_; }
     /// The bytes of the finished file; they live as long as this object and no more may be added.

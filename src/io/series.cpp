@@ -9,8 +9,33 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <regex>
+#include <set>
 
 namespace hyoryu {
+
+namespace {
+
+// Other names would lead out of the folder, and have no number.
+void expect_frames(const std::filesystem::path& series, const std::vector<SeriesEntry>& entries)
+{
+    static const std::regex pattern("(frames/)?[A-Za-z]+_[0-9]{1,18}\\.hdf");
+    std::set<std::string> names;
+    for (const SeriesEntry& entry : entries) {
+        const std::string name = entry.file.generic_string();
+        if (!std::regex_match(name, pattern)) {
+            throw IoError(fmt::format("`{}` is damaged: it names `{}`, expected "
+                                      "`frames/fluid_000000.hdf` and so on",
+                                      series.string(), name));
+        }
+        if (!names.insert(name).second) {
+            throw IoError(
+                fmt::format("`{}` is damaged: it names `{}` twice", series.string(), name));
+        }
+    }
+}
+
+} // namespace
 
 void write_series(const std::filesystem::path& series, const std::vector<SeriesEntry>& entries)
 {
@@ -31,9 +56,13 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& series)
         for (const nlohmann::json& file : json.at("files")) {
             entries.push_back({file.at("name").get<std::string>(), file.at("time").get<double>()});
         }
+        expect_frames(series, entries);
         return entries;
-    } catch (const nlohmann::json::exception& error) {
-        throw IoError(fmt::format("`{}` is not a series file: {}", series.string(), error.what()));
+    } catch (const nlohmann::json::exception&) {
+        throw IoError(
+            fmt::format("`{}` is damaged: expected JSON with the name and the time of each "
+                        "frame",
+                        series.string()));
     }
 }
 

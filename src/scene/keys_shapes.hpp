@@ -8,7 +8,9 @@
 
 #include "hyoryu/geometry/mesh.hpp"
 
+#include <algorithm>
 #include <numbers>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -89,8 +91,23 @@ inline void load_mesh(TableReader& table, MeshShape& shape)
         shape.corners = std::move(mesh.corners);
         shape.triangles = std::move(mesh.triangles);
     } catch (const IoError& error) {
-        table.error("file", error.what());
+        table.error("file", error.what(),
+                    "expected a closed surface of triangles as STL or OBJ; convert or repair it, "
+                    "for instance with MeshLab or Blender");
     }
+}
+
+/// Two particles at one point, which count twice in the mass; an empty text if there are none.
+inline std::string particle_given_twice(const NumberTable& numbers)
+{
+    std::vector<std::size_t> order(numbers.rows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return numbers.rows[k]; });
+    const auto twice =
+        std::ranges::adjacent_find(order, {}, [&](std::size_t k) { return numbers.rows[k]; });
+    return twice == order.end() ? std::string()
+                                : fmt::format("{}: the same point as in line {}",
+                                              numbers.lines[*(twice + 1)], numbers.lines[*twice]);
 }
 
 inline void load_particles(TableReader& table, ParticleShape& shape)
@@ -110,7 +127,12 @@ inline void load_particles(TableReader& table, ParticleShape& shape)
         table.error("file", fault, "one particle a line: x, y, z in m");
     }
     if (numbers.rows.empty() && numbers.faults.empty()) {
-        table.error("file", fmt::format("{}: has no particle", path->string()));
+        table.error("file", fmt::format("{}: has no particle", path->string()),
+                    "one particle a line: x, y, z in m");
+    }
+    if (const std::string twice = particle_given_twice(numbers); !twice.empty()) {
+        table.error("file", fmt::format("{}:{}", path->string(), twice),
+                    "remove one of them: each particle has the mass of its own cell");
     }
     Vec3 mean = Vec3::Zero();
     for (const auto& row : numbers.rows) {

@@ -111,12 +111,14 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given, double sp
         }
         const std::vector<double> heights = sample_heights(grid, patch);
         check_heights(table, grid, patch, heights);
-        find_bottom(table, given, *std::ranges::min_element(heights), patch);
+        if (table.reading().diagnostics.size() == before) {
+            find_bottom(table, given, *std::ranges::min_element(heights), patch);
+        }
         if (table.reading().diagnostics.size() == before) {
             mesh = terrain_mesh(patch, heights);
         }
     } catch (const IoError& error) {
-        table.error("file", error.what());
+        table.error("file", error.what(), "expected an ESRI ASCII grid of heights in m");
     }
 }
 

@@ -48,6 +48,20 @@ inline void find_way(TableReader& table, MotionWay& way)
     }
 }
 
+/// A step between two points of a path that is no motion on Earth; empty if there is none.
+inline std::string fault_of_speed(const Motion& motion)
+{
+    for (std::size_t k = 1; k < std::min(motion.times.size(), motion.places.size()); ++k) {
+        const double speed = (motion.places[k] - motion.places[k - 1]).norm() /
+                             (motion.times[k] - motion.times[k - 1]);
+        if (!(speed <= largest_value("m/s"))) {
+            return fmt::format("moves at {:.3g} m/s between {} and {} s, expected at most {} m/s",
+                               speed, motion.times[k - 1], motion.times[k], largest_value("m/s"));
+        }
+    }
+    return {};
+}
+
 inline void load_path(TableReader& table, const std::string& file, Motion& motion)
 {
     const auto path = path_of_file(table, "table", file);
@@ -77,6 +91,10 @@ inline void load_path(TableReader& table, const std::string& file, Motion& motio
                                          path->string(), numbers.rows.size()));
     }
     flatten(motion, table.reading().dimensions);
+    if (const std::string fault = fault_of_speed(motion); !fault.empty()) {
+        table.error("table", fmt::format("{}: {}", path->string(), fault),
+                    "times are in s, places in m");
+    }
     if (motion.times.size() < 2) {
         return;
     }
@@ -102,6 +120,8 @@ inline void check_path(TableReader& table, Motion& motion)
     if (unsorted != motion.times.end()) {
         table.error_at("times", static_cast<std::size_t>(unsorted + 1 - motion.times.begin()),
                        "times must ascend");
+    } else if (const std::string fault = fault_of_speed(motion); !fault.empty()) {
+        table.error("places", fault, "times are in s, places in m");
     } else if (displacement(motion, 0).norm() > at_origin) {
         table.error("places", "the path is not at [0, 0, 0] at time 0",
                     "places are displacements from the position of the wall at time 0");

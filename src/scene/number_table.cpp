@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t most_faults = 5;
 constexpr std::string_view separators = " \t\r,;";
 constexpr std::string_view quotes = "\"'";
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // Excel begins a CSV with it
 
 std::vector<std::string_view> words_of(std::string_view line)
 {
@@ -115,6 +116,12 @@ std::string read_header(const std::vector<std::string_view>& words,
                                                         order.size(), names_of(columns));
 }
 
+// A comma is then perhaps a decimal one, and what was meant cannot be known.
+bool mixes_separators(std::string_view line)
+{
+    return line.find(',') != std::string_view::npos && line.find(';') != std::string_view::npos;
+}
+
 // The numbers of a line, or its fault.
 std::string parse_row(const std::vector<std::string_view>& words,
                       std::span<const NumberColumn> columns, const Order& order,
@@ -164,6 +171,9 @@ NumberTable read_number_table(const std::filesystem::path& file,
     Order order = as_asked(columns.size());
     bool header_allowed = true;
     for (int number = 1; std::getline(stream, line); ++number) {
+        if (number == 1 && line.starts_with(byte_order_mark)) {
+            line.erase(0, byte_order_mark.size());
+        }
         const std::vector<std::string_view> words = words_of(line);
         if (words.empty() || words.front().starts_with('#')) {
             continue;
@@ -171,8 +181,11 @@ NumberTable read_number_table(const std::filesystem::path& file,
         const bool header = header_allowed && !number_of(words.front());
         header_allowed = false;
         std::vector<double> row;
-        const std::string fault =
-            header ? read_header(words, columns, order) : parse_row(words, columns, order, row);
+        const std::string fault = mixes_separators(line)
+                                      ? "commas and semicolons in one line, expected one of them "
+                                        "between the numbers and a decimal point in each"
+                                  : header ? read_header(words, columns, order)
+                                           : parse_row(words, columns, order, row);
         if (!fault.empty() && table.faults.size() < most_faults) {
             table.faults.push_back(fmt::format("{}:{}: {}", file.string(), number, fault));
         }

@@ -304,12 +304,17 @@ void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>
             fmt::format("a larger `output.every`, for instance {:.3g}", scene.time.end / 100)));
     }
     if (!(plan.expected_steps <= most_steps)) {
-        errors.push_back(
-            diagnostic_at(scene, {}, "time.end",
-                          fmt::format("with steps of {:.2g} s the run would take about {:.2g} "
-                                      "steps, at most {:.0g} are allowed",
-                                      plan.first_step, plan.expected_steps, most_steps),
-                          "an earlier end, or a longer `time.step` if that is given"));
+        const auto least = std::ranges::min_element(plan.limits, {}, &TimeLimit::dt);
+        errors.push_back(diagnostic_at(
+            scene, {}, "time.end",
+            fmt::format("with steps of {:.2g} s the run would take about {:.2g} steps, at most "
+                        "{:.0g} are allowed",
+                        plan.first_step, plan.expected_steps, most_steps),
+            scene.time.step || least == plan.limits.end()
+                ? "an earlier end, or a longer `time.step`"
+                : fmt::format("an earlier end; the {} limit makes the step so short, see "
+                              "`hyoryu describe time.cfl`",
+                              least->name)));
     }
 }
 

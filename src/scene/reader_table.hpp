@@ -25,7 +25,8 @@ struct Reading {
     std::vector<Diagnostic> diagnostics;
     std::map<std::string, int> names; // of walls and bodies, and the line where each stands
 
-    /// Notes a mistake at a place of the file, or of that override.
+    /// Notes a mistake at a place of the file, or of that override. Without a hint the meaning of
+    /// the key stands for one.
     void error(const Place& place, int override_number, std::string key, std::string what,
                std::string hint = {});
     /// The same at a value.

@@ -77,11 +77,36 @@ std::string lengths(const Parameter& rule, std::string_view what)
                : fmt::format("{} to {} {}", rule.shortest, rule.longest, what);
 }
 
+// What a key is for, where there is no better hint: of "wall[2].min[0]" the meaning of
+// "wall[].min".
+std::string meaning_of(const std::string& path)
+{
+    std::string key;
+    bool within = false; // brackets, whose number is left out
+    for (const char c : path) {
+        within = within && c != ']';
+        if (!within) {
+            key += c;
+        }
+        within = within || c == '[';
+    }
+    const Parameter* rule = find_parameter(key);
+    while (rule == nullptr && key.ends_with("[]")) {
+        key.resize(key.size() - 2);
+        rule = find_parameter(key);
+    }
+    const std::size_t name = key.find_last_of('.') + 1; // 0 if there is no dot
+    return rule == nullptr ? std::string() : fmt::format("{}: {}", key.substr(name), rule->meaning);
+}
+
 } // namespace
 
 void Reading::error(const Place& place, int override_number, std::string key, std::string what,
                     std::string hint)
 {
+    if (hint.empty()) {
+        hint = meaning_of(key);
+    }
     Diagnostic diagnostic{.key = std::move(key), .what = std::move(what), .hint = std::move(hint)};
     if (override_number >= 0) {
         diagnostic.file = "--set " + overrides[static_cast<std::size_t>(override_number)];

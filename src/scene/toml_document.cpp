@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 
 namespace hyoryu {
 
@@ -76,8 +77,10 @@ void refuse_endless_keys(std::string_view text)
             dots = 0;
         }
         if (dots > most_dots_in_key) {
-            throw TomlFault{{.line = line, .column = 1},
-                            fmt::format("a key of more than {} parts", most_dots_in_key)};
+            throw TomlFault{
+                {.line = line, .column = 1},
+                fmt::format("a key has more than {} parts, as its dots say", most_dots_in_key),
+                "a text or a long number must be in quotes"};
         }
         line += c == '\n' ? 1 : 0;
         previous = c;
@@ -115,6 +118,23 @@ TomlNode parse_toml(std::string_view text)
         throw plain_fault(text, place_of(error.source()),
                           lower_first(std::string(error.description())));
     }
+}
+
+std::vector<std::string> lines_to_show(const std::string& text)
+{
+    constexpr std::size_t longest = 200;
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        if (!line.empty() && line.back() == '\r') {
+            line.pop_back();
+        }
+        std::replace_if(
+            line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; },
+            ' ');
+        lines.push_back(line.size() > longest ? std::string() : line);
+    }
+    return lines;
 }
 
 std::string found(const TomlNode& node)

@@ -76,6 +76,35 @@ bool ends_the_line(const std::string& line, int column)
     return static_cast<std::size_t>(std::max(column, 1)) > line.size();
 }
 
+// Of mistakes that are rarely made.
+Words rare_meaning_of(const std::string& description)
+{
+    const auto says = [&](std::string_view part) {
+        return description.find(part) != std::string::npos;
+    };
+    if (says("utf-8") || says("surrogates") || says("U+10FFFF")) {
+        return {"the text is not encoded in UTF-8",
+                "save the file as UTF-8 in the editor, or remove the letter"};
+    }
+    if (says("after '\\r'")) {
+        return {"a line ends with a carriage return alone",
+                "save the file with the line ends of Unix or Windows"};
+    }
+    if (says("nested value depth")) {
+        return {"lists or tables in braces are nested too deeply", "at most 256 deep"};
+    }
+    if (says("too long to identify") || says("length limit")) {
+        return {"the number is too long", "at most 17 digits count"};
+    }
+    if (says("comment or whitespace")) {
+        return {"expected the end of the line", "write one key a line; a comment begins with #"};
+    }
+    if (says("date") || says("time")) {
+        return {"the date or time is invalid", "no key takes one; a text must be in quotes"};
+    }
+    return {};
+}
+
 // Messages by parts of the description of the library.
 Words meaning_of(const std::string& description, bool at_end)
 {
@@ -128,7 +157,7 @@ Words meaning_of(const std::string& description, bool at_end)
         return {"expected a key or the header of a table",
                 "keys have letters a-z, digits, `_` and `-`; others must be in quotes"};
     }
-    return {};
+    return rare_meaning_of(description);
 }
 
 } // namespace

@@ -231,13 +231,14 @@ ParsedQuantity parse_quantity(std::string_view text, std::string_view expected)
 
 double largest_value(std::string_view unit)
 {
-    constexpr std::array<std::pair<std::string_view, double>, 8> limits{{{"m", 1e8},
+    constexpr std::array<std::pair<std::string_view, double>, 9> limits{{{"m", 1e8},
                                                                          {"m/s", 1e6},
                                                                          {"rad/s", 1e6},
                                                                          {"deg", 1e6},
                                                                          {"kg", 1e15},
                                                                          {"kg/m3", 1e6},
                                                                          {"N/m", 1e18},
+                                                                         {"Pa", 1e12},
                                                                          {"m2/s", 1e6}}};
     const auto at = std::ranges::find(limits, unit, &std::pair<std::string_view, double>::first);
     return at == limits.end() ? std::numeric_limits<double>::infinity() : at->second;

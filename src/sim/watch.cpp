@@ -46,6 +46,9 @@ std::string probable_cause(const Simulation& sim)
     if (sim.scene.fluid && std::holds_alternative<Off>(sim.scene.fluid->effects[slot::viscosity])) {
         return "probably the fluid has no damping: `fluid.viscosity.model` is \"none\"";
     }
+    if (sim.fluid && effective_viscosity(*sim.fluid) == 0) {
+        return "probably the fluid has no damping: its coefficient in [fluid.viscosity] is 0";
+    }
     if (sim.plan.fluid && sim.plan.expected_speed > 0.2 * sim.plan.fluid->eos.c0) {
         return "probably `fluid.sound_speed` is too low for the speeds of this flow";
     }

@@ -197,7 +197,7 @@ TEST_F(StudyFiles, WhatIsMissingIsTold)
 }
 
 // E2, E8: names of files, and how many runs there may be.
-TEST_F(StudyFiles, FilesThatCannotBeReadAreToldBeforeAnyRun)
+TEST_F(StudyFiles, E2E8FilesThatCannotBeReadAreToldBeforeAnyRun)
 {
     const auto with_case = [&](const std::string& file) {
         return mistake("title = \"t\"\ncase = \"" + file + "\"\n" + step + place);
@@ -216,7 +216,27 @@ TEST_F(StudyFiles, FilesThatCannotBeReadAreToldBeforeAnyRun)
     EXPECT_THROW(read_study(folder), CaseError);
 }
 
-TEST_F(StudyFiles, RunsAreCountedBeforeTheyAreListed)
+// E11: as of a case, at most a hundred mistakes are told, and none with a line of a megabyte.
+TEST_F(StudyFiles, E11MessagesAreNoLongerThanAScreen)
+{
+    std::string many = head + step + place;
+    for (int k = 0; k < 500; ++k) {
+        many = fmt::format("unknown{} = {}\n", k, k) + many;
+    }
+    const Texts all = mistakes(many);
+    ASSERT_EQ(all.size(), 101U);
+    EXPECT_NE(all.back().find("and 400 more errors"), std::string::npos) << all.back();
+    put_text_into(folder / "study.toml",
+                  "title = \"" + std::string(1'000'000, 'a') + "\"\n" + step + place);
+    try {
+        read_study(folder / "study.toml");
+        ADD_FAILURE() << "nothing was told";
+    } catch (const CaseError& error) {
+        EXPECT_LT(std::string(error.what()).size(), 5000U);
+    }
+}
+
+TEST_F(StudyFiles, E8RunsAreCountedBeforeTheyAreListed)
 {
     std::string sweeps = "mode = \"grid\"\n";
     for (const char* key : {"time.step", "time.end", "particles.spacing"}) {

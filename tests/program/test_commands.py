@@ -26,7 +26,7 @@ class Commands(ProgramTest):
         for arguments in ([], ["fly"], ["run"], ["run", "x.toml", "--threads", "0"]):
             self.assertEqual(self.call(*arguments).returncode, 2, arguments)
 
-    def test_unknown_words_get_a_suggestion(self):
+    def test_e11_unknown_words_get_a_suggestion(self):
         for arguments, expected in ((("chek", "a.toml"), 'did you mean "check"?'),
                                     (("fly",), "known: run, check"),
                                     (("run", "a.toml", "--resum"), 'did you mean "--resume"?'),
@@ -36,7 +36,7 @@ class Commands(ProgramTest):
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn(expected, done.stderr)
 
-    def test_numbers_and_names_that_are_none_are_refused(self):
+    def test_e11_numbers_and_names_that_are_none_are_refused(self):
         case = self.write(FLOOD)
         for arguments in (("--until", "nan"), ("--until", "inf"), ("--until", "-1"), ("-o", ""),
                           ("--threads", "1e9")):
@@ -47,7 +47,7 @@ class Commands(ProgramTest):
             self.assertEqual(self.call("render", "out", *arguments).returncode, 2, arguments)
         self.assertEqual(self.files(), [case])
 
-    def test_a_folder_without_results_is_the_users_mistake(self):
+    def test_e11_a_folder_without_results_is_the_users_mistake(self):
         (self.dir / "empty").mkdir()
         for folder in ("empty", "none"):
             for command in ("render", "report", "info"):
@@ -56,7 +56,7 @@ class Commands(ProgramTest):
                     continue  # built without it
                 self.assertEqual(done.returncode, 2, (command, folder, done.stderr))
 
-    def test_control_characters_do_not_reach_the_terminal(self):
+    def test_e9_control_characters_do_not_reach_the_terminal(self):
         for arguments in (("run", "a\x1b[31m.toml"), ("info", "a\x1b[31m"), ("describe", "a\x1b"),
                           ("\x1b[31m",), ("run", "a.toml", "--\x1b[31m")):
             done = self.call(*arguments)
@@ -81,7 +81,7 @@ class Commands(ProgramTest):
         self.assertEqual(plan["counts"]["fluid"], 0)
         self.assertEqual(self.files(), [])
 
-    def test_check_says_what_error_to_expect_where_it_is_asked_to(self):
+    def test_c8_check_says_what_error_to_expect_where_it_is_asked_to(self):
         case = CASES / "hydrostatic_tank" / "case.toml"
         done = self.call("check", case, "--accuracy")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -242,6 +242,30 @@ class Ends(CrashTest):
         done = self.call("run", "case.toml", "-o", "out", "--resume", "--until", "0.01")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_e2_what_is_no_file_of_a_run_ends_a_resumption_and_not_the_program(self):
+        """A pipe as the log would be waited for, a frame of another name has no number."""
+        self.call("run", "case.toml", "-o", "out", "--until", "0.01")
+        out = self.dir / "out"
+        whole = {name: (out / name).read_bytes() for name in ("run.log", "fluid.hdf.series")}
+        (out / "run.log").unlink()
+        os.mkfifo(out / "run.log")
+        resume = ("run", "case.toml", "-o", "out", "--resume", "--until", "0.011")
+        done = self.call(*resume)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("run.log", done.stderr)
+        (out / "run.log").unlink()
+        (out / "run.log").write_bytes(whole["run.log"])
+        frame = "frames/fluid_000000.hdf"
+        for names, told in ((["../../secret"], "secret"), ([frame, frame], "twice"), ([7], "expected JSON")):
+            files = [{"name": name, "time": 0} for name in names]
+            (out / "fluid.hdf.series").write_text(json.dumps({"files": files}))
+            for command in (resume, ("report", "out", "-o", "page.html"), ("info", "out")):
+                done = self.call(*command)
+                self.assertEqual(done.returncode, 4, (names, command, done.stderr))
+                self.assertIn(told, done.stderr)
+        (out / "fluid.hdf.series").write_bytes(whole["fluid.hdf.series"])
+        self.assertEqual(self.call(*resume).returncode, 0)
+
     def test_a_results_folder_that_is_taken_away(self):
         process = self.start()
         self.wait_for(process, "frames/fluid_000001.hdf")

@@ -21,7 +21,7 @@ COMMANDS = ["run", "check", "describe", "new", "info", "render", "report", "conv
 
 
 class New(ProgramTest):
-    def test_every_template_is_checked_run_and_reported(self):
+    def test_e14_every_template_is_checked_run_and_reported(self):
         for name in TEMPLATES:
             done = self.call("new", name)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -65,7 +65,7 @@ class New(ProgramTest):
         self.assertEqual(self.call("new", "tank", "there.toml").returncode, 0)
         self.assertTrue((self.dir / "there.toml/case.toml").exists())
 
-    def test_nothing_is_overwritten(self):
+    def test_e1_nothing_is_overwritten(self):
         self.write("mine", "tank.toml")
         (self.dir / "folder").mkdir()
         self.write("mine", "folder/case.toml")
@@ -117,7 +117,7 @@ def array(xml, name):
 
 
 class Convert(Results):
-    def test_vtp_and_csv_agree_with_each_other(self):
+    def test_e14_vtp_and_csv_agree_with_each_other(self):
         before = self.tree()
         for form in ("vtp", "csv"):
             done = self.call("convert", "out", "--to", form)
@@ -187,7 +187,7 @@ class Convert(Results):
             self.assertIn(expected, done.stderr)
         self.assertEqual(self.tree(), before)
 
-    def test_force_replaces_nothing_but_conversions(self):
+    def test_e1_force_replaces_nothing_but_conversions(self):
         self.assertEqual(self.call("convert", "out", "--to", "vtp").returncode, 0)
         mine = self.dir / "out/vtp/notes.txt"
         mine.write_text("mine")
@@ -200,7 +200,7 @@ class Convert(Results):
         self.assertEqual(mine.read_text(), "mine")
         self.assertFalse(extra.exists())
 
-    def test_files_that_no_conversion_wrote_stay(self):
+    def test_e1_files_that_no_conversion_wrote_stay(self):
         (self.dir / "mine").mkdir()
         self.write("mine", "mine/fluid_000001.vtp")
         self.write("mine", "mine.vtkhdf")
@@ -343,7 +343,7 @@ class Completions(ProgramTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""), words)
         return sorted(filter(None, done.stdout.splitlines()))
 
-    def test_bash_completes_real_command_lines(self):
+    def test_e14_bash_completes_real_command_lines(self):
         self.write(FLOOD, "flood.toml")
         self.write("", "notes.txt")
         for folder in ("flood results", "sub"):
@@ -407,7 +407,7 @@ class Manual(ProgramTest):
             self.assertEqual((shown.returncode, shown.stderr), (0, ""), command)
             self.assertIn("NAME", shown.stdout)
 
-    def test_pages_hold_what_the_help_says(self):
+    def test_e14_pages_hold_what_the_help_says(self):
         for command in COMMANDS:
             page = self.call("man", command).stdout.replace("\\-", "-").replace("\\fB", "").replace("\\fR", "")
             for option in re.findall(r"^  (?:-\w,)?(--[\w-]+)", self.call(command, "--help").stdout, re.M):

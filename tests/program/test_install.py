@@ -16,7 +16,7 @@ class Install(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.program = str(self.dir / "usr/bin/hyoryu")
 
-    def test_the_program_works_where_it_is_installed(self):
+    def test_e14_the_program_works_where_it_is_installed(self):
         self.install("--component", "program")
         self.assertFalse((self.dir / "usr/lib/hyoryu").exists())
         self.assertEqual(self.call("--version").stdout,

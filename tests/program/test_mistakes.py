@@ -78,7 +78,7 @@ class Mistakes(ProgramTest):
             self.refused(FLOOD.replace("spacing = 0.05", f"spacing = {spacing}"), expected, "2.",
                          preexec_fn=limit)
 
-    def test_memory_that_ends_on_the_way_is_a_message(self):
+    def test_e10_memory_that_ends_on_the_way_is_a_message(self):
         # E10: from limits in which the program hardly starts to those in which the run fits.
         if "ShadowMemory" in self.call("--version", preexec_fn=self.limit_to(64 << 20)).stderr:
             self.skipTest("a program with the address sanitizer does not start in so little memory")
@@ -102,7 +102,7 @@ class Mistakes(ProgramTest):
                                                               "max = [1e7, 1e7, 1.0]\nopen"),
                      "particles")
 
-    def test_more_outputs_and_steps_than_can_be_are_refused_with_the_estimate(self):
+    def test_e8_more_outputs_and_steps_than_can_be_are_refused_with_the_estimate(self):
         self.refused(FLOOD.replace("every = 0.05", "every = 1e-300"), "output.every", "5e+299 frames")
         self.refused(FLOOD.replace("end = 0.5", "end = 1e300"), "time.end", "at most 1e+15")
         self.refused(FLOOD.replace("end = 0.5", "end = 0.5\nstep = 1e-300"), "time.end", "5e+299")
@@ -111,7 +111,7 @@ class Mistakes(ProgramTest):
         self.refused(FLOOD.replace("[output]", copies.replace("1000000000, 1, 1", "100000, 9, 9")),
                      "too many, at most 100000 bodies")
 
-    def test_no_name_leads_out_of_the_results_folder(self):
+    def test_e3_no_name_leads_out_of_the_results_folder(self):
         for name in ("../evil", "a/b", "/tmp/evil", "a\\\\b", "nul\\u0000", "line\\n"):
             self.refused(FLOOD.replace('"crate"', f'"{name}"'), "is not a valid name")
             self.refused(FLOOD.replace('"basin"\nshape', f'"{name}"\nshape'), "is not a valid name")

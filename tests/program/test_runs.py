@@ -185,7 +185,7 @@ class Runs(ProgramTest):
         self.run_flood("whole", text=text)
         self.expect_equal("whole", "out")
 
-    def test_a_batch_signal_writes_a_checkpoint_and_ends(self):
+    def test_e10_a_batch_signal_writes_a_checkpoint_and_ends(self):
         # E10. It may come at any time: while the case is filled, in a step, and twice.
         case = self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.03"))
         for begun in (False, True):
@@ -206,7 +206,7 @@ class Runs(ProgramTest):
                          str(summary["simulated_seconds"] + 0.01))
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_threads_are_those_of_the_environment(self):
+    def test_e11_threads_are_those_of_the_environment(self):
         for environment, arguments, threads in (("1", (), 1), ("2", (), 2), ("1", ("--threads", "2"), 2)):
             done = self.call("run", self.write(self.SMALL), "-o", "out", "--force", "--until", "0.01",
                              *arguments, env={**os.environ, "OMP_NUM_THREADS": environment})
@@ -250,7 +250,7 @@ position = [0.7, 0.0, 0.1]
         done = self.call("run", self.write(text), "-o", out, "--resume", *arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_a_finished_run_is_extended_with_the_bits_of_a_long_one(self):
+    def test_e4_a_finished_run_is_extended_with_the_bits_of_a_long_one(self):
         # Where output.every is left to its default, a later end moves no frame of the run.
         longer = self.SMALL.replace("end = 0.2", "end = 0.3")
         self.run_flood("out", text=self.SMALL)
@@ -262,7 +262,7 @@ position = [0.7, 0.0, 0.1]
         self.go_on(longer.replace("0.3", "0.4"), "out", "--threads", "1",
                    "--set", "output.checkpoint_every=5", "--set", "title=longer")
 
-    def test_intervals_of_output_change_on_the_way(self):
+    def test_e4_intervals_of_output_change_on_the_way(self):
         # A row or frame is due at multiples of the new interval, numbered on.
         text = self.SMALL + "[output]\nevery = 0.05\nhistory_every = 0.05\n"
         self.run_flood("out", "--until", "0.12", text=text)
@@ -284,7 +284,7 @@ position = [0.7, 0.0, 0.1]
         lines = self.read(out, name).decode().splitlines()
         return [line.split(",") for line in lines[1:]]
 
-    def test_gauges_come_and_go_on_the_way(self):
+    def test_e4_gauges_come_and_go_on_the_way(self):
         text = self.SMALL + "[output]\nevery = 0.1\n"
         self.run_flood("whole", text=text + self.PROBE)
         self.run_flood("out", "--until", "0.1", text=text + self.PROBE)
@@ -312,7 +312,7 @@ position = [0.7, 0.0, 0.1]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.run_flood("out", "--force", "--until", "0.01", text=text)
 
-    def test_a_refusal_names_each_key_with_both_values(self):
+    def test_e4_a_refusal_names_each_key_with_both_values(self):
         self.run_flood("out", "--until", "0.05", text=self.SMALL)
         before = self.snapshot("out")
         other = self.SMALL.replace("400.0", "500.0").replace("spacing = 0.05", "spacing = 0.04")
@@ -333,7 +333,7 @@ position = [0.7, 0.0, 0.1]
     def snapshot(self, folder):
         return {p: p.read_bytes() for p in (self.dir / folder).rglob("*") if p.is_file()}
 
-    def test_the_line_to_go_on_with_works_as_it_stands(self):
+    def test_e4_the_line_to_go_on_with_works_as_it_stands(self):
         (self.dir / "my case").mkdir()
         case = self.write(self.SMALL, "my case/it's.toml")
         arguments = ("--set", "body[0].density=450", "--set", 'title="a b"')
@@ -345,7 +345,7 @@ position = [0.7, 0.0, 0.1]
         summary = json.loads(self.read("my case/out", "summary.json"))
         self.assertEqual(summary["exit_reason"], "done")
 
-    def test_a_history_that_was_cut_short_is_refused(self):
+    def test_e6_a_history_that_was_cut_short_is_refused(self):
         for name in ("bodies.csv", "contacts.csv", "energy.csv", "gauges.csv"):
             text = self.SMALL + self.PROBE
             self.run_flood("out", "--force", "--until", "0.1", text=text)
@@ -365,7 +365,7 @@ position = [0.7, 0.0, 0.1]
                     self.assertEqual(before[path], after[path])
                 self.assertEqual(before.get(file), after.get(file))
 
-    def test_a_plan_that_is_gone_is_made_again(self):
+    def test_e6_a_plan_that_is_gone_is_made_again(self):
         self.run_flood("out", "--until", "0.05", text=self.SMALL)
         (self.dir / "out" / "plan.json").unlink()
         self.go_on(self.SMALL, "out")
@@ -396,7 +396,7 @@ position = [0.7, 0.0, 0.1]
         self.assertEqual(self.call("run", "case.toml", "-o", "out").returncode, 2)
         self.run_flood("out", "--force")
 
-    def test_force_does_not_replace_the_case_that_is_run(self):
+    def test_e1_force_does_not_replace_the_case_that_is_run(self):
         # Beside its plan the folder of the case looks like that of a run.
         case = self.write(FLOOD)
         (self.dir / "plan.json").write_text(self.call("check", case, "--json").stdout)

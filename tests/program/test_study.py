@@ -178,7 +178,7 @@ paper = ["contact.law=paper"]
             return False
         return state != "Z"
 
-    def test_a_signal_to_a_study_alone_leaves_no_run_behind(self):
+    def test_e10_a_signal_to_a_study_alone_leaves_no_run_behind(self):
         # E10. A flood takes long enough to be in the midst of a run.
         self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.03"), "flood.toml")
         text = self.STUDY.replace("brick", "flood").replace("time.step", "fluid.sound_speed")
@@ -214,7 +214,7 @@ paper = ["contact.law=paper"]
         report = json.loads(self.read("slide-results", "study.json"))
         self.assertEqual(len(report["runs"][0]["wall_seconds"]), 2)
 
-    def test_no_file_of_the_users_is_lost(self):
+    def test_e1_no_file_of_the_users_is_lost(self):
         # E1: folders named as those of a study, and a file named as its page, but not made by one.
         self.write("my own notes", "study.md")
         done = self.study("-o", ".")

@@ -124,6 +124,10 @@ class Terrain(ProgramTest):
         self.grid((0.0, 0.0), 90.0, 0.1, lambda x, y: -9999 if x > 1.1 else 0.0)
         keys = "origin = [0.0, 0.0]\nextent = [-0.2, -0.2, 1.4, 1.2]\n"
         self.refused(keys, "has no height at")
+        self.grid((0.0, 0.0), 90.0, 0.1, lambda x, y: -9999)
+        self.refused("", "has no height at")
+        self.assertNotIn("nan", self.call("check", "case.toml").stderr)
+        self.grid((0.0, 0.0), 90.0, 0.1, lambda x, y: -9999 if x > 1.1 else 0.0)
         self.write(CASE.format(keys=keys + "nodata = 0.0", spacing=0.1, end=0.02))
         done = self.call("check", "case.toml")
         self.assertEqual(done.returncode, 0, done.stderr)

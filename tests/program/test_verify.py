@@ -114,7 +114,7 @@ style = "points"
         self.assertRegex(done.stderr, r"verify.toml:8:1.*mesure")
         self.assertFalse((self.dir / "out").exists(), "something was written")
 
-    def test_no_file_of_the_users_is_lost(self):
+    def test_e1_no_file_of_the_users_is_lost(self):
         self.benchmark()
         (self.dir / "out").mkdir()
         (self.dir / "out" / "verify.md").write_text("mine")

@@ -118,8 +118,8 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "wall[0].radius", "has no meaning with shape = \"box\"", "\"min\""},
         {"[[wall]]\nshape = \"cylinder\"\nradius = 1\nposition=[0,0,0]\n", 1, 1, 8,
          "wall[0].length", "is missing, it is needed with shape = \"cylinder\"", "Length"},
-        {"[[wall]]\nname = \"a,b\"\nshape = \"plane\"\n", 2, 8, 5, "wall[0].name", "is not a valid name",
-         ""},
+        {"[[wall]]\nname = \"a,b\"\nshape = \"plane\"\n", 2, 8, 5, "wall[0].name",
+         "is not a valid name", ""},
         {"[[wall]]\nname = \"w\"\nshape = \"plane\"\n[[wall]]\nname = \"w\"\nshape = \"plane\"\n",
          5, 8, 3, "wall[1].name", "is used twice, first in line 10", ""},
         {"[[wall]]\nshape = "

@@ -79,13 +79,15 @@ TEST_F(WallMotion, TellsMistakesOfTheFileByLine)
     says("time,x,y,z\n0,0,0,0\n1,2,fast,0\n", "paddle.csv:3: expected a number, found \"fast\"");
     says("0,0,0,0\n\n1,2,0\n", "paddle.csv:3: expected 4 numbers, found 3");
     says("0,0,0,0\n1,0,0,0\n1,1,0,0\n", "paddle.csv:3: time 1 is not later than 1");
+    says("0;0;0;0\n1,5;2,5\n", "paddle.csv:2: commas and semicolons in one line");
     says("0,0,0,0\n", "has 1 rows of numbers, a path needs two");
     says("0,0,0,0\n1,nan,0,0\n", "paddle.csv:2: expected a number");
+    says("0,0,0,0\n1e-300,1,0,0\n", "paddle.csv: moves at 1e+300 m/s between 0 and 1e-300 s");
     EXPECT_EQ(wrong("0,0,a,0\n1,b,0,0\n").size(), 2U); // all of them at once
 }
 
 // E7: columns are taken by name, in every order, with and without units.
-TEST_F(WallMotion, ColumnsAreTakenByTheNamesOfTheHeader)
+TEST_F(WallMotion, E7ColumnsAreTakenByTheNamesOfTheHeader)
 {
     std::array<std::string, 4> names{"time", "x", "y", "z"};
     const std::map<std::string, std::array<const char*, 2>> values{
@@ -111,6 +113,9 @@ TEST_F(WallMotion, ColumnsAreTakenByTheNamesOfTheHeader)
         }
     } while (std::next_permutation(names.begin(), names.end()));
     EXPECT_EQ(read(with("\"T\";X;Y;Z\n0;0;0;0\n1;2;0;0\n")).walls[0].motion.places[1].x(), 2);
+    const std::string mark = "\xef\xbb\xbf"; // as Excel writes it
+    EXPECT_EQ(read(with(mark + "time,x,y,z\n0,0,0,0\n1,2,0,0\n")).walls[0].motion.places[1].x(), 2);
+    EXPECT_EQ(read(with(mark + "0,0,0,0\n1,2,0,0\n")).walls[0].motion.places[1].x(), 2);
 }
 
 TEST_F(WallMotion, AHeaderThatIsNotUnderstoodIsRefused)

@@ -187,13 +187,15 @@ TEST(Watch, E5NamesTheRightCause)
         std::vector<std::string> set;
         const char* words;
     };
-    const std::vector<Cause> causes{{{"time.step=1e-4"}, "the fixed `time.step` is too long"},
-                                    {{"time.cfl=0.9"}, "`time.cfl` = 0.9 is too large"},
-                                    {{"domain.min=[-0.2, 0.0, -0.2]", "domain.max=[0.6, 0.0, 1.2]"},
-                                     "[domain], which ends within the scene"},
-                                    {{"fluid.viscosity.model=none"}, "the fluid has no damping"},
-                                    {{"fluid.sound_speed=12"}, "`fluid.sound_speed` is too low"},
-                                    {{}, "an overlap at the start"}};
+    const std::vector<Cause> causes{
+        {{"time.step=1e-4"}, "the fixed `time.step` is too long"},
+        {{"time.cfl=0.9"}, "`time.cfl` = 0.9 is too large"},
+        {{"domain.min=[-0.2, 0.0, -0.2]", "domain.max=[0.6, 0.0, 1.2]"},
+         "[domain], which ends within the scene"},
+        {{"fluid.viscosity.model=none"}, "`fluid.viscosity.model` is \"none\""},
+        {{"fluid.viscosity.alpha=0"}, "its coefficient in [fluid.viscosity] is 0"},
+        {{"fluid.sound_speed=12"}, "`fluid.sound_speed` is too low"},
+        {{}, "an overlap at the start"}};
     for (const Cause& cause : causes) {
         Simulation sim = make(tank, cause.set);
         advance(sim, 1);

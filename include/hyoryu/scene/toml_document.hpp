@@ -51,6 +51,10 @@ TomlEntry* find_entry(TomlTable& table, std::string_view key);
 /// Reads a text; the root is a table. Throws TomlFault at the first syntax error.
 TomlNode parse_toml(std::string_view text);
 
+/// The lines of a text as messages show them: without control characters, which would shift the
+/// caret; a line that is longer than a screen is empty.
+std::vector<std::string> lines_to_show(const std::string& text);
+
 /// "the number 3", "the text \"abc\"", "a table": the description of a value for messages.
 std::string found(const TomlNode& node);
 
