@@ -80,9 +80,11 @@ void list_body(const Scene& scene, std::size_t b, Plan& plan)
     if (!floating) {
         return;
     }
+    const bool turns = !(body.locks[3] && body.locks[4] && body.locks[5]);
     const double spacings = floating->as_placed.draft / scene.spacing;
     plan.floating.push_back({body.name, 1, floating->as_placed.draft, spacings,
-                             floating->as_placed.metacentre, way_of(*floating)});
+                             floating->as_placed.metacentre,
+                             turns ? way_of(*floating) : "cannot turn"});
     if (spacings < 1) {
         warn(
             scene, body.place, fmt::format("body[{}]", b),
@@ -91,7 +93,7 @@ void list_body(const Scene& scene, std::size_t b, Plan& plan)
                         body.name, spacings, floating->as_placed.draft, scene.spacing),
             "use a smaller `particles.spacing` where the draft matters", plan);
     }
-    if (floating->as_placed.metacentre < 0) {
+    if (floating->as_placed.metacentre < 0 && turns) {
         warn(scene, body.place, fmt::format("body[{}]", b),
              fmt::format("body \"{}\" will not float upright: its metacentric height is {:.3g} m; "
                          "it {}",
