@@ -10,6 +10,7 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/debris.hpp"
 #include "hyoryu/scene/parameter.hpp"
 
 #include <fmt/format.h>
@@ -66,7 +67,8 @@ int check_case(const CheckOptions& options)
 
 int describe_keys(const DescribeOptions& options)
 {
-    fmt::print("{}", options.json_schema ? json_schema() : describe(options.key));
+    const std::string library = options.key == "debris" ? describe_debris_library() : "";
+    fmt::print("{}", options.json_schema ? json_schema() : library + describe(options.key));
     return exit_code::done;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plan_report.hpp"
+#include "scale_report.hpp"
 
 #include "forecast.hpp"
 #include "machine_load.hpp"
@@ -293,7 +294,7 @@ std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<
             fmt::format("    {:<22} {:<8} {:>3} B per fluid particle, {} B per solid particle\n",
                         "together", "", of_all + of_fluid, of_all);
     }
-    return text + material_lines(scene, plan) + gauge_lines(scene, plan) +
+    return text + material_lines(scene, plan) + gauge_lines(scene, plan) + scale_lines(plan) +
            size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
 }
 
@@ -394,6 +395,7 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
         json["precision"] = name(scene.precision);
         json["instruction_set"] = name(widest_instruction_set());
     }
+    add_scale(plan, json);
     json["forecast"] = forecast_json(scene, plan, timed);
     if (timed) {
         json["cost"] = cost_json(*timed);

@@ -43,9 +43,7 @@ bool rests(const Motion& motion, double t)
     return motion.times.size() < 2 || t < motion.times.front() || t > motion.times.back();
 }
 
-} // namespace
-
-Vec3 displacement(const Motion& motion, double t)
+Vec3 place_on_path(const Motion& motion, double t)
 {
     if (motion.times.empty()) {
         return t * motion.velocity;
@@ -67,7 +65,7 @@ Vec3 displacement(const Motion& motion, double t)
     return place;
 }
 
-Vec3 velocity(const Motion& motion, double t)
+Vec3 velocity_on_path(const Motion& motion, double t)
 {
     if (motion.times.empty()) {
         return motion.velocity;
@@ -86,8 +84,43 @@ Vec3 velocity(const Motion& motion, double t)
     return v;
 }
 
+} // namespace
+
+Vec3 displacement(const Motion& motion, double t)
+{
+    Vec3 place = place_on_path(motion, t);
+    if (motion.absorption) {
+        const Motion::Absorption& a = *motion.absorption;
+        place.x() += a.place + (t - a.time) * a.velocity;
+    }
+    return place;
+}
+
+Vec3 velocity(const Motion& motion, double t)
+{
+    Vec3 v = velocity_on_path(motion, t);
+    if (motion.absorption) {
+        v.x() += motion.absorption->velocity;
+    }
+    return v;
+}
+
+double asked_level(const Motion& motion, double t)
+{
+    if (!motion.absorption || motion.absorption->levels.empty() || rests(motion, t)) {
+        return 0;
+    }
+    const std::vector<double>& levels = motion.absorption->levels;
+    const std::size_t k = interval(motion, t);
+    const double s = (t - motion.times[k]) / (motion.times[k + 1] - motion.times[k]);
+    return (1 - s) * levels[k] + s * levels[k + 1];
+}
+
 bool moves(const Motion& motion)
 {
+    if (motion.absorption) {
+        return true;
+    }
     return motion.times.empty()
                ? motion.velocity.norm() > 0
                : std::any_of(motion.places.begin(), motion.places.end(),
@@ -96,8 +129,9 @@ bool moves(const Motion& motion)
 
 double speed_bound(const Motion& motion, double from, double to)
 {
+    const double added = motion.absorption ? std::abs(motion.absorption->velocity) : 0;
     if (motion.times.size() < 2) {
-        return motion.times.empty() ? motion.velocity.norm() : 0;
+        return added + (motion.times.empty() ? motion.velocity.norm() : 0);
     }
     // A monotone cubic is nowhere steeper than three times its secant.
     double fastest = 0;
@@ -108,7 +142,7 @@ double speed_bound(const Motion& motion, double from, double to)
         const Vec3 secant(slope(motion, k, 0), slope(motion, k, 1), slope(motion, k, 2));
         fastest = std::max(fastest, 3 * secant.norm());
     }
-    return fastest;
+    return added + fastest;
 }
 
 } // namespace hyoryu

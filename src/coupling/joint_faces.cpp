@@ -53,8 +53,9 @@ void add_caps(const Rod& rod, std::vector<Polygon>& polygons)
         Polygon cap{side * Vec3::UnitX(), {}};
         for (int k = 0; k < n; ++k) {
             const double angle = side * turn * k;
-            cap.corners.emplace_back(side * rod.length / 2, radius * std::cos(angle),
-                                     radius * std::sin(angle));
+            cap.corners.emplace_back(rod.middle + Vec3(side * rod.length / 2,
+                                                       radius * std::cos(angle),
+                                                       radius * std::sin(angle)));
         }
         polygons.push_back(std::move(cap));
     }
@@ -67,7 +68,9 @@ std::vector<Polygon> polygons_of(const ContactShape& shape, int dimensions)
         add_faces(*polytope, dimensions, polygons);
     } else if (const auto* rod = std::get_if<Rod>(&shape)) {
         if (dimensions == 2) {
-            add_faces(box_polytope({rod->length, 0, 2 * rod->radius}, 2), 2, polygons);
+            const Vec3 section(rod->length, 0, 2 * rod->radius);
+            const ContactShape box = moved(box_polytope(section, 2), rod->middle);
+            add_faces(std::get<Polytope>(box), 2, polygons);
         } else {
             add_caps(*rod, polygons);
         }

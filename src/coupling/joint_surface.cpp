@@ -76,7 +76,7 @@ std::optional<RayHit> enters(const ConvexPiece& piece, const Ray& ray)
     }
     if (piece.round != ConvexPiece::Round::none) {
         const Vec3 across = piece.round == ConvexPiece::Round::ball ? Vec3(1, 1, 1) : Vec3(0, 1, 1);
-        const Vec3 o = ray.origin.cwiseProduct(across);
+        const Vec3 o = (ray.origin - piece.middle).cwiseProduct(across);
         const Vec3 d = ray.direction.cwiseProduct(across);
         if (!clip_round(o.squaredNorm() - sq(piece.radius), 2 * o.dot(d), d.squaredNorm(), hit)) {
             return std::nullopt;
@@ -217,17 +217,20 @@ RaySolid ray_solid(const ContactShape& shape, int dimensions)
 {
     RaySolid solid;
     if (const auto* ball = std::get_if<Ball>(&shape)) {
-        solid = {{{{}, ConvexPiece::Round::ball, ball->radius}}, ball->radius};
+        solid = {{{{}, ConvexPiece::Round::ball, ball->radius, ball->middle}},
+                 ball->radius + ball->middle.norm()};
     } else if (const auto* rod = std::get_if<Rod>(&shape)) {
         if (dimensions == 2) {
-            add_polytope(solid, box_polytope({rod->length, 0, 2 * rod->radius}, 2), 2);
-            return solid;
+            const Vec3 section(rod->length, 0, 2 * rod->radius);
+            return ray_solid(moved(box_polytope(section, 2), rod->middle), 2);
         }
         const double half = rod->length / 2;
-        solid = {{{{{Vec3::UnitX(), half}, {-Vec3::UnitX(), half}},
+        const double x = rod->middle.x();
+        solid = {{{{{Vec3::UnitX(), half + x}, {-Vec3::UnitX(), half - x}},
                    ConvexPiece::Round::cylinder,
-                   rod->radius}},
-                 std::hypot(half, rod->radius)};
+                   rod->radius,
+                   rod->middle}},
+                 std::hypot(half, rod->radius) + rod->middle.norm()};
     } else if (const auto* polytope = std::get_if<Polytope>(&shape)) {
         add_polytope(solid, *polytope, dimensions);
     } else {
@@ -243,8 +246,9 @@ bool holds(const ConvexPiece& piece, const Vec3& point, double margin)
     const bool between = std::ranges::all_of(piece.sides, [&](const HalfSpaceOf& side) {
         return side.normal.dot(point) <= side.offset + margin;
     });
+    const Vec3 r = point - piece.middle;
     const double across =
-        piece.round == ConvexPiece::Round::ball ? point.norm() : std::hypot(point.y(), point.z());
+        piece.round == ConvexPiece::Round::ball ? r.norm() : std::hypot(r.y(), r.z());
     return between && (piece.round == ConvexPiece::Round::none || across <= piece.radius + margin);
 }
 

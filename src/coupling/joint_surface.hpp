@@ -36,12 +36,13 @@ struct HalfSpaceOf {
     double offset = 0; // [m]
 };
 
-/// A convex solid in its own axes: half-spaces, and a ball or a cylinder about the x axis.
+/// A convex solid in its own axes: half-spaces, and a ball or a cylinder along the x axis.
 struct ConvexPiece {
     enum class Round { none, ball, cylinder };
     std::vector<HalfSpaceOf> sides;
     Round round = Round::none;
-    double radius = 0; // of the round part [m]
+    double radius = 0;    // of the round part [m]
+    Vec3 middle{0, 0, 0}; // of the round part [m]
 };
 
 /// A body or obstacle in its own axes.

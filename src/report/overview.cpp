@@ -54,6 +54,28 @@ std::string facts(std::vector<std::vector<std::string>> rows)
     return html_table({.heads = {{"quantity"}, {"value"}}, .rows = std::move(rows)});
 }
 
+/// What the resolution means at the scale of the scene; of a run with fluid.
+std::string scale_table(const RunResults& run)
+{
+    if (!run.plan.contains("scale")) {
+        return {};
+    }
+    const ordered_json& scale = run.plan.at("scale");
+    const auto number = [&](const char* key) {
+        return scale.at(key).is_number() ? readable(scale.at(key).get<double>()) : "–";
+    };
+    std::string absent;
+    for (const ordered_json& one : scale.at("absent")) {
+        absent += (absent.empty() ? "" : "; ") + one.get<std::string>();
+    }
+    return facts({{"depth of the water at the start [m]", number("depth")},
+                  {"the same in spacings", number("depth_in_spacings")},
+                  {"shortest load resolved, 4 dp/c0 [s]", number("shortest_load")},
+                  {"viscosity of the scheme [m2/s]", number("viscosity")},
+                  {"effective Reynolds number u h/nu", number("reynolds")},
+                  {"absent", absent}});
+}
+
 } // namespace
 
 std::string readable(double value)
@@ -74,7 +96,7 @@ std::string case_section(const RunResults& run)
                {"bodies", fmt::format("{}", counts.at("bodies").get<std::int64_t>())},
                {"particles at the start", counted(counts)},
                {"particle spacing [m]", readable(run.spacing)}});
-    return text +
+    return text + scale_table(run) +
            "<details><summary>The resolved case, with all defaults</summary>\n"
            "<pre>" +
            escaped(run.case_text) + "</pre></details>\n";

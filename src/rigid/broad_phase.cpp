@@ -27,8 +27,9 @@ double skin_of(const ContactMemory& memory)
     return skin * memory.geometry.unit;
 }
 
-AlignedBox box_of(const Solid& solid, const SolidPose& pose, double margin)
+AlignedBox box_of(const Solid& solid, const SolidPose& body, double margin)
 {
+    const SolidPose pose = pose_of_shape(solid, body);
     const Vec3 centre = pose.x + pose.R * solid.box_centre;
     const Vec3 half =
         solid.form == Form::ball ? solid.box_half : Vec3(pose.R.cwiseAbs() * solid.box_half);
@@ -86,7 +87,7 @@ std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<d
     return pairs;
 }
 
-// How far the body reaches from its centre of mass against the direction n.
+// How far the solid reaches from the origin of its axes against the direction n.
 double reach_against(const Solid& solid, const SolidPose& pose, const Vec3& n)
 {
     const Vec3 local = pose.R.transpose() * n;
@@ -114,7 +115,8 @@ bool may_touch(const StepContext& context, int body, const ContactWall& wall, do
         context.dt * speed_bound(wall.motion, context.start, context.start + context.dt);
     const Vec3 shift = displacement(wall.motion, context.start);
     if (wall.plane) {
-        return wall.plane->normal.dot(pose.x - wall.plane->point - shift) <
+        const Vec3 origin = pose_of_shape(solid, pose).x;
+        return wall.plane->normal.dot(origin - wall.plane->point - shift) <
                reach_against(solid, pose, wall.plane->normal) + room;
     }
     if (!wall.mesh.triangles.empty()) {

@@ -93,7 +93,10 @@ struct Configuration {
     double time = 0;
 };
 
-/// A solid and where it is.
+/// The pose of the axes of a solid, from that of its body about the centre of mass.
+SolidPose pose_of_shape(const Solid& solid, const SolidPose& body);
+
+/// A solid and where its axes are.
 struct PlacedSolid {
     const Solid& solid;
     SolidPose pose;

@@ -29,8 +29,7 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
 {
     const ContactWall& wall = at.geometry.walls[-1 - feature.b];
     const Plane plane = plane_of(wall, feature.f);
-    const Solid& solid = at.geometry.solids[feature.a];
-    const SolidPose& pose = at.poses[feature.a];
+    const auto [solid, pose] = placed(at, feature.a);
     Touch touch;
     touch.normal = plane.normal;
     if (feature.kind == FeatureKind::corner_plane) {
@@ -131,10 +130,20 @@ SolidPose pose_of(const Vec3& x, const Quat& q)
     return {x, q, q.toRotationMatrix()};
 }
 
+SolidPose pose_of_shape(const Solid& solid, const SolidPose& body)
+{
+    SolidPose pose = body;
+    if (!solid.middle.isZero(0)) {
+        pose.x += body.R * solid.middle;
+    }
+    return pose;
+}
+
 PlacedSolid placed(const Configuration& at, int index)
 {
     if (index >= 0) {
-        return {at.geometry.solids[index], at.poses[index]};
+        const Solid& solid = at.geometry.solids[index];
+        return {solid, pose_of_shape(solid, at.poses[index])};
     }
     const ContactWall& wall = at.geometry.walls[-1 - index];
     SolidPose pose = wall.pose;

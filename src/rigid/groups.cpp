@@ -33,7 +33,7 @@ struct Block {
 Block block_of(const ContactMemory& memory, int k)
 {
     const Solid& solid = memory.geometry.solids[k];
-    const SolidPose& pose = memory.poses[k];
+    const SolidPose pose = pose_of_shape(solid, memory.poses[k]);
     const bool round = solid.form == Form::ball;
     return {pose.x + pose.R * solid.box_centre, pose.R, round ? Vec3::Zero() : solid.box_half,
             round ? solid.radius : 0};

@@ -35,6 +35,11 @@ void prepare(Rigid& rigid)
             memory.geometry.walls.push_back(wall_of(boundary, dimensions));
         }
     }
+    for (std::size_t k = 0; k < rigid.boundaries.size(); ++k) {
+        if (rigid.boundaries[k].motion.absorption) { // what a paddle adds changes every step
+            memory.geometry.walls[k].motion = rigid.boundaries[k].motion;
+        }
+    }
     memory.poses.resize(n);
     memory.paths.resize(n);
     memory.responses.resize(n);

@@ -46,8 +46,8 @@ class RoundSearch {
 public:
     RoundSearch(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
         : pair_(pair), at_(at), wall_(at.geometry.walls[number(-1 - pair.b)]), mesh_(wall_.mesh),
-          solid_(at.geometry.solids[number(pair.a)]), pose_(at.poses[number(pair.a)]),
-          found_(found), first_(found.size())
+          solid_(at.geometry.solids[number(pair.a)]), pose_(placed(at, pair.a).pose), found_(found),
+          first_(found.size())
     {
         pose_.x -= displacement(wall_.motion, at.time);
     }

@@ -219,18 +219,21 @@ Solid solid_of(const ContactShape& shape, int dimensions)
     Solid solid;
     if (const auto* ball = std::get_if<Ball>(&shape)) {
         solid.radius = ball->radius;
-        solid.reach = ball->radius;
+        solid.middle = ball->middle;
+        solid.reach = ball->radius + ball->middle.norm();
         solid.thickness = ball->radius;
         solid.box_half = Vec3::Constant(ball->radius);
     } else if (const auto* rod = std::get_if<Rod>(&shape)) {
         if (dimensions == 2) {
             const Vec3 section(rod->length, 0, 2 * rod->radius);
-            return solid_of(box_polytope(section, 2), 2);
+            return solid_of(moved(box_polytope(section, 2), rod->middle), 2);
         }
         solid.form = Form::rod;
+        solid.middle = rod->middle;
         solid.radius = rod->radius;
         solid.half_length = rod->length / 2;
         add_polytope(solid, caps_of(*rod), dimensions);
+        solid.reach += rod->middle.norm();
         solid.thickness = std::min(solid.radius, solid.half_length);
     } else if (const auto* polytope = std::get_if<Polytope>(&shape)) {
         solid.form = Form::polytope;

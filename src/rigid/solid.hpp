@@ -33,13 +33,15 @@ struct Edge {
     Vec3 arc{0, 0, 0};
 };
 
-/// A shape in its body frame. A rod has its two caps as `faces`, at -x and +x: the planes are
+/// A shape in its body frame; a ball or rod in axes through its middle (`placed` puts it there). A
+/// rod has its two caps as `faces`, at -x and +x: the planes are
 /// exact, the corners are points of the rims that bound what a cap covers when it stands flat. A
 /// compound has the corners and faces of all its parts, one part after another.
 struct Solid {
     Form form = Form::ball;
     double radius = 0;      // ball, rod [m]
     double half_length = 0; // rod [m]
+    Vec3 middle{0, 0, 0};   // of a ball or rod, from the centre of mass [m]
     std::vector<Vec3> corners;
     std::vector<Face> faces;
     std::vector<Edge> edges;
@@ -54,6 +56,12 @@ struct Solid {
     double reach = 0;     // largest distance of a point from the centre of mass [m]
     double thickness = 0; // a length that motion must not jump over unseen: the inner radius [m]
 };
+
+/// A ball about its centre of mass: turning it changes no contact.
+inline bool turns_unseen(const Solid& solid)
+{
+    return solid.form == Form::ball && solid.middle.isZero(0);
+}
 
 /// The tables of a shape. In two dimensions a rod is the rectangle of its lengthwise section.
 Solid solid_of(const ContactShape& shape, int dimensions);

@@ -48,7 +48,7 @@ double part_on_contacts(const StepContext& context, double rest)
     const RigidSettings& settings = context.rigid.settings;
     // by its speed, not by the angle of a step: at any step the scheme is the same
     const auto turns = [&](int k) {
-        return k >= 0 && memory.geometry.solids[k].form != Form::ball &&
+        return k >= 0 && !turns_unseen(memory.geometry.solids[k]) &&
                memory.responses[k].omega.norm() * memory.geometry.solids[k].reach >
                    settings.resting_speed;
     };

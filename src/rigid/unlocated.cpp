@@ -142,8 +142,7 @@ double sub_step_length(const StepContext& context, const Cluster& cluster, doubl
     const ContactMemory& memory = context.memory;
     double fastest = 0;
     for (const int k : cluster.bodies) {
-        if (memory.geometry.solids[k].form !=
-            Form::ball) { // a ball looks the same however it turns
+        if (!turns_unseen(memory.geometry.solids[k])) {
             fastest = std::max(fastest, memory.responses[k].omega.norm());
         }
     }

@@ -296,7 +296,7 @@ std::vector<Cluster> clusters_of(const Scene& scene)
 {
     std::vector<Placed> shapes;
     for (const BodySettings& body : scene.bodies) {
-        shapes.push_back({&body.shape, body.position, body.rotation, scene.dimensions});
+        shapes.push_back(placed(body, scene.dimensions));
     }
     const std::vector<Bounds> boxes = boxes_of(shapes, scene.spacing);
     const std::vector<std::vector<std::size_t>> near = near_before(boxes, scene.spacing);

@@ -30,7 +30,7 @@ Placed placed(const Scene& scene, const FluidBlock& block)
 
 Placed placed(const Scene& scene, const BodySettings& body)
 {
-    return {&body.shape, body.position, body.rotation, scene.dimensions};
+    return placed(body, scene.dimensions);
 }
 
 struct BlockPoints {
@@ -252,6 +252,7 @@ Filling fill(const Scene& scene)
             filled.particle_volume =
                 volume(body.shape, scene.dimensions) / static_cast<double>(filled.points.size());
         }
+        move_to_middle(body, filling.bodies.back().points);
     }
     if (scene.fluid && !scene.bodies.empty()) {
         take_out_bodies(scene, filling);

@@ -198,14 +198,14 @@ public:
     }
     /// Numbers or vectors, one for each point of a path.
     template <class Path>
-    void path(Text name, Path& member, Text unit, Text meaning)
+    void path(Text name, Path& member, Text unit, Text meaning, Default fallback = needed)
     {
         constexpr int most_points = 1000000;
         constexpr bool scalar = std::same_as<typename Path::value_type, double>;
         Parameter rule = row(name, scalar ? ValueKind::vector : ValueKind::vectors, unit, meaning);
         rule.shortest = 2;
         rule.longest = most_points;
-        self().key(rule, member, needed);
+        self().key(rule, member, fallback);
     }
     /// One of the names, of which the value of the member is the number; false if it is mistaken.
     template <class T>

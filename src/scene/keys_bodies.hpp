@@ -4,6 +4,7 @@
 
 #include "keys_shapes.hpp"
 
+#include "hyoryu/scene/mass_faults.hpp"
 #include "hyoryu/scene/shapes.hpp"
 #include "hyoryu/scene/voxels.hpp"
 
@@ -92,6 +93,24 @@ inline void check_velocities(TableReader& table, const BodySettings& body)
     if (body.fixed && (body.velocity.norm() > 0 || w.norm() > 0)) {
         table.error(body.velocity.norm() > 0 ? "velocity" : "angular_velocity",
                     "has no meaning for a fixed body");
+    }
+}
+
+inline void check_mass(TableReader& table, const BodySettings& body)
+{
+    const int dimensions = table.reading().dimensions;
+    if (table.sound("center_of_mass")) {
+        const std::string fault = centre_fault(body, dimensions);
+        if (!fault.empty()) {
+            table.error("center_of_mass", fault,
+                        "it is measured from the middle of the shape, in the axes of the body");
+        }
+    }
+    if (table.sound("inertia")) {
+        const std::string fault = inertia_fault(body, dimensions);
+        if (!fault.empty()) {
+            table.error("inertia", fault, "[Ixx, Iyy, Izz] about the centre of mass, in kg m2");
+        }
     }
 }
 
@@ -206,6 +225,16 @@ void keys_of(auto& keys, Is<BodySettings> auto& body, auto& scene)
                   "Spacing of the particles of the body, on which the fluid acts.",
                   "particles.spacing");
     keys.rule(finish_matter, body);
+    keys.planar(
+        "center_of_mass", body.centre_of_mass, "m",
+        "Centre of mass from the middle of the shape (of a mesh, the centre of its volume), "
+        "in body axes.",
+        "[0.0, 0.0, 0.0]");
+    keys.vector("inertia", body.inertia, "kg m2",
+                "Moments of inertia [Ixx, Iyy, Izz] about the centre of mass, in body axes; in 2-D "
+                "Iyy alone counts.",
+                "of the uniform shape about its middle");
+    keys.rule(check_mass, body);
     keys.text("material", body.material, "Name of its material, for contact.pair.");
     keys.rule(check_material, body.material);
     keys.flag("fixed", body.fixed, "Whether the body is fixed.");

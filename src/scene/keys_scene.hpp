@@ -4,6 +4,7 @@
 
 #include "keys_bodies.hpp"
 #include "keys_contact.hpp"
+#include "keys_debris.hpp"
 #include "keys_fluid.hpp"
 #include "keys_gauges.hpp"
 #include "keys_walls.hpp"
@@ -93,7 +94,7 @@ inline void find_periods(TableReader& table, const std::vector<std::string>& nam
 
 inline void expect_something(TableReader& root)
 {
-    if (!root.has("fluid") && !root.has("body")) {
+    if (!root.has("fluid") && !root.has("body") && !root.has("debris")) {
         root.error("", "the case has nothing to simulate",
                    "add [fluid] with [[fluid.block]], or [[body]]");
     }
@@ -191,8 +192,12 @@ void keys_of(auto& keys, Is<Scene> auto& scene)
     general_keys(keys, scene);
     keys.table("fluid", "The fluid; without this table no fluid is simulated.", scene.fluid);
     keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
-                scene.gravity.norm(), scene.spacing);
+                scene.gravity.norm(), scene);
+    keys.tables("sponge", "A box that damps waves before they reach its end.", scene.sponges);
     keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,
+                scene);
+    std::vector<DebrisKeys> debris; // bodies when the case is resolved
+    keys.tables("debris", "Pieces of the debris library: containers, logs, cars ...", debris,
                 scene);
     keys.rule(check_bodies, scene.bodies);
     keys.table("contact", "Contact of bodies with each other and with walls.", scene.contact,

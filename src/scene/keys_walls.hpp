@@ -4,19 +4,12 @@
 
 #include "keys_shapes.hpp"
 #include "keys_terrain.hpp"
-
-#include "hyoryu/scene/piston.hpp"
+#include "keys_waves.hpp"
 
 namespace hyoryu {
 
 /// How a wall moves.
-enum class MotionWay { none, velocity, table, points, piston };
-
-/// The wave of [wall.motion.piston].
-struct SolitaryWave {
-    double height = 0; // [m]
-    double depth = 0;  // of the water at rest [m]
-};
+enum class MotionWay { none, velocity, table, points, piston, lift };
 
 // Rounding of a path that passes through the origin at time 0 [m].
 inline constexpr double at_origin = 1e-12;
@@ -32,17 +25,19 @@ inline void find_way(TableReader& table, MotionWay& way)
 {
     const bool points = table.has("times") || table.has("places");
     const int ways = (table.has("velocity") ? 1 : 0) + (table.has("table") ? 1 : 0) +
-                     (table.has("piston") ? 1 : 0) + (points ? 1 : 0);
+                     (table.has("piston") ? 1 : 0) + (table.has("lift") ? 1 : 0) + (points ? 1 : 0);
     if (ways > 1) {
         table.error(table.has("velocity") ? "velocity"
                     : table.has("table")  ? "table"
+                    : table.has("lift")   ? "lift"
                                           : "times",
-                    "give one of `velocity`, `table`, `piston`, or `times` and `places`");
+                    "give one of `velocity`, `table`, `piston`, `lift`, or `times` and `places`");
         table.abandon();
         way = MotionWay::none;
     } else {
         way = table.has("table")    ? MotionWay::table
               : table.has("piston") ? MotionWay::piston
+              : table.has("lift")   ? MotionWay::lift
               : points              ? MotionWay::points
                                     : MotionWay::velocity;
     }
@@ -128,16 +123,50 @@ inline void check_path(TableReader& table, Motion& motion)
     }
 }
 
-inline void move_as_piston(TableReader& table, const SolitaryWave& wave, Motion& motion,
-                           double gravity)
+/// What a paddle that absorbs is told besides its path.
+struct AbsorbKeys {
+    bool absorbs = false;
+    std::optional<double> depth; // [m]
+    bool leveled = false;
+    std::vector<double> levels; // [m]
+};
+
+inline void find_levels(TableReader& table, bool& leveled)
 {
-    if (!table.sound("solitary_height") || !table.sound("depth")) {
+    leveled = table.has("levels");
+}
+
+inline void check_absorption(TableReader& table, const AbsorbKeys& keys, MotionWay way, Wall& wall)
+{
+    Motion& motion = wall.motion;
+    if (!keys.absorbs) {
+        motion.absorption.reset();
         return;
     }
-    if (gravity > 0) {
-        motion = solitary_piston(wave.height, wave.depth, gravity);
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    const bool box = solid != nullptr && std::holds_alternative<BoxShape>(solid->shape) &&
+                     solid->rotation.isApprox(Quat::Identity());
+    if (!box) {
+        table.error("absorb", "has a meaning for a paddle only: a wall of shape \"box\" that is "
+                              "not rotated");
+    }
+    if (way == MotionWay::piston) {
+        if (keys.depth) {
+            table.error("depth", "has no meaning here, the piston has a depth");
+        }
+        return;
+    }
+    if (way == MotionWay::table || way == MotionWay::lift || motion.velocity.norm() > 0) {
+        table.error("absorb", "needs to know the waves that the paddle makes",
+                    "beside a `piston`, beside `times` and `places` with `levels`, or alone");
+    } else if (way == MotionWay::points && keys.levels.size() != motion.times.size()) {
+        table.error(table.has("levels") ? "levels" : "absorb",
+                    fmt::format("expected a level of the water for each of {} times, found {}",
+                                motion.times.size(), keys.levels.size()));
+    } else if (!keys.depth) {
+        table.require("depth");
     } else {
-        table.error("depth", "there are no waves without `gravity`");
+        motion.absorption.emplace(Motion::Absorption{.depth = *keys.depth, .levels = keys.levels});
     }
 }
 
@@ -162,14 +191,35 @@ void keys_of(auto& keys, Is<BasinWall> auto& basin)
                   "that of the rows of wall particles");
 }
 
-void keys_of(auto& keys, Is<SolitaryWave> auto& wave, auto& motion, double gravity)
+/// Keys of a paddle that absorbs, beside those of its path.
+void absorb_keys(auto& keys, MotionWay way, auto& wall)
 {
-    keys.positive("solitary_height", wave.height, "m", "Height of the wave.", needed);
-    keys.positive("depth", wave.depth, "m", "Depth of the water at rest.", needed);
-    keys.rule(move_as_piston, wave, motion, gravity);
+    AbsorbKeys absorb;
+    if (const auto& absorption = wall.motion.absorption; keys.writes && absorption) {
+        absorb = {true, absorption->depth, !absorption->levels.empty(), absorption->levels};
+    }
+    if (keys.shows(absorb.absorbs)) {
+        keys.flag("absorb", absorb.absorbs,
+                  "Whether the paddle gives way to waves that come towards it, so that they do not "
+                  "return: it moves with the speed sqrt(g/d) (level - level asked for) as well "
+                  "(active absorption of the first order). A paddle without a path only absorbs.");
+    }
+    if (keys.applies(absorb.absorbs)) {
+        keys.positive("depth", absorb.depth, "m",
+                      "Depth of the water at rest before a paddle that absorbs; a piston has its "
+                      "own.",
+                      no_default);
+        keys.rule(find_levels, absorb.leveled);
+        if (keys.applies(absorb.leveled)) {
+            keys.path("levels", absorb.levels, "m",
+                      "Level of the water at the paddle, above still water, that the path makes at "
+                      "each of the times.");
+        }
+    }
+    keys.rule(check_absorption, absorb, way, wall);
 }
 
-void keys_of(auto& keys, Is<Motion> auto& motion, double gravity)
+void keys_of(auto& keys, Is<Motion> auto& motion, auto& wall, double gravity, const Scene& scene)
 {
     MotionWay way = motion.times.empty() ? MotionWay::velocity : MotionWay::points;
     keys.rule(find_way, way);
@@ -194,12 +244,18 @@ void keys_of(auto& keys, Is<Motion> auto& motion, double gravity)
         keys.rule(check_path, motion);
     }
     if (keys.applies(way == MotionWay::piston)) {
-        SolitaryWave wave;
+        PistonWave wave;
         keys.table("piston",
-                   "The motion along +x of a paddle that generates a solitary wave (Goring 1978), "
-                   "from time 0 on.",
-                   wave, motion, gravity);
+                   "The motion along +x of a paddle that makes waves, from time 0 on: a solitary "
+                   "wave (Goring 1978) or regular waves (Madsen 1971).",
+                   wave, wall, gravity, scene.time.end);
     }
+    if (keys.applies(way == MotionWay::lift)) {
+        Lift lift;
+        keys.table("lift", "The motion along +z of a gate that opens.", lift, motion, scene.spacing,
+                   scene.time.end);
+    }
+    absorb_keys(keys, way, wall);
 }
 
 inline bool is_terrain(const Wall& wall)
@@ -271,17 +327,18 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, double spacing)
     }
 }
 
-void keys_of(auto& keys, Is<Wall> auto& wall, double gravity, double spacing)
+void keys_of(auto& keys, Is<Wall> auto& wall, double gravity, const Scene& scene)
 {
     keys.rule(number_name, "wall", wall.name);
     keys.text("name", wall.name, "Name in results; unique among walls and bodies.",
               "wall.1, wall.2 ...");
     keys.rule(check_name, "name", wall.name);
     keys.rule(claim_name, wall.name);
-    geometry_keys(keys, wall, spacing);
+    geometry_keys(keys, wall, scene.spacing);
     keys.text("material", wall.material, "Name of its material, for contact.pair.");
     keys.rule(check_material, wall.material);
-    keys.table("motion", "Motion of the wall; without it the wall is fixed.", wall.motion, gravity);
+    keys.table("motion", "Motion of the wall; without it the wall is fixed.", wall.motion, wall,
+               gravity, scene);
 }
 
 } // namespace hyoryu

@@ -10,6 +10,7 @@
 #include "plan_checks.hpp"
 #include "plan_contact.hpp"
 #include "plan_gauges.hpp"
+#include "plan_scale.hpp"
 
 #include <fmt/format.h>
 
@@ -225,6 +226,17 @@ void list_effects(const Scene& scene, Plan& plan)
                plan.counts.bodies == 0 ? "the scene has no bodies" : "a single body and no wall");
     const bool moving = has_moving_walls(scene);
     census.add("moving_walls", when(moving, "a wall has `motion`"), "all walls are fixed");
+    const bool fluid = plan.fluid.has_value();
+    const std::string dry = "the scene has no fluid";
+    census.add("sponge",
+               when(fluid && !scene.sponges.empty(),
+                    fmt::format("{} sponges damp waves", scene.sponges.size())),
+               fluid ? "the scene has no sponge" : dry);
+    const bool absorbs = std::ranges::any_of(
+        scene.walls, [](const Wall& wall) { return wall.motion.absorption.has_value(); });
+    census.add("wave_absorption",
+               when(fluid && absorbs, "a paddle gives way to waves: `wall.motion.absorb`"),
+               fluid ? "no wall has `motion.absorb`" : dry);
     census.add("gauges", when(!scene.gauges.empty(), fmt::format("{} gauges", scene.gauges.size())),
                "the scene has no gauges");
 }
@@ -321,8 +333,9 @@ Plan make_plan(const Scene& scene, const Filling& filling)
         plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->gradient,
                                       scene.fluid->walls, *plan.fluid);
         Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
-        const auto limits =
-            fluid_limits(*plan.fluid, 0, scene.gravity.norm(), effective_viscosity(probe));
+        const double viscosity = effective_viscosity(probe);
+        const auto limits = fluid_limits(*plan.fluid, 0, scene.gravity.norm(), viscosity);
+        list_scale(scene, filling, viscosity, plan);
         plan.limits.assign(limits.begin(), limits.end());
         for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
             const BodySettings& body = scene.bodies[b];
@@ -342,6 +355,8 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     list_fields(plan);
     estimate_cost(scene, plan);
     check_plan(scene, filling, plan);
+    list_floating(scene, plan);
+    check_waves(scene, filling, plan);
     return plan;
 }
 

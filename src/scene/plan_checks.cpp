@@ -160,29 +160,6 @@ double thinnest(const Shape& shape, int dimensions)
     return (box.max - box.min).minCoeff();
 }
 
-// Metacentric height of an upright box that floats in the fluid of the scene: B^2/(12 d) - (H -
-// d)/2, B the smaller horizontal edge.
-void warn_if_it_tips(const Scene& scene, std::size_t b, Plan& plan)
-{
-    const BodySettings& body = scene.bodies[b];
-    const auto* box = std::get_if<BoxShape>(&body.shape);
-    const double ratio = effective_density(body, scene.dimensions) / scene.fluid->density;
-    const bool upright = (body.rotation * Vec3::UnitZ() - Vec3::UnitZ()).norm() < 1e-9;
-    if (box == nullptr || ratio >= 1 || !upright || body.fixed) {
-        return;
-    }
-    const double breadth =
-        scene.dimensions == 2 ? box->size.x() : std::min(box->size.x(), box->size.y());
-    const double draft = ratio * box->size.z();
-    const double gm = sq(breadth) / (12 * draft) - (box->size.z() - draft) / 2;
-    if (gm < 0) {
-        warn(scene, body.place, body_key(b),
-             fmt::format("body \"{}\" will not float upright: its metacentric height is {:.3g} m",
-                         body.name, gm),
-             "this is not an error; the body will tip", plan);
-    }
-}
-
 // A body that is not convex and has no lattice of its own meets others by one.
 void warn_about_staircase(const Scene& scene, std::size_t b, Plan& plan)
 {
@@ -232,7 +209,6 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
                              body.name, across, 3 * scene.spacing),
                  "use a smaller `particles.spacing`", plan);
         }
-        warn_if_it_tips(scene, b, plan);
     }
 }
 

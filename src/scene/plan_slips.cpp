@@ -41,7 +41,7 @@ private:
 
 Bounds box_of(const Scene& scene, const BodySettings& body)
 {
-    return bounds({&body.shape, body.position, body.rotation, scene.dimensions});
+    return bounds(placed(body, scene.dimensions));
 }
 
 Bounds box_of(const Scene& scene, const FluidBlock& block)

@@ -99,6 +99,17 @@ ContactShape mesh_shape(const MeshShape& mesh, double spacing)
     return union_of(boxes);
 }
 
+ContactShape shape_about_middle(const BodySettings& body, int dimensions)
+{
+    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) {
+        return mesh_shape(*mesh, body.spacing);
+    }
+    if (const auto* particles = std::get_if<ParticleShape>(&body.shape)) {
+        return particle_shape(*particles);
+    }
+    return simple_shape(body.shape, dimensions);
+}
+
 // Sum over the cubes about the mean, each with m d^2 / 6 about its own axes.
 MassProperties mass_of_cubes(const ParticleShape& shape, double density)
 {
@@ -144,6 +155,16 @@ MassProperties mass_of(const BodySettings& body, const ContactShape& contact, in
     return mass_properties(contact, density, dimensions);
 }
 
+// The inertia that the user gave, in two dimensions that about y.
+void take_inertia(const BodySettings& settings, int dimensions, MassProperties& mass)
+{
+    if (settings.inertia && dimensions == 2) {
+        mass.inertia(1, 1) = settings.inertia->y();
+    } else if (settings.inertia) {
+        mass.inertia = settings.inertia->asDiagonal();
+    }
+}
+
 Body make_body(const BodySettings& settings, const ContactShape& shape, int dimensions,
                Materials& materials)
 {
@@ -151,6 +172,7 @@ Body make_body(const BodySettings& settings, const ContactShape& shape, int dime
     body.name = settings.name;
     body.shape = shape;
     body.mass = mass_of(settings, body.shape, dimensions);
+    take_inertia(settings, dimensions, body.mass);
     body.material = materials.index(settings.material);
     body.locks = settings.locks;
     if (settings.fixed) {
@@ -225,8 +247,9 @@ Penalty make_penalty(const Scene& scene)
     penalty.parameters = *scene.contact.penalty;
     penalty.wall_spacing = scene.spacing;
     for (const BodySettings& body : scene.bodies) {
-        penalty.bodies.push_back(particle_cloud(
-            aggregate(body.shape, body.spacing, scene.dimensions).points, body.spacing));
+        std::vector<Vec3> points = aggregate(body.shape, body.spacing, scene.dimensions).points;
+        move_to_middle(body, points);
+        penalty.bodies.push_back(particle_cloud(std::move(points), body.spacing));
     }
     for (const Wall& wall : scene.walls) {
         std::vector<Vec3> points;
@@ -270,13 +293,8 @@ double unit_of_tolerances(const Rigid& rigid)
 
 ContactShape contact_shape(const BodySettings& body, int dimensions)
 {
-    if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) {
-        return mesh_shape(*mesh, body.spacing);
-    }
-    if (const auto* particles = std::get_if<ParticleShape>(&body.shape)) {
-        return particle_shape(*particles);
-    }
-    return simple_shape(body.shape, dimensions);
+    ContactShape shape = shape_about_middle(body, dimensions);
+    return body.centre_of_mass ? moved(std::move(shape), middle_of_shape(body)) : shape;
 }
 
 double effective_density(const BodySettings& body, int dimensions)

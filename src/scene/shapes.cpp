@@ -177,6 +177,28 @@ Vec3 closest_on_triangle(const MeshShape& mesh, const std::array<int, 3>& triang
                                mesh.corners[static_cast<std::size_t>(triangle[2])]);
 }
 
+Vec3 middle_of_shape(const BodySettings& body)
+{
+    return body.centre_of_mass ? Vec3(-*body.centre_of_mass) : Vec3(Vec3::Zero());
+}
+
+void move_to_middle(const BodySettings& body, std::vector<Vec3>& points)
+{
+    if (body.centre_of_mass) {
+        for (Vec3& point : points) {
+            point -= *body.centre_of_mass;
+        }
+    }
+}
+
+Placed placed(const BodySettings& body, int dimensions)
+{
+    const Vec3 middle = body.centre_of_mass
+                            ? Vec3(body.position - body.rotation * *body.centre_of_mass)
+                            : body.position;
+    return {&body.shape, middle, body.rotation, dimensions};
+}
+
 double volume(const Shape& shape, int dimensions)
 {
     return std::visit([&](const auto& s) { return volume_of(s, dimensions); }, shape);

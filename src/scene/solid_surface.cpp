@@ -223,13 +223,16 @@ SolidSurface surface_of(const BodySettings& body, int dimensions)
     set_shape(surface, body.shape, dimensions);
     surface.centre = body.position;
     surface.rotation = body.rotation;
+    surface.middle = middle_of_shape(body);
+    surface.reach += surface.middle.norm();
     return surface;
 }
 
 NearestPlace nearest_place(const SolidSurface& solid, const Vec3& point, double farthest)
 {
+    const Vec3 p = point - solid.middle;
     NearestPlace nearest =
-        std::visit([&](const auto& s) { return nearest_to(s, point, farthest); }, solid.shape);
+        std::visit([&](const auto& s) { return nearest_to(s, p, farthest); }, solid.shape);
     return nearest.distance <= farthest ? nearest : NearestPlace{};
 }
 

@@ -49,7 +49,7 @@ std::vector<std::uint8_t> too_near(const Scene& scene, const std::vector<Vec3>& 
     CellGrid grid;
     build(grid, points, 0, around * scene.spacing);
     for (const BodySettings& body : scene.bodies) {
-        const Placed shape{&body.shape, body.position, body.rotation, scene.dimensions};
+        const Placed shape = placed(body, scene.dimensions);
         Bounds box = bounds(shape);
         box.min -= Vec3::Constant(scene.spacing);
         box.max += Vec3::Constant(scene.spacing);

@@ -189,6 +189,38 @@ void describe_conservation(State& state, Conservation& sums)
     state("sums/worst_in_solids", "", sums.worst_in_solids);
 }
 
+// Paddles that absorb: what they add to their paths, and the levels that they saw.
+template <class State, class Simulation>
+void describe_absorbers(State& state, Simulation& sim)
+{
+    std::vector<double> times, places, speeds, levels, still;
+    for (const Absorber& absorber : sim.waves.absorbers) {
+        const auto& absorption = *sim.scene.walls[absorber.wall].motion.absorption;
+        times.push_back(absorption.time);
+        places.push_back(absorption.place);
+        speeds.push_back(absorption.velocity);
+        levels.push_back(absorber.level);
+        still.push_back(absorber.still);
+    }
+    state.values("absorbers/time", "s", std::span(times));
+    state.values("absorbers/place", "m", std::span(places));
+    state.values("absorbers/velocity", "m/s", std::span(speeds));
+    state.values("absorbers/level", "m", std::span(levels));
+    state.values("absorbers/still", "", std::span(still));
+    if constexpr (State::reads) {
+        for (std::size_t k = 0; k < sim.waves.absorbers.size(); ++k) {
+            Absorber& absorber = sim.waves.absorbers[k];
+            absorber.level = levels[k];
+            absorber.still = still[k];
+            auto& absorption = sim.scene.walls[absorber.wall].motion.absorption;
+            absorption->time = times[k];
+            absorption->place = places[k];
+            absorption->velocity = speeds[k];
+            sim.rigid.boundaries[absorber.wall].motion.absorption = absorption;
+        }
+    }
+}
+
 template <class State, class Simulation>
 void describe_all(State& state, Simulation& sim)
 {
@@ -198,6 +230,9 @@ void describe_all(State& state, Simulation& sim)
     state.each("loads/torque", "N m", sim.loads.bodies, &Wrench::torque);
     if (!sim.scene.gauges.empty()) {
         describe_gauges(state, sim.gauges);
+    }
+    if (!sim.waves.absorbers.empty()) {
+        describe_absorbers(state, sim);
     }
     if (!sim.seepage.open.empty()) {
         state.list("joints", "", sim.seepage.joined);

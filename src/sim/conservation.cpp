@@ -146,6 +146,7 @@ void update_conservation(Simulation& sim, const MomentumBefore& before, double d
     for (const Vec3& force : sim.loads.walls) {
         walls -= dt * force;
     }
+    walls += sim.waves.sponge_impulse;
     const Vec3 gravity = dt * weight(sim);
     const Vec3 lost = sim.fluid ? Vec3(sim.fluid->lost.momentum - before.lost) : Vec3(Vec3::Zero());
     const Vec3 residual = after.momentum - before.momentum + lost - walls - gravity;

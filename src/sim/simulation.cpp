@@ -30,6 +30,12 @@ struct MovingWalls {
 struct SurfaceBarrier {
     static constexpr std::string_view name = "wall_barrier";
 };
+struct Sponges {
+    static constexpr std::string_view name = "sponge";
+};
+struct WaveAbsorption {
+    static constexpr std::string_view name = "wave_absorption";
+};
 struct Gauges {
     static constexpr std::string_view name = "gauges";
 };
@@ -149,6 +155,7 @@ void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
             store.owner()[k] = static_cast<std::int32_t>(b);
             if (store.has(field::depth)) {
                 const Placed shape{.shape = &sim.scene.bodies[b].shape,
+                                   .centre = middle_of_shape(sim.scene.bodies[b]),
                                    .dimensions = sim.scene.dimensions};
                 store[field::depth][k] = -signed_distance(shape, sim.body_particles.points[at(k)]);
             }
@@ -278,6 +285,7 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         update_pressure(*sim.fluid);
         // Initial rates, so that the first half step compresses the fluid like all later ones.
         update_rates(*sim.fluid);
+        sim.waves = make_waves(sim);
     }
     sim.conservation.start = totals(sim);
     return sim;
@@ -305,6 +313,9 @@ void step(Simulation& sim)
     if (sim.fluid) {
         Fluid& fluid = *sim.fluid;
         sim.timer.begin("drift");
+        if (is_built<WaveAbsorption> && !sim.waves.absorbers.empty()) {
+            absorb_waves(sim, dt);
+        }
         drift(fluid, dt / 2);
         move_walls(sim, sim.clock.time + dt / 2, sim.clock.time + dt / 2);
         fly_bodies(sim, dt / 2);
@@ -319,6 +330,9 @@ void step(Simulation& sim)
         load_solids(sim);
         sim.timer.begin("kick");
         kick(fluid, dt);
+        if (is_built<Sponges> && !sim.scene.sponges.empty()) {
+            damp_in_sponges(sim, dt);
+        }
         hold_fluid(sim, dt);
     }
     if (is_built<RigidMotion> && sim.plan.rigid) {

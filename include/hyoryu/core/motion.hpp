@@ -4,6 +4,7 @@
 
 #include "hyoryu/core/types.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace hyoryu {
@@ -14,6 +15,17 @@ struct Motion {
     Vec3 velocity{0, 0, 0};    // constant [m/s]
     std::vector<double> times; // ascending [s]
     std::vector<Vec3> places;  // displacement at each time [m]
+
+    /// What a paddle that absorbs waves does besides its path, along x.
+    struct Absorption {
+        double depth = 0;           // of the water at rest [m]
+        std::vector<double> levels; // asked for at the paddle, above still water, at `times` [m]
+        // Of the current step, set by the simulation.
+        double time = 0;     // from which it holds [s]
+        double place = 0;    // displacement at that time [m]
+        double velocity = 0; // [m/s]
+    };
+    std::optional<Absorption> absorption; // none: the path alone
 };
 
 /// Displacement at time t [m]. Between the points of a path each component is a monotone cubic
@@ -23,6 +35,10 @@ Vec3 displacement(const Motion& motion, double t);
 
 /// The derivative of the displacement [m/s].
 Vec3 velocity(const Motion& motion, double t);
+
+/// The level that the path of a paddle asks for at time t above still water, linear between its
+/// times and 0 outside of them [m].
+double asked_level(const Motion& motion, double t);
 
 /// Whether it ever moves.
 bool moves(const Motion& motion);

@@ -17,13 +17,15 @@ namespace hyoryu {
 
 /// A ball; contact is exact.
 struct Ball {
-    double radius = 0; // [m]
+    double radius = 0;    // [m]
+    Vec3 middle{0, 0, 0}; // of the ball, from the centre of mass [m]
 };
-/// A circular cylinder about the body's x axis; contact is exact. In two dimensions it is the
+/// A circular cylinder along the body's x axis; contact is exact. In two dimensions it is the
 /// rectangle of its lengthwise section.
 struct Rod {
-    double radius = 0; // [m]
-    double length = 0; // [m]
+    double radius = 0;    // [m]
+    double length = 0;    // [m]
+    Vec3 middle{0, 0, 0}; // of the cylinder, from the centre of mass [m]
 };
 /// A convex polytope: a box, or the hull of a mesh or of a particle aggregate.
 struct Polytope {
@@ -41,6 +43,9 @@ using ContactShape = std::variant<Ball, Rod, Polytope, Compound>;
 /// is 2.
 Polytope box_polytope(const Vec3& size, int dimensions);
 
+/// The shape moved by `way` in body axes [m].
+ContactShape moved(ContactShape shape, const Vec3& way);
+
 /// The convex hull of the points; nearly coplanar triangles are merged into faces. The points must
 /// span a volume. Source: incremental hull, de Berg et al. (2008), ch. 11.
 Polytope convex_hull(const std::vector<Vec3>& points);
@@ -51,7 +56,8 @@ struct MassProperties {
     Mat3 inertia = Mat3::Identity(); // I_b [kg m2]; kg m in two dimensions
 };
 
-/// The exact mass properties of a shape of uniform density; the parts of a compound must not
+/// The exact mass properties of a shape of uniform density, about its own centre wherever the
+/// origin is; the parts of a compound must not
 /// overlap for that. Two dimensions: per metre of width, and the inertia about y is that of the
 /// cross-section in the x-z plane.
 MassProperties mass_properties(const ContactShape& shape, double density, int dimensions);

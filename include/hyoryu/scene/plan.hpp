@@ -56,8 +56,31 @@ struct Plan {
         bool listed = false;                  // by `contact.pair`
     };
 
+    /// How a body floats, for `check`.
+    struct FloatingBody {
+        std::string name;      // of the first of equal bodies
+        Index count = 1;       // of them
+        double draft = 0;      // as it is placed [m]
+        double spacings = 0;   // draft over spacing
+        double metacentre = 0; // GM as it is placed, the least [m]; NaN where it sinks
+        std::string comes_to;  // "floats upright", "turns by 58 deg: its +y side up" ...
+    };
+    /// What the resolution and the speed of sound mean at the scale of the scene.
+    struct Scale {
+        double depth = 0;         // of the water at the start, the greatest [m]
+        double layers = 0;        // spacings in it
+        double thinnest = 0;      // body [m]; 0: none
+        double speed = 0;         // largest expected speed [m/s]
+        double shortest_load = 0; // 4 dp / c0 [s]
+        double viscosity = 0;     // of the scheme [m2/s]
+        double reynolds = 0;      // speed depth / viscosity; infinity without viscosity
+        std::vector<std::string> absent;
+    };
+
     std::vector<Effect> on;
     std::vector<Effect> off;
+    std::vector<FloatingBody> floating;
+    std::optional<Scale> scale; // none without fluid
     std::vector<FieldUse> fields;
     std::vector<PairKind> pair_kinds;
     std::vector<MaterialContact> materials; // by name

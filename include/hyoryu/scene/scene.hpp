@@ -27,7 +27,8 @@ struct Place {
     int length = 1;
 };
 
-// Shapes. A body's shape is given about its centre of mass; a wall's or a fluid block's in space.
+// Shapes. A body's shape is given about its middle, the centre of its volume; a wall's or a fluid
+// block's in space.
 
 struct BoxShape {
     Vec3 size{0, 0, 0}; // edge lengths [m]; in two dimensions y is ignored
@@ -127,8 +128,18 @@ struct SolidWall {
 struct Wall {
     std::string name;
     std::variant<PlaneWall, BasinWall, RoundWall, SolidWall> geometry;
-    std::string material; // empty: none named
-    Motion motion;        // of [wall.motion]
+    std::string material;   // empty: none named
+    Motion motion;          // of [wall.motion]
+    double wave_length = 0; // of the waves that it makes [m]; 0: none known
+    Place place;
+};
+
+/// A box in which the motion of the fluid is damped, more and more towards one side.
+struct Sponge {
+    Vec3 min{0, 0, 0}; // [m]
+    Vec3 max{0, 0, 0}; // [m]
+    int side = 1;      // of the strongest damping: 0 -x, 1 +x, 2 -y, 3 +y
+    double depth = 0;  // of the water at rest [m]
     Place place;
 };
 
@@ -138,10 +149,12 @@ struct BodySettings {
     double density = 0;     // [kg/m3]; derived when a mass is given
     double mass = 0;        // [kg], kg/m in two dimensions; derived when a density is given
     Vec3 position{0, 0, 0}; // of the centre of mass [m]
-    Quat rotation = Quat::Identity(); // body to world
-    Vec3 velocity{0, 0, 0};           // [m/s]
-    Vec3 angular_velocity{0, 0, 0};   // world axes [rad/s]
-    double spacing = 0;               // of its particles [m]; the scene's unless the user set one
+    Quat rotation = Quat::Identity();   // body to world
+    std::optional<Vec3> centre_of_mass; // from the middle of the shape, body axes [m]
+    std::optional<Vec3> inertia;        // Ixx, Iyy, Izz about it, body axes [kg m2]
+    Vec3 velocity{0, 0, 0};             // [m/s]
+    Vec3 angular_velocity{0, 0, 0};     // world axes [rad/s]
+    double spacing = 0;                 // of its particles [m]; the scene's unless the user set one
     std::string material;
     bool fixed = false;
     bool sealed = false;         // no water gets under it while it stands: `stands = "sealed"`
@@ -206,6 +219,7 @@ struct Scene {
     std::optional<DomainSettings> domain;
     std::optional<FluidSettings> fluid;
     std::vector<Wall> walls;
+    std::vector<Sponge> sponges;
     std::vector<BodySettings> bodies; // copies written out
     ContactSettings contact;
     std::vector<Gauge> gauges;

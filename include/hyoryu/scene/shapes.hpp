@@ -32,6 +32,15 @@ struct Placed {
     int dimensions = 3;
 };
 
+/// The middle of the shape of a body from its centre of mass, in body axes [m].
+Vec3 middle_of_shape(const BodySettings& body);
+
+/// Moves points about the middle of its shape to axes about its centre of mass.
+void move_to_middle(const BodySettings& body, std::vector<Vec3>& points);
+
+/// The shape of a body where it is at the start.
+Placed placed(const BodySettings& body, int dimensions);
+
 /// Volume [m3], or area [m2] in two dimensions.
 double volume(const Shape& shape, int dimensions);
 

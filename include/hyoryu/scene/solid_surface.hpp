@@ -48,6 +48,7 @@ struct SolidSurface {
     Vec3 centre{0, 0, 0};             // of its axes: where it is at time 0 [m]
     Quat rotation = Quat::Identity(); // of its axes to those of the world at time 0
     double reach = infinity;          // from the centre to its farthest point [m]
+    Vec3 middle{0, 0, 0};             // of a body: of its shape, from the centre of mass [m]
 };
 
 /// The surface of a wall at time 0. `thickness`: of the sides of a basin [m].

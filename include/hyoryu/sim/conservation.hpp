@@ -24,7 +24,7 @@ struct Totals {
 struct Conservation {
     Totals start;
     double contact_loss = 0;        // energy lost in contacts [J]
-    Vec3 wall_impulse{0, 0, 0};     // by walls and locked axes on fluid and bodies [N s]
+    Vec3 wall_impulse{0, 0, 0};     // by walls, locked axes and sponges on fluid and bodies [N s]
     Vec3 gravity_impulse{0, 0, 0};  // [N s]
     double worst_closure = 0;       // largest |dP - impulses| of a step over the momentum scale [1]
     double worst_density_error = 0; // largest |rho/rho0 - 1| of the fluid so far

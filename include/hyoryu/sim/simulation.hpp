@@ -12,6 +12,7 @@
 #include "hyoryu/sim/conservation.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/wall_barrier.hpp"
+#include "hyoryu/sim/waves.hpp"
 
 #include <map>
 #include <optional>
@@ -37,6 +38,7 @@ struct Simulation {
     std::vector<Pose> poses;      // of the bodies when the loads were taken
     Loads loads;
     Seepage seepage; // of the joints of standing bodies
+    Waves waves;
     Clock clock;
     Conservation conservation;
     GaugeMemory gauges;

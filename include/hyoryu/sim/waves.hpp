@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Waves at the ends of a flume: boxes that damp the motion of the fluid, and paddles that give way
+// to what comes towards them.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+struct Simulation;
+
+/// A paddle that absorbs, beside what its wall moves by (`Motion::Absorption`).
+struct Absorber {
+    std::size_t wall = 0;
+    double side = 1;          // +1: the water is on its +x side, -1: on the other
+    double face = 0;          // x of that side at time 0 [m]
+    double low = 0, high = 0; // its extent in y [m]
+    double still = 0;         // weighted count of the particles before it at the start
+    double level = 0;         // of the water before it, filtered [m]
+};
+
+struct Waves {
+    std::vector<Absorber> absorbers;
+    Vec3 sponge_impulse{0, 0, 0}; // of the sponges on the fluid in the last step [N s]
+};
+
+/// The absorbers of a scene whose fluid has its first lists; none without fluid.
+Waves make_waves(const Simulation& sim);
+
+/// Sets the speeds by which the paddles give way in the step from now on. The level before a paddle
+/// is that of the particles within 4 spacings of it, weighted by their nearness and compared with
+/// the start; it is smoothed over 4 dp/sqrt(g d), about the time of a wave across that strip. The
+/// paddle adds (asked - level) sqrt(g/d), which sends a long wave on as if the flume had no end.
+/// Schaeffer and Klopman, J. Waterway Port Coast. Ocean Eng. 126 (2000) 88.
+void absorb_waves(Simulation& sim, double dt);
+
+/// Damps the velocities in the sponges of the scene over dt: v exp(-r dt) with r = 10 s^2
+/// sqrt(g/d), s from 0 to 1 across a sponge. `Waves::sponge_impulse` is what it took.
+void damp_in_sponges(Simulation& sim, double dt);
+
+} // namespace hyoryu

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// The keys of debris: pieces of the library in arrays, stacks, or scattered over a yard.
+#pragma once
+
+#include "keys_bodies.hpp"
+#include "keys_walls.hpp"
+#include "place_debris.hpp"
+
+#include "hyoryu/scene/reader_hint.hpp"
+
+namespace hyoryu {
+
+inline std::vector<std::string_view> debris_names()
+{
+    std::vector<std::string_view> names;
+    for (const DebrisKind& kind : debris_library()) {
+        names.push_back(kind.name);
+    }
+    return names;
+}
+
+inline void check_state(TableReader& table, const DebrisKeys& debris)
+{
+    const DebrisKind& kind = debris_library()[debris.load.kind];
+    const auto known = std::ranges::find(kind.masses, debris.load.state, &DebrisNumber::name);
+    if (table.has("state") && known == kind.masses.end()) {
+        std::vector<std::string_view> states;
+        for (const DebrisNumber& mass : kind.masses) {
+            states.push_back(mass.name);
+        }
+        table.error("state", fmt::format("a {} has no state \"{}\"", kind.name, debris.load.state),
+                    "there is " + quoted_list(states) + "; `load` sets any cargo");
+    }
+    if (debris.load.load > 0 && kind.shape == DebrisShape::lying_cylinder) {
+        table.error("load", fmt::format("a {} has no inside", kind.name));
+    }
+    const bool open = kind.size.value.empty();
+    if (open != table.has("size")) {
+        table.error("size",
+                    open ? "is missing: a tank has the size of the case"
+                         : fmt::format("has no meaning, a {} has a size of its own", kind.name),
+                    "[diameter, height] in m");
+    }
+}
+
+inline void check_sizes(TableReader& table, const DebrisKeys& debris)
+{
+    for (std::size_t k = 0; debris.size && k < debris.size->size(); ++k) {
+        if (!((*debris.size)[k] > 0)) {
+            table.error_at("size", k, "must be above 0");
+        }
+    }
+}
+
+inline void find_polygon(TableReader& table, DebrisScatter& scatter, const std::string& file,
+                         const std::vector<Vec3>& corners, const Scene& scene)
+{
+    if (table.has("polygon") == table.has("corners")) {
+        table.error(table.has("polygon") ? "corners" : "",
+                    table.has("polygon") ? "give either `polygon` or `corners`, not both"
+                                         : "has no yard: give `polygon` or `corners`");
+        return;
+    }
+    for (const Vec3& corner : corners) {
+        scatter.polygon.push_back({corner.x(), corner.y()});
+    }
+    if (table.has("polygon")) {
+        if (const auto path = path_of_file(table, "polygon", file)) {
+            try {
+                scatter.polygon = read_polygon(*path);
+            } catch (const IoError& error) {
+                table.error("polygon", error.what(), "a GeoJSON file of one polygon");
+            }
+            const auto terrain = std::ranges::find_if(scene.walls, is_terrain);
+            if (terrain != scene.walls.end()) {
+                const Shape& shape = std::get<SolidWall>(terrain->geometry).shape;
+                into_axes_of(*std::get<MeshShape>(shape).terrain, scatter.polygon);
+            }
+        }
+    }
+    if ((table.sound("polygon") || table.sound("corners")) && scatter.polygon.size() < 3) {
+        table.error(table.has("polygon") ? "polygon" : "corners", "a yard needs three corners");
+    }
+}
+
+inline void place(TableReader& table, DebrisKeys& debris, const std::optional<DebrisArray>& array,
+                  const std::optional<DebrisScatter>& scatter, Scene& scene)
+{
+    const bool arrayed = array.has_value();
+    const bool scattered = scatter.has_value();
+    if (arrayed == scattered) {
+        table.error(arrayed ? "scatter" : "", arrayed ? "give either `array` or `scatter`, not both"
+                                                      : "has no place: give `array` or `scatter`");
+        return;
+    }
+    if (!table.reading().diagnostics.empty()) {
+        return; // walls or numbers are mistaken: no place follows from them
+    }
+    debris.array = array.value_or(DebrisArray{});
+    debris.scatter = scatter.value_or(DebrisScatter{});
+    const std::vector<std::string> faults = place_debris(debris, arrayed, scene);
+    for (const std::string& fault : faults) {
+        table.error(arrayed ? "array" : "scatter", fault);
+    }
+    for (auto k = scene.bodies.size() - debris.placed; k < scene.bodies.size(); ++k) {
+        claim_name(table, scene.bodies[k].name);
+    }
+}
+
+void keys_of(auto& keys, Is<DebrisArray> auto& array)
+{
+    constexpr double most = 1000;
+    keys.integer("count", array.count, 1, most, "1 .. 1000", "Number of pieces along x, y and z.",
+                 required);
+    keys.vector("pitch", array.pitch, "m",
+                "Distance from one piece to the next along x, y and z; 0 along z stacks them.",
+                required);
+    keys.vector("from", array.from, "m",
+                "Place of the middle of the first piece: x, y, and without `on` z.", required, 2);
+    keys.number("turn_deg", array.turn_deg, "deg", "Rotation of every piece about z, in 3-D.");
+    keys.text("on", array.on,
+              "\"ground\" drops every piece to rest on the walls, its lowest corner 1 mm above "
+              "them; the name of a wall, on that wall. Upper pieces of a stack keep their pitch.");
+}
+
+void keys_of(auto& keys, Is<DebrisScatter> auto& scatter, auto& scene)
+{
+    constexpr double most = 10000;
+    std::string file;
+    std::vector<Vec3> corners;
+    keys.text("polygon", file,
+              "GeoJSON file of the yard, relative to the case file, in the coordinates of the "
+              "terrain if there is one.");
+    keys.path("corners", corners, "m",
+              "Corners of the yard in place of a file, [x, y, z] each, of which z is not read.",
+              no_default);
+    keys.integer("count", scatter.count, 1, most, "1 .. 10000", "Number of pieces.", required);
+    keys.not_negative("gap", scatter.gap, "m", "Least distance between two pieces.");
+    keys.numbers("turn_deg", scatter.turn_deg, "deg",
+                 "Least and largest rotation about z, between which each piece is turned.",
+                 "[0.0, 360.0]");
+    keys.text("on", scatter.on, "The wall that they lie on, or \"ground\" for all walls.",
+              "ground");
+    keys.rule(find_polygon, scatter, file, corners, scene);
+}
+
+void keys_of(auto& keys, Is<DebrisKeys> auto& debris, auto& scene)
+{
+    keys.choice("kind", debris.load.kind, debris_names(),
+                "Kind of the library; `hyoryu describe debris` lists sizes, masses and sources.",
+                required);
+    keys.rule(number_name, "debris", debris.name);
+    keys.text("name", debris.name, "Pieces are named NAME.1, NAME.2 ...", "debris.1, debris.2 ...");
+    keys.rule(check_name, "name", debris.name);
+    keys.text("state", debris.load.state, "Which mass of the library.", "empty");
+    keys.not_negative("load", debris.load.load, "kg", "Mass of cargo, besides that of the state.");
+    keys.fraction("load_height", debris.load.load_height,
+                  "Height of the centre of the cargo above the floor, as a part of the inside.");
+    keys.numbers("size", debris.size, "m", "Diameter and height of a tank.", no_default);
+    keys.rule(check_sizes, debris);
+    keys.rule(check_state, debris);
+    keys.text("material", debris.material, "Name of the material, for contact.pair.");
+    keys.rule(check_material, debris.material);
+    std::optional<DebrisArray> array;
+    std::optional<DebrisScatter> scatter;
+    keys.table("array", "Pieces in rows, columns and stacks.", array);
+    keys.table("scatter",
+               "Pieces at random places of a yard, drawn with the seed of the case: none nearer "
+               "than `gap` to another (random sequential addition).",
+               scatter, scene);
+    keys.rule(place, debris, array, scatter, scene);
+}
+
+} // namespace hyoryu

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// The keys of waves: pistons, gates and sponges.
+#pragma once
+
+#include "keys_shapes.hpp"
+
+#include "hyoryu/scene/piston.hpp"
+
+#include <numbers>
+
+namespace hyoryu {
+
+/// [wall.motion.piston]: a solitary wave, or regular waves.
+struct PistonWave {
+    std::optional<double> solitary_height, height; // [m]
+    SolitaryTheory theory = SolitaryTheory::boussinesq;
+    WaveTrain train;
+};
+
+/// [wall.motion.lift]
+struct Lift {
+    double start = 0; // [s]
+    double speed = 0; // [m/s]
+};
+
+inline void find_wave(TableReader& table, const PistonWave& wave)
+{
+    if (wave.solitary_height && wave.height) {
+        table.error("height", "give either `solitary_height` or `height`, not both");
+    } else if (!table.has("solitary_height") && !table.has("height")) {
+        table.error("solitary_height",
+                    "is missing: give `solitary_height`, or `height` and `period`",
+                    "Height of a solitary wave; a paddle that only absorbs has `absorb`, `depth` "
+                    "and no `piston`");
+    }
+}
+
+inline void refuse_second_crests(TableReader& table, const PistonWave& wave, double gravity)
+{
+    const double most = 8 * sq(std::numbers::pi) / 3;
+    const double number = ursell_number(wave.train, gravity);
+    if (wave.train.order == 2 && number > most) {
+        table.error("height",
+                    fmt::format("H L^2 / d^3 is {:.3g}, above 8 pi^2 / 3 = {:.3g}: the second "
+                                "order would have a second crest in every trough",
+                                number, most),
+                    "a lower or shorter wave, or deeper water; order = 1 is taken as it is");
+    }
+}
+
+inline void move_as_piston(TableReader& table, PistonWave& wave, Wall& wall, double gravity,
+                           double end)
+{
+    if (!table.sound("depth") || !(wave.solitary_height || wave.height)) {
+        return;
+    }
+    const double depth = wave.train.depth;
+    if (!(gravity > 0)) {
+        table.error("depth", "there are no waves without `gravity`");
+    } else if (wave.solitary_height) {
+        wall.motion = solitary_piston(*wave.solitary_height, depth, gravity, wave.theory);
+        wall.wave_length = solitary_length(*wave.solitary_height, depth, wave.theory);
+    } else if (table.sound("period")) {
+        constexpr double most_periods = 15000; // 64 points each, a million in all
+        wave.train.height = *wave.height;
+        if (!(end / wave.train.period <= most_periods)) {
+            table.error("period", fmt::format("the run would hold {:.3g} periods, at most {} are "
+                                              "allowed",
+                                              end / wave.train.period, most_periods));
+            return;
+        }
+        refuse_second_crests(table, wave, gravity);
+        wall.motion = regular_piston(wave.train, gravity, end);
+        wall.wave_length = 2 * std::numbers::pi / wave_number(wave.train.period, depth, gravity);
+    }
+    if (wall.motion.absorption) {
+        wall.motion.absorption->depth = depth;
+    }
+}
+
+inline void lift_gate(TableReader& table, const Lift& lift, Motion& motion, double spacing,
+                      double end)
+{
+    if (table.sound("speed") && lift.speed > 0) {
+        motion = lifted_gate(lift.start, lift.speed, spacing / 2, end);
+    }
+}
+
+void keys_of(auto& keys, Is<PistonWave> auto& wave, auto& wall, double gravity, double end)
+{
+    keys.positive("solitary_height", wave.solitary_height, "m", "Height of a solitary wave.",
+                  no_default);
+    keys.positive("height", wave.height, "m", "Height of regular waves, from trough to crest.",
+                  no_default);
+    keys.rule(find_wave, wave);
+    keys.positive("depth", wave.train.depth, "m", "Depth of the water at rest.", needed);
+    if (keys.applies(wave.height.has_value())) {
+        keys.positive("period", wave.train.period, "s", "Period of regular waves.", needed);
+        keys.integer("order", wave.train.order, 1, 2, "1 or 2",
+                     "Order of the motion for regular waves: 2 adds the second harmonic, without "
+                     "which the paddle sheds a free wave of twice the frequency (Madsen 1971).");
+        keys.rule(inherit, wave.train.ramp, wave.train.period);
+        keys.not_negative("ramp", wave.train.ramp, "s",
+                          "Time in which regular waves grow to their height.",
+                          "wall.motion.piston.period");
+    }
+    if (keys.applies(!wave.height.has_value())) {
+        keys.choice("theory", wave.theory, {"boussinesq", "rayleigh"},
+                    "Shape of the solitary wave; \"rayleigh\" is longer where the wave is high and "
+                    "leaves less of a tail.");
+    }
+    keys.rule(move_as_piston, wave, wall, gravity, end);
+}
+
+void keys_of(auto& keys, Is<Lift> auto& lift, auto& motion, double spacing, double end)
+{
+    keys.not_negative("start", lift.start, "s", "Time at which the gate starts to rise.");
+    keys.positive("speed", lift.speed, "m/s", "Speed at which it rises.", needed);
+    keys.rule(lift_gate, lift, motion, spacing, end);
+}
+
+inline void check_sponge(TableReader& table, const Sponge& sponge)
+{
+    if (table.reading().dimensions == 2 && sponge.side > 1) {
+        table.error("side", "in two dimensions there are \"-x\" and \"+x\"");
+    }
+}
+
+void keys_of(auto& keys, Is<Sponge> auto& sponge)
+{
+    keys.planar("min", sponge.min, "m", "Lower corner of the box of a sponge.", required);
+    keys.planar("max", sponge.max, "m", "Upper corner of the box of a sponge.", required);
+    keys.rule(check_corners, sponge.min, sponge.max);
+    keys.choice("side", sponge.side, {"-x", "+x", "-y", "+y"},
+                "The side of the box where it damps most; at the opposite side it begins.", "+x");
+    keys.positive("depth", sponge.depth, "m", "Depth of the water at rest.", required);
+    keys.rule(check_sponge, sponge);
+}
+
+} // namespace hyoryu

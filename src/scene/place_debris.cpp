@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "place_debris.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double clearance = 1e-3; // of a piece over the ground [m]
+// Ground that differs by more than this share of the height of a piece carries it on an edge only.
+constexpr double most_uneven = 0.5;
+constexpr int looks = 5; // at the ground under a piece, each way
+// Places that are tried for one piece before the yard counts as full.
+constexpr int most_tries = 2000;
+
+// Steele, Lea and Flood (2014): 64 bits of a counter, the same on every machine.
+class Dice {
+public:
+    Dice(std::uint64_t seed, const std::string& name) : state_(seed)
+    {
+        for (const char c : name) { // FNV-1a
+            state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+        }
+    }
+    /// From low to high, evenly.
+    double between(double low, double high)
+    {
+        state_ += 0x9e3779b97f4a7c15U;
+        std::uint64_t z = state_;
+        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+        z ^= z >> 31U;
+        return low + (high - low) * std::ldexp(static_cast<double>(z >> 11U), -53);
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+// The rectangle that a piece covers, counter-clockwise.
+std::vector<Plan2> footprint(const Vec3& extent, const Plan2& middle, double turn, double grown)
+{
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    const double a = extent.x() / 2 + grown;
+    const double b = extent.y() / 2 + grown;
+    std::vector<Plan2> corners;
+    for (const auto& [x, y] : {Plan2{-a, -b}, Plan2{a, -b}, Plan2{a, b}, Plan2{-a, b}}) {
+        corners.push_back({middle[0] + c * x - s * y, middle[1] + s * x + c * y});
+    }
+    return corners;
+}
+
+struct Rest {
+    double height = 0; // of the ground that carries the piece [m]
+    double uneven = 0; // highest less lowest ground under it [m]
+    bool whole = true; // ground under all of it
+};
+
+Rest rest_on(const Ground& ground, const std::vector<Plan2>& corners)
+{
+    Rest rest;
+    rest.height = ground.highest_under(corners);
+    double lowest = rest.height;
+    for (int i = 0; i < looks; ++i) {
+        for (int j = 0; j < looks; ++j) {
+            const double u = static_cast<double>(i) / (looks - 1);
+            const double v = static_cast<double>(j) / (looks - 1);
+            Plan2 p{};
+            for (std::size_t k = 0; k < 2; ++k) {
+                p[k] = corners[0][k] + u * (corners[1][k] - corners[0][k]) +
+                       v * (corners[3][k] - corners[0][k]);
+            }
+            const double z = ground.height_at(p);
+            rest.whole = rest.whole && z > -infinity;
+            lowest = std::min(lowest, z);
+        }
+    }
+    rest.uneven = rest.height - lowest;
+    return rest;
+}
+
+// Why a piece cannot stand there; empty if it can.
+std::string fault_of(const Rest& rest, double height, const Plan2& at)
+{
+    if (!rest.whole) {
+        return fmt::format("has no ground under all of it at ({:.4g}, {:.4g}) m", at[0], at[1]);
+    }
+    if (rest.uneven > most_uneven * height) {
+        return fmt::format("would stand on an edge at ({:.4g}, {:.4g}) m: the ground under it "
+                           "differs by {:.3g} m",
+                           at[0], at[1], rest.uneven);
+    }
+    return {};
+}
+
+class Placing {
+public:
+    Placing(DebrisKeys& debris, Scene& scene)
+        : debris_(debris), scene_(scene), piece_(debris_piece(debris.load, scene.dimensions))
+    {
+        piece_.body.material = debris.material;
+        piece_.body.spacing = scene.spacing;
+        piece_.body.place = debris.place;
+    }
+
+    const Vec3& extent() const { return piece_.extent; }
+
+    // Puts the middle of a piece somewhere, turned about z.
+    void put(const Vec3& middle, double turn)
+    {
+        BodySettings body = piece_.body;
+        body.rotation = Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) * piece_.upright;
+        body.position = middle;
+        if (body.centre_of_mass) {
+            body.position += body.rotation * *body.centre_of_mass;
+        }
+        if (scene_.dimensions == 2) {
+            body.position.y() = 0;
+        }
+        ++debris_.placed;
+        body.name = fmt::format("{}.{}", debris_.name, debris_.placed);
+        scene_.bodies.push_back(std::move(body));
+    }
+
+private:
+    DebrisKeys& debris_;
+    Scene& scene_;
+    DebrisPiece piece_;
+};
+
+double reach_of(const Scene& scene, double own)
+{
+    double far = own;
+    for (const Wall& wall : scene.walls) {
+        if (const auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
+            far = std::max(far, plane->point.norm());
+        }
+    }
+    return 10 * (far + 1);
+}
+
+Ground ground_for(const Scene& scene, const std::string& on, double far)
+{
+    return {scene.walls, on == "ground" ? "" : on, reach_of(scene, far), scene.dimensions};
+}
+
+std::string unknown_ground(const Scene& scene, const std::string& on)
+{
+    const bool known = on.empty() || on == "ground" ||
+                       std::ranges::find(scene.walls, on, &Wall::name) != scene.walls.end();
+    return known ? ""
+                 : fmt::format("`on` is \"{}\", expected \"ground\" or the name of a wall", on);
+}
+
+std::vector<std::string> place_array(DebrisKeys& debris, Scene& scene)
+{
+    std::vector<std::string> faults;
+    const DebrisArray& array = debris.array;
+    Placing placing(debris, scene);
+    const Vec3& extent = placing.extent();
+    auto count = array.count;
+    count[1] = scene.dimensions == 2 ? 1 : count[1];
+    const double storey = array.pitch.z() > 0 ? array.pitch.z() : extent.z();
+    if (count[2] > 1 && storey < extent.z() * (1 - 1e-9)) {
+        faults.push_back(fmt::format("a stack with a pitch of {:.4g} m overlaps: the pieces are "
+                                     "{:.4g} m high",
+                                     storey, extent.z()));
+    }
+    const double turn = scene.dimensions == 2 ? 0 : array.turn_deg * std::numbers::pi / 180;
+    const double far = array.from.norm() +
+                       static_cast<double>(count[0]) * std::abs(array.pitch.x()) +
+                       static_cast<double>(count[1]) * std::abs(array.pitch.y()) + extent.norm();
+    const Ground ground = ground_for(scene, array.on, far);
+    for (std::int64_t n = 0; n < count[0] * count[1] && faults.empty(); ++n) {
+        const double i = static_cast<double>(n % count[0]);
+        const double j = static_cast<double>(n / count[0]);
+        const Plan2 at{array.from.x() + i * array.pitch.x(), array.from.y() + j * array.pitch.y()};
+        double z = array.from.z();
+        if (!array.on.empty()) {
+            const Rest rest = rest_on(ground, footprint(extent, at, turn, 0));
+            const std::string fault = fault_of(rest, extent.z(), at);
+            if (!fault.empty()) {
+                faults.push_back("a piece " + fault);
+            }
+            z = rest.height + clearance + extent.z() / 2;
+        }
+        for (std::int64_t k = 0; k < count[2]; ++k) {
+            placing.put({at[0], at[1], z + static_cast<double>(k) * storey}, turn);
+        }
+    }
+    return faults;
+}
+
+struct Spot {
+    Plan2 at{};
+    double turn = 0;
+    double ground = 0;
+    std::vector<Plan2> covered; // with half of the gap around it
+};
+
+// A place in the yard that is free, by random sequential addition; false if none was found.
+bool find_spot(const DebrisScatter& scatter, const Vec3& extent, const Ground& ground,
+               const std::vector<Spot>& taken, Dice& dice, Spot& spot)
+{
+    Plan2 low{infinity, infinity};
+    Plan2 high{-infinity, -infinity};
+    for (const Plan2& corner : scatter.polygon) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            low[k] = std::min(low[k], corner[k]);
+            high[k] = std::max(high[k], corner[k]);
+        }
+    }
+    for (int n = 0; n < most_tries; ++n) {
+        spot.at = {dice.between(low[0], high[0]), dice.between(low[1], high[1])};
+        spot.turn = dice.between(scatter.turn_deg[0], scatter.turn_deg[1]) * std::numbers::pi / 180;
+        const std::vector<Plan2> own = footprint(extent, spot.at, spot.turn, 0);
+        if (!holds_all(scatter.polygon, own)) {
+            continue;
+        }
+        spot.covered = footprint(extent, spot.at, spot.turn, scatter.gap / 2);
+        const bool free = std::ranges::none_of(
+            taken, [&](const Spot& other) { return apart(spot.covered, other.covered) < 0; });
+        if (!free) {
+            continue;
+        }
+        const Rest rest = rest_on(ground, own);
+        if (fault_of(rest, extent.z(), spot.at).empty()) {
+            spot.ground = rest.height;
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<std::string> scatter_over_yard(DebrisKeys& debris, Scene& scene)
+{
+    const DebrisScatter& scatter = debris.scatter;
+    if (scene.dimensions == 2) {
+        return {"a yard has a width, so it needs three dimensions; use `array`"};
+    }
+    if (scatter.turn_deg[1] < scatter.turn_deg[0]) {
+        return {"the largest of `turn_deg` is below the least"};
+    }
+    Placing placing(debris, scene);
+    double far = 0;
+    for (const Plan2& corner : scatter.polygon) {
+        far = std::max(far, std::hypot(corner[0], corner[1]));
+    }
+    const Ground ground = ground_for(scene, scatter.on, far);
+    Dice dice(scene.seed, debris.name);
+    std::vector<Spot> taken;
+    while (std::ssize(taken) < scatter.count) {
+        Spot spot;
+        if (!find_spot(scatter, placing.extent(), ground, taken, dice, spot)) {
+            return {fmt::format("the yard has room for {} of {} pieces on level ground, after {} "
+                                "tries for the next",
+                                taken.size(), scatter.count, most_tries)};
+        }
+        placing.put({spot.at[0], spot.at[1], spot.ground + clearance + placing.extent().z() / 2},
+                    spot.turn);
+        taken.push_back(std::move(spot));
+    }
+    return {};
+}
+
+} // namespace
+
+std::vector<std::string> place_debris(DebrisKeys& debris, bool as_array, Scene& scene)
+{
+    if (debris.size) {
+        debris.load.size.assign(debris.size->begin(), debris.size->end());
+    }
+    const std::string unknown =
+        unknown_ground(scene, as_array ? debris.array.on : debris.scatter.on);
+    if (!unknown.empty()) {
+        return {unknown};
+    }
+    return as_array ? place_array(debris, scene) : scatter_over_yard(debris, scene);
+}
+
+} // namespace hyoryu

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What a plan says of floating bodies, of waves, and of the scale of the scene.
+#pragma once
+
+#include "hyoryu/scene/plan.hpp"
+
+namespace hyoryu {
+
+/// Draft, GM and resting side of each body that floats; warns of drafts below the spacing and of
+/// bodies that turn.
+void list_floating(const Scene& scene, Plan& plan);
+
+/// Resolution, shortest load, viscosity of the scheme and effective Reynolds number; warns where
+/// the last is below 100.
+void list_scale(const Scene& scene, const Filling& filling, double viscosity, Plan& plan);
+
+/// Warns of sponges shorter than a wave and of gates that open slowly.
+void check_waves(const Scene& scene, const Filling& filling, Plan& plan);
+
+} // namespace hyoryu
