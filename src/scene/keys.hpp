@@ -196,16 +196,17 @@ public:
         rule.shortest = rule.longest = 4;
         self().key(rule, member, no_default);
     }
-    /// Numbers or vectors, one for each point of a path.
+    /// Numbers or vectors, one for each point of a path, so many at least.
     template <class Path>
-    void path(Text name, Path& member, Text unit, Text meaning)
+    void path(Text name, Path& member, Text unit, Text meaning, Default fallback = needed,
+              int shortest = 2)
     {
         constexpr int most_points = 1000000;
         constexpr bool scalar = std::same_as<typename Path::value_type, double>;
         Parameter rule = row(name, scalar ? ValueKind::vector : ValueKind::vectors, unit, meaning);
-        rule.shortest = 2;
+        rule.shortest = shortest;
         rule.longest = most_points;
-        self().key(rule, member, needed);
+        self().key(rule, member, fallback);
     }
     /// One of the names, of which the value of the member is the number; false if it is mistaken.
     template <class T>

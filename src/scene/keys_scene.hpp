@@ -6,6 +6,7 @@
 #include "keys_contact.hpp"
 #include "keys_fluid.hpp"
 #include "keys_gauges.hpp"
+#include "keys_open.hpp"
 #include "keys_walls.hpp"
 
 namespace hyoryu {
@@ -192,6 +193,8 @@ void keys_of(auto& keys, Is<Scene> auto& scene)
     keys.table("fluid", "The fluid; without this table no fluid is simulated.", scene.fluid);
     keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
                 scene.gravity.norm(), scene.spacing);
+    keys.tables("open", "A window in a side of the domain through which fluid enters and leaves.",
+                scene.open, scene);
     keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,
                 scene);
     keys.rule(check_bodies, scene.bodies);

@@ -106,6 +106,10 @@ void drift(Fluid& fluid, real dt);
 /// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and
 /// drops those outside the domain when it does. Positions must be finite.
 void update_neighbours(Fluid& fluid);
+/// The two halves of it, between which a caller may add and remove fluid rows: whether lists are
+/// due, or asked for, and their making.
+bool lists_are_due(Fluid& fluid, bool asked);
+void make_lists(Fluid& fluid);
 /// Gives rows to the fixed walls near the tiles of fluid and bodies, as lists do that are made
 /// anew: a restart needs them for the columns of solids.
 void place_fixed_walls(Fluid& fluid);

@@ -10,6 +10,7 @@
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/geometry/height_grid.hpp"
 #include "hyoryu/rigid/law.hpp"
+#include "hyoryu/scene/open_settings.hpp"
 
 #include <array>
 #include <filesystem>
@@ -19,13 +20,6 @@
 #include <vector>
 
 namespace hyoryu {
-
-/// Where in the case file something was said, for messages that come after reading.
-struct Place {
-    int line = 0;
-    int column = 0;
-    int length = 1;
-};
 
 // Shapes. A body's shape is given about its centre of mass; a wall's or a fluid block's in space.
 
@@ -209,6 +203,7 @@ struct Scene {
     ContactSettings contact;
     std::vector<Gauge> gauges;
     OutputSettings output;
+    std::vector<OpenSettings> open; // sides through which fluid enters and leaves
 };
 
 } // namespace hyoryu
