@@ -132,6 +132,9 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
     check.against = read_against(section, check.same_as.empty() ? against : Against::itself);
     try {
         if (!check.same_as.empty()) {
+            if (!check.quantity.since.empty()) {
+                section.error("since", "cannot stand beside `same_as`");
+            }
             find_same(section, check, benchmark);
         }
     } catch (const FormulaError& fault) {
@@ -162,6 +165,12 @@ Quantity read_quantity(Section& check)
     quantity.index = static_cast<int>(check.integer("index", 1));
     quantity.time = check.expression("time");
     quantity.level = check.expression("level");
+    quantity.since = check.expression("since");
+    if (!quantity.since.empty() &&
+        (quantity.band.has_value() || is_error_measure(quantity.measure))) {
+        check.error("since", "has no meaning for this measure",
+                    "it subtracts the same measure of another expression, such as a peak_time");
+    }
     quantity.from = check.expression("from");
     quantity.until = check.expression("until");
     if (quantity.index < 1) {
@@ -233,6 +242,10 @@ int read_expectation(Section& section, Expectation& expected)
 {
     expected.formula = section.expression("expected");
     if (auto reference = section.table("reference")) {
+        if (section.has("since")) {
+            section.error("since", "cannot stand beside `reference`",
+                          "give `expected` as a number");
+        }
         expected.reference = read_series(*reference, "value");
         reference->require("file");
         reference->finish();

@@ -247,9 +247,20 @@ ValuesAt values_at(const Samples& run, const Samples& rows, const char* of)
 
 Measured measured(const Quantity& quantity, MadeRun& made)
 {
-    return quantity.band
-               ? share_within(quantity, made.scope, made.files)
-               : measure(quantity, made.scope, samples(quantity.series, made.scope, made.files));
+    if (quantity.band) {
+        return share_within(quantity, made.scope, made.files);
+    }
+    const auto of = [&](const std::string& value) {
+        Series series = quantity.series;
+        series.value = value;
+        return measure(quantity, made.scope, samples(series, made.scope, made.files));
+    };
+    const Measured own = of(quantity.series.value);
+    if (quantity.since.empty()) {
+        return own;
+    }
+    const Measured start = of(quantity.since);
+    return {own.value - start.value, own.why.empty() ? start.why : own.why};
 }
 
 /// The reference of the run over time: the same quantity in another run, or a file.

@@ -190,6 +190,33 @@ TEST_F(Verdicts, ARunIsHeldAgainstTheSameQuantityInAnother)
     EXPECT_EQ(results(1)[0].verdict, Verdict::fail) << "without its reference";
 }
 
+// A crest passes two gauges, 3 m apart, at a speed and with a distance between rows of many kinds.
+TEST_F(Verdicts, TheTimeBetweenTwoCrests)
+{
+    for (const auto& [speed, step] : {std::pair(1.5, 0.01), {0.4, 0.05}, {7.0, 0.003}}) {
+        std::string rows = "time,near,far\n";
+        for (int k = 0; k * step < 1 + 4 / speed; ++k) {
+            const auto level = [&](double x) {
+                return std::exp(-std::pow((k * step - 0.5) * speed - x, 2));
+            };
+            rows += fmt::format("{},{},{}\n", k * step, level(0), level(3));
+        }
+        std::filesystem::create_directories(folder / "crests");
+        put_text_into(folder / "crests" / "gauges.csv", rows);
+        Benchmark benchmark;
+        benchmark.folder = folder;
+        benchmark.runs = {{.name = "crests"}};
+        Check delay = check("0", "1");
+        delay.quantity = {.series = {.file = "gauges", .value = "far"},
+                          .measure = Measure::peak_time,
+                          .since = "near"};
+        benchmark.checks = {delay};
+        const RunResult made = judge_run(benchmark, benchmark.runs[0], folder / "crests", "");
+        // The parabola through three rows is exact to the fourth power of their distance.
+        EXPECT_NEAR(made.checks[0].got, 3 / speed, 1e-2 * step) << speed;
+    }
+}
+
 TEST_F(Verdicts, AStoppedRunFailsAllItsChecksEvenKnownFailures)
 {
     Benchmark benchmark;

@@ -104,6 +104,7 @@ struct Quantity {
     int index = 1;     // from 1
     std::string time;  // [s]
     std::string level; // in the unit of the value; of an oscillation, if empty, its mean
+    std::string since; // expression of the rows whose measure is subtracted; may be empty
     std::string from;  // only rows from this time on [s]; may be empty
     std::string until; // only rows until this time [s]; may be empty
 };

@@ -35,7 +35,7 @@ struct DebrisKind {
     std::vector<DebrisNumber> stiffness; // for reports [N/m]
 };
 
-/// share/hyoryu/debris.toml as it is part of this program.
+/// The file `debris.toml` of the library as it is part of this program.
 std::string_view debris_library_text();
 
 /// The kinds in the order of the library.
