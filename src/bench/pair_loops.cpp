@@ -60,7 +60,8 @@ void sweep_all(Fluid& fluid)
                                        n.fluid.lattice.edge,
                                        fluid.kernel};
             const auto rows = static_cast<std::size_t>(chunk_slots * n.fluid_fluid.most_chunks());
-            std::byte* const local = data.local[0].at_least(rows * sizeof(RecordRow<Stored, Real>));
+            RecordMemory memory;
+            std::byte* const local = memory.at_least(rows * sizeof(RecordRow<Stored, Real>));
             for (Index b = 0; b < static_cast<Index>(n.fluid_fluid.blocks().size()); ++b) {
                 loops.all_terms(view, b, local, terms);
             }
