@@ -21,6 +21,7 @@ constexpr double largest_turn = 0.1;     // of a step downhill [rad]
 constexpr double at_rest = 1e-6;         // lever of a state of rest over the size of the body
 constexpr double small_turn = 1e-7;      // with which the search ends [rad]
 constexpr double least_part = 1e-6;      // of a turn, where none goes further downhill
+constexpr double facets = 0.03;          // of the radius: the error of GM by facets of round shapes
 constexpr int most_turns = 300;
 
 struct Part {
@@ -47,10 +48,20 @@ std::vector<Vec3> below(const std::array<Vec3, 3>& t, const Vec3& up, double lev
     return kept;
 }
 
+double radius_of(const Shape& shape)
+{
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+        return sphere->radius;
+    }
+    const auto* cylinder = std::get_if<CylinderShape>(&shape);
+    return cylinder != nullptr ? cylinder->radius : 0;
+}
+
 class Hull {
 public:
     Hull(const BodySettings& body, int dimensions)
-        : dimensions_(dimensions), surface_(triangles_of(body.shape, dimensions))
+        : dimensions_(dimensions), surface_(triangles_of(body.shape, dimensions)),
+          neutral_(facets * radius_of(body.shape))
     {
         move_to_middle(body, surface_.corners);
         for (const Vec3& corner : surface_.corners) {
@@ -60,6 +71,8 @@ public:
     }
 
     double size() const { return size_; }
+    // A lever and a metacentric height up to which facets cannot be told from a round shape [m].
+    double neutral() const { return neutral_; }
     int dimensions() const { return dimensions_; }
 
     // What lies below the level: by cones over the surface from a point of the level, whose cap
@@ -126,6 +139,7 @@ private:
 
     int dimensions_;
     TriangleSurface surface_; // about the centre of mass
+    double neutral_ = 0;      // [m]
     double size_ = 0;         // [m]
     double whole_ = 0;        // volume of the facets
 };
@@ -189,7 +203,8 @@ using Axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>;
 Flotation flotation_at(const Hull& hull, const Vec3& up, double share)
 {
     const State state = state_of(hull, up, share);
-    const double least = Axes(stiffness(hull, up, share)).eigenvalues()[0];
+    const double stiff = Axes(stiffness(hull, up, share)).eigenvalues()[0];
+    const double least = std::abs(stiff) < hull.neutral() ? 0 : stiff;
     return {state.level - hull.lowest(up), least, up, -state.level};
 }
 
@@ -221,6 +236,10 @@ Vec3 resting_direction(const Hull& hull, Vec3 up, double share)
     double here = state_of(hull, up, share).lever.dot(up);
     for (int turn = 0; turn < most_turns && part > least_part; ++turn) {
         const Vec3 slope = across(up, state_of(hull, up, share).lever, hull.dimensions());
+        if (slope.norm() < hull.neutral() &&
+            Axes(stiffness(hull, up, share)).eigenvalues()[0] > -hull.neutral()) {
+            break;
+        }
         const Vec3 way = part * turn_from(hull, up, slope, share);
         if (way.norm() < small_turn) {
             break;

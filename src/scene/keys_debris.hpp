@@ -107,6 +107,15 @@ inline void place(TableReader& table, DebrisKeys& debris, const std::optional<De
     }
 }
 
+inline void check_array_count(TableReader& table, const DebrisArray& array)
+{
+    constexpr std::int64_t most = 10000;
+    if (array.count[0] * array.count[1] * array.count[2] > most) {
+        table.error("count", fmt::format("asks for more than {} pieces", most),
+                    "use fewer pieces, or several cases");
+    }
+}
+
 void keys_of(auto& keys, Is<DebrisArray> auto& array)
 {
     constexpr double most = 1000;
@@ -117,6 +126,7 @@ void keys_of(auto& keys, Is<DebrisArray> auto& array)
                 required);
     keys.vector("from", array.from, "m",
                 "Place of the middle of the first piece: x, y, and without `on` z.", required, 2);
+    keys.rule(check_array_count, array);
     keys.number("turn_deg", array.turn_deg, "deg", "Rotation of every piece about z, in 3-D.");
     keys.text("on", array.on,
               "\"ground\" drops every piece to rest on the walls, its lowest corner 1 mm above "

@@ -95,7 +95,16 @@ std::string inertia_fault(const BodySettings& body, int dimensions)
                                "kg m2, which holds for no body",
                                name, I[axis], others);
         }
+        // A pole has 4e-4 of that about its axis; with less, contact turns the body about in
+        // every step.
+        constexpr double least_share = 1e-4;
         const double most = body.mass * sq(farthest(body, dimensions));
+        if (I[axis] < least_share * most) {
+            return fmt::format(
+                "I{0}{0} = {1:.6g} kg m2 is below {2:.6g} kg m2, a ten-thousandth of "
+                "that of all the mass at the farthest point of the shape",
+                name, I[axis], least_share * most);
+        }
         if (most > 0 && I[axis] > most * (1 + rounding)) {
             return fmt::format(
                 "I{0}{0} = {1:.6g} kg m2 exceeds {2:.6g} kg m2, that of all the mass "

@@ -73,7 +73,16 @@ std::vector<Plan2> read_polygon(const std::filesystem::path& file)
     };
     std::vector<json> rings;
     try {
-        collect(json::parse(bytes_of_file(file, largest_text)), rings);
+        constexpr int deepest = 16; // a MultiPolygon in a FeatureCollection has eight levels
+        bool too_deep = false;
+        const auto is_shallow = [&](int depth, json::parse_event_t, json&) {
+            too_deep = too_deep || depth > deepest;
+            return depth <= deepest;
+        };
+        collect(json::parse(bytes_of_file(file, largest_text), is_shallow), rings);
+        if (too_deep) {
+            throw fail(fmt::format("has more than {} levels, expected one polygon", deepest));
+        }
         if (rings.size() != 1) {
             throw fail(fmt::format("has {} polygons, expected one", rings.size()));
         }

@@ -101,7 +101,7 @@ void add(TriangleSurface& surface, const CylinderShape& cylinder, int dimensions
     auto left = circle_points(cylinder.radius, -end, Vec3::UnitY(), Vec3::UnitZ());
     for (std::size_t k = 0; k < right.size(); ++k) {
         const std::size_t next = (k + 1) % right.size();
-        add_polygon(surface, {left[k], right[k], right[next], left[next]});
+        add_polygon(surface, {left[k], left[next], right[next], right[k]});
     }
     add_polygon(surface, right);
     add_polygon(surface, {left.rbegin(), left.rend()});

@@ -122,7 +122,8 @@ TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
 {
     EXPECT_EQ(mistake(head + "tiers = \"quick\"\n"),
               "4:tiers: unknown key (did you mean \"tier\"?)");
-    EXPECT_EQ(mistake("title = \"t\"\ngroup = \"g\"\n").substr(2), "source: is missing ()");
+    EXPECT_EQ(mistake("title = \"t\"\ngroup = \"g\"\n").substr(2),
+              "source: is missing (write source = and its value)");
     EXPECT_NE(mistake(head + "[[check]]\nname = \"x\"\nvalue = \"x +\"\nmeasure = \"last\"\n"
                              "expected = 1\ntolerance = 1\nbecause = \"b\"\n")
                   .find("6:check[0].value: \"x +\" is not an expression"),

@@ -203,6 +203,7 @@ TEST_F(Verdicts, TheTimeBetweenTwoCrests)
         }
         std::filesystem::create_directories(folder / "crests");
         put_text_into(folder / "crests" / "gauges.csv", rows);
+        put_text_into(folder / "crests" / "summary.json", "{}");
         Benchmark benchmark;
         benchmark.folder = folder;
         benchmark.runs = {{.name = "crests"}};

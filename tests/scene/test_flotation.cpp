@@ -45,6 +45,33 @@ TEST(Flotation, SquareLogsLieAsGilbertFound)
     }
 }
 
+// A cylinder that lies has the draft of its section and is neutral about its axis; a sphere is
+// neutral about every axis.
+TEST(Flotation, RoundBodiesLieAtTheDraftOfTheirSection)
+{
+    Dice dice(static_cast<std::uint64_t>(number_from("HYORYU_SEED", 9)));
+    for (int k = 0; k < 20; ++k) {
+        const double radius = dice.between(0.1, 2);
+        const double half = dice.between(0.6, 2.6); // angle of the wet arc over 2
+        const double share = (half - std::sin(half) * std::cos(half)) / std::numbers::pi;
+        BodySettings body;
+        body.shape = CylinderShape{radius, 12 * radius};
+        body.mass = 1000 * share * std::numbers::pi * radius * radius * 12 * radius;
+        const auto lying = flotation(body, 1000, down, 3);
+        ASSERT_TRUE(lying);
+        // 32 sides: half a per cent of the radius.
+        EXPECT_NEAR(lying->as_placed.draft, radius * (1 - std::cos(half)), 0.01 * radius) << share;
+        EXPECT_EQ(lying->as_placed.metacentre, 0) << share;
+        EXPECT_LT(lying->tilt / degree, 0.1) << share;
+        body.shape = SphereShape{radius};
+        body.mass = 1000 * share * 4 * std::numbers::pi * radius * radius * radius / 3;
+        const auto ball = flotation(body, 1000, down, 3);
+        ASSERT_TRUE(ball);
+        EXPECT_EQ(ball->as_placed.metacentre, 0) << share;
+        EXPECT_LT(ball->tilt / degree, 0.1) << share;
+    }
+}
+
 // B^2 / (12 d) + d / 2 - KG of an upright box with its centre of mass anywhere on its axis.
 TEST(Flotation, BoxesWithCargoHaveTheMetacentricHeightOfTheirFormula)
 {
