@@ -39,7 +39,7 @@ Motion solitary_piston(double height, double depth, double gravity, SolitaryTheo
         return (theta + height / depth * std::tanh(theta)) / (k * c);
     };
     Motion motion;
-    motion.absorption.emplace();
+    motion.absorption = Motion::Absorption{};
     for (int n = 0; n < points; ++n) {
         const double theta = last_phase * (2.0 * n / (points - 1) - 1);
         motion.times.push_back(time(theta) + time(last_phase));
@@ -94,7 +94,7 @@ Motion regular_piston(const WaveTrain& wave, double gravity, double end)
                                                   (3 + 2 * sq(sinh)) / (sinh * sinh * sinh)
                                             : 0;
     Motion motion;
-    motion.absorption.emplace();
+    motion.absorption = Motion::Absorption{};
     const double step = wave.period / points_of_period;
     const auto count = static_cast<long long>(std::ceil(end / step)) + 1;
     for (long long n = 0; n <= count; ++n) {
