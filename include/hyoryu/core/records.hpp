@@ -43,7 +43,7 @@ using RecordList =
 /// Memory for the records of one list or another, in lines of the cache.
 class RecordMemory {
 public:
-    /// At least so many bytes, aligned to 64; they are not kept when the memory grows.
+    /// Memory of at least `bytes` bytes, aligned to 64; its contents are lost when it grows.
     std::byte* at_least(std::size_t bytes)
     {
         const std::size_t lines = (bytes + sizeof(Line) - 1) / sizeof(Line);
@@ -72,7 +72,7 @@ class Records {
 public:
     using Row = RecordRow<List, Real>;
 
-    /// For so many slots, and a chunk that begins at the last one.
+    /// Records of `slots` slots and of a chunk that begins at the last slot.
     Records(RecordMemory& memory, Index slots)
         : rows_(reinterpret_cast<Row*>(
               memory.at_least(static_cast<std::size_t>(slots + chunk_slots) * sizeof(Row))))
