@@ -50,7 +50,6 @@ struct PairData {
     }
 };
 
-/// What left the domain and was taken out of the run.
 /// A body particle behind a joint: the part of its film forces along the normal of the joint that
 /// the joint replaces. What acts along the joint stays: it is that of the fluid at the rim.
 struct FilmCut {
@@ -63,6 +62,7 @@ struct FilmCut {
                  0}; // force that the particle did not get, and that the other side gives back [N]
 };
 
+/// Sums over the particles that left the domain and were removed from the run.
 struct LostParticles {
     Index count = 0;
     Vec3 momentum{0, 0, 0}; // [kg m/s]
