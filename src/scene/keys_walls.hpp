@@ -43,7 +43,7 @@ inline void find_way(TableReader& table, MotionWay& way)
     }
 }
 
-/// A step between two points of a path that is no motion on Earth; empty if there is none.
+/// The fault of a path whose speed between two points exceeds the largest one; empty if none does.
 inline std::string fault_of_speed(const Motion& motion)
 {
     for (std::size_t k = 1; k < std::min(motion.times.size(), motion.places.size()); ++k) {

@@ -77,8 +77,8 @@ std::string lengths(const Parameter& rule, std::string_view what)
                : fmt::format("{} to {} {}", rule.shortest, rule.longest, what);
 }
 
-// What a key is for, where there is no better hint: of "wall[2].min[0]" the meaning of
-// "wall[].min".
+// The meaning of a key, as the hint of an error that has none of its own: of "wall[2].min[0]" the
+// meaning of "wall[].min".
 std::string meaning_of(const std::string& path)
 {
     std::string key;
