@@ -23,8 +23,8 @@ struct Floating {
     double tilt = 0;     // angle between the two [rad]
 };
 
-/// The flotation of a body in a fluid of that density, in the gravity of the scene; none if it does
-/// not float or if there is no gravity. The stable states are the minima of the height of the
+/// The flotation of a body in a fluid of that density, in the gravity of the scene; empty if the
+/// body sinks or gravity is zero. The stable states are the minima of the height of the
 /// centre of mass above the centre of buoyancy over all orientations; from the orientation of the
 /// case the nearest one downhill is searched. In two dimensions it turns about y alone.
 /// Source: Gilbert, SIAM Review 33 (1991) 201.
