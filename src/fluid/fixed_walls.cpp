@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
+// Steps of an update: tiles of walls that touch a tile of the fluid or of wet bodies are found from
+// these; the particles of those that are new are made as candidates; candidates within reach are
+// marked; the store is gathered anew from the rows that stay and from new ones.
 #include "hyoryu/fluid/fixed_walls.hpp"
 
+#include "hyoryu/core/vicinity.hpp"
+
 #include <algorithm>
+#include <atomic>
 
 namespace hyoryu {
 
@@ -12,100 +18,269 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// Finds the tiles of the walls that touch a tile with particles of any of `wet`.
-void find_near(FixedWalls& walls, const TileLattice& lattice, std::span<const Tiles* const> wet)
+Index index_of(const std::vector<std::uint64_t>& tiles, std::uint64_t number)
 {
-    const auto holds_any = [&](std::uint64_t tile) {
-        return std::ranges::any_of(wet, [&](const Tiles* t) { return t->find(tile) >= 0; });
-    };
-    std::vector<std::uint8_t>& near = walls.near;
-    near.assign(walls.tile.size(), 0);
-    parallel_blocks(0, static_cast<Index>(walls.tile.size()), [&](Index t) {
-        const auto place = TileLattice::place_of(walls.tile[at(t)]);
-        for (int way = 0; way < 27 && near[at(t)] == 0; ++way) {
+    const auto found = std::ranges::lower_bound(tiles, number);
+    return found != tiles.end() && *found == number ? found - tiles.begin() : -1;
+}
+
+// Marks the tiles of the walls that touch one of `tiles` for which `counts(index)` holds.
+void touch(FixedWalls& walls, const Tiles& tiles, const auto& counts)
+{
+    parallel_blocks(0, tiles.tiles(), [&](Index t) {
+        if (!counts(t)) {
+            return;
+        }
+        const auto place = TileLattice::place_of(tiles.tile[at(t)]);
+        for (int way = 0; way < 27; ++way) {
             const std::array<int, 3> to{way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};
-            near[at(t)] = holds_any(lattice.beside(place, to)) ? 1 : 0;
+            const Index found = index_of(walls.tile, tiles.lattice.beside(place, to));
+            if (found >= 0) {
+                std::atomic_ref(walls.touched[at(found)]).store(1, std::memory_order_relaxed);
+            }
         }
     });
 }
 
-void find_rows_of_places(FixedWalls& walls, const Store& store)
+// The tiles whose particles may be within reach, ascending.
+void find_near(FixedWalls& walls, const Waters& waters, std::vector<std::int32_t>& near)
 {
-    std::vector<std::int32_t>& row = walls.row_of_place;
-    row.assign(walls.place.size(), -1);
+    walls.wet_body.assign(at(waters.body.count()), 0);
+    mark_near(waters.body, waters.fluid, {}, waters.reach, walls.wet_body);
+    walls.touched.assign(walls.tile.size(), 0);
+    touch(walls, waters.fluid, [](Index) { return true; });
+    touch(walls, waters.body, [&](Index t) {
+        const auto first = walls.wet_body.begin() + waters.body.start[at(t)];
+        const auto last = walls.wet_body.begin() + waters.body.start[at(t + 1)];
+        return std::find(first, last, 1) != last;
+    });
+    near.clear();
+    for (std::size_t t = 0; t < walls.touched.size(); ++t) {
+        if (walls.touched[t] != 0) {
+            near.push_back(static_cast<std::int32_t>(t));
+        }
+    }
+}
+
+Index particles_in(const FixedWalls& walls, std::int32_t tile)
+{
+    Index count = 0;
+    for (std::int32_t k = walls.start[at(tile)]; k < walls.start[at(tile + 1)]; ++k) {
+        count += walls.run[at(k)].count;
+    }
+    return count;
+}
+
+// Makes the candidates of a tile, in the order of their cells and indices.
+void make_candidates(const FixedWalls& walls, std::int32_t tile, Tiles& candidates, Index slot)
+{
+    struct Made {
+        std::uint64_t cell;
+        std::int32_t index;
+        Vec3 place;
+    };
+    std::vector<Made> made;
+    for (std::int32_t k = walls.start[at(tile)]; k < walls.start[at(tile + 1)]; ++k) {
+        const IndexRun run = walls.run[at(k)];
+        for (std::int32_t index = run.first; index < run.first + run.count; ++index) {
+            const Vec3 place = walls.make(index).place;
+            made.push_back({candidates.lattice.cell_of(place), index, place});
+        }
+    }
+    std::ranges::sort(made, {}, [](const Made& m) { return std::pair(m.cell, m.index); });
+    const Vec3 centre = candidates.lattice.centre(walls.tile[at(tile)]);
+    for (const Made& m : made) {
+        const Vec3 r = m.place - centre;
+        candidates.row[at(slot)] = m.index;
+        candidates.x[at(slot)] = static_cast<float>(r.x());
+        candidates.y[at(slot)] = static_cast<float>(r.y());
+        candidates.z[at(slot)] = static_cast<float>(r.z());
+        ++slot;
+    }
+}
+
+void copy_candidates(const Tiles& from, Index tile, Tiles& to, Index slot)
+{
+    const Index first = from.start[at(tile)];
+    const Index count = from.start[at(tile + 1)] - first;
+    std::copy_n(from.row.begin() + first, count, to.row.begin() + slot);
+    for (auto column : {&Tiles::x, &Tiles::y, &Tiles::z}) {
+        std::copy_n((from.*column).begin() + first, count, (to.*column).begin() + slot);
+    }
+}
+
+// The candidates of the tiles that are near now: those that were keep theirs.
+void update_candidates(FixedWalls& walls, const TileLattice& lattice,
+                       std::span<const std::int32_t> near)
+{
+    Tiles next;
+    next.lattice = lattice;
+    next.tile.reserve(near.size());
+    next.start.reserve(near.size() + 1);
+    for (const std::int32_t tile : near) {
+        next.tile.push_back(walls.tile[at(tile)]);
+        next.start.push_back(next.start.back() +
+                             static_cast<std::int32_t>(particles_in(walls, tile)));
+    }
+    next.row.resize(at(next.start.back()));
+    for (auto column : {&Tiles::x, &Tiles::y, &Tiles::z}) {
+        (next.*column).resize(next.row.size());
+    }
+    parallel_blocks(0, next.tiles(), [&](Index t) {
+        const Index before = index_of(walls.candidates.tile, next.tile[at(t)]);
+        if (before >= 0) {
+            copy_candidates(walls.candidates, before, next, next.start[at(t)]);
+        } else {
+            make_candidates(walls, near[at(t)], next, next.start[at(t)]);
+        }
+    });
+    bound_chunks(next);
+    walls.candidates = std::move(next);
+    walls.near.assign(near.begin(), near.end());
+}
+
+// The row of each candidate that has one; -1 for the others.
+void find_rows(FixedWalls& walls, const Store& store)
+{
+    const Tiles& candidates = walls.candidates;
+    walls.row_of.assign(candidates.row.size(), -1);
+    const auto x = store[field::position];
     const auto id = store.id();
-    parallel_for(walls.moving_rows, store.size(), [&](Index k) {
-        const auto found = std::ranges::lower_bound(walls.number, id[k]);
-        row[at(found - walls.number.begin())] = static_cast<std::int32_t>(k);
+    parallel_for(walls.moving_rows, store.size(), [&](Index row) {
+        const Index tile = candidates.find(candidates.lattice.tile_of(x[row]));
+        if (tile < 0) {
+            return;
+        }
+        const auto index = static_cast<std::int32_t>(id[row] - walls.first_number);
+        const auto first = candidates.row.begin() + candidates.start[at(tile)];
+        const auto last = candidates.row.begin() + candidates.start[at(tile + 1)];
+        const auto found = std::find(first, last, index);
+        if (found != last) {
+            walls.row_of[at(found - candidates.row.begin())] = static_cast<std::int32_t>(row);
+        }
     });
 }
 
-// The rows to be, from the tiles that are near: those of walls that move, then places by number.
-void list_rows(FixedWalls& walls)
+// Gives the store the rows of the candidates that exist, behind those of walls that move.
+void gather_rows(FixedWalls& walls, Store& store, std::span<std::byte> room)
 {
+    find_rows(walls, store);
     walls.old_row.clear();
-    walls.place_of_row.clear();
     for (Index row = 0; row < walls.moving_rows; ++row) {
         walls.old_row.push_back(static_cast<std::int32_t>(row));
     }
-    for (Index k = 0; k < walls.size(); ++k) {
-        if (walls.has_rows[at(walls.tile_of[at(k)])] != 0) {
-            walls.old_row.push_back(walls.row_of_place[at(k)]);
-            walls.place_of_row.push_back(static_cast<std::int32_t>(k));
+    std::vector<std::int32_t>& made = walls.row_of; // becomes the indices of the rows
+    std::size_t rows = 0;
+    for (std::size_t k = 0; k < walls.exists.size(); ++k) {
+        if (walls.exists[k] != 0) {
+            walls.old_row.push_back(walls.row_of[k]);
+            made[rows++] = walls.candidates.row[k];
         }
     }
+    store.gather(walls.old_row, room);
+    const auto x = store[field::position];
+    parallel_for(0, static_cast<Index>(rows), [&](Index k) {
+        const Index row = walls.moving_rows + k;
+        if (walls.old_row[at(row)] >= 0) {
+            return;
+        }
+        const WallPoint point = walls.make(made[at(k)]);
+        x[row] = point.place;
+        store.id()[row] = walls.first_number + made[at(k)];
+        store.owner()[row] = point.owner;
+        if (store.has(field::depth)) {
+            store[field::depth][row] = point.depth;
+        }
+    });
 }
 
 } // namespace
 
 std::size_t FixedWalls::bytes() const
 {
-    const auto held = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-    return held(place) + held(depth) + held(owner) + held(number) + held(tile) + held(tile_of) +
-           held(has_rows) + held(near) + held(row_of_place) + held(old_row) + held(place_of_row);
+    const auto held = [](const auto&... values) {
+        return (0 + ... + (values.capacity() * sizeof(values[0])));
+    };
+    const Tiles& c = candidates;
+    return held(tile, start, run, near, exists, touched, wet_body, marks, row_of, old_row) +
+           held(c.tile, c.start, c.row, c.x, c.y, c.z, c.chunk_start, c.box);
 }
 
-void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice)
+void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
+                     std::span<const std::int32_t> index, std::span<const Vec3> place)
 {
-    std::vector<std::uint64_t> tile_at(walls.place.size());
-    parallel_for(0, walls.size(),
-                 [&](Index k) { tile_at[at(k)] = lattice.tile_of(walls.place[at(k)]); });
-    walls.tile = tile_at;
-    std::ranges::sort(walls.tile);
-    const auto repeated = std::ranges::unique(walls.tile);
-    walls.tile.erase(repeated.begin(), repeated.end());
-    walls.tile.shrink_to_fit();
-    walls.tile_of.resize(walls.place.size());
-    parallel_for(0, walls.size(), [&](Index k) {
-        const auto found = std::ranges::lower_bound(walls.tile, tile_at[at(k)]);
-        walls.tile_of[at(k)] = static_cast<std::int32_t>(found - walls.tile.begin());
+    struct Entry {
+        std::uint64_t tile;
+        std::int32_t index;
+    };
+    std::vector<Entry> entries(index.size());
+    parallel_for(0, static_cast<Index>(index.size()), [&](Index k) {
+        entries[at(k)] = {lattice.tile_of(place[at(k)]), index[at(k)]};
     });
-    walls.has_rows.assign(walls.tile.size(), 0);
+    std::ranges::sort(entries, {}, [](const Entry& e) { return std::pair(e.tile, e.index); });
+    walls.tile.clear();
+    walls.start.clear();
+    walls.run.clear();
+    for (const Entry& entry : entries) {
+        const bool new_tile = walls.tile.empty() || walls.tile.back() != entry.tile;
+        if (new_tile) {
+            walls.tile.push_back(entry.tile);
+            walls.start.push_back(static_cast<std::int32_t>(walls.run.size()));
+        }
+        if (new_tile || walls.run.back().first + walls.run.back().count != entry.index) {
+            walls.run.push_back({entry.index, 0});
+        }
+        walls.run.back().count += 1;
+    }
+    walls.start.push_back(static_cast<std::int32_t>(walls.run.size()));
+    walls.tile.shrink_to_fit();
+    walls.start.shrink_to_fit();
+    walls.run.shrink_to_fit();
 }
 
-bool update_rows(FixedWalls& walls, const TileLattice& lattice, std::span<const Tiles* const> wet,
-                 Store& store, std::span<std::byte> room)
+bool update_rows(FixedWalls& walls, const Waters& waters, Store& store, std::span<std::byte> room)
 {
-    find_near(walls, lattice, wet);
-    if (walls.near == walls.has_rows) {
+    find_near(walls, waters, walls.old_row);
+    const bool others = walls.old_row != walls.near;
+    if (others) {
+        update_candidates(walls, waters.fluid.lattice, walls.old_row);
+    }
+    walls.marks.assign(walls.candidates.row.size(), 0);
+    mark_near(walls.candidates, waters.fluid, {}, waters.reach, walls.marks);
+    mark_near(walls.candidates, waters.body, walls.wet_body, waters.reach, walls.marks);
+    if (!others && walls.marks == walls.exists) {
         return false;
     }
-    walls.has_rows.swap(walls.near);
-    find_rows_of_places(walls, store);
-    list_rows(walls);
-    store.gather(walls.old_row, room);
-    const auto x = store[field::position];
-    parallel_for(0, static_cast<Index>(walls.place_of_row.size()), [&](Index k) {
-        const Index row = walls.moving_rows + k;
-        const auto place = at(walls.place_of_row[at(k)]);
-        x[row] = walls.place[place];
-        store.id()[row] = walls.number[place];
-        store.owner()[row] = walls.owner[place];
-        if (store.has(field::depth)) {
-            store[field::depth][row] = walls.depth[place];
-        }
-    });
+    walls.exists.swap(walls.marks);
+    gather_rows(walls, store, room);
     return true;
+}
+
+void make_tiles(const FixedWalls& walls, Tiles& tiles)
+{
+    const Tiles& from = walls.candidates;
+    tiles.lattice = from.lattice;
+    for (auto column : {&Tiles::x, &Tiles::y, &Tiles::z}) {
+        (tiles.*column).clear();
+    }
+    tiles.tile.clear();
+    tiles.start.assign(1, 0);
+    tiles.row.clear();
+    for (Index t = 0; t < from.tiles(); ++t) {
+        for (Index k = from.start[at(t)]; k < from.start[at(t + 1)]; ++k) {
+            if (walls.exists[at(k)] != 0) {
+                tiles.row.push_back(static_cast<std::int32_t>(tiles.row.size()));
+                tiles.x.push_back(from.x[at(k)]);
+                tiles.y.push_back(from.y[at(k)]);
+                tiles.z.push_back(from.z[at(k)]);
+            }
+        }
+        if (tiles.count() > tiles.start.back()) {
+            tiles.tile.push_back(from.tile[at(t)]);
+            tiles.start.push_back(static_cast<std::int32_t>(tiles.count()));
+        }
+    }
+    bound_chunks(tiles);
 }
 
 } // namespace hyoryu

@@ -79,7 +79,7 @@ void add_columns_of(Fluid& fluid, const Effect&)
 
 bool has_solids(const Fluid& fluid)
 {
-    return fluid.particles.solids() + fluid.fixed_walls.size() > 0;
+    return fluid.particles.solids() + fluid.fixed_walls.count > 0;
 }
 
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count)

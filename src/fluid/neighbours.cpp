@@ -28,13 +28,6 @@ real tile_ratio(int dimensions)
     return dimensions == 2 ? 2.5 : 2.0;
 }
 
-TileLattice lattice_of(const Fluid& fluid)
-{
-    const Vec3 origin = fluid.domain_min.allFinite() ? fluid.domain_min : Vec3(Vec3::Zero());
-    return make_lattice(origin, tile_ratio(fluid.parameters.dimensions) * fluid.kernel.support,
-                        fluid.period);
-}
-
 Displacement measure(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
@@ -181,13 +174,31 @@ void sort_solids(Fluid& fluid, Store& store, Tiles& tiles)
     make_tiles(tiles, lattice, x, space, store.size());
 }
 
+// Makes the fixed walls that lists may know, and drops the others.
+void update_fixed_walls(Fluid& fluid)
+{
+    // Friction acts half a step after lists are made: a particle that fluid leaves within that time
+    // has felt none if this is its way at most.
+    constexpr real way_of_half_step = 0.1; // spacings
+    FluidNeighbours& n = fluid.neighbours;
+    const Waters waters{n.fluid, n.body,
+                        fluid.kernel.support + n.skins.solid +
+                            way_of_half_step * fluid.parameters.spacing};
+    const auto room = std::visit([](auto& data) { return data.common.room(); }, fluid.pair_data);
+    const bool changed = update_rows(fluid.fixed_walls, waters, fluid.particles.wall, room);
+    if (changed && !fluid.moving_walls) { // those that move are sorted with all lists
+        make_tiles(fluid.fixed_walls, n.wall);
+        n.wall.first_slot = 0;
+    }
+}
+
 void sort_particles(Fluid& fluid)
 {
     Particles& particles = fluid.particles;
     FluidNeighbours& n = fluid.neighbours;
     sort_fluid(fluid);
     sort_solids(fluid, particles.body, n.body);
-    place_fixed_walls(fluid);
+    update_fixed_walls(fluid);
     if (fluid.moving_walls ||
         n.wall.count() != particles.wall.size()) { // others stay where they are
         sort_solids(fluid, particles.wall, n.wall);
@@ -304,20 +315,20 @@ void build_lists(Fluid& fluid)
 
 } // namespace
 
+TileLattice lattice_of(const Fluid& fluid)
+{
+    const Vec3 origin = fluid.domain_min.allFinite() ? fluid.domain_min : Vec3(Vec3::Zero());
+    return make_lattice(origin, tile_ratio(fluid.parameters.dimensions) * fluid.kernel.support,
+                        fluid.period);
+}
+
 void place_fixed_walls(Fluid& fluid)
 {
-    FixedWalls& walls = fluid.fixed_walls;
-    FluidNeighbours& n = fluid.neighbours;
-    const TileLattice lattice = lattice_of(fluid);
-    if (walls.tile_of.size() != walls.place.size()) {
-        sort_into_tiles(walls, lattice);
+    for (Tiles* tiles : {&fluid.neighbours.fluid, &fluid.neighbours.body}) {
+        tiles->lattice = lattice_of(fluid);
+        bound_chunks(*tiles);
     }
-    const Tiles* const wet[] = {&n.fluid, &n.body};
-    const auto room = std::visit([](auto& data) { return data.common.room(); }, fluid.pair_data);
-    const bool changed = update_rows(walls, lattice, wet, fluid.particles.wall, room);
-    if (changed && !fluid.moving_walls) { // those that move are sorted with all lists
-        sort_solids(fluid, fluid.particles.wall, n.wall);
-    }
+    update_fixed_walls(fluid);
 }
 
 void update_neighbours(Fluid& fluid)

@@ -1,26 +1,96 @@
 // SPDX-License-Identifier: MIT
+// Cells near the surface are found from coarse blocks to fine ones: a block whose centre is farther
+// from the surface than its corners and the layers reach has none.
 #include "mesh_points.hpp"
 
 #include "hyoryu/core/parallel.hpp"
-
-#include <array>
 
 namespace hyoryu {
 
 namespace {
 
-struct MeshLattice {
-    Vec3 centre{0, 0, 0}, size{0, 0, 0}; // of the box of the mesh [m]
-    std::array<Index, 3> count{};        // of cells
+constexpr Index block = 8; // cells along an edge of the coarsest blocks; a power of two
 
-    Vec3 place(Index i, Index j, Index k) const
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// A row of blocks along x: the cells of it that may be within the layers.
+class BlockRow {
+public:
+    BlockRow(const MeshLattice& lattice, const TriangleTree& tree, double depth, Index j, Index k)
+        : lattice_(lattice), tree_(tree), depth_(depth), first_{0, j, k},
+          wanted_(at(lattice.count[0] * block * block), 0)
     {
-        return centre + Vec3{middle(i, count[0], size.x()), middle(j, count[1], size.y()),
-                             middle(k, count[2], size.z())};
+        for (Index i = 0; i < lattice.count[0]; i += block) {
+            look({i, j, k}, block);
+        }
     }
+
+    // Appends the points of the plane `k` of the row.
+    void append_plane(Index k, std::vector<MeshPoint>& points) const
+    {
+        const auto [nx, ny, nz] = lattice_.count;
+        const Index last = std::min(first_[1] + block, ny);
+        for (Index j = first_[1]; k < nz && j < last; ++j) {
+            for (Index i = 0; i < nx; ++i) {
+                if (wanted_[place_of({i, j, k})] == 0) {
+                    continue;
+                }
+                const Vec3 p = lattice_.place(i, j, k);
+                const NearestPlace nearest = nearest_place(tree_, p, depth_);
+                if (nearest.distance < 0) {
+                    points.push_back({i + nx * (j + ny * k), p, nearest});
+                }
+            }
+        }
+    }
+
+private:
+    std::size_t place_of(const std::array<Index, 3>& cell) const
+    {
+        return at(cell[0] +
+                  lattice_.count[0] * (cell[1] - first_[1] + block * (cell[2] - first_[2])));
+    }
+
+    // Looks at a cube of `edge` cells, of which some may lie outside of the lattice.
+    void look(const std::array<Index, 3>& low, Index edge)
+    {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (low[axis] >= lattice_.count[axis]) {
+                return;
+            }
+        }
+        if (edge == 1) {
+            wanted_[place_of(low)] = 1;
+            return;
+        }
+        const Vec3 half = 0.5 * static_cast<double>(edge - 1) * lattice_.cell();
+        const double reach = 1.001 * half.norm(); // to the farthest of its points, with rounding
+        const Vec3 centre = lattice_.place(low[0], low[1], low[2]) + half;
+        const double distance = nearest_place(tree_, centre, depth_ + reach).distance;
+        if (distance > reach) { // all outside, or the surface is farther than the layers
+            return;
+        }
+        const Index half_edge = edge / 2;
+        for (int child = 0; child < 8; ++child) {
+            look({low[0] + (child & 1) * half_edge, low[1] + (child >> 1 & 1) * half_edge,
+                  low[2] + (child >> 2) * half_edge},
+                 half_edge);
+        }
+    }
+
+    const MeshLattice& lattice_;
+    const TriangleTree& tree_;
+    double depth_;
+    std::array<Index, 3> first_;
+    std::vector<std::uint8_t> wanted_;
 };
 
-MeshLattice lattice_over(const MeshShape& mesh, double spacing)
+} // namespace
+
+MeshLattice mesh_lattice(const MeshShape& mesh, double spacing)
 {
     Bounds box;
     for (const Vec3& corner : mesh.corners) {
@@ -32,51 +102,38 @@ MeshLattice lattice_over(const MeshShape& mesh, double spacing)
             {cells(size.x(), spacing), cells(size.y(), spacing), cells(size.z(), spacing)}};
 }
 
-std::vector<MeshPoint> points_of_plane(const MeshLattice& lattice, const TriangleTree& tree,
-                                       Index k, double depth)
+std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
+                                     double depth)
 {
-    std::vector<MeshPoint> points;
-    for (Index j = 0; j < lattice.count[1]; ++j) {
-        for (Index i = 0; i < lattice.count[0]; ++i) {
-            const Vec3 p = lattice.place(i, j, k);
-            const NearestPlace nearest = nearest_place(tree, p, depth);
-            if (nearest.distance < 0) {
-                points.push_back({p, nearest});
+    const Index rows = (lattice.count[1] + block - 1) / block;
+    const Index levels = (lattice.count[2] + block - 1) / block;
+    // By level, plane within it and row: the order of numbers.
+    std::vector<std::vector<MeshPoint>> parts(at(levels * block * rows));
+    constexpr Index worth = 2;
+    parallel_blocks(
+        0, levels * rows,
+        [&](Index k) {
+            const Index level = k / rows;
+            const Index row = k % rows;
+            const BlockRow cells_of(lattice, tree, depth, row * block, level * block);
+            for (Index plane = 0; plane < block; ++plane) {
+                cells_of.append_plane(level * block + plane,
+                                      parts[at((level * block + plane) * rows + row)]);
             }
+        },
+        worth);
+    std::vector<MeshPoint> points;
+    for (std::vector<MeshPoint>& part : parts) {
+        points.insert(points.end(), part.begin(), part.end());
+        part = {};
+    }
+    if (points.empty()) {
+        const NearestPlace nearest = nearest_place(tree, lattice.centre, infinity);
+        if (std::abs(nearest.distance) <= depth) {
+            points.push_back({lattice.number(), lattice.centre, nearest});
         }
     }
     return points;
-}
-
-} // namespace
-
-MeshPoints points_within(const MeshShape& mesh, const TriangleTree& tree, double spacing,
-                         double depth)
-{
-    const MeshLattice lattice = lattice_over(mesh, spacing);
-    const auto [nx, ny, nz] = lattice.count;
-    std::vector<std::vector<MeshPoint>> planes(static_cast<std::size_t>(nz));
-    constexpr Index worth = 2;
-    parallel_blocks(
-        0, nz,
-        [&](Index k) {
-            planes[static_cast<std::size_t>(k)] = points_of_plane(lattice, tree, k, depth);
-        },
-        worth);
-    MeshPoints found{
-        .points = {},
-        .cell = lattice.size.cwiseQuotient(
-            Vec3(static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz)))};
-    for (const auto& plane : planes) {
-        found.points.insert(found.points.end(), plane.begin(), plane.end());
-    }
-    if (found.points.empty()) {
-        const NearestPlace nearest = nearest_place(tree, lattice.centre, infinity);
-        if (std::abs(nearest.distance) <= depth) {
-            found.points.push_back({lattice.centre, nearest});
-        }
-    }
-    return found;
 }
 
 } // namespace hyoryu

@@ -6,6 +6,7 @@
 #include "hyoryu/scene/triangle_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -23,21 +24,43 @@ inline double middle(Index k, Index n, double length)
     return ((static_cast<double>(k) + 0.5) / static_cast<double>(n) - 0.5) * length;
 }
 
+/// Cells of about the spacing in the box of a mesh, x fastest; behind the last one its centre, for
+/// a mesh that is thinner than a cell everywhere.
+struct MeshLattice {
+    Vec3 centre{0, 0, 0}, size{0, 0, 0}; // of the box [m]
+    std::array<Index, 3> count{};        // of cells
+
+    Index number() const { return count[0] * count[1] * count[2]; }
+    Vec3 cell() const
+    {
+        return size.cwiseQuotient(Vec3(static_cast<double>(count[0]), static_cast<double>(count[1]),
+                                       static_cast<double>(count[2])));
+    }
+    Vec3 place(Index i, Index j, Index k) const
+    {
+        return centre + Vec3{middle(i, count[0], size.x()), middle(j, count[1], size.y()),
+                             middle(k, count[2], size.z())};
+    }
+    Vec3 place(Index k) const
+    {
+        return k < number() ? place(k % count[0], k / count[0] % count[1], k / count[0] / count[1])
+                            : centre;
+    }
+};
+
+MeshLattice mesh_lattice(const MeshShape& mesh, double spacing);
+
 /// A lattice point inside a mesh.
 struct MeshPoint {
+    Index number = 0;    // of its cell
     Vec3 place{0, 0, 0}; // [m]
     NearestPlace nearest;
 };
 
-struct MeshPoints {
-    std::vector<MeshPoint> points;
-    Vec3 cell{0, 0, 0}; // edges of the lattice over the box of the mesh [m]
-};
-
-/// The lattice points inside a mesh that are at most `depth` below its surface [m], x fastest; the
-/// centre of its box if the mesh is thinner than a cell everywhere. O(log n) a point for n
-/// triangles.
-MeshPoints points_within(const MeshShape& mesh, const TriangleTree& tree, double spacing,
-                         double depth);
+/// The lattice points inside a mesh that are at most `depth` below its surface [m], by number; the
+/// centre if there is none and it is as near. The cost is that of the cells near the surface where
+/// `depth` is finite, O(log n) a cell for n triangles.
+std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
+                                     double depth);
 
 } // namespace hyoryu

@@ -17,33 +17,44 @@ constexpr std::size_t face = 0, edges = 1, corners_of = 4;
 
 using Triangle = TriangleTree::Triangle;
 using Numbers = std::vector<std::array<int, 3>>;
+using Corners = std::array<Vec3, 3>; // of a triangle [m]
 
 std::size_t at(int k)
 {
     return static_cast<std::size_t>(k);
 }
 
-Vec3 area_of(const Triangle& t)
+Corners corners_of_triangle(const std::vector<Vec3>& corners, const std::array<int, 3>& t)
 {
-    return 0.5 * (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
+    return {corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]};
 }
 
-Vec3 middle_of(const Triangle& t)
+Vec3 area_of(const Corners& t)
 {
-    return (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
 }
 
-double angle_at(const Triangle& t, std::size_t k)
+Vec3 normal_of(const Corners& t)
 {
-    const Vec3 a = (t.corner[(k + 1) % 3] - t.corner[k]).normalized();
-    const Vec3 b = (t.corner[(k + 2) % 3] - t.corner[k]).normalized();
+    return area_of(t).normalized();
+}
+
+Vec3 middle_of(const Corners& t)
+{
+    return (t[0] + t[1] + t[2]) / 3;
+}
+
+double angle_at(const Corners& t, std::size_t k)
+{
+    const Vec3 a = (t[(k + 1) % 3] - t[k]).normalized();
+    const Vec3 b = (t[(k + 2) % 3] - t[k]).normalized();
     return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
 }
 
 // An edge of a triangle by the numbers of its ends, the lower one first.
 struct Edge {
     int low, high;
-    std::size_t triangle, side; // on which side of which triangle
+    int triangle, side; // on which side of which triangle
     auto operator<=>(const Edge&) const = default;
 };
 
@@ -55,41 +66,38 @@ std::vector<Edge> sorted_edges(const Numbers& numbers)
     for (std::size_t t = 0; t < numbers.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(numbers[t][k], numbers[t][(k + 1) % 3]);
-            all.push_back({low, high, t, k});
+            all.push_back({low, high, static_cast<int>(t), static_cast<int>(k)});
         }
     }
     std::ranges::sort(all);
     return all;
 }
 
-// The normals of all features, from those of the faces that meet there.
-void set_normals(const Numbers& numbers, std::size_t corner_count, std::vector<Triangle>& all)
+void set_corner_normals(TriangleTree& tree)
 {
-    std::vector<Vec3> of_corner(corner_count, Vec3::Zero());
-    for (std::size_t t = 0; t < all.size(); ++t) {
-        const Vec3 n = area_of(all[t]).normalized();
-        all[t].normal[face] = n;
+    tree.corner_normals.assign(tree.corners.size(), Vec3::Zero());
+    for (const Triangle& t : tree.triangles) {
+        const Corners corner = corners_of_triangle(tree.corners, t.corner);
+        const Vec3 n = normal_of(corner);
         for (std::size_t k = 0; k < 3; ++k) {
-            of_corner[at(numbers[t][k])] += angle_at(all[t], k) * n;
+            tree.corner_normals[at(t.corner[k])] += angle_at(corner, k) * n;
         }
     }
-    for (std::size_t t = 0; t < all.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            all[t].normal[corners_of + k] = of_corner[at(numbers[t][k])];
-        }
-    }
+}
+
+// Numbers the edges and sums the normals of the faces that meet there.
+void set_edge_normals(const Numbers& numbers, TriangleTree& tree)
+{
     const std::vector<Edge> sorted = sorted_edges(numbers);
-    for (auto first = sorted.begin(); first != sorted.end();) {
-        const auto last = std::find_if(first, sorted.end(), [&](const Edge& e) {
-            return e.low != first->low || e.high != first->high;
-        });
-        Vec3 sum = Vec3::Zero();
-        for (auto e = first; e != last; ++e) {
-            sum += all[e->triangle].normal[face];
+    tree.edge_normals.reserve(sorted.size() / 2);
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+        const Edge& e = sorted[k];
+        if (k == 0 || e.low != sorted[k - 1].low || e.high != sorted[k - 1].high) {
+            tree.edge_normals.emplace_back(0, 0, 0);
         }
-        for (; first != last; ++first) {
-            all[first->triangle].normal[edges + first->side] = sum;
-        }
+        Triangle& t = tree.triangles[at(e.triangle)];
+        t.edge[at(e.side)] = static_cast<int>(tree.edge_normals.size()) - 1;
+        tree.edge_normals.back() += normal_of(corners_of_triangle(tree.corners, t.corner));
     }
 }
 
@@ -118,56 +126,87 @@ bool is_connected(const Numbers& numbers, std::size_t corner_count)
 
 class TreeBuilder {
 public:
-    explicit TreeBuilder(TriangleTree& tree) : tree_(tree) {}
+    explicit TreeBuilder(TriangleTree& tree) : tree_(tree)
+    {
+        for (const Triangle& t : tree.triangles) {
+            order_.push_back(static_cast<int>(order_.size()));
+            middles_.push_back(middle_of(corners_of_triangle(tree.corners, t.corner)));
+        }
+    }
 
+    void build()
+    {
+        const auto count = static_cast<int>(order_.size());
+        tree_.nodes.reserve(order_.size());
+        build(0, count);
+        tree_.nodes.shrink_to_fit();
+        std::vector<Triangle> sorted;
+        sorted.reserve(order_.size());
+        for (const int k : order_) {
+            sorted.push_back(tree_.triangles[at(k)]);
+        }
+        tree_.triangles = std::move(sorted);
+        const std::size_t nodes = tree_.is_one_piece ? 1 : tree_.nodes.size();
+        for (std::size_t k = 0; k < nodes; ++k) {
+            tree_.moments.push_back(moment_of(tree_.nodes[k]));
+        }
+    }
+
+private:
     void build(int first, int count)
     {
         const std::size_t own = tree_.nodes.size();
-        tree_.nodes.emplace_back();
-        sum_up(tree_.nodes[own], first, count);
+        TriangleTree::Node& node = tree_.nodes.emplace_back();
+        node.first = first;
+        node.count = count;
+        Bounds middles;
+        for (int k = first; k < first + count; ++k) {
+            const int triangle = order_[at(k)];
+            for (const int corner : tree_.triangles[at(triangle)].corner) {
+                node.box.add(tree_.corners[at(corner)]);
+            }
+            middles.add(middles_[at(triangle)]);
+        }
         if (count <= leaf_size) {
             return;
         }
-        Bounds middles;
-        for (int k = first; k < first + count; ++k) {
-            middles.add(middle_of(tree_.triangles[at(k)]));
-        }
         int axis = 0;
         (middles.max - middles.min).maxCoeff(&axis);
-        const auto begin = tree_.triangles.begin() + first;
-        std::stable_sort(begin, begin + count, [&](const Triangle& a, const Triangle& b) {
-            return middle_of(a)[axis] < middle_of(b)[axis];
+        const auto begin = order_.begin() + first;
+        std::stable_sort(begin, begin + count, [&](int a, int b) {
+            return middles_[at(a)][axis] < middles_[at(b)][axis];
         });
         build(first, count / 2);
         tree_.nodes[own].right = static_cast<int>(tree_.nodes.size());
         build(first + count / 2, count - count / 2);
     }
 
-private:
-    void sum_up(TriangleTree::Node& node, int first, int count)
+    TriangleTree::Moment moment_of(const TriangleTree::Node& node) const
     {
-        node.first = first;
-        node.count = count;
+        TriangleTree::Moment moment;
         double total = 0;
-        for (int k = first; k < first + count; ++k) {
-            const Triangle& t = tree_.triangles[at(k)];
-            for (const Vec3& corner : t.corner) {
-                node.box.add(corner);
-            }
+        const auto corners_at = [&](int k) {
+            return corners_of_triangle(tree_.corners, tree_.triangles[at(k)].corner);
+        };
+        for (int k = node.first; k < node.first + node.count; ++k) {
+            const Corners t = corners_at(k);
             const double size = area_of(t).norm();
-            node.area += area_of(t);
-            node.middle += size * middle_of(t);
+            moment.area += area_of(t);
+            moment.middle += size * middle_of(t);
             total += size;
         }
-        node.middle = total > 0 ? Vec3(node.middle / total) : node.box.min;
-        for (int k = first; k < first + count; ++k) {
-            for (const Vec3& corner : tree_.triangles[at(k)].corner) {
-                node.radius = std::max(node.radius, (corner - node.middle).norm());
+        moment.middle = total > 0 ? Vec3(moment.middle / total) : node.box.min;
+        for (int k = node.first; k < node.first + node.count; ++k) {
+            for (const Vec3& corner : corners_at(k)) {
+                moment.radius = std::max(moment.radius, (corner - moment.middle).norm());
             }
         }
+        return moment;
     }
 
     TriangleTree& tree_;
+    std::vector<int> order_;    // the triangles as the leaves will have them
+    std::vector<Vec3> middles_; // of the triangles [m]
 };
 
 // The place of a triangle that is nearest to a point, and the feature that it is on
@@ -177,9 +216,9 @@ struct Foot {
     std::size_t feature = face;
 };
 
-Foot foot_on(const Triangle& t, const Vec3& p)
+Foot foot_on(const Corners& t, const Vec3& p)
 {
-    const auto& [a, b, c] = t.corner;
+    const auto& [a, b, c] = t;
     const Vec3 ab = b - a;
     const Vec3 ac = c - a;
     const double d1 = ab.dot(p - a);
@@ -220,11 +259,11 @@ double distance_to_box(const Bounds& box, const Vec3& p)
 
 // Part of the sphere about a point that a triangle covers, with the sign of its side
 // (van Oosterom and Strackee 1983).
-double covered_part(const Triangle& t, const Vec3& p)
+double covered_part(const Corners& t, const Vec3& p)
 {
-    const Vec3 a = t.corner[0] - p;
-    const Vec3 b = t.corner[1] - p;
-    const Vec3 c = t.corner[2] - p;
+    const Vec3 a = t[0] - p;
+    const Vec3 b = t[1] - p;
+    const Vec3 c = t[2] - p;
     const double la = a.norm();
     const double lb = b.norm();
     const double lc = c.norm();
@@ -237,16 +276,17 @@ double winding_number(const TriangleTree& tree, int node, const Vec3& p)
 {
     constexpr double far = 2.5; // radii: errors of a few hundredths, and half decides
     const TriangleTree::Node& n = tree.nodes[at(node)];
-    const Vec3 r = n.middle - p;
-    if (r.norm() > far * n.radius) {
-        return n.area.dot(r) / (4 * std::numbers::pi * std::pow(r.norm(), 3));
+    const TriangleTree::Moment& moment = tree.moments[at(node)];
+    const Vec3 r = moment.middle - p;
+    if (r.norm() > far * moment.radius) {
+        return moment.area.dot(r) / (4 * std::numbers::pi * std::pow(r.norm(), 3));
     }
     if (n.right >= 0) {
         return winding_number(tree, node + 1, p) + winding_number(tree, n.right, p);
     }
     double sum = 0;
     for (int k = n.first; k < n.first + n.count; ++k) {
-        sum += covered_part(tree.triangles[at(k)], p);
+        sum += covered_part(corners_of_triangle(tree.corners, tree.triangles[at(k)].corner), p);
     }
     return sum;
 }
@@ -262,7 +302,8 @@ void search(const TriangleTree& tree, int node, const Vec3& p, Best& best)
     const TriangleTree::Node& n = tree.nodes[at(node)];
     if (n.right < 0) {
         for (int k = n.first; k < n.first + n.count; ++k) {
-            const Foot foot = foot_on(tree.triangles[at(k)], p);
+            const Foot foot =
+                foot_on(corners_of_triangle(tree.corners, tree.triangles[at(k)].corner), p);
             const double distance = (p - foot.place).norm();
             if (distance < best.distance) {
                 best = {distance, foot, k};
@@ -281,19 +322,31 @@ void search(const TriangleTree& tree, int node, const Vec3& p, Best& best)
     }
 }
 
+// The normal that decides on which side of a feature a point is.
+Vec3 side_normal(const TriangleTree& tree, const Triangle& t, std::size_t feature)
+{
+    if (feature == face) {
+        return normal_of(corners_of_triangle(tree.corners, t.corner));
+    }
+    return feature < corners_of ? tree.edge_normals[at(t.edge[feature - edges])]
+                                : tree.corner_normals[at(t.corner[feature - corners_of])];
+}
+
 } // namespace
 
 TriangleTree triangle_tree(const std::vector<Vec3>& corners, const Numbers& triangles)
 {
     TriangleTree tree;
+    tree.corners = corners;
     tree.triangles.reserve(triangles.size());
     for (const auto& t : triangles) {
-        tree.triangles.push_back({{corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]}, {}});
+        tree.triangles.push_back({t, {}});
     }
-    set_normals(triangles, corners.size(), tree.triangles);
+    set_corner_normals(tree);
+    set_edge_normals(triangles, tree);
     tree.is_one_piece = is_connected(triangles, corners.size());
     if (!triangles.empty()) {
-        TreeBuilder(tree).build(0, static_cast<int>(triangles.size()));
+        TreeBuilder(tree).build();
     }
     return tree;
 }
@@ -307,15 +360,15 @@ NearestPlace nearest_place(const TriangleTree& tree, const Vec3& point, double f
     if (best.triangle < 0) {
         return {};
     }
-    const Triangle& t = tree.triangles[at(best.triangle)];
+    const Vec3 outward = side_normal(tree, tree.triangles[at(best.triangle)], best.foot.feature);
     const Vec3 way = point - best.foot.place;
-    const bool inside = tree.is_one_piece ? way.dot(t.normal[best.foot.feature]) < 0
-                                          : winding_number(tree, 0, point) > 0.5;
+    const bool inside =
+        tree.is_one_piece ? way.dot(outward) < 0 : winding_number(tree, 0, point) > 0.5;
     const double side = inside ? -1 : 1;
     // On the surface itself the direction is undefined.
-    const double touching = 1e-12 * tree.nodes[0].radius;
-    const Vec3 normal = best.distance > touching ? Vec3(side / best.distance * way)
-                                                 : t.normal[best.foot.feature].normalized();
+    const double touching = 1e-12 * tree.moments[0].radius;
+    const Vec3 normal =
+        best.distance > touching ? Vec3(side / best.distance * way) : outward.normalized();
     return {side * best.distance, normal};
 }
 

@@ -144,10 +144,12 @@ Cloud wall_cloud(const Simulation& sim)
     Column points{"", "", 3, std::move(cloud.points)};
     spread(points, place, count, 0);
     cloud.points = std::move(std::get<std::vector<float>>(points.values));
-    for (std::size_t k = 0; k < fixed.place.size(); ++k) {
-        for (Index axis = 0; axis < 3; ++axis) {
-            cloud.points[3 * at(fixed.number[k] - first) + at(axis)] =
-                static_cast<float>(fixed.place[k][axis]);
+    for (const IndexRun& run : fixed.run) {
+        for (std::int32_t index = run.first; index < run.first + run.count; ++index) {
+            const Vec3 made = fixed.make(index).place;
+            for (Index axis = 0; axis < 3; ++axis) {
+                cloud.points[3 * at(index) + at(axis)] = static_cast<float>(made[axis]);
+            }
         }
     }
     return cloud;

@@ -16,23 +16,6 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-// Rows of the particles of a wall or body: those of bodies, of walls that move and of walls that do
-// not are each in the order of their owners.
-Rows rows_of(const Simulation& sim, const Store& store, int target)
-{
-    const Index moving = sim.fluid->fixed_walls.moving_rows;
-    Rows among = store.rows();
-    if (target < 0) {
-        const bool moves_itself = moves(sim.scene.walls[at(-1 - target)].motion);
-        among = moves_itself ? Rows{0, moving} : Rows{moving, store.size()};
-    }
-    const auto owners = store.owner().subspan(at(among.begin), at(among.size()));
-    // Walls count downward from -1.
-    const auto order = [&](std::int32_t a, std::int32_t b) { return target >= 0 ? a < b : a > b; };
-    const auto [first, last] = std::equal_range(owners.begin(), owners.end(), target, order);
-    return {among.begin + (first - owners.begin()), among.begin + (last - owners.begin())};
-}
-
 // Sum of the viscous forces on the particles of a wall or body; zero where the fluid slips.
 Vec3 viscous_force(const Simulation& sim, int target)
 {
@@ -41,9 +24,14 @@ Vec3 viscous_force(const Simulation& sim, int target)
         return Vec3::Zero();
     }
     const auto F = store[field::viscous_force];
-    const Rows rows = rows_of(sim, store, target);
+    const auto owner = store.owner();
+    const Rows rows = target >= 0 ? sim.body_particles.of[at(target)] : store.rows();
+    const Vec3 none = Vec3::Zero();
     return sum_of_vectors(rows.size(), sum_units(sim.fluid->parameters).force,
-                          [&](Index k) -> const Vec3& { return F[rows.begin + k]; });
+                          [&](Index k) -> const Vec3& {
+                              const Index row = rows.begin + k;
+                              return owner[row] == target ? F[row] : none;
+                          });
 }
 
 Vec3 contact_impulse(const std::vector<Contact>& contacts, int target)

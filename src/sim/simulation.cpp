@@ -4,6 +4,7 @@
 #include "hyoryu/core/built_effects.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "hyoryu/scene/shapes.hpp"
+#include "hyoryu/scene/wall_layers.hpp"
 #include "hyoryu/sim/watch.hpp"
 
 #include <cmath>
@@ -77,22 +78,25 @@ bool is_moving(const Scene& scene, std::int32_t wall)
     return moves(scene.walls[at(wall)].motion);
 }
 
-// Walls that do not move: places, which get rows when fluid comes near.
-FixedWalls fixed_walls(const Scene& scene, const Filling& filling)
+// Walls that do not move: what makes their particles, which exist where water is near.
+FixedWalls fixed_walls(const Simulation& sim, const Filling& filling, const Fluid& fluid)
 {
     FixedWalls walls;
+    std::vector<std::int32_t> index;
+    std::vector<Vec3> place;
     for (std::size_t k = 0; k < filling.wall.size(); ++k) {
-        const std::int32_t wall = filling.wall_owner[k];
-        if (is_moving(scene, wall)) {
+        if (is_moving(sim.scene, filling.wall_owner[k])) {
             ++walls.moving_rows;
             continue;
         }
-        walls.place.push_back(filling.wall[k]);
-        walls.owner.push_back(-1 - wall);
-        walls.number.push_back(static_cast<std::int64_t>(filling.fluid.size() + k));
-        if (!filling.wall_depth.empty()) {
-            walls.depth.push_back(filling.wall_depth[k]);
-        }
+        index.push_back(static_cast<std::int32_t>(k));
+        place.push_back(filling.wall[k]);
+    }
+    walls.first_number = static_cast<std::int64_t>(filling.fluid.size());
+    walls.count = static_cast<Index>(index.size());
+    if (walls.count > 0) {
+        sort_into_tiles(walls, lattice_of(fluid), index, place);
+        walls.make = wall_maker(sim.scene, filling, sim.barrier->solids);
     }
     return walls;
 }
@@ -184,7 +188,7 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
             fluid.period[axis] = filling.domain.max[axis] - filling.domain.min[axis];
         }
     }
-    fluid.fixed_walls = fixed_walls(sim.scene, filling);
+    fluid.fixed_walls = fixed_walls(sim, filling, fluid);
     allocate(fluid, static_cast<Index>(filling.fluid.size()), fluid.fixed_walls.moving_rows,
              static_cast<Index>(sim.body_particles.points.size()));
     fill_fluid_rows(filling, fluid);
@@ -267,10 +271,10 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         sim.thinnest = std::min(sim.thinnest, inner_radius(body, scene.dimensions));
     }
     if (plan.fluid) {
-        sim.fluid = make_fluid(sim, filling);
         if (plan.runs(SurfaceBarrier::name)) {
             sim.barrier = make_wall_barrier(scene);
         }
+        sim.fluid = make_fluid(sim, filling);
         sim.rigid.settings.located_work = scene.contact.locating_share * updates_of_particle *
                                           static_cast<double>(sim.plan.counts.fluid);
         const auto of_walls = sim.fluid->particles.wall[field::position];

@@ -1,45 +1,77 @@
 // SPDX-License-Identifier: MIT
-// Walls that do not move. Their particles are known as places, sorted into tiles; those of tiles
-// that touch a tile with fluid or bodies have rows in the store of the walls, the others have none:
-// a dry wall has no columns, no records and no lists. Which rows there are follows from the tiles
-// of fluid and bodies alone, not from the history.
+// Walls that do not move. A particle of theirs exists, with a row in the store of the walls, while
+// a fluid particle, or a body particle that fluid is near, is within the reach of the neighbour
+// lists. It is made from its surface when that comes and dropped when it leaves: dry walls have
+// neither places nor columns, records or lists. Which particles exist follows from the places of
+// fluid and bodies when lists are made, not from the history.
 #pragma once
 
 #include "hyoryu/core/tiles.hpp"
 
+#include <functional>
+
 namespace hyoryu {
 
+/// A wall particle as its surface makes it.
+struct WallPoint {
+    Vec3 place{0, 0, 0};     // [m]
+    real depth = 0;          // behind the surface [m]; 0 where fluid slips
+    std::int32_t owner = -1; // -1 - (index of the wall)
+};
+
+/// Makes the wall particle of an index, the same one each time. Several threads may call it at
+/// once.
+using WallMaker = std::function<WallPoint(std::int32_t index)>;
+
+/// Indices [first, first + count).
+struct IndexRun {
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+};
+
 struct FixedWalls {
-    // By place, in the order of the numbers.
-    std::vector<Vec3> place;          // [m]
-    std::vector<double> depth;        // behind the surface [m]; empty where fluid slips
-    std::vector<std::int32_t> owner;  // -1 - (index of the wall)
-    std::vector<std::int64_t> number; // of the particle, for life; ascending
+    WallMaker make;
+    std::int64_t first_number = 0; // of the particle of index 0; the others follow
+    Index count = 0;               // of particles, whether they exist or not
 
-    std::vector<std::uint64_t> tile;    // that hold places, ascending
-    std::vector<std::int32_t> tile_of;  // index of the tile of each place
-    std::vector<std::uint8_t> has_rows; // by tile
+    // The particles of each tile, as runs of indices.
+    std::vector<std::uint64_t> tile;    // that have any, ascending
+    std::vector<std::int32_t> start{0}; // first run of each tile; one entry more
+    std::vector<IndexRun> run;
 
-    Index moving_rows =
-        0; // of the store, before those of fixed walls: particles of walls that move
+    Index moving_rows = 0; // of the store, before those of fixed walls: of walls that move
+
+    // Candidates: the particles of the tiles that touch one with fluid or wet bodies, in the order
+    // of cells and numbers. `candidates.row` holds their indices.
+    std::vector<std::int32_t> near; // tiles of `tile` that they are of, ascending
+    Tiles candidates;
+    std::vector<std::uint8_t> exists; // by candidate
 
     // Memory of `update_rows`, kept from one time to the next.
-    std::vector<std::uint8_t> near;         // by tile
-    std::vector<std::int32_t> row_of_place; // -1 where it has none
-    std::vector<std::int32_t> old_row;      // by new row; -1 for one that is new
-    std::vector<std::int32_t> place_of_row; // by row of fixed walls
+    std::vector<std::uint8_t> touched, wet_body, marks;
+    std::vector<std::int32_t> row_of, old_row;
 
-    Index size() const { return static_cast<Index>(place.size()); }
     std::size_t bytes() const;
 };
 
-/// Sorts the places into tiles; none has rows.
-void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice);
+/// Notes which tile each of some particles is in, by index ascending; none exists yet.
+void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
+                     std::span<const std::int32_t> index, std::span<const Vec3> place);
 
-/// Gives rows to the places of the tiles that touch one of `wet`, in the order of their numbers,
-/// and takes those of all others. Rows that stay keep their values, new ones are zero but for
-/// position, number, owner and depth. Returns whether anything changed. `room` as in Store::gather.
-bool update_rows(FixedWalls& walls, const TileLattice& lattice, std::span<const Tiles* const> wet,
-                 Store& store, std::span<std::byte> room);
+/// Where the fluid and the bodies are.
+struct Waters {
+    const Tiles& fluid;
+    const Tiles& body;
+    real reach = 0; // [m]; at most the edge of a tile
+};
+
+/// Makes the particles that are within reach of the fluid, or of a body particle within reach of
+/// the fluid, and drops all others. Rows come in the order of tiles, cells and numbers; those that
+/// stay keep their values, new ones are zero but for position, number, owner and depth. Returns
+/// whether anything changed. `room` as in Store::gather.
+bool update_rows(FixedWalls& walls, const Waters& waters, Store& store, std::span<std::byte> room);
+
+/// The tiles of the particles that exist, for a store that has no others.
+void make_tiles(const FixedWalls& walls, Tiles& tiles);
 
 } // namespace hyoryu

@@ -75,7 +75,7 @@ struct Fluid {
     InstructionSet instruction_set = widest_instruction_set();
     FluidEffects effects;
     Particles particles;
-    FixedWalls fixed_walls; // those of them that are near fluid or bodies have rows
+    FixedWalls fixed_walls; // whose particles exist where fluid is near
     Kernel kernel;          // of the loops in SPH, and of gauges in any formulation
     MpsKernel mps_kernel;   // of the loops in MPS
     FluidNeighbours neighbours;
@@ -115,8 +115,10 @@ void drift(Fluid& fluid, real dt);
 /// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and
 /// drops those outside the domain when it does. Positions must be finite.
 void update_neighbours(Fluid& fluid);
-/// Gives rows to the fixed walls near the tiles of fluid and bodies, as lists do that are made
-/// anew: a restart needs them for the columns of solids.
+/// The lattice of the tiles of all particles; needs kernel, domain and period.
+TileLattice lattice_of(const Fluid& fluid);
+/// Makes the particles of fixed walls that the tiles of fluid and bodies are near to, as lists do
+/// that are made anew: a restart needs them for the columns of solids.
 void place_fixed_walls(Fluid& fluid);
 /// Makes the lists again from the recorded positions, as a restart needs.
 void rebuild_neighbours(Fluid& fluid);

@@ -16,6 +16,13 @@ struct Aggregate {
     Vec3 cell{0, 0, 0};         // of the lattice that fills a mesh [m]
 };
 
+/// Wall particles that follow each other in the filling as their places do in the layers of a wall.
+struct WallRun {
+    Index first = 0; // particle; those up to the first one of the next run belong to this one
+    Index place = 0; // its number in the layers
+    std::int32_t wall = 0;
+};
+
 /// All particles of a scene at the start.
 struct Filling {
     std::vector<Vec3> fluid;              // [m]
@@ -26,6 +33,7 @@ struct Filling {
     std::vector<Vec3> wall;               // [m]; empty without fluid
     std::vector<std::int32_t> wall_owner; // index of the wall
     std::vector<double> wall_depth;       // behind the surface [m]; empty where fluid slips
+    std::vector<WallRun> wall_runs;       // of the wall particles, ascending
     std::vector<Aggregate> bodies;
     Bounds domain; // particles outside are removed from the run
     std::vector<Diagnostic> warnings;

@@ -21,18 +21,24 @@ struct TriangleTree {
         Bounds box;
         int right = -1;           // second child; -1: a leaf
         int first = 0, count = 0; // range of its triangles, of all below it
-        Vec3 area{0, 0, 0};       // sum of area times normal [m2]
-        Vec3 middle{0, 0, 0};     // of the triangles, by area [m]
-        double radius = 0;        // from there to the farthest corner [m]
+    };
+    /// The triangles below a node, for the winding number of distant points.
+    struct Moment {
+        Vec3 area{0, 0, 0};   // sum of area times normal [m2]
+        Vec3 middle{0, 0, 0}; // of the triangles, by area [m]
+        double radius = 0;    // from there to the farthest corner [m]
     };
     struct Triangle {
-        std::array<Vec3, 3> corner; // [m]
-        /// Any length: of the face, of its edges from corner k on, of its corners, weighted by
-        /// angles: on which side a point is, is the sign of the one of the nearest feature.
-        std::array<Vec3, 7> normal;
+        std::array<int, 3> corner;
+        std::array<int, 3> edge; // from corner k on
     };
     std::vector<Node> nodes;
+    std::vector<Moment> moments; // of each node; of the first one only if the surface is connected
     std::vector<Triangle> triangles; // in the order of the leaves
+    std::vector<Vec3> corners;       // [m]
+    /// Any length: of corners, weighted by angles, and of edges; with those of the faces, on which
+    /// side a point is, is the sign of the one of the nearest feature.
+    std::vector<Vec3> corner_normals, edge_normals;
     /// The surface is connected, so that none of it can lie inside another part of it.
     bool is_one_piece = false;
 };

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Which points of one set have a point of another within a radius: a search that ends at the first
+// one found, where lists would name them all.
+#pragma once
+
+#include "hyoryu/core/tiles.hpp"
+
+namespace hyoryu {
+
+/// Sets the mark of every point of `points`, by slot from 0 on, that has a point of `others` within
+/// `radius` [m], which must not exceed the edge of a tile; other marks stay. Points of `others`
+/// whose entry in `counted` is 0 are passed over; where that is empty, none is. Both sets have the
+/// same lattice. Within the rounding of single precision a point counts as near.
+void mark_near(const Tiles& points, const Tiles& others, std::span<const std::uint8_t> counted,
+               real radius, std::span<std::uint8_t> marks);
+
+} // namespace hyoryu

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Algorithm, tile by tile: the chunks of the other set about the tile are collected by their
+// bounds, up to a fixed number at a time; each chunk of the tile tests those that its own bounds
+// are near to, point against point, until all of its points are marked. The chunk that marked a
+// point is tried first by the next.
+#include "hyoryu/core/vicinity.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+namespace {
+
+// Rounding of single precision, as a share of an edge of a tile: what positions and squared
+// distances lose.
+constexpr float rounding = 2e-6F;
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+using Step = std::array<float, 3>;
+
+// A chunk of the other set as the tile sees it.
+struct OtherChunk {
+    ChunkBox box;
+    Step step{}; // from its tile to the one that looks [m]
+    Index first = 0, last = 0;
+};
+
+// Those that are tested together.
+struct Batch {
+    std::array<OtherChunk, 256> chunk;
+    std::size_t count = 0;
+};
+
+bool is_near(const ChunkBox& a, const ChunkBox& b, float squared_radius)
+{
+    float squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float gap = std::max({b.low[axis] - a.high[axis], a.low[axis] - b.high[axis], 0.0F});
+        squared += gap * gap;
+    }
+    return squared <= squared_radius;
+}
+
+ChunkBox joined(ChunkBox a, const ChunkBox& b)
+{
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        a.low[axis] = std::min(a.low[axis], b.low[axis]);
+        a.high[axis] = std::max(a.high[axis], b.high[axis]);
+    }
+    return a;
+}
+
+class TileMarker {
+public:
+    TileMarker(const Tiles& points, const Tiles& others, std::span<const std::uint8_t> counted,
+               real radius, std::span<std::uint8_t> marks)
+        : points_(points), others_(others), counted_(counted), marks_(marks)
+    {
+        const auto edge = static_cast<float>(points.lattice.edge.maxCoeff());
+        const float reach = static_cast<float>(radius) + rounding * edge;
+        squared_radius_ = reach * reach;
+    }
+
+    void mark(Index tile) const
+    {
+        ChunkBox bounds = points_.box[at(points_.chunk_start[at(tile)])];
+        for (Index chunk = points_.chunk_start[at(tile)] + 1;
+             chunk < points_.chunk_start[at(tile + 1)]; ++chunk) {
+            bounds = joined(bounds, points_.box[at(chunk)]);
+        }
+        Batch batch;
+        const auto place = TileLattice::place_of(points_.tile[at(tile)]);
+        const Vec3& edge = points_.lattice.edge;
+        for (int number = 0; number < 27; ++number) {
+            const std::array<int, 3> way{number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1};
+            const Index other = others_.find(points_.lattice.beside(place, way));
+            if (other >= 0) {
+                const Step step{static_cast<float>(edge.x()) * static_cast<float>(way[0]),
+                                static_cast<float>(edge.y()) * static_cast<float>(way[1]),
+                                static_cast<float>(edge.z()) * static_cast<float>(way[2])};
+                look_at_tile(tile, other, step, bounds, batch);
+            }
+        }
+        look_at_batch(tile, batch);
+    }
+
+private:
+    void look_at_tile(Index tile, Index other, const Step& step, const ChunkBox& bounds,
+                      Batch& batch) const
+    {
+        const Index end = others_.start[at(other + 1)];
+        Index first = others_.start[at(other)];
+        for (Index chunk = others_.chunk_start[at(other)]; first < end;
+             ++chunk, first += chunk_slots) {
+            ChunkBox box = others_.box[at(chunk)];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                box.low[axis] += step[axis];
+                box.high[axis] += step[axis];
+            }
+            if (!is_near(box, bounds, squared_radius_)) {
+                continue;
+            }
+            batch.chunk[batch.count++] = {box, step, first,
+                                          std::min<Index>(first + chunk_slots, end)};
+            if (batch.count == batch.chunk.size()) {
+                look_at_batch(tile, batch);
+            }
+        }
+    }
+
+    void look_at_batch(Index tile, Batch& batch) const
+    {
+        std::size_t last_found = 0;
+        const Index first_chunk = points_.chunk_start[at(tile)];
+        for (Index chunk = first_chunk; chunk < points_.chunk_start[at(tile + 1)]; ++chunk) {
+            const Index first = points_.start[at(tile)] + chunk_slots * (chunk - first_chunk);
+            const Index last = std::min<Index>(first + chunk_slots, points_.start[at(tile + 1)]);
+            Index left = std::count(marks_.begin() + first, marks_.begin() + last, 0);
+            for (std::size_t k = 0; k < batch.count && left > 0; ++k) {
+                // The order is that of the batch, but for the chunk that found one last.
+                const std::size_t other = k == 0 ? last_found : k <= last_found ? k - 1 : k;
+                if (!is_near(points_.box[at(chunk)], batch.chunk[other].box, squared_radius_)) {
+                    continue;
+                }
+                const Index found = mark_chunk(first, last, batch.chunk[other]);
+                left -= found;
+                last_found = found > 0 ? other : last_found;
+            }
+        }
+        batch.count = 0;
+    }
+
+    // Marks the points of a chunk that are near one of another; returns how many more that are.
+    Index mark_chunk(Index first, Index last, const OtherChunk& other) const
+    {
+        Index found = 0;
+        for (Index i = first; i < last; ++i) {
+            if (marks_[at(i)] == 0 && any_near(i, other)) {
+                marks_[at(i)] = 1;
+                ++found;
+            }
+        }
+        return found;
+    }
+
+    bool any_near(Index i, const OtherChunk& other) const
+    {
+        const float x = points_.x[at(i)] - other.step[0];
+        const float y = points_.y[at(i)] - other.step[1];
+        const float z = points_.z[at(i)] - other.step[2];
+        for (Index j = other.first; j < other.last; ++j) {
+            const float dx = others_.x[at(j)] - x;
+            const float dy = others_.y[at(j)] - y;
+            const float dz = others_.z[at(j)] - z;
+            if (dx * dx + dy * dy + dz * dz <= squared_radius_ &&
+                (counted_.empty() || counted_[at(j)] != 0)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    const Tiles& points_;
+    const Tiles& others_;
+    std::span<const std::uint8_t> counted_;
+    std::span<std::uint8_t> marks_;
+    float squared_radius_ = 0;
+};
+
+} // namespace
+
+void mark_near(const Tiles& points, const Tiles& others, std::span<const std::uint8_t> counted,
+               real radius, std::span<std::uint8_t> marks)
+{
+    expects(marks.size() == at(points.count()));
+    if (points.tiles() == 0 || others.tiles() == 0) {
+        return;
+    }
+    expects(radius <= points.lattice.edge.minCoeff());
+    const TileMarker marker(points, others, counted, radius, marks);
+    parallel_blocks(0, points.tiles(), [&](Index tile) { marker.mark(tile); });
+}
+
+} // namespace hyoryu

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Where the layers of a wall may have particles: places behind its surface by their number.
+#pragma once
+
+#include "mesh_points.hpp"
+#include "shape_points.hpp"
+
+#include "hyoryu/scene/solid_surface.hpp"
+
+#include <optional>
+#include <span>
+
+namespace hyoryu {
+
+/// What the layers of all walls have in common.
+struct LayerLattice {
+    double spacing = 0; // [m]
+    int layers = 0;
+    int dimensions = 3;
+    Bounds domain;
+
+    double depth() const { return layers * spacing; }
+};
+
+LayerLattice layer_lattice(const Scene& scene, const Bounds& domain);
+
+/// Layers behind a plane, on a lattice that is aligned with it and covers the domain. Its indices
+/// count from the origin, so that parallel walls share one lattice.
+struct PlanePlaces {
+    PlaneWall plane;
+    Vec3 along{1, 0, 0}, across{0, 1, 0}; // tangents, unit; in two dimensions there is no second
+    std::array<Index, 2> first{};         // cells along them
+    std::array<Index, 3> count{};         // and layers
+    double spacing = 0;                   // [m]
+    int dimensions = 3;
+    Bounds box; // of the domain with a margin for the layers
+
+    Index number() const { return count[0] * count[1] * count[2]; }
+    std::optional<Vec3> place(Index k) const;
+};
+
+/// The cells outside a basin whose cavity whole cells fill.
+struct BasinPlaces {
+    BasinWall basin;
+    std::array<Index, 3> cavity{}; // cells of it
+    std::array<Index, 3> layers{}; // on each side of it
+    int dimensions = 3;
+
+    Index number() const;
+    std::optional<Vec3> place(Index k) const;
+};
+
+/// The outermost shells of a ball, which are behind the surface of a smaller one.
+struct RoundPlaces {
+    RoundWall round;
+    ShapePoints points;
+
+    Index number() const { return number_of(points); }
+    std::optional<Vec3> place(Index k) const;
+};
+
+/// The particles of a simple obstacle without its core, which is out of reach of the fluid.
+struct ObstaclePlaces {
+    const SolidWall* solid = nullptr;
+    ShapePoints points;
+    double depth = 0; // of the layers [m]
+    int dimensions = 3;
+
+    Index number() const { return number_of(points); }
+    std::optional<Vec3> place(Index k) const;
+};
+
+/// The same of cubes.
+struct CubePlaces {
+    const SolidWall* solid = nullptr;
+    const std::vector<Vec3>* points = nullptr;
+    double depth = 0; // of the layers [m]
+    int dimensions = 3;
+
+    Index number() const { return static_cast<Index>(points->size()); }
+    std::optional<Vec3> place(Index k) const;
+};
+
+/// Lattice points inside a mesh, down to the layers. Those that the lattice puts nearer to the
+/// surface than half a spacing move to that depth; otherwise they would crowd the fluid.
+struct MeshPlaces {
+    const SolidWall* solid = nullptr;
+    const TriangleTree* tree = nullptr;
+    MeshLattice lattice;
+    double spacing = 0, depth = 0; // [m]
+
+    std::optional<Vec3> place(Index k) const;
+    Vec3 place_of(const MeshPoint& point) const;
+};
+
+using LayerPlaces =
+    std::variant<PlanePlaces, BasinPlaces, RoundPlaces, ObstaclePlaces, CubePlaces, MeshPlaces>;
+
+/// `surface`: that of the wall.
+LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface,
+                         const LayerLattice& lattice);
+
+/// Calls put(number, place) for every particle that the layers may have, in the order of numbers.
+void for_each_place(const LayerPlaces& places, const auto& put)
+{
+    if (const auto* mesh = std::get_if<MeshPlaces>(&places)) {
+        for (const MeshPoint& point : points_within(mesh->lattice, *mesh->tree, mesh->depth)) {
+            put(point.number, mesh->place_of(point));
+        }
+        return;
+    }
+    const auto walk = [&]<class Places>(const Places& own) {
+        if constexpr (!std::same_as<Places, MeshPlaces>) {
+            const Index number = own.number();
+            for (Index k = 0; k < number; ++k) {
+                if (const std::optional<Vec3> place = own.place(k)) {
+                    put(k, *place);
+                }
+            }
+        }
+    };
+    std::visit(walk, places);
+}
+
+} // namespace hyoryu
