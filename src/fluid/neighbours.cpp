@@ -28,6 +28,46 @@ real tile_ratio(int dimensions)
     return dimensions == 2 ? 2.5 : 2.0;
 }
 
+// The tiles of walls against which others are measured. Fixed walls that do not exist yet count:
+// the fluid that comes to them is what makes them.
+const Tiles& measured_walls(const Fluid& fluid)
+{
+    return fluid.moving_walls ? fluid.neighbours.wall : fluid.fixed_walls.candidates;
+}
+
+// Bounds of how far particles of walls have moved.
+void measure_walls(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    if (fluid.moving_walls) {
+        bound_motion(n.wall, fluid.particles.wall[field::position], n.wall_motion.box);
+    } else {
+        n.wall_motion.box.assign(measured_walls(fluid).tile.size(), {Vec3(0, 0, 0), Vec3(0, 0, 0)});
+    }
+}
+
+// The farthest that particles of tiles beside fixed walls have moved, besides walls that move: the
+// tiles of walls that do not exist yet are in no list of tiles that touch.
+real motion_beside_fixed_walls(const Fluid& fluid)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    const Tiles& walls = fluid.fixed_walls.candidates;
+    real most = 0;
+    const auto look = [&](const Tiles& tiles, const std::vector<DisplacementBox>& boxes) {
+        for (std::size_t t = 0; t < tiles.tile.size(); ++t) {
+            const real way = boxes[t].low.cwiseAbs().cwiseMax(boxes[t].high.cwiseAbs()).norm();
+            const auto place = TileLattice::place_of(tiles.tile[t]);
+            for (int k = 0; k < 27 && way > most; ++k) {
+                const std::array<int, 3> to{k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+                most = walls.find(tiles.lattice.beside(place, to)) >= 0 ? way : most;
+            }
+        }
+    };
+    look(n.fluid, n.fluid_motion.box);
+    look(n.body, n.body_motion.box);
+    return most;
+}
+
 Displacement measure(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
@@ -40,13 +80,19 @@ Displacement measure(Fluid& fluid)
     motion.absolute =
         std::max(motion.absolute, bound_motion(n.body, particles.body[field::position], b.box));
     if (fluid.moving_walls || n.steps == 1) { // fixed walls stay where they are
-        motion.absolute =
-            std::max(motion.absolute, bound_motion(n.wall, particles.wall[field::position], w.box));
+        measure_walls(fluid);
+        for (const DisplacementBox& box : w.box) {
+            motion.absolute =
+                std::max(motion.absolute, box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).norm());
+        }
     }
     motion.fluid = relative_motion(f.box, f.box, f.fluid);
     motion.solid =
         std::max({relative_motion(f.box, w.box, f.wall), relative_motion(f.box, b.box, f.body),
                   relative_motion(b.box, w.box, b.wall), relative_motion(b.box, b.box, b.body)});
+    if (fluid.moving_walls) {
+        motion.solid = std::max(motion.solid, motion_beside_fixed_walls(fluid));
+    }
     return motion;
 }
 
@@ -210,9 +256,9 @@ void connect(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
     find_touching(n.fluid, n.fluid, n.fluid_motion.fluid);
-    find_touching(n.fluid, n.wall, n.fluid_motion.wall);
+    find_touching(n.fluid, measured_walls(fluid), n.fluid_motion.wall);
     find_touching(n.fluid, n.body, n.fluid_motion.body);
-    find_touching(n.body, n.wall, n.body_motion.wall);
+    find_touching(n.body, measured_walls(fluid), n.body_motion.wall);
     find_touching(n.body, n.body, n.body_motion.body);
     n.wet_walls.clear();
     std::vector<std::uint8_t>& wet = n.met;
@@ -361,8 +407,7 @@ void rebuild_neighbours(Fluid& fluid)
     build_lists(fluid);
     dry(fluid); // a store that was just made holds the pressures of time 0
     if (!fluid.moving_walls) {
-        bound_motion(fluid.neighbours.wall, fluid.particles.wall[field::position],
-                     fluid.neighbours.wall_motion.box);
+        measure_walls(fluid);
     }
 }
 
