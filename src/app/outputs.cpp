@@ -18,8 +18,9 @@ namespace {
 
 // What a restart needs of the outputs.
 struct OutputState {
-    std::int64_t bodies = 0, contacts = 0, energy = 0, gauges = 0; // rows of the histories
+    std::int64_t bodies = 0, contacts = 0, energy = 0, gauges = 0, open = 0; // rows of the histories
     std::vector<RestingPair> resting;
+    bool has_open = false; // whether there are open sides, which the case says
 };
 
 template <class State, class Output>
@@ -29,6 +30,9 @@ void describe_outputs(State& state, Output& output)
     state("rows/contacts", "", output.contacts);
     state("rows/energy", "", output.energy);
     state("rows/gauges", "", output.gauges);
+    if (output.has_open) {
+        state("rows/open", "", output.open);
+    }
     auto& resting = output.resting;
     const auto sum = [](auto member) {
         return [member](auto& rest) -> auto&
@@ -91,6 +95,9 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Boun
     if (!sim.scene.gauges.empty()) {
         gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)));
     }
+    if (!sim.scene.open.empty()) {
+        open_.emplace(folder_, open_table(sim.scene));
+    }
     if (sim.fluid && sim.plan.counts.wall > 0) {
         frames_->write_static(wall_cloud(sim));
     }
@@ -105,6 +112,7 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     const int d = sim.scene.dimensions;
     const double now = sim.clock.time;
     OutputState state;
+    state.has_open = !sim.scene.open.empty();
     StateReader reader(resumed);
     describe_outputs(reader, state);
     if (!sim.scene.bodies.empty()) {
@@ -116,6 +124,9 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     energy_.emplace(folder_, energy_table(d), now, state.energy);
     if (!sim.scene.gauges.empty()) {
         gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now, state.gauges);
+    }
+    if (!sim.scene.open.empty()) {
+        open_.emplace(folder_, open_table(sim.scene), now, state.open);
     }
     frames_->forget_after(now); // behind the histories, which may refuse
     for (RestingPair& rest : state.resting) {
@@ -155,6 +166,7 @@ void Outputs::write_histories(const Simulation& sim)
 {
     write_bodies(sim);
     write_energy(sim);
+    write_open(sim);
 }
 
 void Outputs::write_gauges(Simulation& sim)
@@ -199,6 +211,22 @@ void Outputs::write_energy(const Simulation& sim)
     row.push_back(cell(lost.energy));
     append(row, lost.momentum);
     energy_->append(row);
+}
+
+void Outputs::write_open(const Simulation& sim)
+{
+    if (!open_) {
+        return;
+    }
+    std::vector<std::string> row = cells({sim.clock.time});
+    for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
+        const OpenReading r = reading_of(sim, k);
+        for (const double value : {r.level, r.velocity, r.discharge, r.volume_in, r.volume_out,
+                                   r.volume_asked}) {
+            row.push_back(cell(value));
+        }
+    }
+    open_->append(row);
 }
 
 void Outputs::write_contact(const Simulation& sim, const Contact& c)
@@ -281,7 +309,8 @@ Snapshot Outputs::snapshot(const Simulation& sim) const
 {
     Snapshot snapshot = save(sim);
     const auto rows = [](const auto& history) { return history ? history->rows() : 0; };
-    OutputState state{rows(bodies_), rows(contacts_), rows(energy_), rows(gauges_), {}};
+    OutputState state{rows(bodies_), rows(contacts_), rows(energy_), rows(gauges_),
+                      rows(open_),    {},               open_.has_value()};
     for (const auto& [key, rest] : resting_) {
         state.resting.push_back(rest);
     }
@@ -292,7 +321,7 @@ Snapshot Outputs::snapshot(const Simulation& sim) const
 
 void Outputs::settle()
 {
-    for (auto* history : {&bodies_, &contacts_, &energy_, &gauges_}) {
+    for (auto* history : {&bodies_, &contacts_, &energy_, &gauges_, &open_}) {
         if (*history) {
             (*history)->flush();
         }

@@ -45,6 +45,7 @@ private:
     void write_histories(const Simulation& sim);
     void write_bodies(const Simulation& sim);
     void write_energy(const Simulation& sim);
+    void write_open(const Simulation& sim);
     void write_gauges(Simulation& sim);
     void log_contacts(const Simulation& sim);
     void write_contact(const Simulation& sim, const Contact& contact);
@@ -53,7 +54,7 @@ private:
 
     std::filesystem::path folder_;
     std::unique_ptr<FrameWriter> frames_;
-    std::optional<History> bodies_, contacts_, energy_, gauges_;
+    std::optional<History> bodies_, contacts_, energy_, gauges_, open_;
     std::map<PairKey, RestingPair> resting_;
     StageTimer timer_;
 };

@@ -57,6 +57,20 @@ std::string gauge_lines(const Scene& scene, const Plan& plan)
     return text;
 }
 
+std::string open_lines(const Plan& plan)
+{
+    if (plan.open.empty()) {
+        return {};
+    }
+    std::string text = fmt::format("  open sides, at most about {} fluid particles with their "
+                                   "carpets\n",
+                                   plan.most_fluid);
+    for (const auto& open : plan.open) {
+        text += fmt::format("    {:<22} {}\n", open.name, open.what);
+    }
+    return text;
+}
+
 std::string join_effects(const std::vector<Plan::Effect>& effects)
 {
     std::string text;
@@ -294,8 +308,8 @@ std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<
             fmt::format("    {:<22} {:<8} {:>3} B per fluid particle, {} B per solid particle\n",
                         "together", "", of_all + of_fluid, of_all);
     }
-    return text + material_lines(scene, plan) + gauge_lines(scene, plan) + scale_lines(plan) +
-           size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
+    return text + material_lines(scene, plan) + gauge_lines(scene, plan) + open_lines(plan) +
+           scale_lines(plan) + size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
 }
 
 namespace {
@@ -381,6 +395,13 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
     }
     if (!plan.gauges.empty()) {
         json["gauges"] = gauges_json(plan);
+    }
+    if (!plan.open.empty()) {
+        json["open"] = {{"most_fluid", plan.most_fluid}, {"sides", ordered_json::array()}};
+        for (const auto& open : plan.open) {
+            json["open"]["sides"].push_back(
+                {{"name", open.name}, {"what", open.what}, {"carpet", open.carpet}});
+        }
     }
     const auto& n = plan.counts;
     json["counts"] = {{"fluid", n.fluid},

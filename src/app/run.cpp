@@ -364,6 +364,9 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
     } else {
         change_columns(folder, gauges_table(gauge_heads(scene)));
     }
+    if (!scene.open.empty()) {
+        change_columns(folder, open_table(scene));
+    }
     Outputs outputs(folder, sim, from.state);
     if (from.changed || !fs::exists(folder / "plan.json")) {
         write_case(folder, scene, plan);

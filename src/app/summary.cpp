@@ -50,6 +50,30 @@ ordered_json contact_counters(const RigidCounters& c, std::int64_t steps)
             {"worst_penetration", c.worst_penetration}};
 }
 
+// Rows of fluid are a whole number: those of the start + made - dropped - lost.
+ordered_json open_sides(const Simulation& sim)
+{
+    ordered_json list = ordered_json::array();
+    std::int64_t rows = sim.plan.counts.fluid - sim.fluid->lost.count;
+    for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
+        const Carpet& carpet = sim.open.boundary.carpets[k];
+        const OpenReading reading = reading_of(sim, k);
+        rows += carpet.made - carpet.dropped;
+        list.push_back({{"name", sim.scene.open[k].name},
+                        {"made", carpet.made},
+                        {"dropped", carpet.dropped},
+                        {"in", carpet.in},
+                        {"out", carpet.out},
+                        {"volume_in", reading.volume_in},
+                        {"volume_out", reading.volume_out},
+                        {"volume_asked", reading.volume_asked}});
+    }
+    return {{"sides", list},
+            {"fluid_at_start", sim.plan.counts.fluid},
+            {"unaccounted_particles", sim.fluid->particles.fluid.size() - rows},
+            {"energy_in", sim.open.boundary.energy}};
+}
+
 } // namespace
 
 double peak_memory()
@@ -102,6 +126,9 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                       {"bodies", n.bodies},
                       {"walls", n.walls}};
     json["particles_lost"] = sim.fluid ? sim.fluid->lost.count : 0;
+    if (sim.open.runs()) {
+        json["open"] = open_sides(sim);
+    }
     if (sim.fluid) {
         const Index in_solids = particles_in_solids(sim);
         json["particles_in_solids"] = in_solids;
@@ -115,6 +142,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                         {"end", array(end.momentum)},
                         {"wall_impulse", array(sim.conservation.wall_impulse)},
                         {"gravity_impulse", array(sim.conservation.gravity_impulse)},
+                        {"open_impulse", array(sim.open.boundary.impulse)},
                         {"lost", array(sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()))},
                         {"worst_closure_of_a_step", sim.conservation.worst_closure}};
     json["contact"] = contact_counters(sim.rigid.counters, sim.clock.step);

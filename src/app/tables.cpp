@@ -65,6 +65,21 @@ Table energy_table(int dimensions)
     return table;
 }
 
+Table open_table(const Scene& scene)
+{
+    Table table{"open", {{"time", "s"}}};
+    const bool flat = scene.dimensions == 2;
+    for (const OpenSettings& open : scene.open) {
+        table.heads.push_back({open.name + "_level", "m"});
+        table.heads.push_back({open.name + "_velocity", "m/s"});
+        table.heads.push_back({open.name + "_discharge", flat ? "m2/s" : "m3/s"});
+        for (const char* name : {"_volume_in", "_volume_out", "_volume_asked"}) {
+            table.heads.push_back({open.name + name, flat ? "m2" : "m3"});
+        }
+    }
+    return table;
+}
+
 Table gauges_table(std::vector<Table::Head> gauges)
 {
     Table table{"gauges", {{"time", "s"}}};

@@ -4,6 +4,7 @@
 
 #include "hyoryu/core/snapshot.hpp"
 #include "hyoryu/rigid/rigid.hpp"
+#include "hyoryu/scene/scene.hpp"
 
 #include <span>
 #include <vector>
@@ -14,6 +15,8 @@ namespace hyoryu {
 Table bodies_table(int dimensions);
 Table contacts_table(int dimensions);
 Table energy_table(int dimensions);
+/// open.csv: level, velocity and discharge of each open side, and what has passed it.
+Table open_table(const Scene& scene);
 Table gauges_table(std::vector<Table::Head> gauges);
 
 } // namespace hyoryu

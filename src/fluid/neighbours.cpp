@@ -379,18 +379,31 @@ void place_fixed_walls(Fluid& fluid)
 
 void update_neighbours(Fluid& fluid)
 {
+    if (lists_are_due(fluid, false)) {
+        make_lists(fluid);
+    }
+}
+
+bool lists_are_due(Fluid& fluid, bool asked)
+{
     FluidNeighbours& n = fluid.neighbours;
     n.steps += 1;
     if (n.builds == 0) {
         n.skins = n.skins.fluid > 0 ? n.skins : first_skins(fluid.parameters.spacing);
-    } else {
-        const Displacement motion = measure(fluid);
-        if (!stale(fluid, motion)) {
-            return;
-        }
-        n.skins = best_skins(motion, n.steps, n.entries, n.skins, fluid.kernel.support,
-                             fluid.parameters.spacing);
+        return true;
     }
+    const Displacement motion = measure(fluid);
+    if (!asked && !stale(fluid, motion)) {
+        return false;
+    }
+    n.skins = best_skins(motion, n.steps, n.entries, n.skins, fluid.kernel.support,
+                         fluid.parameters.spacing);
+    return true;
+}
+
+void make_lists(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
     sort_particles(fluid);
     build_lists(fluid);
     dry(fluid);

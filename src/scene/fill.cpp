@@ -7,6 +7,7 @@
 #include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
+#include "open_side.hpp"
 #include "relax_packing.hpp"
 #include "stand_off.hpp"
 #include "units.hpp"
@@ -241,6 +242,7 @@ Filling fill(const Scene& scene)
     filling.domain = domain_of(scene);
     if (scene.fluid) {
         fill_walls(scene, filling);
+        carry_walls_out(scene, filling);
         fill_fluid(scene, filling);
     }
     for (const BodySettings& body : scene.bodies) {

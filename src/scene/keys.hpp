@@ -196,14 +196,15 @@ public:
         rule.shortest = rule.longest = 4;
         self().key(rule, member, no_default);
     }
-    /// Numbers or vectors, one for each point of a path.
+    /// Numbers or vectors, one for each point of a path, so many at least.
     template <class Path>
-    void path(Text name, Path& member, Text unit, Text meaning, Default fallback = needed)
+    void path(Text name, Path& member, Text unit, Text meaning, Default fallback = needed,
+              int shortest = 2)
     {
         constexpr int most_points = 1000000;
         constexpr bool scalar = std::same_as<typename Path::value_type, double>;
         Parameter rule = row(name, scalar ? ValueKind::vector : ValueKind::vectors, unit, meaning);
-        rule.shortest = 2;
+        rule.shortest = shortest;
         rule.longest = most_points;
         self().key(rule, member, fallback);
     }

@@ -7,6 +7,7 @@
 #include "keys_debris.hpp"
 #include "keys_fluid.hpp"
 #include "keys_gauges.hpp"
+#include "keys_open.hpp"
 #include "keys_walls.hpp"
 
 namespace hyoryu {
@@ -194,6 +195,8 @@ void keys_of(auto& keys, Is<Scene> auto& scene)
     keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
                 scene.gravity.norm(), scene);
     keys.tables("sponge", "A box that damps waves before they reach its end.", scene.sponges);
+    keys.tables("open", "A window in a side of the domain through which fluid enters and leaves.",
+                scene.open, scene);
     keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,
                 scene);
     std::vector<DebrisKeys> debris; // bodies when the case is resolved

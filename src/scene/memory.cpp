@@ -76,13 +76,16 @@ bool reads_meshes(const Scene& scene)
 
 double memory_bytes(const Scene& scene, const Plan& plan, const Course& course)
 {
-    const auto n = static_cast<double>(plan.counts.particles());
-    const auto fluid = static_cast<double>(plan.counts.fluid);
+    const auto entering =
+        static_cast<double>(std::max<Index>(plan.most_fluid - plan.counts.fluid, 0));
+    const auto n = static_cast<double>(plan.counts.particles()) + entering;
+    const auto fluid = static_cast<double>(plan.counts.fluid) + entering;
     const auto wall = static_cast<double>(plan.counts.wall);
     const auto drawn = static_cast<double>(plan.counts.drawn);
     double lasting = process + (reads_meshes(scene) ? mesh_reader : 0);
     for (const Plan::FieldUse& field : plan.fields) {
-        lasting += static_cast<double>(field.bytes());
+        lasting += static_cast<double>(field.bytes()) +
+                   entering * static_cast<double>(field.bytes_per_particle);
     }
     // As if water came to all walls: those that stay dry have no columns and records.
     lasting += n * of_particle + of_body * static_cast<double>(plan.counts.bodies);

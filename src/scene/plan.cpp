@@ -10,6 +10,7 @@
 #include "plan_checks.hpp"
 #include "plan_contact.hpp"
 #include "plan_gauges.hpp"
+#include "plan_open.hpp"
 #include "plan_scale.hpp"
 
 #include <fmt/format.h>
@@ -73,6 +74,11 @@ double expected_speed(const Scene& scene, const Filling& filling)
     }
     for (const Wall& wall : scene.walls) {
         speed = std::max(speed, speed_bound(wall.motion, 0, scene.time.end));
+    }
+    for (const OpenSettings& open : scene.open) {
+        const double low = lowest(scene, filling);
+        speed = std::max(speed, fastest_asked(open, std::isfinite(low) ? low : open.min.z(), g,
+                                              scene.dimensions));
     }
     return speed;
 }
@@ -237,6 +243,9 @@ void list_effects(const Scene& scene, Plan& plan)
     census.add("wave_absorption",
                when(fluid && absorbs, "a paddle gives way to waves: `wall.motion.absorb`"),
                fluid ? "no wall has `motion.absorb`" : dry);
+    census.add("open_boundary",
+               when(!scene.open.empty(), fmt::format("{} open sides", scene.open.size())),
+               "no side is open: the scene has no [[open]]");
     census.add("gauges", when(!scene.gauges.empty(), fmt::format("{} gauges", scene.gauges.size())),
                "the scene has no gauges");
 }
@@ -351,6 +360,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     expect_built(plan, left_out);
     list_contact(scene, filling, plan);
     list_gauges(scene, plan);
+    list_open(scene, filling, plan);
     list_pairs(plan);
     list_fields(plan);
     estimate_cost(scene, plan);

@@ -6,6 +6,7 @@
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
+#include "plan_open.hpp"
 #include "walls.hpp"
 
 #include <fmt/format.h>
@@ -316,7 +317,8 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     check_step(scene, plan, errors);
     check_outputs(scene, plan, errors);
     check_gauges(scene, filling, plan, errors);
-    if (scene.fluid && filling.fluid.empty()) {
+    check_open(scene, filling, plan, errors);
+    if (scene.fluid && filling.fluid.empty() && scene.open.empty()) {
         errors.push_back(diagnostic_at(
             scene, {}, "fluid", "the blocks contain no fluid particle",
             "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));

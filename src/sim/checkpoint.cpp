@@ -97,27 +97,28 @@ void describe_solids(State& state, Fluid& fluid)
     }
 }
 
-// Particles that were lost before the checkpoint leave the store; which rows go does not matter.
-void shrink(Store& store, std::size_t kept)
+// Rows for the particles of a checkpoint: those that were lost leave the store, which of them does
+// not matter; open sides may have added some.
+void fit(Store& store, std::size_t kept, const OpenFlow& open)
 {
-    if (kept > static_cast<std::size_t>(store.size())) {
+    if (kept > static_cast<std::size_t>(store.size()) && !open.runs()) {
         throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
                                   "{} of this case: it belongs to another case",
                                   kept, store.size()));
     }
-    std::vector<std::int32_t> order(kept);
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::int32_t> order(kept, -1);
+    std::iota(order.begin(), order.begin() + std::min<std::ptrdiff_t>(std::ssize(order), store.size()), 0);
     store.gather(order);
 }
 
 template <class State, class Fluid>
-void describe_fluid(State& state, Fluid& fluid)
+void describe_fluid(State& state, Fluid& fluid, const OpenFlow& open)
 {
     auto& store = fluid.particles.fluid;
     if constexpr (State::reads) {
         std::vector<std::int64_t> ids;
         state.list("fluid/id", "", ids);
-        shrink(store, ids.size());
+        fit(store, ids.size(), open);
     }
     state.values("fluid/id", "", std::span(store.id()));
     store.for_each_column([&](const FieldInfo& column, auto& values) {
@@ -221,6 +222,30 @@ void describe_absorbers(State& state, Simulation& sim)
     }
 }
 
+template <class State, class Boundary>
+void describe_open(State& state, Boundary& open)
+{
+    state("open/next_id", "", open.next_id);
+    state("open/impulse", "N s", open.impulse);
+    state("open/energy", "J", open.energy);
+    for (std::size_t k = 0; k < open.carpets.size(); ++k) {
+        const std::string name = fmt::format("open/{}/", k);
+        auto& carpet = open.carpets[k];
+        state.each(name + "depth", "m", carpet.stations, &StationFlow::depth);
+        state.each(name + "drift", "m/s", carpet.stations, &StationFlow::drift);
+        state.each(name + "level", "m", carpet.stations, &StationFlow::level);
+        state.each(name + "velocity", "m/s", carpet.stations, &StationFlow::velocity);
+        state.each(name + "passes", "", carpet.stations, &StationFlow::passes);
+        state.values(name + "carry", "", std::span(carpet.carry));
+        state(name + "made", "", carpet.made);
+        state(name + "dropped", "", carpet.dropped);
+        state(name + "in", "", carpet.in);
+        state(name + "out", "", carpet.out);
+        state(name + "volume_asked", "m3", carpet.volume_asked);
+        state(name + "moved", "m", carpet.moved);
+    }
+}
+
 template <class State, class Simulation>
 void describe_all(State& state, Simulation& sim)
 {
@@ -242,7 +267,13 @@ void describe_all(State& state, Simulation& sim)
     }
     describe_rigid(state, sim.rigid);
     if (sim.fluid) {
-        describe_fluid(state, *sim.fluid);
+        describe_fluid(state, *sim.fluid, sim.open);
+    }
+    if (sim.open.runs()) {
+        describe_open(state, sim.open.boundary);
+        if constexpr (State::reads) {
+            find_rows(*sim.fluid, sim.open.boundary);
+        }
     }
 }
 

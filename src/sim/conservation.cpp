@@ -95,7 +95,8 @@ struct FluidEnergy {
     double kinetic = 0, potential = 0, internal = 0;
 };
 
-FluidEnergy fluid_energy(const Fluid& fluid)
+// Of the domain: what is behind an open side counts no more, or not yet.
+FluidEnergy fluid_energy(const Fluid& fluid, const OpenBoundary& open)
 {
     const Store& store = fluid.particles.fluid;
     const auto x = store[field::position];
@@ -105,6 +106,9 @@ FluidEnergy fluid_energy(const Fluid& fluid)
     const FixedUnit unit = sum_units(f).energy;
     const auto [kinetic, potential, internal] =
         sum_by_tile<3>(fluid.neighbours.fluid, {unit, unit, unit}, [&](Index i) {
+            if (!open.carpets.empty() && is_behind(open, x[i], f.spacing)) {
+                return std::array{0.0, 0.0, 0.0};
+            }
             const double s = rho[i] / f.eos.rho0;
             return std::array{0.5 * v[i].squaredNorm(), -f.gravity.dot(x[i]),
                               sq(f.eos.c0) * (std::log(s) + 1 / s - 1)};
@@ -118,7 +122,7 @@ Totals totals(const Simulation& sim)
 {
     Totals t;
     if (sim.fluid) {
-        const FluidEnergy e = fluid_energy(*sim.fluid);
+        const FluidEnergy e = fluid_energy(*sim.fluid, sim.open.boundary);
         t.fluid_kinetic = e.kinetic;
         t.fluid_potential = e.potential;
         t.fluid_internal = e.internal;
@@ -136,7 +140,8 @@ Totals totals(const Simulation& sim)
 MomentumBefore momentum_before(const Simulation& sim)
 {
     const MomentumSum all = motion(sim);
-    return {all.momentum, sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()), all.scale};
+    return {all.momentum, sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()),
+            sim.open.boundary.impulse, all.scale};
 }
 
 void update_conservation(Simulation& sim, const MomentumBefore& before, double dt)
@@ -149,7 +154,8 @@ void update_conservation(Simulation& sim, const MomentumBefore& before, double d
     walls += sim.waves.sponge_impulse;
     const Vec3 gravity = dt * weight(sim);
     const Vec3 lost = sim.fluid ? Vec3(sim.fluid->lost.momentum - before.lost) : Vec3(Vec3::Zero());
-    const Vec3 residual = after.momentum - before.momentum + lost - walls - gravity;
+    const Vec3 open = sim.open.boundary.impulse - before.open;
+    const Vec3 residual = after.momentum - before.momentum + lost - walls - gravity - open;
     // The impulse of gravity is part of the scale: a fluid at rest has no momentum of its own.
     const double scale = std::max({before.scale, after.scale, gravity.norm()});
     sim.conservation.wall_impulse += walls;

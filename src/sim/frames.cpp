@@ -75,6 +75,29 @@ Cloud cloud_of(const Simulation& sim, std::string name, const Store& store, Kind
     return cloud;
 }
 
+// Takes the rows behind open sides out of a frame: they are not part of the domain.
+void leave_out_carpets(const Simulation& sim, Cloud& cloud)
+{
+    const auto x = sim.fluid->particles.fluid[field::position];
+    std::vector<std::size_t> inside;
+    for (std::size_t row = 0; row < x.size(); ++row) {
+        if (!is_behind(sim.open.boundary, x[row], sim.scene.spacing)) {
+            inside.push_back(row);
+        }
+    }
+    const auto keep = [&](auto& values, std::size_t width) {
+        for (std::size_t k = 0; k < inside.size(); ++k) {
+            std::copy_n(&values[inside[k] * width], width, &values[k * width]);
+        }
+        values.resize(inside.size() * width);
+    };
+    keep(cloud.points, 3);
+    for (Column& column : cloud.columns) {
+        std::visit([&](auto& values) { keep(values, static_cast<std::size_t>(column.components)); },
+                   column.values);
+    }
+}
+
 // The value that a column has for a wall particle without a row, which no fluid is near.
 double dry_value(const Fluid& fluid, const std::string& column)
 {
@@ -120,7 +143,11 @@ std::size_t append(Surface& all, const TriangleSurface& part, const Pose& pose)
 
 Cloud fluid_cloud(const Simulation& sim)
 {
-    return cloud_of(sim, "fluid", sim.fluid->particles.fluid, Kind::fluid);
+    Cloud cloud = cloud_of(sim, "fluid", sim.fluid->particles.fluid, Kind::fluid);
+    if (sim.open.runs()) {
+        leave_out_carpets(sim, cloud);
+    }
+    return cloud;
 }
 
 // All particles of walls in the order of their numbers, with rows or without.

@@ -37,6 +37,9 @@ struct Sponges {
 struct WaveAbsorption {
     static constexpr std::string_view name = "wave_absorption";
 };
+struct OpenSides {
+    static constexpr std::string_view name = "open_boundary";
+};
 struct Gauges {
     static constexpr std::string_view name = "gauges";
 };
@@ -249,6 +252,45 @@ void hold_fluid(Simulation& sim, double dt)
     }
 }
 
+bool has_open_sides(const Simulation& sim)
+{
+    return is_built<OpenSides> && sim.open.runs();
+}
+
+// Lists where they are due; the only moment at which fluid rows come and go.
+void update_lists(Simulation& sim)
+{
+    if (has_open_sides(sim)) {
+        renew_open(sim);
+    } else {
+        update_neighbours(*sim.fluid);
+    }
+}
+
+// Carpets keep their lattice.
+void shift_fluid(Simulation& sim, double dt)
+{
+    Fluid& fluid = *sim.fluid;
+    if (!has_open_sides(sim) || held<Shifting>(fluid.effects) == nullptr) {
+        shift(fluid, dt);
+        return;
+    }
+    std::vector<Vec3> places;
+    const auto over_carpets = [&](const auto& f) {
+        for (const Carpet& carpet : sim.open.boundary.carpets) {
+            for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+                if (carpet.behind[k] != 0) {
+                    f(fluid.particles.fluid[field::position][carpet.near[k]]);
+                }
+            }
+        }
+    };
+    over_carpets([&](const Vec3& x) { places.push_back(x); });
+    shift(fluid, dt);
+    std::size_t next = 0;
+    over_carpets([&](Vec3& x) { x = places[next++]; });
+}
+
 // A step of a fluid particle costs as much as ten updates of a contact, on one thread.
 constexpr double updates_of_particle = 10;
 
@@ -285,7 +327,10 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
             }
         }
         fly_bodies(sim, 0);
-        update_neighbours(*sim.fluid);
+        if (plan.runs(OpenSides::name)) {
+            start_open(sim);
+        }
+        update_lists(sim);
         update_pressure(*sim.fluid);
         // Initial rates, so that the first half step compresses the fluid like all later ones.
         update_rates(*sim.fluid);
@@ -324,7 +369,7 @@ void step(Simulation& sim)
         move_walls(sim, sim.clock.time + dt / 2, sim.clock.time + dt / 2);
         fly_bodies(sim, dt / 2);
         sim.timer.begin("neighbours");
-        update_neighbours(fluid);
+        update_lists(sim);
         sim.timer.begin("pressure");
         update_pressure(fluid);
         seep(sim, dt);
@@ -338,6 +383,10 @@ void step(Simulation& sim)
             damp_in_sponges(sim, dt);
         }
         hold_fluid(sim, dt);
+        if (has_open_sides(sim)) {
+            sim.timer.begin("open sides");
+            drive_open(sim, dt);
+        }
     }
     if (is_built<RigidMotion> && sim.plan.rigid) {
         sim.timer.begin("bodies");
@@ -354,9 +403,12 @@ void step(Simulation& sim)
         move_walls(sim, sim.clock.time + dt / 2, next.end);
         update_rates(fluid);
         sim.pair_visits += static_cast<double>(fluid.neighbours.visits);
-        shift(fluid, dt);
+        shift_fluid(sim, dt);
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
+        if (has_open_sides(sim)) {
+            close_open(sim);
+        }
         move_walls(sim, next.end, next.end);
     }
     sim.timer.begin("books");

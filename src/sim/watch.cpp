@@ -130,7 +130,7 @@ void watch_bodies(const Simulation& sim)
 bool driven(const Simulation& sim)
 {
     const RigidSettings& contact = sim.rigid.settings;
-    return has_moving_walls(sim.scene) || (sim.fluid && !sim.fluid->parameters.drive.isZero(0)) ||
+    return has_moving_walls(sim.scene) || sim.open.runs() || (sim.fluid && !sim.fluid->parameters.drive.isZero(0)) ||
            sim.rigid.penalty || contact.law != ImpactLaw::coupled;
 }
 

@@ -46,6 +46,12 @@ struct Plan {
         Index particles() const { return fluid + wall + body; }
     };
 
+    struct OpenUse {
+        std::string name;
+        std::string what; // it does, and where
+        Index carpet = 0; // rows of its carpet at most
+    };
+
     /// Two materials that can meet. The mixing rule: the entry of `contact.pair` that names both,
     /// else the values of `[contact]`; nothing is averaged.
     struct MaterialContact {
@@ -102,6 +108,9 @@ struct Plan {
     FluidEffects effects;
     bool rigid = false;   // bodies move
     bool contact = false; // bodies may meet something
+
+    std::vector<OpenUse> open;
+    Index most_fluid = 0; // rows of fluid that open sides may bring at once; 0 without them
 
     bool runs(std::string_view effect) const;
 };

@@ -10,6 +10,7 @@
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/geometry/height_grid.hpp"
 #include "hyoryu/rigid/law.hpp"
+#include "hyoryu/scene/open_settings.hpp"
 
 #include <array>
 #include <filesystem>
@@ -224,6 +225,7 @@ struct Scene {
     ContactSettings contact;
     std::vector<Gauge> gauges;
     OutputSettings output;
+    std::vector<OpenSettings> open; // sides through which fluid enters and leaves
 };
 
 } // namespace hyoryu

@@ -37,6 +37,7 @@ Totals totals(const Simulation& sim);
 struct MomentumBefore {
     Vec3 momentum{0, 0, 0};
     Vec3 lost{0, 0, 0}; // of particles that left the domain, since the start
+    Vec3 open{0, 0, 0}; // impulse at open sides since the start
     double scale = 0;
 };
 MomentumBefore momentum_before(const Simulation& sim);

@@ -11,6 +11,7 @@
 #include "hyoryu/sim/clock.hpp"
 #include "hyoryu/sim/conservation.hpp"
 #include "hyoryu/sim/gauges.hpp"
+#include "hyoryu/sim/open_flow.hpp"
 #include "hyoryu/sim/wall_barrier.hpp"
 #include "hyoryu/sim/waves.hpp"
 
@@ -47,6 +48,7 @@ struct Simulation {
     std::map<std::string, long long, std::less<>> steps_by_limit;
     double pair_visits = 0;     // evaluated list entries so far
     double thinnest = infinity; // least inner radius of the bodies [m]
+    OpenFlow open;              // at the open sides
 };
 
 /// The scene at time 0. The particles of `filling` go into the store.

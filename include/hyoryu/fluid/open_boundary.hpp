@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// Open sides of the fluid. Outside each lies a carpet of buffer particles: fluid rows that take part
+// in all pair loops as neighbours, but whose velocity and density follow from the flow that is asked
+// for. A row belongs to the carpet as long as it is behind the plane; nothing else marks it.
+//
+// The flow at the plane is driven by the incoming Riemann invariant alone, u + 2 sqrt(g h), so that
+// the waves that come from inside leave. Ours in this form; linearised it is the correction of
+// Verbrugghe et al. (2019).
+#pragma once
+
+#include "hyoryu/fluid/fluid.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace hyoryu {
+
+/// Columns of a carpet: the support of the kernel, and three for what moves between two lists.
+int carpet_columns(const FluidParameters& f);
+
+/// A vertical plane through which fluid enters and leaves. `s` is the distance from it into the
+/// domain, lanes are strips of one spacing along it; in two dimensions there is one lane.
+struct OpenSide {
+    int axis = 0;            // of the normal: 0 or 1
+    real plane = 0;          // [m]
+    real into = 1;           // +1 or -1: the direction into the domain along the axis
+    real first = 0;          // lower edge of the first lane along the plane [m]
+    real low = 0;            // lower edge of the window [m]
+    bool repeats = false;    // the plane reaches from end to end of a period
+    std::vector<real> bed;   // ground below the carpet, by lane; infinity where it fills the window [m]
+    std::vector<real> strip; // mean ground of the strip in which the depth is measured, by lane [m]
+    int station_lanes = 4;   // lanes of a station, in each of which one depth is measured
+
+    int lanes() const { return static_cast<int>(bed.size()); }
+    int stations() const { return (lanes() + station_lanes - 1) / station_lanes; }
+    real distance(const Vec3& x) const { return into * (x[axis] - plane); }
+    Vec3 normal() const { return into * Vec3::Unit(axis); }
+    /// The lane of a point; outside of 0 .. lanes() beside the window.
+    int lane(const Vec3& x, real spacing) const;
+    /// The ground at a station: the mean over its lanes; infinity where no lane is open.
+    real station_bed(int station) const;
+    real station_strip(int station) const;
+    int open_lanes(int station) const;
+};
+
+/// What is asked for at a station at one moment.
+struct AskedFlow {
+    std::optional<real> level;     // of the free surface [m]
+    std::optional<real> velocity;  // into the domain [m/s]
+    std::optional<real> discharge; // into the domain, of a metre of width [m2/s]
+    bool free = false;             // nothing: what the strip does goes on
+    real still = 0;                // depth of the water at rest, for a level alone [m]
+};
+
+/// What a station reads and does.
+struct StationFlow {
+    real depth = 0;      // h_m: measured depth, filtered [m]
+    real drift = 0;      // mean velocity of the strip into the domain, filtered [m/s]
+    real level = 0;      // of the carpet [m]
+    real velocity = 0;   // of the carpet into the domain [m/s]
+    bool passes = false; // supercritical outflow: every particle keeps its velocity
+};
+
+/// The flow at the plane: of the carpet, from the strip inside and what is asked for.
+/// `bed`, `strip`: the ground below the carpet and below the strip [m].
+struct StationGround {
+    real bed = 0, strip = 0;
+};
+StationFlow flow_at(const AskedFlow& asked, const StationFlow& before, const StationGround& ground,
+                    real gravity);
+
+struct Carpet {
+    OpenSide side;
+    bool power_profile = false;         // u(z) ~ z^(1/7) in place of a uniform one
+    std::vector<StationFlow> stations;
+    std::vector<real> carry;            // by lane: rows that are owed to the volume [1]
+    std::int64_t made = 0, dropped = 0; // rows since the start
+    std::int64_t in = 0, out = 0;       // rows that crossed the plane
+    real volume_asked = 0;              // integral of depth x velocity over the window [m3]
+    real moved = 0;                     // by the fastest lane since lists were made [m]
+
+    // Rows that may be behind the plane or in the strip until lists are made again.
+    std::vector<std::int32_t> near;
+    std::vector<std::uint8_t> behind;   // of those, now
+    std::vector<Vec3> kept;             // velocities of those behind before the kick [m/s]
+};
+
+/// The open sides of a scene, and what passed them.
+struct OpenBoundary {
+    std::vector<Carpet> carpets;
+    std::int64_t next_id = 0;       // number of the next particle that is made
+    std::int64_t most = 0;          // particles that the run may hold; 0: any
+    Vec3 impulse{0, 0, 0};          // on the rows of the store since the start [N s]
+    Vec3 dropped_force{0, 0, 0};    // viscous, of rows dropped in this step [N]
+    real energy = 0;                // carried in through the planes since the start [J]
+};
+
+/// Finds the rows about each plane; after lists were made or rows came back from a checkpoint.
+void find_rows(const Fluid& fluid, OpenBoundary& open);
+
+/// Measures depth and velocity of the strip inside each plane, as they are now, without a filter.
+void measure_start(const Fluid& fluid, OpenBoundary& open);
+
+/// Filters the depth and velocity that the strips have now, over a step of dt.
+void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt);
+
+/// Takes note of the rows that crossed a plane.
+void count_crossings(const Fluid& fluid, OpenBoundary& open);
+
+/// Whether a carpet has moved so far that new columns are due.
+bool carpets_due(const Fluid& fluid, const OpenBoundary& open);
+
+/// Drops rows that have left the carpets, and makes new ones. Only before lists are made: rows move.
+void renew_carpets(Fluid& fluid, OpenBoundary& open);
+
+/// Sets the density of the carpets to that of water at rest below their level; no gap, no cavity.
+void set_densities(Fluid& fluid, const OpenBoundary& open);
+
+/// Before and after the kick: sets the velocities of the carpets and books the impulse.
+void keep_velocities(const Fluid& fluid, OpenBoundary& open);
+void set_velocities(Fluid& fluid, OpenBoundary& open, real dt);
+
+/// Whether a point is behind an open plane.
+bool is_behind(const OpenBoundary& open, const Vec3& x, real spacing);
+
+} // namespace hyoryu

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The open sides of a case, and the flow that is asked for there.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+#include "hyoryu/fluid/open_boundary.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hyoryu {
+
+struct Scene;
+
+/// Where in the case file something was said, for messages that come after reading.
+struct Place {
+    int line = 0;
+    int column = 0;
+    int length = 1;
+};
+
+/// What a window is open for: a flow that is asked for; nothing; the still water outside.
+enum class OpenKind { inflow, outflow, absorb };
+/// What becomes of bodies there.
+enum class OpenBodies { leave, stop };
+enum class FlowProfile { uniform, power };
+
+/// The flow at one place of a window: linear between its times, held before and after them. Each
+/// list is as long as that of the times, or empty.
+struct OpenSeries {
+    double at = 0; // along the window [m]
+    std::vector<double> times; // [s]
+    std::vector<double> levels; // z of the free surface [m]
+    std::vector<double> velocities; // into the domain [m/s]
+    std::vector<double> discharges; // into the domain [m3/s]; m2/s in two dimensions
+    Place place;
+};
+
+/// A window in a side of the domain through which fluid enters and leaves.
+struct OpenSettings {
+    std::string name;
+    Vec3 min{0, 0, 0}, max{0, 0, 0}; // [m]; equal along the normal
+    int into = 0;                    // +x -x +y -y: the direction into the domain
+    OpenKind kind = OpenKind::inflow;
+    std::optional<double> level;     // z of the free surface [m]
+    std::optional<double> velocity;  // into the domain [m/s]
+    std::optional<double> discharge; // [m3/s]; m2/s in two dimensions
+    std::vector<OpenSeries> series;  // ascending in `at`
+    FlowProfile profile = FlowProfile::uniform;
+    OpenBodies bodies = OpenBodies::stop;
+    bool hold = false; // the last values hold to the end of the run, knowingly
+    Place place;
+
+    int axis() const { return into / 2; }
+    double sign() const { return into % 2 == 0 ? 1 : -1; }
+    double plane() const { return min[axis()]; }
+    /// Along the window; 1 in two dimensions [m].
+    double width(int dimensions) const;
+};
+
+/// What is asked for at a place along the window; `still`: level and depth there at the start [m].
+struct StillWater {
+    double level = 0, depth = 0;
+};
+AskedFlow asked_at(const OpenSettings& open, double along, double time, const StillWater& still,
+                   int dimensions);
+
+/// Largest sqrt(u^2 + 2 g h) that is asked for above a ground at `bed` [m/s].
+double fastest_asked(const OpenSettings& open, double bed, double gravity, int dimensions);
+/// Highest level that is asked for; none where no level is [m].
+std::optional<double> highest_asked(const OpenSettings& open);
+
+/// The plane of a window with its lanes and the ground there.
+OpenSide open_side(const Scene& scene, const OpenSettings& open);
+
+} // namespace hyoryu

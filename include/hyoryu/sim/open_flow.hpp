@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Open sides in a run: the flow that is asked for at each moment drives the carpets.
+#pragma once
+
+#include "hyoryu/fluid/open_boundary.hpp"
+#include "hyoryu/scene/open_settings.hpp"
+
+#include <vector>
+
+namespace hyoryu {
+
+struct Simulation;
+
+/// The carpets of a scene, and what was there at the start.
+struct OpenFlow {
+    OpenBoundary boundary;
+    std::vector<std::vector<StillWater>> still; // of each carpet, by station
+    bool runs() const { return !boundary.carpets.empty(); }
+};
+
+/// Makes the carpets of the scene with its first particles; before the first lists.
+void start_open(Simulation& sim);
+
+/// After the drift to the middle of a step: counts what crossed, and makes new lists where those are
+/// due, with new columns of the carpets.
+void renew_open(Simulation& sim);
+
+/// After the kick of a step of dt: the flow at the end of the step, and the velocities of carpets.
+void drive_open(Simulation& sim, double dt);
+
+/// After the drift to the end of a step: counts what crossed, and sets the densities.
+void close_open(Simulation& sim);
+
+/// What an open side shows in open.csv.
+struct OpenReading {
+    double level = 0;      // mean of the carpet [m]
+    double velocity = 0;   // mean into the domain [m/s]
+    double discharge = 0;  // into the domain now [m3/s]; m2/s in two dimensions
+    double volume_in = 0, volume_out = 0; // through the plane since the start [m3]
+    double volume_asked = 0;              // net, of depth x velocity [m3]
+};
+OpenReading reading_of(const Simulation& sim, std::size_t carpet);
+
+} // namespace hyoryu

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// Which rows the carpets of open sides hold. A carpet is a lattice that moves with its flow: the
+// next column of a row stands one spacing behind its outermost particle, so that the places of the
+// particles are all that a carpet remembers.
+#include "carpet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr real least_distance = 0.6; // of a new particle from any other [spacings]
+constexpr real highest = 0.75;       // above the level, of a particle that stays [spacings]
+constexpr real step_back = 0.25;     // of a place that is taken [spacings]
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+// Places about a carpet, in cells of one spacing; only looked up, never walked.
+class Places {
+public:
+    explicit Places(real spacing) : spacing_(spacing) {}
+
+    void add(const Vec3& x) { cells_.emplace(key(cell(x)), x); }
+    bool is_free(const Vec3& x) const
+    {
+        const auto c = cell(x);
+        for (Index way = 0; way < 27; ++way) {
+            const auto [from, to] = cells_.equal_range(
+                key({c[0] + way % 3 - 1, c[1] + way / 3 % 3 - 1, c[2] + way / 9 - 1}));
+            for (auto near = from; near != to; ++near) {
+                if ((near->second - x).norm() < least_distance * spacing_) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+private:
+    std::array<Index, 3> cell(const Vec3& x) const
+    {
+        std::array<Index, 3> c{};
+        for (int a = 0; a < 3; ++a) {
+            c[at(a)] = static_cast<Index>(std::floor(x[a] / spacing_));
+        }
+        return c;
+    }
+    static std::uint64_t key(const std::array<Index, 3>& c)
+    {
+        std::uint64_t h = 1;
+        for (const Index v : c) {
+            h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ULL;
+        }
+        return h;
+    }
+    real spacing_;
+    std::unordered_multimap<std::uint64_t, Vec3> cells_;
+};
+
+// A particle to be made.
+struct NewParticle {
+    Vec3 place, velocity;
+    real density = 0;
+};
+
+// The rows of one lane: distances from the plane of the particles of each, negative.
+using LaneRows = std::vector<std::vector<real>>;
+
+// Emits the particles of one lane after another.
+class Emitter {
+public:
+    Emitter(const Fluid& fluid, Carpet& carpet, Places& places, std::vector<NewParticle>& made)
+        : f_(fluid.parameters), carpet_(carpet), places_(places), made_(made),
+          far_(-(carpet_columns(f_) - 0.5) * f_.spacing)
+    {
+    }
+
+    // `own`: the particles of the lane behind the plane; `inside`: distance of the nearest one of
+    // the lowest row before it.
+    void fill_lane(int lane, const std::vector<Vec3>& own, real inside)
+    {
+        const real dp = f_.spacing;
+        const StationFlow& flow = station_of(carpet_, lane);
+        lane_ = lane;
+        bed_ = carpet_.side.bed[at(lane)];
+        const real rows = bed_ < infinity ? (flow.level - bed_) / dp : 0;
+        if (flow.passes || !(rows >= least_rows)) {
+            return;
+        }
+        const auto full = static_cast<int>(std::floor(rows + 1e-9));
+        const real part = std::max(rows - full, real(0));
+        LaneRows s(at(full + 1));
+        for (const Vec3& x : own) {
+            const real k = std::floor((x.z() - bed_) / dp);
+            if (k >= 0 && k <= full) {
+                s[at(static_cast<Index>(k))].push_back(carpet_.side.distance(x));
+            }
+        }
+        for (int k = 0; k < full; ++k) {
+            std::vector<real> added;
+            if (k > 0) {
+                added = stack(k, s[at(k - 1)], s[at(k)]);
+            }
+            const real begin = std::min(inside, dp) < dp ? inside : dp / 2;
+            const std::vector<real> more = extend(k, s[at(k)], begin);
+            added.insert(added.end(), more.begin(), more.end());
+            if (k == full - 1) {
+                cover(full, part, added);
+            }
+        }
+    }
+
+private:
+    Vec3 place(real s, int row) const
+    {
+        const OpenSide& side = carpet_.side;
+        Vec3 x = Vec3::Zero();
+        x[side.axis] = side.plane + side.into * s;
+        x[1 - side.axis] =
+            f_.dimensions == 2 ? 0 : side.first + (static_cast<real>(lane_) + 0.5) * f_.spacing;
+        x.z() = bed_ + (static_cast<real>(row) + 0.5) * f_.spacing;
+        return x;
+    }
+    bool emit(real s, int row)
+    {
+        const Vec3 x = place(s, row);
+        if (!places_.is_free(x)) {
+            return false;
+        }
+        const StationFlow& flow = station_of(carpet_, lane_);
+        made_.push_back({x, speed_at(carpet_, flow, bed_, x.z()) * carpet_.side.normal(),
+                         density_at(f_, flow.level, x.z())});
+        places_.add(x);
+        return true;
+    }
+    // Columns on the far edge of a row; returns the new ones.
+    std::vector<real> extend(int row, std::vector<real>& s, real begin)
+    {
+        const real dp = f_.spacing;
+        real outermost = s.empty() ? begin : *std::ranges::min_element(s);
+        std::vector<real> added;
+        while (outermost > far_) {
+            if (emit(outermost - dp, row)) {
+                outermost -= dp;
+                s.push_back(outermost);
+                added.push_back(outermost);
+            } else {
+                outermost -= step_back * dp;
+            }
+        }
+        return added;
+    }
+    // Where the level has risen: particles above those of the row below; returns the new ones.
+    std::vector<real> stack(int row, const std::vector<real>& below, std::vector<real>& s)
+    {
+        std::vector<real> added;
+        for (std::size_t k = 0; k < below.size() && s.size() < below.size(); ++k) {
+            if (emit(below[k], row)) {
+                s.push_back(below[k]);
+                added.push_back(below[k]);
+            }
+        }
+        return added;
+    }
+    // The part of a row on the top: so many of the new columns carry one more that the volume is
+    // that of the level.
+    void cover(int row, real part, const std::vector<real>& added)
+    {
+        real& carry = carpet_.carry[at(lane_)];
+        for (const real s : added) {
+            carry += part;
+            if (carry >= 0.5 && emit(s, row)) {
+                carry -= 1;
+            }
+        }
+        carry = std::clamp(carry, real(-1), real(1)); // places that were taken are not made up for
+    }
+
+    const FluidParameters& f_;
+    Carpet& carpet_;
+    Places& places_;
+    std::vector<NewParticle>& made_;
+    real far_; // outermost place from which a column is missing behind [m]
+    int lane_ = 0;
+    real bed_ = 0;
+};
+
+// Whether a row behind the plane has left the carpet.
+bool has_left(const Fluid& fluid, const Carpet& carpet, const Vec3& x)
+{
+    const real dp = fluid.parameters.spacing;
+    const int lane = carpet.side.lane(x, dp);
+    const int inside = std::clamp(lane, 0, carpet.side.lanes() - 1);
+    const real bed = carpet.side.bed[at(inside)];
+    const StationFlow& flow = station_of(carpet, lane);
+    return carpet.side.distance(x) < -(carpet_columns(fluid.parameters) + 0.5) * dp ||
+           lane < -1 || lane > carpet.side.lanes() || !(bed < infinity) || x.z() < bed - dp ||
+           (!flow.passes && x.z() > flow.level + highest * dp);
+}
+
+struct Lanes {
+    std::vector<std::vector<Vec3>> own; // behind the plane, by lane
+    std::vector<real> inside;           // distance of the nearest of the lowest row inside
+};
+
+// Marks the rows that have left; sorts the others into lanes.
+Lanes sort_into_lanes(const Fluid& fluid, const Carpet& carpet, Places& places,
+                      std::vector<std::uint8_t>& left)
+{
+    const OpenSide& side = carpet.side;
+    const real dp = fluid.parameters.spacing;
+    const auto x = fluid.particles.fluid[field::position];
+    Lanes lanes{std::vector<std::vector<Vec3>>(at(side.lanes())),
+                std::vector<real>(at(side.lanes()), infinity)};
+    for (const std::int32_t row : carpet.near) {
+        const Vec3& p = x[row];
+        const real s = side.distance(p);
+        if (s < 0 && has_left(fluid, carpet, p)) {
+            left[at(row)] = 1;
+            continue;
+        }
+        if (s < 2 * dp) {
+            places.add(p);
+        }
+        const int lane = side.lane(p, dp);
+        if (lane < 0 || lane >= side.lanes()) {
+            continue;
+        }
+        if (s < 0) {
+            lanes.own[at(lane)].push_back(p);
+        } else if (p.z() < side.bed[at(lane)] + dp) {
+            lanes.inside[at(lane)] = std::min(lanes.inside[at(lane)], s);
+        }
+    }
+    return lanes;
+}
+
+void add_bodies(const Fluid& fluid, const Carpet& carpet, Places& places)
+{
+    const auto x = fluid.particles.body[field::position];
+    const real far = (carpet_columns(fluid.parameters) + 2) * fluid.parameters.spacing;
+    for (Index row = 0; row < fluid.particles.body.size(); ++row) {
+        const real s = carpet.side.distance(x[row]);
+        if (s < fluid.parameters.spacing && s > -far) {
+            places.add(x[row]);
+        }
+    }
+}
+
+void book_dropped(const Fluid& fluid, const std::vector<std::uint8_t>& left, OpenBoundary& open)
+{
+    const Store& store = fluid.particles.fluid;
+    const auto v = store[field::velocity];
+    const bool viscous = store.has(field::viscous_force);
+    Vec3 momentum = Vec3::Zero();
+    for (Index row = 0; row < store.size(); ++row) {
+        if (left[at(row)] != 0) {
+            momentum += fluid.parameters.mass * v[row];
+            open.dropped_force += viscous ? store[field::viscous_force][row] : Vec3::Zero();
+        }
+    }
+    open.impulse -= momentum;
+}
+
+// Puts the new particles behind the rows that stay.
+void change_rows(Fluid& fluid, const std::vector<std::uint8_t>& left,
+                 const std::vector<NewParticle>& made, OpenBoundary& open)
+{
+    Store& store = fluid.particles.fluid;
+    std::vector<std::int32_t> from;
+    for (Index row = 0; row < store.size(); ++row) {
+        if (left[at(row)] == 0) {
+            from.push_back(static_cast<std::int32_t>(row));
+        }
+    }
+    const std::size_t kept = from.size();
+    if (kept == left.size() && made.empty()) {
+        return;
+    }
+    from.resize(kept + made.size(), -1);
+    store.gather(from);
+    for (std::size_t k = 0; k < made.size(); ++k) {
+        const std::size_t row = kept + k;
+        store[field::position][row] = made[k].place;
+        store[field::velocity][row] = made[k].velocity;
+        store[field::density][row] = made[k].density;
+        store.id()[row] = open.next_id++;
+        open.impulse += fluid.parameters.mass * made[k].velocity;
+    }
+}
+
+} // namespace
+
+void renew_carpets(Fluid& fluid, OpenBoundary& open)
+{
+    std::vector<std::uint8_t> left(at(fluid.particles.fluid.size()), 0);
+    std::vector<NewParticle> made;
+    for (Carpet& carpet : open.carpets) {
+        Places places(fluid.parameters.spacing);
+        const auto gone = std::ranges::count(left, 1);
+        const Lanes lanes = sort_into_lanes(fluid, carpet, places, left);
+        add_bodies(fluid, carpet, places);
+        const std::size_t before = made.size();
+        Emitter emitter(fluid, carpet, places, made);
+        for (int lane = 0; lane < carpet.side.lanes(); ++lane) {
+            emitter.fill_lane(lane, lanes.own[at(lane)], lanes.inside[at(lane)]);
+        }
+        carpet.made += static_cast<std::int64_t>(made.size() - before);
+        carpet.dropped += std::ranges::count(left, 1) - gone;
+        carpet.moved = 0;
+    }
+    book_dropped(fluid, left, open);
+    change_rows(fluid, left, made, open);
+}
+
+} // namespace hyoryu

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+#include "carpet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr real strip_half = 4;  // spacings from the plane to the middle of the strip
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+real gravity_of(const Fluid& fluid)
+{
+    return fluid.parameters.gravity.norm();
+}
+
+// Hat of the strip: the particles of a lattice sum to its depth whatever their phase.
+real strip_weight(real s, real spacing)
+{
+    const real a = strip_half * spacing;
+    return std::max(real(0), 1 - std::abs(s - a) / a);
+}
+
+struct StripSums {
+    real volume = 0, moved = 0; // sum of w V and of w V u
+};
+
+// Sums over the strips of all stations, in the order of the rows.
+std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
+{
+    const OpenSide& side = carpet.side;
+    const Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const auto rho = store[field::density];
+    const real dp = fluid.parameters.spacing;
+    std::vector<StripSums> sums(at(side.stations()));
+    for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+        const auto row = at(carpet.near[k]);
+        const real s = side.distance(x[row]);
+        const real w = s >= 0 ? strip_weight(s, dp) : 0;
+        const int lane = side.lane(x[row], dp);
+        if (w > 0 && lane >= 0 && lane < side.lanes()) {
+            const real V = w * fluid.parameters.mass / rho[row];
+            sums[at(lane / side.station_lanes)].volume += V;
+            sums[at(lane / side.station_lanes)].moved += V * side.into * v[row][side.axis];
+        }
+    }
+    return sums;
+}
+
+// Area of a station seen from above, through which the strip is weighed [m2]; m in two dimensions.
+real strip_area(const Fluid& fluid, const OpenSide& side, int station)
+{
+    const real dp = fluid.parameters.spacing;
+    const real width = fluid.parameters.dimensions == 2
+                           ? 1
+                           : static_cast<real>(side.open_lanes(station)) * dp;
+    return strip_half * dp * width;
+}
+
+} // namespace
+
+int carpet_columns(const FluidParameters& f)
+{
+    constexpr int spare = 3;
+    return static_cast<int>(std::ceil(2 * f.h / f.spacing - 1e-9)) + spare;
+}
+
+int OpenSide::lane(const Vec3& x, real spacing) const
+{
+    if (lanes() == 1) {
+        return 0;
+    }
+    const auto k = static_cast<int>(std::floor((x[1 - axis] - first) / spacing));
+    return repeats ? (k % lanes() + lanes()) % lanes() : k;
+}
+
+int OpenSide::open_lanes(int station) const
+{
+    const int begin = station * station_lanes;
+    const int end = std::min(begin + station_lanes, lanes());
+    return static_cast<int>(
+        std::count_if(bed.begin() + begin, bed.begin() + end, [](real z) { return z < infinity; }));
+}
+
+namespace {
+
+real mean_of_open(const OpenSide& side, const std::vector<real>& ground, int station)
+{
+    const int begin = station * side.station_lanes;
+    const int end = std::min(begin + side.station_lanes, side.lanes());
+    real total = 0;
+    for (int lane = begin; lane < end; ++lane) {
+        total += side.bed[at(lane)] < infinity ? ground[at(lane)] : 0;
+    }
+    const int count = side.open_lanes(station);
+    return count > 0 ? total / count : infinity;
+}
+
+} // namespace
+
+real OpenSide::station_bed(int station) const
+{
+    return mean_of_open(*this, bed, station);
+}
+
+real OpenSide::station_strip(int station) const
+{
+    return mean_of_open(*this, strip, station);
+}
+
+namespace {
+
+// Water that is wanted at a discharge: it enters at least at the critical depth.
+StationFlow with_discharge(StationFlow flow, real q, const StationGround& ground, real gravity)
+{
+    const real inside = std::max(flow.depth + ground.strip - ground.bed, real(0));
+    const real critical = std::cbrt(sq(q) / gravity);
+    const real depth = std::max(inside, critical);
+    flow.velocity = depth > 0 ? q / depth : 0;
+    flow.velocity = std::max(flow.velocity, -std::sqrt(gravity * inside)); // no more can be drawn
+    flow.level = ground.bed + (q > 0 ? depth : inside);
+    return flow;
+}
+
+// u_n from the incoming invariant, u + 2 sqrt(g h) = `invariant`, and the depth inside. Where that is
+// so small that the outgoing wave would not reach the plane, the flow there is critical: h is at
+// least (R/3)^2/g. What flows out is critical at most: no wave from outside speeds it up.
+StationFlow with_invariant(StationFlow flow, real invariant, const StationGround& ground,
+                           real gravity)
+{
+    const real inside = std::max(flow.depth + ground.strip - ground.bed, real(0));
+    const real least = invariant > 0 ? sq(invariant) / (9 * gravity) : 0;
+    const real depth = std::max(inside, least);
+    const real wave = std::sqrt(gravity * depth);
+    flow.velocity = std::max(invariant - 2 * wave, -wave);
+    flow.level = ground.bed + depth;
+    return flow;
+}
+
+} // namespace
+
+StationFlow flow_at(const AskedFlow& asked, const StationFlow& before, const StationGround& ground,
+                    real gravity)
+{
+    StationFlow flow = before;
+    const real inside = std::max(flow.depth, real(0));
+    const real wave = std::sqrt(gravity * inside);
+    flow.passes = inside > 0 && flow.drift < -wave;
+    if (asked.free) {
+        flow.velocity = std::min(flow.drift, real(0));
+        flow.level = ground.strip + inside;
+        return flow;
+    }
+    if (asked.discharge) {
+        return with_discharge(flow, *asked.discharge, ground, gravity);
+    }
+    const real depth = std::max(asked.level.value_or(ground.bed) - ground.bed, real(0));
+    const real fastest = std::sqrt(gravity * depth);
+    const real u =
+        asked.velocity ? *asked.velocity : 2 * fastest - 2 * std::sqrt(gravity * asked.still);
+    if (u > fastest) { // supercritical inflow: nothing from inside counts
+        flow.velocity = u;
+        flow.level = ground.bed + depth;
+        flow.passes = false;
+        return flow;
+    }
+    return with_invariant(flow, u + 2 * fastest, ground, gravity);
+}
+
+namespace {
+
+bool in_reach(const OpenSide& side, const Vec3& x, real spacing, real outward, real inward)
+{
+    const real s = side.distance(x);
+    const int lane = side.lane(x, spacing);
+    return s > -outward && s < inward && lane >= -2 && lane <= side.lanes() + 1;
+}
+
+real outer_reach(const FluidParameters& f)
+{
+    return (carpet_columns(f) + 3) * f.spacing;
+}
+
+} // namespace
+
+bool is_behind(const OpenBoundary& open, const Vec3& x, real spacing)
+{
+    return std::ranges::any_of(open.carpets, [&](const Carpet& carpet) {
+        const int lane = carpet.side.lane(x, spacing);
+        return carpet.side.distance(x) < 0 && lane >= -2 && lane <= carpet.side.lanes() + 1;
+    });
+}
+
+void find_rows(const Fluid& fluid, OpenBoundary& open)
+{
+    const FluidParameters& f = fluid.parameters;
+    const auto x = fluid.particles.fluid[field::position];
+    // Between two lists no particle comes farther than the support.
+    const real inward = 2 * strip_half * f.spacing + fluid.kernel.support;
+    for (Carpet& carpet : open.carpets) {
+        carpet.near.clear();
+        for (Index row = 0; row < fluid.particles.fluid.size(); ++row) {
+            if (in_reach(carpet.side, x[row], f.spacing, outer_reach(f), inward)) {
+                carpet.near.push_back(static_cast<std::int32_t>(row));
+            }
+        }
+        carpet.behind.resize(carpet.near.size());
+        for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+            carpet.behind[k] = carpet.side.distance(x[carpet.near[k]]) < 0 ? 1 : 0;
+        }
+    }
+}
+
+void measure_start(const Fluid& fluid, OpenBoundary& open)
+{
+    for (Carpet& carpet : open.carpets) {
+        const auto sums = strip_sums(fluid, carpet);
+        for (int c = 0; c < carpet.side.stations(); ++c) {
+            const real area = strip_area(fluid, carpet.side, c);
+            StationFlow& flow = carpet.stations[at(c)];
+            flow.depth = area > 0 ? sums[at(c)].volume / area : 0;
+            flow.drift = sums[at(c)].volume > 0 ? sums[at(c)].moved / sums[at(c)].volume : 0;
+        }
+    }
+}
+
+void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt)
+{
+    const real dp = fluid.parameters.spacing;
+    for (Carpet& carpet : open.carpets) {
+        const auto sums = strip_sums(fluid, carpet);
+        for (int c = 0; c < carpet.side.stations(); ++c) {
+            const real area = strip_area(fluid, carpet.side, c);
+            StationFlow& flow = carpet.stations[at(c)];
+            const real tau =
+                strip_half * dp / std::sqrt(gravity_of(fluid) * std::max(flow.depth, dp));
+            const real share = -std::expm1(-dt / tau);
+            const real depth = area > 0 ? sums[at(c)].volume / area : 0;
+            const real drift = sums[at(c)].volume > 0 ? sums[at(c)].moved / sums[at(c)].volume : 0;
+            flow.depth += share * (depth - flow.depth);
+            flow.drift += share * (drift - flow.drift);
+        }
+    }
+}
+
+void count_crossings(const Fluid& fluid, OpenBoundary& open)
+{
+    const FluidParameters& f = fluid.parameters;
+    const Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const auto rho = store[field::density];
+    for (Carpet& carpet : open.carpets) {
+        for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+            const auto row = at(carpet.near[k]);
+            const std::uint8_t now = carpet.side.distance(x[row]) < 0 ? 1 : 0;
+            if (now == carpet.behind[k]) {
+                continue;
+            }
+            carpet.behind[k] = now;
+            (now == 0 ? carpet.in : carpet.out) += 1;
+            const real energy = f.mass * (0.5 * v[row].squaredNorm() - f.gravity.dot(x[row]) +
+                                          std::max(f.eos.pressure(rho[row]), real(0)) / rho[row]);
+            open.energy += now == 0 ? energy : -energy;
+        }
+    }
+}
+
+bool carpets_due(const Fluid& fluid, const OpenBoundary& open)
+{
+    return std::ranges::any_of(open.carpets, [&](const Carpet& carpet) {
+        return carpet.moved >= fluid.parameters.spacing / 2;
+    });
+}
+
+real speed_at(const Carpet& carpet, const StationFlow& flow, real bed, real z)
+{
+    const real depth = flow.level - bed;
+    if (!carpet.power_profile || !(depth > 0)) {
+        return flow.velocity;
+    }
+    constexpr real p = 7;
+    const real part = std::clamp((z - bed) / depth, real(0), real(1));
+    return flow.velocity * (1 + 1 / p) * std::pow(part, 1 / p);
+}
+
+real density_at(const FluidParameters& f, real level, real z)
+{
+    const real below = std::max(level - z, real(0));
+    return f.eos.rho0 * std::exp(f.gravity.norm() * below / sq(f.eos.c0));
+}
+
+const StationFlow& station_of(const Carpet& carpet, int lane)
+{
+    const int inside = std::clamp(lane, 0, carpet.side.lanes() - 1);
+    return carpet.stations[at(inside / carpet.side.station_lanes)];
+}
+
+namespace {
+
+real bed_of(const Carpet& carpet, int lane)
+{
+    return carpet.side.bed[at(std::clamp(lane, 0, carpet.side.lanes() - 1))];
+}
+
+// Calls f(row, lane) for the rows behind the plane.
+void for_carpet(const Fluid& fluid, const Carpet& carpet, const auto& f)
+{
+    const auto x = fluid.particles.fluid[field::position];
+    for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+        if (carpet.behind[k] != 0) {
+            const auto row = at(carpet.near[k]);
+            f(row, carpet.side.lane(x[row], fluid.parameters.spacing));
+        }
+    }
+}
+
+} // namespace
+
+void set_densities(Fluid& fluid, const OpenBoundary& open)
+{
+    Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto rho = store[field::density];
+    for (const Carpet& carpet : open.carpets) {
+        for_carpet(fluid, carpet, [&](std::size_t row, int lane) {
+            rho[row] = density_at(fluid.parameters, station_of(carpet, lane).level, x[row].z());
+            if (store.has(field::gap)) {
+                store[field::gap][row] = 0;
+            }
+            if (store.has(field::cavity)) {
+                store[field::cavity][row] = 0;
+            }
+        });
+    }
+}
+
+void keep_velocities(const Fluid& fluid, OpenBoundary& open)
+{
+    const auto v = fluid.particles.fluid[field::velocity];
+    for (Carpet& carpet : open.carpets) {
+        carpet.kept.clear();
+        for_carpet(fluid, carpet, [&](std::size_t row, int) { carpet.kept.push_back(v[row]); });
+    }
+}
+
+void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
+{
+    Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const real dp = fluid.parameters.spacing;
+    Vec3 change = Vec3::Zero();
+    for (Carpet& carpet : open.carpets) {
+        const OpenSide& side = carpet.side;
+        std::size_t next = 0;
+        real fastest = 0;
+        for_carpet(fluid, carpet, [&](std::size_t row, int lane) {
+            const StationFlow& flow = station_of(carpet, lane);
+            const Vec3& before = carpet.kept[next++];
+            const real u = speed_at(carpet, flow, bed_of(carpet, lane), x[row].z());
+            const Vec3 set = flow.passes ? Vec3(before.x(), before.y(), 0) : Vec3(u * side.normal());
+            change += set - v[row];
+            v[row] = set;
+            fastest = std::max(fastest, std::abs(set[side.axis]));
+        });
+        for (int c = 0; c < side.stations(); ++c) {
+            const StationFlow& flow = carpet.stations[at(c)];
+            const real width = fluid.parameters.dimensions == 2 ? 1 : side.open_lanes(c) * dp;
+            if (width > 0) {
+                const real depth = std::max(flow.level - side.station_bed(c), real(0));
+                const bool wet = depth >= least_rows * dp || flow.velocity < 0;
+                carpet.volume_asked += wet ? dt * depth * flow.velocity * width : 0;
+                fastest = std::max(fastest, std::abs(flow.velocity));
+            }
+        }
+        carpet.moved += dt * fastest;
+    }
+    open.impulse += fluid.parameters.mass * change - dt * open.dropped_force;
+    open.dropped_force.setZero();
+}
+
+} // namespace hyoryu

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// The keys of open sides.
+#pragma once
+
+#include "keys_names.hpp"
+#include "series.hpp"
+
+#include "hyoryu/scene/reader_hint.hpp"
+
+#include <numbers>
+
+namespace hyoryu {
+
+/// What a reader needs of the keys of a window and a writer does not write: they have become series.
+struct SeriesKeys {
+    std::optional<std::string> file;
+    SeriesFormat format = SeriesFormat::csv;
+    std::vector<std::string> columns;
+    std::optional<double> azimuth_deg;
+    double datum = 0, time_offset = 0, scale = 1;
+};
+
+inline void check_open_name(TableReader& table, const OpenSettings& open, const Scene& scene)
+{
+    check_name(table, "name", open.name);
+    for (const OpenSettings& other : scene.open) {
+        if (other.name == open.name) {
+            table.error("name",
+                        fmt::format("the name \"{}\" is used twice, first in line {}", open.name,
+                                    other.place.line),
+                        "names of open sides must differ");
+        }
+    }
+}
+
+inline void check_window(TableReader& table, const OpenSettings& open, const Scene& scene)
+{
+    const int axis = open.axis();
+    const bool flat = scene.dimensions == 2;
+    if (!scene.fluid) {
+        table.error("name", "an open side has no meaning in a case without fluid");
+    }
+    if (flat && axis == 1) {
+        table.error("into", "a case in two dimensions has no sides along y",
+                    "there are \"+x\" and \"-x\"");
+        return;
+    }
+    if (!table.sound("min") || !table.sound("max")) {
+        return;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double size = open.max[k] - open.min[k];
+        if (k == axis && size != 0) {
+            table.error("max",
+                        fmt::format("the window is {:.6g} m thick along its normal", size),
+                        fmt::format("`min` and `max` must have the same {}", "xyz"[k]));
+        } else if (k != axis && !(flat && k == 1) && !(size > 0)) {
+            table.error("max", fmt::format("must lie above `min` along {}", "xyz"[k]));
+        }
+    }
+    if (scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)]) {
+        table.error("into", fmt::format("the domain is periodic along {}", "xyz"[axis]),
+                    "a periodic side cannot be open");
+    }
+    const Vec3& g = scene.gravity;
+    if (scene.fluid && !(g.z() < 0 && g.x() == 0 && g.y() == 0)) {
+        table.error("into", "an open side needs gravity along -z",
+                    "the level of the water gives the pressure outside");
+    }
+}
+
+/// What is asked for, in words; empty if it is sound.
+inline void check_asked(TableReader& table, const OpenSettings& open, const SeriesKeys& keys)
+{
+    const bool series = keys.file || !open.series.empty();
+    const bool constant = open.level || open.velocity || open.discharge;
+    const auto refuse = [&](std::string_view key, std::string what, std::string hint) {
+        table.error(key, std::move(what), std::move(hint));
+    };
+    if (open.kind == OpenKind::outflow && (series || constant)) {
+        refuse(series ? "series" : open.level ? "level" : open.velocity ? "velocity" : "discharge",
+               "has no meaning with kind = \"outflow\", which asks for nothing",
+               "kind = \"inflow\" follows a series; kind = \"absorb\" keeps a level");
+        return;
+    }
+    if (series && constant) {
+        refuse(open.level ? "level" : open.velocity ? "velocity" : "discharge",
+               "has no meaning beside a series", "give one of them");
+    }
+    if (keys.file && !open.series.empty()) {
+        refuse("series", "has no meaning beside [[open.station]]", "give one of them");
+    }
+    if (open.kind == OpenKind::inflow && !series && !open.level && !open.discharge) {
+        refuse("series", "is missing: an inflow needs a flow to follow",
+               "give `series`, or `level` with or without `velocity`, or `discharge`");
+    }
+    if (open.discharge && (open.level || open.velocity)) {
+        refuse("discharge", "has no meaning beside `level` or `velocity`",
+               "a discharge enters at the depth that the water inside has, or at the critical one");
+    }
+    if (open.kind == OpenKind::inflow && open.velocity && !open.level && !open.discharge) {
+        refuse("velocity", "needs a `level`", "or give `discharge`");
+    }
+    if (open.kind == OpenKind::absorb && open.discharge) {
+        refuse("discharge", "has no meaning with kind = \"absorb\"", "use kind = \"inflow\"");
+    }
+}
+
+inline void check_columns(TableReader& table, const std::vector<std::string>& columns)
+{
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        const bool twice = columns[k] != "-" &&
+                           std::find(columns.begin(), columns.begin() + static_cast<Index>(k),
+                                     columns[k]) != columns.begin() + static_cast<Index>(k);
+        if (twice) {
+            table.error_at("columns", k, fmt::format("\"{}\" stands twice", columns[k]));
+        }
+    }
+    if (!columns.empty() && std::ranges::find(columns, "time") == columns.end()) {
+        table.error("columns", "names no column \"time\"");
+    }
+}
+
+inline void check_series(TableReader& table, std::string_view key, const OpenSeries& series)
+{
+    const bool level = !series.levels.empty();
+    const bool velocity = !series.velocities.empty();
+    const bool discharge = !series.discharges.empty();
+    if (discharge ? level || velocity : !level) {
+        table.error(key,
+                    discharge ? "has a discharge and a level or velocity: the flow is given twice"
+                              : "has neither levels nor a discharge",
+                    "columns are time and level, time, level and velocity, or time and discharge");
+    }
+}
+
+inline void load_series(TableReader& table, std::string_view key, const SeriesKeys& keys,
+                        const OpenSettings& open, OpenSeries& series)
+{
+    const auto path = path_of_file(table, key, keys.file.value_or(""));
+    if (!path) {
+        return;
+    }
+    // East is +x and north is +y unless the case says otherwise.
+    constexpr std::array<double, 4> azimuths{90, 270, 0, 180};
+    const double azimuth = keys.azimuth_deg.value_or(azimuths[static_cast<std::size_t>(open.into)]);
+    const SeriesSource source{*path,      keys.format,      keys.columns,
+                              azimuth * std::numbers::pi / 180, keys.datum, keys.time_offset,
+                              keys.scale};
+    std::vector<std::string> faults;
+    const double at = series.at;
+    const Place place = series.place;
+    series = read_series(source, faults);
+    series.at = at;
+    series.place = place;
+    for (const std::string& fault : faults) {
+        table.error(key, fault, "");
+    }
+    if (faults.empty()) {
+        check_series(table, key, series);
+    } else {
+        series = {};
+    }
+}
+
+/// A series in a file becomes one of the case.
+inline void take_series(TableReader& table, const SeriesKeys& keys, OpenSettings& open)
+{
+    if (!keys.file || !open.series.empty()) {
+        return;
+    }
+    OpenSeries series;
+    series.place = open.place;
+    load_series(table, "series", keys, open, series);
+    if (!series.times.empty()) {
+        open.series.push_back(std::move(series));
+    }
+}
+
+inline void check_stations(TableReader& table, const OpenSettings& open)
+{
+    for (std::size_t k = 1; k < open.series.size(); ++k) {
+        const OpenSeries& one = open.series[k - 1];
+        const OpenSeries& next = open.series[k];
+        if (!(next.at > one.at)) {
+            table.error("station", fmt::format("the station at {} m does not follow that at {} m",
+                                              next.at, one.at),
+                        "stations stand in the order of `at`, each at a place of its own");
+        }
+        if (next.levels.empty() != one.levels.empty() ||
+            next.velocities.empty() != one.velocities.empty() ||
+            next.discharges.empty() != one.discharges.empty()) {
+            table.error("station", "its stations give different quantities",
+                        "each station must give the same ones");
+        }
+    }
+}
+
+inline void finish_station(TableReader& table, const SeriesKeys& keys, const OpenSettings& open,
+                           OpenSeries& series)
+{
+    if (keys.file) {
+        if (table.has("times")) {
+            table.error("times", "has no meaning beside `file`", "give one of them");
+        }
+        load_series(table, "file", keys, open, series);
+        return;
+    }
+    if (!table.has("times")) {
+        table.error("file", "is missing: a station needs a series", "give `file`, or `times`");
+        return;
+    }
+    for (const auto* values : {&series.levels, &series.velocities, &series.discharges}) {
+        if (!values->empty() && values->size() != series.times.size()) {
+            table.error("times", fmt::format("has {} times for {} values", series.times.size(),
+                                             values->size()));
+            return;
+        }
+    }
+    const auto unsorted =
+        std::ranges::adjacent_find(series.times, [](double a, double b) { return b <= a; });
+    if (unsorted != series.times.end()) {
+        table.error_at("times", static_cast<std::size_t>(unsorted + 1 - series.times.begin()),
+                       "times must ascend");
+    }
+    check_series(table, "times", series);
+}
+
+void keys_of(auto& keys, Is<OpenSeries> auto& series, const SeriesKeys& source,
+             const OpenSettings& open)
+{
+    SeriesKeys own = source;
+    keys.number("at", series.at, "m", "Place of the station along the window: y, or x in a window "
+                                      "that opens along y.");
+    if (keys.shows(false)) {
+        keys.text("file", own.file, "File of the series, as for `series`.");
+    }
+    keys.path("times", series.times, "s", "Times of a series within the case file, ascending.",
+              no_default, 1);
+    if (keys.shows(!series.levels.empty())) {
+        keys.path("levels", series.levels, "m", "z of the free surface at the times.", no_default,
+                  1);
+    }
+    if (keys.shows(!series.velocities.empty())) {
+        keys.path("velocities", series.velocities, "m/s",
+                  "Velocities into the domain at the times.", no_default, 1);
+    }
+    if (keys.shows(!series.discharges.empty())) {
+        keys.path("discharges", series.discharges, "",
+                  "Discharges into the domain at the times [m3/s]; [m2/s] in 2-D.", no_default, 1);
+    }
+    keys.rule(finish_station, own, open, series);
+}
+
+void series_keys(auto& keys, SeriesKeys& source, Is<OpenSettings> auto& open)
+{
+    keys.text("series", source.file,
+              "File of the flow to follow, relative to the case file: linear in time, held before "
+              "the first and after the last row. [[open.station]] gives several along a window.");
+    keys.choice("format", source.format, {"csv", "geoclaw"},
+                "csv: columns time, level and velocity into the domain, or time and level, or time "
+                "and discharge, with or without a header; geoclaw: a gauge of GeoClaw.");
+    keys.texts("columns", source.columns, {"time", "level", "velocity", "discharge", "-"},
+               "Quantity of each column of a CSV file; \"-\" passes over one. By default the "
+               "header names them.",
+               no_default);
+    keys.number("azimuth_deg", source.azimuth_deg, "deg",
+                "Direction of `into`, clockwise from north, by which the velocities of a GeoClaw "
+                "gauge are turned; by default x is east and y is north.");
+    keys.number("datum", source.datum, "m", "z of the scene at level 0 of the file.");
+    keys.number("time_offset", source.time_offset, "s", "Time of the file at time 0 of the scene.");
+    keys.number("scale", source.scale, "", "Factor on the levels above the datum, the velocities "
+                                           "and the discharges of the file.");
+    keys.rule(check_columns, source.columns);
+    keys.rule(check_asked, open, source);
+}
+
+void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
+{
+    SeriesKeys source;
+    keys.rule(number_name, "open", open.name);
+    keys.text("name", open.name, "Name in results; unique among open sides.", "open.1, open.2 ...");
+    keys.rule(check_open_name, open, scene);
+    keys.planar("min", open.min, "m",
+                "Lower corner of the window, a box without thickness along its normal, which lies "
+                "on a side of the domain; its lower edge is on the ground or below it.",
+                required);
+    keys.planar("max", open.max, "m", "Upper corner of the window.", required);
+    keys.choice("into", open.into, {"+x", "-x", "+y", "-y"},
+                "Direction through the window into the domain.", required);
+    keys.rule(check_window, open, scene);
+    keys.choice("kind", open.kind, {"inflow", "outflow", "absorb"},
+                "inflow: follows a level, a level and a velocity, or a discharge, and lets the "
+                "waves from inside leave; outflow: asks for nothing, for flow that only leaves; "
+                "absorb: keeps a level and a velocity outside, by default those of still water at "
+                "the level of the start, and lets waves leave.",
+                required);
+    keys.number("level", open.level, "m", "z of the free surface outside, if it is constant.");
+    keys.number("velocity", open.velocity, "m/s",
+                "Velocity into the domain, with `level`. An inflow that gives a level alone is a "
+                "wave into the water that is at rest at the start.");
+    keys.number("discharge", open.discharge, "",
+                "Discharge into the domain [m3/s]; [m2/s] in 2-D. It reflects waves: for channels "
+                "and basins.");
+    if (keys.shows(false)) {
+        series_keys(keys, source, open);
+    }
+    keys.choice("profile", open.profile, {"uniform", "power"},
+                "Velocity over the depth: uniform, or with the height above the ground to the "
+                "power of 1/7.");
+    if (keys.shows(open.hold)) {
+        keys.flag("hold", open.hold,
+                  "The last values of a series that ends before the run hold to its end; no "
+                  "warning.");
+    }
+    keys.tables("station", "A series at a place along the window; linear between them.",
+                open.series, source, open);
+    keys.rule(take_series, source, open);
+    keys.rule(check_stations, open);
+}
+
+} // namespace hyoryu

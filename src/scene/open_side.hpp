@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Windows among the walls of a scene.
+#pragma once
+
+#include "hyoryu/scene/fill.hpp"
+
+namespace hyoryu {
+
+/// A point of the vertical at a distance from a window, in the middle of a lane; z is 0.
+Vec3 point_of_window(const OpenSide& side, int lane, double distance, double spacing,
+                     int dimensions);
+
+/// Whether a wall stands right behind the window, where its carpet would lie.
+bool is_walled(const Scene& scene, const OpenSide& side);
+
+/// Whether the lower edge of the window is on the ground or below it.
+bool stands_on_ground(const Scene& scene, const OpenSide& side);
+
+/// Continues the fixed walls at each window outwards as they are at its plane, below and beside the
+/// carpet.
+void carry_walls_out(const Scene& scene, Filling& filling);
+
+} // namespace hyoryu

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include "plan_open.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "open_side.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kinds{"inflow", "outflow", "absorb"};
+constexpr std::array<std::string_view, 4> directions{"+x", "-x", "+y", "-y"};
+constexpr int samples = 400; // of a series over the run
+
+// The water before a window at the start: its level, and its depth above the mean ground.
+struct WaterAtStart {
+    double level = -infinity, depth = 0;
+};
+
+double mean_bed(const OpenSide& side)
+{
+    double total = 0;
+    int count = 0;
+    for (const double bed : side.bed) {
+        total += bed < infinity ? bed : 0;
+        count += bed < infinity ? 1 : 0;
+    }
+    return count > 0 ? total / count : infinity;
+}
+
+WaterAtStart water_before(const Scene& scene, const Filling& filling, const OpenSide& side)
+{
+    WaterAtStart water;
+    for (const Vec3& x : filling.fluid) {
+        const double s = side.distance(x);
+        const int lane = side.lane(x, scene.spacing);
+        if (s >= 0 && s < 8 * scene.spacing && lane >= 0 && lane < side.lanes()) {
+            water.level = std::max(water.level, x.z() + scene.spacing / 2);
+        }
+    }
+    water.depth = std::max(water.level - mean_bed(side), 0.0);
+    return water;
+}
+
+// The flow asked for in the middle of a window: depth, velocity and discharge of the whole width.
+struct Inflow {
+    double depth = 0, velocity = 0, discharge = 0;
+};
+
+Inflow inflow_at(const Scene& scene, const OpenSettings& open, const WaterAtStart& water,
+                 double bed, double time)
+{
+    const double middle = open.min[1 - open.axis()] + open.width(scene.dimensions) / 2;
+    const AskedFlow asked =
+        asked_at(open, middle, time, {water.level, water.depth}, scene.dimensions);
+    const double width = open.width(scene.dimensions);
+    const double g = scene.gravity.norm();
+    Inflow flow;
+    if (asked.discharge) {
+        flow.depth = std::max(water.depth, std::cbrt(sq(*asked.discharge) / g));
+        flow.discharge = *asked.discharge * width;
+    } else if (asked.level) {
+        flow.depth = std::max(*asked.level - bed, 0.0);
+        flow.velocity = asked.velocity.value_or(2 * std::sqrt(g * flow.depth) -
+                                                2 * std::sqrt(g * asked.still));
+        flow.discharge = flow.depth * flow.velocity * width;
+    }
+    return flow;
+}
+
+double particle_volume(const Scene& scene)
+{
+    return std::pow(scene.spacing, scene.dimensions);
+}
+
+std::string what_of(const Scene& scene, const OpenSettings& open)
+{
+    std::string text(kinds[static_cast<std::size_t>(open.kind)]);
+    text += fmt::format(" along {} through {} = {:.6g} m",
+                        directions[static_cast<std::size_t>(open.into)], "xyz"[open.axis()],
+                        open.plane());
+    if (!open.series.empty()) {
+        const std::vector<double>& times = open.series.front().times;
+        text += fmt::format(", {} series from {:.6g} to {:.6g} s", open.series.size(),
+                            times.front(), times.back());
+    } else if (open.discharge) {
+        text += fmt::format(", {:.6g} {}", *open.discharge, scene.dimensions == 2 ? "m2/s" : "m3/s");
+    } else if (open.level) {
+        text += fmt::format(", level {:.6g} m", *open.level);
+    }
+    return text;
+}
+
+// Particles that the domain holds below the highest level that is asked for or that water has.
+double most_held(const Scene& scene, const Filling& filling)
+{
+    double top = -infinity;
+    double low = infinity;
+    for (const Vec3& x : filling.fluid) {
+        top = std::max(top, x.z() + scene.spacing / 2);
+    }
+    for (const OpenSettings& open : scene.open) {
+        const double bed = mean_bed(open_side(scene, open));
+        low = std::min(low, bed);
+        top = std::max(top, highest_asked(open).value_or(open.max.z()));
+    }
+    for (const Vec3& x : filling.fluid) {
+        low = std::min(low, x.z() - scene.spacing / 2);
+    }
+    const Vec3 size = filling.domain.max - filling.domain.min;
+    const double area = size.x() * (scene.dimensions == 2 ? 1 : size.y());
+    return area * std::max(top - low, 0.0) / particle_volume(scene);
+}
+
+Diagnostic note_at(const Scene& scene, const OpenSettings& open, std::string_view key,
+                   std::string what, std::string hint)
+{
+    return diagnostic_at(scene, open.place, fmt::format("open.{}.{}", open.name, key),
+                         std::move(what), std::move(hint));
+}
+
+// Whether the plane is that of a side of the domain, the lower one for +x and +y.
+void check_side(const Scene& scene, const Filling& filling, const OpenSettings& open,
+                std::vector<Diagnostic>& errors)
+{
+    const double side = open.sign() > 0 ? filling.domain.min[open.axis()]
+                                        : filling.domain.max[open.axis()];
+    if (std::abs(open.plane() - side) > 1e-6 * scene.spacing) {
+        errors.push_back(note_at(
+            scene, open, "min",
+            fmt::format("the window is at {} = {:.6g} m, but the domain {} at {:.6g} m there: it "
+                        "must lie on that side",
+                        "xyz"[open.axis()], open.plane(), open.sign() > 0 ? "begins" : "ends",
+                        side),
+            "move the window, or set [domain] so that it ends there"));
+    }
+}
+
+void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& side,
+                  std::vector<Diagnostic>& errors)
+{
+    if (!(mean_bed(side) < infinity)) {
+        errors.push_back(note_at(scene, open, "min", "the window is filled by walls",
+                                 "move it to where water may pass"));
+        return;
+    }
+    if (is_walled(scene, side)) {
+        errors.push_back(note_at(scene, open, "min", "a wall stands behind the window",
+                                 fmt::format("name that side in `open` of the basin, or end the "
+                                             "wall at the window")));
+    }
+    if (!stands_on_ground(scene, side)) {
+        errors.push_back(note_at(scene, open, "min",
+                                 "the lower edge of the window is above the ground",
+                                 "extend it down to the ground or below"));
+    }
+}
+
+void check_water(const Scene& scene, const OpenSettings& open, const WaterAtStart& water,
+                 std::vector<Diagnostic>& errors)
+{
+    const bool alone = open.kind == OpenKind::inflow && !open.discharge && !open.velocity &&
+                       (open.series.empty() ? open.level.has_value()
+                                            : !open.series.front().levels.empty() &&
+                                                  open.series.front().velocities.empty());
+    if (alone && water.depth < scene.spacing) {
+        errors.push_back(note_at(scene, open, "level",
+                                 "a level alone is a wave into still water, but the window is dry "
+                                 "at the start",
+                                 "give the velocity too, or a discharge"));
+    }
+    if (open.kind == OpenKind::absorb && !open.level && open.series.empty() &&
+        water.depth < scene.spacing) {
+        errors.push_back(note_at(scene, open, "kind",
+                                 "an absorbing side keeps the level of the start, but the window "
+                                 "is dry then",
+                                 "give `level`, or use kind = \"outflow\""));
+    }
+    const double highest = highest_asked(open).value_or(-infinity);
+    if (highest > open.max.z() + 1e-9) {
+        errors.push_back(note_at(scene, open, "max",
+                                 fmt::format("the level rises to {:.6g} m, above the window, which "
+                                             "ends at {:.6g} m",
+                                             highest, open.max.z()),
+                                 "make the window higher"));
+    }
+}
+
+void check_bodies_at(const Scene& scene, const OpenSettings& open, const OpenSide& side,
+                     std::vector<Diagnostic>& errors)
+{
+    for (const BodySettings& body : scene.bodies) {
+        const Bounds box = bounds({&body.shape, body.position, body.rotation, scene.dimensions});
+        const double nearest = std::min(side.distance(box.min), side.distance(box.max));
+        if (nearest < 0) {
+            errors.push_back(note_at(scene, open, "min",
+                                     fmt::format("body \"{}\" stands across the window", body.name),
+                                     "move the body into the domain"));
+        }
+    }
+}
+
+void check_pairs(const Scene& scene, std::vector<Diagnostic>& errors)
+{
+    for (std::size_t k = 1; k < scene.open.size(); ++k) {
+        for (std::size_t m = 0; m < k; ++m) {
+            const OpenSettings& a = scene.open[m];
+            const OpenSettings& b = scene.open[k];
+            const int across = 1 - a.axis();
+            const bool meet = a.axis() == b.axis() && a.plane() == b.plane() &&
+                              (scene.dimensions == 2 || (a.min[across] < b.max[across] &&
+                                                         b.min[across] < a.max[across]));
+            if (meet) {
+                errors.push_back(note_at(scene, b, "min",
+                                         fmt::format("the window overlaps that of \"{}\"", a.name),
+                                         "windows of one side must not overlap"));
+            }
+        }
+    }
+}
+
+void warn_about(const Scene& scene, const OpenSettings& open, const WaterAtStart& water, double bed,
+                Plan& plan)
+{
+    const auto warn = [&](std::string_view key, std::string what, std::string hint) {
+        Diagnostic note = note_at(scene, open, key, std::move(what), std::move(hint));
+        note.severity = Diagnostic::Severity::warning;
+        plan.warnings.push_back(std::move(note));
+    };
+    if (!open.series.empty() && !open.hold) {
+        const std::vector<double>& times = open.series.front().times;
+        if (times.back() < scene.time.end) {
+            warn("series",
+                 fmt::format("ends at {:.6g} s, the run at {:.6g} s: the last values are held",
+                             times.back(), scene.time.end),
+                 "set `time.end`, or `hold = true`");
+        }
+        if (times.front() > 0) {
+            warn("series",
+                 fmt::format("begins at {:.6g} s: the first values hold before", times.front()),
+                 "set `time_offset`, or `hold = true`");
+        }
+    }
+    double deepest = 0;
+    for (int k = 0; k <= samples; ++k) {
+        const double time = scene.time.end * k / samples;
+        deepest = std::max(deepest, inflow_at(scene, open, water, bed, time).depth);
+    }
+    constexpr double least_rows = 4;
+    const double rows = deepest / scene.spacing;
+    if (open.kind == OpenKind::inflow && rows < least_rows) {
+        warn("name",
+             fmt::format("the inflow is {:.2g} spacings deep at its peak: at least {:.0f} are "
+                         "needed to carry a body, and below 1.5 nothing enters",
+                         rows, least_rows),
+             "use a smaller `particles.spacing`");
+    }
+    const double lanes = open.width(scene.dimensions) / scene.spacing;
+    if (scene.dimensions == 3 && std::abs(lanes - std::round(lanes)) > 1e-6 * lanes) {
+        warn("max",
+             fmt::format("the window is {:.6g} spacings wide: a gap of {:.2g} spacings stays dry "
+                         "at each end",
+                         lanes, (lanes - std::floor(lanes)) / 2),
+             "make it a whole number of spacings wide");
+    }
+}
+
+} // namespace
+
+void list_open(const Scene& scene, const Filling& filling, Plan& plan)
+{
+    if (!scene.fluid || scene.open.empty()) {
+        return;
+    }
+    double carpets = 0;
+    double entering = 0;
+    for (const OpenSettings& open : scene.open) {
+        const OpenSide side = open_side(scene, open);
+        const double bed = mean_bed(side);
+        if (!(bed < infinity)) {
+            continue;
+        }
+        const WaterAtStart water = water_before(scene, filling, side);
+        double deepest = water.depth;
+        double volume = 0;
+        for (int k = 0; k < samples; ++k) {
+            const Inflow flow =
+                inflow_at(scene, open, water, bed, scene.time.end * (k + 0.5) / samples);
+            volume += std::max(flow.discharge, 0.0) * scene.time.end / samples;
+            deepest = std::max(deepest, flow.depth);
+        }
+        const double carpet = std::ceil(deepest / scene.spacing + 1) * side.lanes() *
+                              (carpet_columns(*plan.fluid) + 1);
+        plan.open.push_back({open.name, what_of(scene, open), static_cast<Index>(carpet)});
+        carpets += carpet;
+        entering += volume / particle_volume(scene);
+    }
+    const auto start = static_cast<double>(filling.fluid.size());
+    const double held = std::max(start, std::min(start + entering, most_held(scene, filling)));
+    plan.most_fluid = static_cast<Index>(std::ceil(held + carpets));
+}
+
+void check_open(const Scene& scene, const Filling& filling, Plan& plan,
+                std::vector<Diagnostic>& errors)
+{
+    if (!scene.fluid) {
+        return;
+    }
+    check_pairs(scene, errors);
+    for (const OpenSettings& open : scene.open) {
+        const OpenSide side = open_side(scene, open);
+        const WaterAtStart water = water_before(scene, filling, side);
+        check_side(scene, filling, open, errors);
+        check_ground(scene, open, side, errors);
+        check_water(scene, open, water, errors);
+        check_bodies_at(scene, open, side, errors);
+        if (mean_bed(side) < infinity) {
+            warn_about(scene, open, water, mean_bed(side), plan);
+        }
+    }
+}
+
+} // namespace hyoryu

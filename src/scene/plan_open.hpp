@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What a plan says of open sides.
+#pragma once
+
+#include "hyoryu/scene/plan.hpp"
+
+namespace hyoryu {
+
+/// Lists the open sides, and foretells how many particles they may bring.
+void list_open(const Scene& scene, const Filling& filling, Plan& plan);
+
+/// Adds the faults of windows that only the filled scene shows, and warns.
+void check_open(const Scene& scene, const Filling& filling, Plan& plan,
+                std::vector<Diagnostic>& errors);
+
+} // namespace hyoryu

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/open_flow.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/sim/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+Carpet make_carpet(const Scene& scene, const OpenSettings& open)
+{
+    Carpet carpet;
+    carpet.side = open_side(scene, open);
+    carpet.power_profile = open.profile == FlowProfile::power;
+    carpet.stations.resize(at(carpet.side.stations()));
+    carpet.carry.assign(at(carpet.side.lanes()), 0);
+    return carpet;
+}
+
+// The middle of a station along the window [m].
+double place_of(const OpenSide& side, int station, double spacing)
+{
+    const int begin = station * side.station_lanes;
+    const int end = std::min(begin + side.station_lanes, side.lanes());
+    return side.first + 0.5 * (begin + end) * spacing;
+}
+
+// The flow of every station from what it has measured, for a moment.
+void set_flows(Simulation& sim, double time)
+{
+    const Scene& scene = sim.scene;
+    for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
+        Carpet& carpet = sim.open.boundary.carpets[k];
+        for (int c = 0; c < carpet.side.stations(); ++c) {
+            const StationGround ground{carpet.side.station_bed(c), carpet.side.station_strip(c)};
+            if (!(ground.bed < infinity)) {
+                continue;
+            }
+            const AskedFlow asked =
+                asked_at(scene.open[k], place_of(carpet.side, c, scene.spacing), time,
+                         sim.open.still[k][at(c)], scene.dimensions);
+            StationFlow& flow = carpet.stations[at(c)];
+            flow = flow_at(asked, flow, ground, scene.gravity.norm());
+        }
+    }
+}
+
+// The domain of the particles reaches as far as the carpets.
+void extend_domain(const OpenBoundary& open, Fluid& fluid)
+{
+    const double reach = (carpet_columns(fluid.parameters) + 4) * fluid.parameters.spacing;
+    for (const Carpet& carpet : open.carpets) {
+        const OpenSide& side = carpet.side;
+        double& low = fluid.domain_min[side.axis];
+        double& high = fluid.domain_max[side.axis];
+        low = side.into > 0 ? std::min(low, side.plane - reach) : low;
+        high = side.into < 0 ? std::max(high, side.plane + reach) : high;
+    }
+}
+
+} // namespace
+
+void start_open(Simulation& sim)
+{
+    Fluid& fluid = *sim.fluid;
+    OpenBoundary& open = sim.open.boundary;
+    for (const OpenSettings& settings : sim.scene.open) {
+        open.carpets.push_back(make_carpet(sim.scene, settings));
+    }
+    open.next_id = sim.plan.counts.particles();
+    extend_domain(open, fluid);
+    find_rows(fluid, open);
+    measure_start(fluid, open);
+    for (const Carpet& carpet : open.carpets) {
+        std::vector<StillWater>& still = sim.open.still.emplace_back();
+        for (int c = 0; c < carpet.side.stations(); ++c) {
+            const double depth = carpet.stations[at(c)].depth;
+            still.push_back({carpet.side.station_strip(c) + depth,
+                             std::max(carpet.side.station_strip(c) + depth -
+                                          carpet.side.station_bed(c),
+                                      0.0)});
+        }
+    }
+    set_flows(sim, 0);
+    renew_carpets(fluid, open);
+    open.impulse.setZero(); // the first carpets are part of the start
+}
+
+void renew_open(Simulation& sim)
+{
+    Fluid& fluid = *sim.fluid;
+    OpenBoundary& open = sim.open.boundary;
+    count_crossings(fluid, open);
+    if (lists_are_due(fluid, carpets_due(fluid, open))) {
+        renew_carpets(fluid, open);
+        make_lists(fluid);
+        find_rows(fluid, open);
+    }
+    set_densities(fluid, open);
+    keep_velocities(fluid, open);
+}
+
+void drive_open(Simulation& sim, double dt)
+{
+    measure_strips(*sim.fluid, sim.open.boundary, dt);
+    set_flows(sim, sim.clock.time + dt);
+    set_velocities(*sim.fluid, sim.open.boundary, dt);
+}
+
+void close_open(Simulation& sim)
+{
+    count_crossings(*sim.fluid, sim.open.boundary);
+    set_densities(*sim.fluid, sim.open.boundary);
+}
+
+OpenReading reading_of(const Simulation& sim, std::size_t k)
+{
+    const Carpet& carpet = sim.open.boundary.carpets[k];
+    const FluidParameters& f = sim.fluid->parameters;
+    const double particle = f.mass / f.eos.rho0;
+    OpenReading reading;
+    double width = 0;
+    double area = 0;
+    for (int c = 0; c < carpet.side.stations(); ++c) {
+        const int lanes = carpet.side.open_lanes(c);
+        const double b = f.dimensions == 2 ? 1 : lanes * f.spacing;
+        if (lanes == 0) {
+            continue;
+        }
+        const StationFlow& flow = carpet.stations[at(c)];
+        const double depth = std::max(flow.level - carpet.side.station_bed(c), 0.0);
+        width += b;
+        area += b * depth;
+        reading.level += b * flow.level;
+        reading.discharge += b * depth * flow.velocity;
+    }
+    reading.level /= width > 0 ? width : 1;
+    reading.velocity = area > 0 ? reading.discharge / area : 0;
+    reading.volume_in = particle * static_cast<double>(carpet.in);
+    reading.volume_out = particle * static_cast<double>(carpet.out);
+    reading.volume_asked = carpet.volume_asked;
+    return reading;
+}
+
+} // namespace hyoryu
