@@ -18,7 +18,8 @@ namespace {
 
 // What a restart needs of the outputs.
 struct OutputState {
-    std::int64_t bodies = 0, contacts = 0, energy = 0, gauges = 0, open = 0; // rows of the histories
+    std::int64_t bodies = 0, contacts = 0, energy = 0, gauges = 0,
+                 open = 0; // rows of the histories
     std::vector<RestingPair> resting;
     bool has_open = false; // whether there are open sides, which the case says
 };
@@ -221,8 +222,8 @@ void Outputs::write_open(const Simulation& sim)
     std::vector<std::string> row = cells({sim.clock.time});
     for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
         const OpenReading r = reading_of(sim, k);
-        for (const double value : {r.level, r.velocity, r.discharge, r.volume_in, r.volume_out,
-                                   r.volume_asked}) {
+        for (const double value :
+             {r.level, r.velocity, r.discharge, r.volume_in, r.volume_out, r.volume_asked}) {
             row.push_back(cell(value));
         }
     }
@@ -309,8 +310,9 @@ Snapshot Outputs::snapshot(const Simulation& sim) const
 {
     Snapshot snapshot = save(sim);
     const auto rows = [](const auto& history) { return history ? history->rows() : 0; };
-    OutputState state{rows(bodies_), rows(contacts_), rows(energy_), rows(gauges_),
-                      rows(open_),    {},               open_.has_value()};
+    OutputState state{rows(bodies_),    rows(contacts_), rows(energy_),
+                      rows(gauges_),    rows(open_),     {},
+                      open_.has_value()};
     for (const auto& [key, rest] : resting_) {
         state.resting.push_back(rest);
     }

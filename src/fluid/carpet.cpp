@@ -199,8 +199,8 @@ bool has_left(const Fluid& fluid, const Carpet& carpet, const Vec3& x)
     const int inside = std::clamp(lane, 0, carpet.side.lanes() - 1);
     const real bed = carpet.side.bed[at(inside)];
     const StationFlow& flow = station_of(carpet, lane);
-    return carpet.side.distance(x) < -(carpet_columns(fluid.parameters) + 0.5) * dp ||
-           lane < -1 || lane > carpet.side.lanes() || !(bed < infinity) || x.z() < bed - dp ||
+    return carpet.side.distance(x) < -(carpet_columns(fluid.parameters) + 0.5) * dp || lane < -1 ||
+           lane > carpet.side.lanes() || !(bed < infinity) || x.z() < bed - dp ||
            (!flow.passes && x.z() > flow.level + highest * dp);
 }
 

@@ -8,7 +8,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr real strip_half = 4;  // spacings from the plane to the middle of the strip
+constexpr real strip_half = 4; // spacings from the plane to the middle of the strip
 
 std::size_t at(Index k)
 {
@@ -59,9 +59,8 @@ std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
 real strip_area(const Fluid& fluid, const OpenSide& side, int station)
 {
     const real dp = fluid.parameters.spacing;
-    const real width = fluid.parameters.dimensions == 2
-                           ? 1
-                           : static_cast<real>(side.open_lanes(station)) * dp;
+    const real width =
+        fluid.parameters.dimensions == 2 ? 1 : static_cast<real>(side.open_lanes(station)) * dp;
     return strip_half * dp * width;
 }
 
@@ -130,8 +129,8 @@ StationFlow with_discharge(StationFlow flow, real q, const StationGround& ground
     return flow;
 }
 
-// u_n from the incoming invariant, u + 2 sqrt(g h) = `invariant`, and the depth inside. Where that is
-// so small that the outgoing wave would not reach the plane, the flow there is critical: h is at
+// u_n from the incoming invariant, u + 2 sqrt(g h) = `invariant`, and the depth inside. Where that
+// is so small that the outgoing wave would not reach the plane, the flow there is critical: h is at
 // least (R/3)^2/g. What flows out is critical at most: no wave from outside speeds it up.
 StationFlow with_invariant(StationFlow flow, real invariant, const StationGround& ground,
                            real gravity)
@@ -367,7 +366,8 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
             const StationFlow& flow = station_of(carpet, lane);
             const Vec3& before = carpet.kept[next++];
             const real u = speed_at(carpet, flow, bed_of(carpet, lane), x[row].z());
-            const Vec3 set = flow.passes ? Vec3(before.x(), before.y(), 0) : Vec3(u * side.normal());
+            const Vec3 set =
+                flow.passes ? Vec3(before.x(), before.y(), 0) : Vec3(u * side.normal());
             change += set - v[row];
             v[row] = set;
             fastest = std::max(fastest, std::abs(set[side.axis]));

@@ -11,7 +11,8 @@
 
 namespace hyoryu {
 
-/// What a reader needs of the keys of a window and a writer does not write: they have become series.
+/// What a reader needs of the keys of a window and a writer does not write: they have become
+/// series.
 struct SeriesKeys {
     std::optional<std::string> file;
     SeriesFormat format = SeriesFormat::csv;
@@ -51,8 +52,7 @@ inline void check_window(TableReader& table, const OpenSettings& open, const Sce
     for (int k = 0; k < 3; ++k) {
         const double size = open.max[k] - open.min[k];
         if (k == axis && size != 0) {
-            table.error("max",
-                        fmt::format("the window is {:.6g} m thick along its normal", size),
+            table.error("max", fmt::format("the window is {:.6g} m thick along its normal", size),
                         fmt::format("`min` and `max` must have the same {}", "xyz"[k]));
         } else if (k != axis && !(flat && k == 1) && !(size > 0)) {
             table.error("max", fmt::format("must lie above `min` along {}", "xyz"[k]));
@@ -78,13 +78,18 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
         table.error(key, std::move(what), std::move(hint));
     };
     if (open.kind == OpenKind::outflow && (series || constant)) {
-        refuse(series ? "series" : open.level ? "level" : open.velocity ? "velocity" : "discharge",
+        refuse(series          ? "series"
+               : open.level    ? "level"
+               : open.velocity ? "velocity"
+                               : "discharge",
                "has no meaning with kind = \"outflow\", which asks for nothing",
                "kind = \"inflow\" follows a series; kind = \"absorb\" keeps a level");
         return;
     }
     if (series && constant) {
-        refuse(open.level ? "level" : open.velocity ? "velocity" : "discharge",
+        refuse(open.level      ? "level"
+               : open.velocity ? "velocity"
+                               : "discharge",
                "has no meaning beside a series", "give one of them");
     }
     if (keys.file && !open.series.empty()) {
@@ -109,9 +114,9 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
 inline void check_columns(TableReader& table, const std::vector<std::string>& columns)
 {
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        const bool twice = columns[k] != "-" &&
-                           std::find(columns.begin(), columns.begin() + static_cast<Index>(k),
-                                     columns[k]) != columns.begin() + static_cast<Index>(k);
+        const bool twice =
+            columns[k] != "-" && std::find(columns.begin(), columns.begin() + static_cast<Index>(k),
+                                           columns[k]) != columns.begin() + static_cast<Index>(k);
         if (twice) {
             table.error_at("columns", k, fmt::format("\"{}\" stands twice", columns[k]));
         }
@@ -144,9 +149,9 @@ inline void load_series(TableReader& table, std::string_view key, const SeriesKe
     // East is +x and north is +y unless the case says otherwise.
     constexpr std::array<double, 4> azimuths{90, 270, 0, 180};
     const double azimuth = keys.azimuth_deg.value_or(azimuths[static_cast<std::size_t>(open.into)]);
-    const SeriesSource source{*path,      keys.format,      keys.columns,
-                              azimuth * std::numbers::pi / 180, keys.datum, keys.time_offset,
-                              keys.scale};
+    const SeriesSource source{
+        *path,      keys.format,      keys.columns, azimuth * std::numbers::pi / 180,
+        keys.datum, keys.time_offset, keys.scale};
     std::vector<std::string> faults;
     const double at = series.at;
     const Place place = series.place;
@@ -183,9 +188,10 @@ inline void check_stations(TableReader& table, const OpenSettings& open)
         const OpenSeries& one = open.series[k - 1];
         const OpenSeries& next = open.series[k];
         if (!(next.at > one.at)) {
-            table.error("station", fmt::format("the station at {} m does not follow that at {} m",
-                                              next.at, one.at),
-                        "stations stand in the order of `at`, each at a place of its own");
+            table.error(
+                "station",
+                fmt::format("the station at {} m does not follow that at {} m", next.at, one.at),
+                "stations stand in the order of `at`, each at a place of its own");
         }
         if (next.levels.empty() != one.levels.empty() ||
             next.velocities.empty() != one.velocities.empty() ||
@@ -230,8 +236,9 @@ void keys_of(auto& keys, Is<OpenSeries> auto& series, const SeriesKeys& source,
              const OpenSettings& open)
 {
     SeriesKeys own = source;
-    keys.number("at", series.at, "m", "Place of the station along the window: y, or x in a window "
-                                      "that opens along y.");
+    keys.number("at", series.at, "m",
+                "Place of the station along the window: y, or x in a window "
+                "that opens along y.");
     if (keys.shows(false)) {
         keys.text("file", own.file, "File of the series, as for `series`.");
     }
@@ -252,7 +259,7 @@ void keys_of(auto& keys, Is<OpenSeries> auto& series, const SeriesKeys& source,
     keys.rule(finish_station, own, open, series);
 }
 
-void series_keys(auto& keys, SeriesKeys& source, Is<OpenSettings> auto& open)
+void series_keys(auto& keys, SeriesKeys& source)
 {
     keys.text("series", source.file,
               "File of the flow to follow, relative to the case file: linear in time, held before "
@@ -269,10 +276,10 @@ void series_keys(auto& keys, SeriesKeys& source, Is<OpenSettings> auto& open)
                 "gauge are turned; by default x is east and y is north.");
     keys.number("datum", source.datum, "m", "z of the scene at level 0 of the file.");
     keys.number("time_offset", source.time_offset, "s", "Time of the file at time 0 of the scene.");
-    keys.number("scale", source.scale, "", "Factor on the levels above the datum, the velocities "
-                                           "and the discharges of the file.");
+    keys.number("scale", source.scale, "",
+                "Factor on the levels above the datum, the velocities "
+                "and the discharges of the file.");
     keys.rule(check_columns, source.columns);
-    keys.rule(check_asked, open, source);
 }
 
 void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
@@ -303,7 +310,7 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
                 "Discharge into the domain [m3/s]; [m2/s] in 2-D. It reflects waves: for channels "
                 "and basins.");
     if (keys.shows(false)) {
-        series_keys(keys, source, open);
+        series_keys(keys, source);
     }
     keys.choice("profile", open.profile, {"uniform", "power"},
                 "Velocity over the depth: uniform, or with the height above the ground to the "
@@ -315,6 +322,7 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
     }
     keys.tables("station", "A series at a place along the window; linear between them.",
                 open.series, source, open);
+    keys.rule(check_asked, open, source);
     keys.rule(take_series, source, open);
     keys.rule(check_stations, open);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The ground below a window, from the exact surfaces of the walls.
+#include "open_side.hpp"
 #include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/open_settings.hpp"
 #include "hyoryu/scene/solid_surface.hpp"
-#include "open_side.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,8 @@ double distance_to_walls(const std::vector<SolidSurface>& surfaces, const Vec3& 
     return least;
 }
 
-// The lowest height from which on a vertical is free of walls, between two heights: by steps of half
-// a spacing from below, then by halving. Infinity if none is.
+// The lowest height from which on a vertical is free of walls, between two heights: by steps of
+// half a spacing from below, then by halving. Infinity if none is.
 double ground_at(const std::vector<SolidSurface>& surfaces, Vec3 point, double low, double high,
                  double spacing)
 {
@@ -61,7 +61,8 @@ double ground_at(const std::vector<SolidSurface>& surfaces, Vec3 point, double l
 
 } // namespace
 
-Vec3 point_of_window(const OpenSide& side, int lane, double distance, double spacing, int dimensions)
+Vec3 point_of_window(const OpenSide& side, int lane, double distance, double spacing,
+                     int dimensions)
 {
     Vec3 x = Vec3::Zero();
     x[side.axis] = side.plane + side.into * distance;
@@ -166,11 +167,13 @@ void carry_walls_out(const Scene& scene, Filling& filling)
                 put(k, filling.wall[k]);
             }
         }
-        const int columns = static_cast<int>(std::ceil(2 * scene.fluid->smoothing_ratio)) + 3 + layers;
+        const int columns =
+            static_cast<int>(std::ceil(2 * scene.fluid->smoothing_ratio)) + 3 + layers;
         for (std::size_t k = 0; k < filling.wall.size(); ++k) {
             const double s = distance(filling.wall[k]);
             const Wall& wall = scene.walls[static_cast<std::size_t>(filling.wall_owner[k])];
-            if (!(s >= 0 && s < dp * (1 - 1e-6)) || !beside(filling.wall[k]) || moves(wall.motion)) {
+            if (!(s >= 0 && s < dp * (1 - 1e-6)) || !beside(filling.wall[k]) ||
+                moves(wall.motion)) {
                 continue;
             }
             for (int column = 1; column <= columns; ++column) {

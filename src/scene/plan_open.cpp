@@ -67,8 +67,8 @@ Inflow inflow_at(const Scene& scene, const OpenSettings& open, const WaterAtStar
         flow.discharge = *asked.discharge * width;
     } else if (asked.level) {
         flow.depth = std::max(*asked.level - bed, 0.0);
-        flow.velocity = asked.velocity.value_or(2 * std::sqrt(g * flow.depth) -
-                                                2 * std::sqrt(g * asked.still));
+        flow.velocity =
+            asked.velocity.value_or(2 * std::sqrt(g * flow.depth) - 2 * std::sqrt(g * asked.still));
         flow.discharge = flow.depth * flow.velocity * width;
     }
     return flow;
@@ -90,7 +90,8 @@ std::string what_of(const Scene& scene, const OpenSettings& open)
         text += fmt::format(", {} series from {:.6g} to {:.6g} s", open.series.size(),
                             times.front(), times.back());
     } else if (open.discharge) {
-        text += fmt::format(", {:.6g} {}", *open.discharge, scene.dimensions == 2 ? "m2/s" : "m3/s");
+        text +=
+            fmt::format(", {:.6g} {}", *open.discharge, scene.dimensions == 2 ? "m2/s" : "m3/s");
     } else if (open.level) {
         text += fmt::format(", level {:.6g} m", *open.level);
     }
@@ -129,8 +130,8 @@ Diagnostic note_at(const Scene& scene, const OpenSettings& open, std::string_vie
 void check_side(const Scene& scene, const Filling& filling, const OpenSettings& open,
                 std::vector<Diagnostic>& errors)
 {
-    const double side = open.sign() > 0 ? filling.domain.min[open.axis()]
-                                        : filling.domain.max[open.axis()];
+    const double side =
+        open.sign() > 0 ? filling.domain.min[open.axis()] : filling.domain.max[open.axis()];
     if (std::abs(open.plane() - side) > 1e-6 * scene.spacing) {
         errors.push_back(note_at(
             scene, open, "min",
@@ -214,8 +215,8 @@ void check_pairs(const Scene& scene, std::vector<Diagnostic>& errors)
             const OpenSettings& b = scene.open[k];
             const int across = 1 - a.axis();
             const bool meet = a.axis() == b.axis() && a.plane() == b.plane() &&
-                              (scene.dimensions == 2 || (a.min[across] < b.max[across] &&
-                                                         b.min[across] < a.max[across]));
+                              (scene.dimensions == 2 ||
+                               (a.min[across] < b.max[across] && b.min[across] < a.max[across]));
             if (meet) {
                 errors.push_back(note_at(scene, b, "min",
                                          fmt::format("the window overlaps that of \"{}\"", a.name),

@@ -217,8 +217,8 @@ private:
                 continue;
             }
             const double h = (*numbers)[2];
-            const double along =
-                (*numbers)[3] * std::sin(source_.azimuth) + (*numbers)[4] * std::cos(source_.azimuth);
+            const double along = (*numbers)[3] * std::sin(source_.azimuth) +
+                                 (*numbers)[4] * std::cos(source_.azimuth);
             take(line, 0, (*numbers)[1]);
             take(line, 1, (*numbers)[5]);
             take(line, 2, h > least_depth ? along / h : 0);

@@ -107,7 +107,8 @@ void fit(Store& store, std::size_t kept, const OpenFlow& open)
                                   kept, store.size()));
     }
     std::vector<std::int32_t> order(kept, -1);
-    std::iota(order.begin(), order.begin() + std::min<std::ptrdiff_t>(std::ssize(order), store.size()), 0);
+    std::iota(order.begin(),
+              order.begin() + std::min<std::ptrdiff_t>(std::ssize(order), store.size()), 0);
     store.gather(order);
 }
 

@@ -47,9 +47,8 @@ void set_flows(Simulation& sim, double time)
             if (!(ground.bed < infinity)) {
                 continue;
             }
-            const AskedFlow asked =
-                asked_at(scene.open[k], place_of(carpet.side, c, scene.spacing), time,
-                         sim.open.still[k][at(c)], scene.dimensions);
+            const AskedFlow asked = asked_at(scene.open[k], place_of(carpet.side, c, scene.spacing),
+                                             time, sim.open.still[k][at(c)], scene.dimensions);
             StationFlow& flow = carpet.stations[at(c)];
             flow = flow_at(asked, flow, ground, scene.gravity.norm());
         }
@@ -86,10 +85,9 @@ void start_open(Simulation& sim)
         std::vector<StillWater>& still = sim.open.still.emplace_back();
         for (int c = 0; c < carpet.side.stations(); ++c) {
             const double depth = carpet.stations[at(c)].depth;
-            still.push_back({carpet.side.station_strip(c) + depth,
-                             std::max(carpet.side.station_strip(c) + depth -
-                                          carpet.side.station_bed(c),
-                                      0.0)});
+            still.push_back(
+                {carpet.side.station_strip(c) + depth,
+                 std::max(carpet.side.station_strip(c) + depth - carpet.side.station_bed(c), 0.0)});
         }
     }
     set_flows(sim, 0);

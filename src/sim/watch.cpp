@@ -130,8 +130,9 @@ void watch_bodies(const Simulation& sim)
 bool driven(const Simulation& sim)
 {
     const RigidSettings& contact = sim.rigid.settings;
-    return has_moving_walls(sim.scene) || sim.open.runs() || (sim.fluid && !sim.fluid->parameters.drive.isZero(0)) ||
-           sim.rigid.penalty || contact.law != ImpactLaw::coupled;
+    return has_moving_walls(sim.scene) || sim.open.runs() ||
+           (sim.fluid && !sim.fluid->parameters.drive.isZero(0)) || sim.rigid.penalty ||
+           contact.law != ImpactLaw::coupled;
 }
 
 double energy(const Totals& t)

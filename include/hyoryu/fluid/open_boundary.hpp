@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Open sides of the fluid. Outside each lies a carpet of buffer particles: fluid rows that take part
-// in all pair loops as neighbours, but whose velocity and density follow from the flow that is asked
-// for. A row belongs to the carpet as long as it is behind the plane; nothing else marks it.
+// Open sides of the fluid. Outside each lies a carpet of buffer particles: fluid rows that take
+// part in all pair loops as neighbours, but whose velocity and density follow from the flow that is
+// asked for. A row belongs to the carpet as long as it is behind the plane; nothing else marks it.
 //
 // The flow at the plane is driven by the incoming Riemann invariant alone, u + 2 sqrt(g h), so that
 // the waves that come from inside leave. Ours in this form; linearised it is the correction of
@@ -21,13 +21,14 @@ int carpet_columns(const FluidParameters& f);
 /// A vertical plane through which fluid enters and leaves. `s` is the distance from it into the
 /// domain, lanes are strips of one spacing along it; in two dimensions there is one lane.
 struct OpenSide {
-    int axis = 0;            // of the normal: 0 or 1
-    real plane = 0;          // [m]
-    real into = 1;           // +1 or -1: the direction into the domain along the axis
-    real first = 0;          // lower edge of the first lane along the plane [m]
-    real low = 0;            // lower edge of the window [m]
-    bool repeats = false;    // the plane reaches from end to end of a period
-    std::vector<real> bed;   // ground below the carpet, by lane; infinity where it fills the window [m]
+    int axis = 0;         // of the normal: 0 or 1
+    real plane = 0;       // [m]
+    real into = 1;        // +1 or -1: the direction into the domain along the axis
+    real first = 0;       // lower edge of the first lane along the plane [m]
+    real low = 0;         // lower edge of the window [m]
+    bool repeats = false; // the plane reaches from end to end of a period
+    std::vector<real>
+        bed; // ground below the carpet, by lane; infinity where it fills the window [m]
     std::vector<real> strip; // mean ground of the strip in which the depth is measured, by lane [m]
     int station_lanes = 4;   // lanes of a station, in each of which one depth is measured
 
@@ -71,7 +72,7 @@ StationFlow flow_at(const AskedFlow& asked, const StationFlow& before, const Sta
 
 struct Carpet {
     OpenSide side;
-    bool power_profile = false;         // u(z) ~ z^(1/7) in place of a uniform one
+    bool power_profile = false; // u(z) ~ z^(1/7) in place of a uniform one
     std::vector<StationFlow> stations;
     std::vector<real> carry;            // by lane: rows that are owed to the volume [1]
     std::int64_t made = 0, dropped = 0; // rows since the start
@@ -81,18 +82,18 @@ struct Carpet {
 
     // Rows that may be behind the plane or in the strip until lists are made again.
     std::vector<std::int32_t> near;
-    std::vector<std::uint8_t> behind;   // of those, now
-    std::vector<Vec3> kept;             // velocities of those behind before the kick [m/s]
+    std::vector<std::uint8_t> behind; // of those, now
+    std::vector<Vec3> kept;           // velocities of those behind before the kick [m/s]
 };
 
 /// The open sides of a scene, and what passed them.
 struct OpenBoundary {
     std::vector<Carpet> carpets;
-    std::int64_t next_id = 0;       // number of the next particle that is made
-    std::int64_t most = 0;          // particles that the run may hold; 0: any
-    Vec3 impulse{0, 0, 0};          // on the rows of the store since the start [N s]
-    Vec3 dropped_force{0, 0, 0};    // viscous, of rows dropped in this step [N]
-    real energy = 0;                // carried in through the planes since the start [J]
+    std::int64_t next_id = 0;    // number of the next particle that is made
+    std::int64_t most = 0;       // particles that the run may hold; 0: any
+    Vec3 impulse{0, 0, 0};       // on the rows of the store since the start [N s]
+    Vec3 dropped_force{0, 0, 0}; // viscous, of rows dropped in this step [N]
+    real energy = 0;             // carried in through the planes since the start [J]
 };
 
 /// Finds the rows about each plane; after lists were made or rows came back from a checkpoint.
@@ -110,7 +111,8 @@ void count_crossings(const Fluid& fluid, OpenBoundary& open);
 /// Whether a carpet has moved so far that new columns are due.
 bool carpets_due(const Fluid& fluid, const OpenBoundary& open);
 
-/// Drops rows that have left the carpets, and makes new ones. Only before lists are made: rows move.
+/// Drops rows that have left the carpets, and makes new ones. Only before lists are made: rows
+/// move.
 void renew_carpets(Fluid& fluid, OpenBoundary& open);
 
 /// Sets the density of the carpets to that of water at rest below their level; no gap, no cavity.

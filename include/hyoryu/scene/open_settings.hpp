@@ -29,9 +29,9 @@ enum class FlowProfile { uniform, power };
 /// The flow at one place of a window: linear between its times, held before and after them. Each
 /// list is as long as that of the times, or empty.
 struct OpenSeries {
-    double at = 0; // along the window [m]
-    std::vector<double> times; // [s]
-    std::vector<double> levels; // z of the free surface [m]
+    double at = 0;                  // along the window [m]
+    std::vector<double> times;      // [s]
+    std::vector<double> levels;     // z of the free surface [m]
     std::vector<double> velocities; // into the domain [m/s]
     std::vector<double> discharges; // into the domain [m3/s]; m2/s in two dimensions
     Place place;

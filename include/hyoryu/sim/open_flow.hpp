@@ -21,8 +21,8 @@ struct OpenFlow {
 /// Makes the carpets of the scene with its first particles; before the first lists.
 void start_open(Simulation& sim);
 
-/// After the drift to the middle of a step: counts what crossed, and makes new lists where those are
-/// due, with new columns of the carpets.
+/// After the drift to the middle of a step: counts what crossed, and makes new lists where those
+/// are due, with new columns of the carpets.
 void renew_open(Simulation& sim);
 
 /// After the kick of a step of dt: the flow at the end of the step, and the velocities of carpets.
@@ -33,9 +33,9 @@ void close_open(Simulation& sim);
 
 /// What an open side shows in open.csv.
 struct OpenReading {
-    double level = 0;      // mean of the carpet [m]
-    double velocity = 0;   // mean into the domain [m/s]
-    double discharge = 0;  // into the domain now [m3/s]; m2/s in two dimensions
+    double level = 0;                     // mean of the carpet [m]
+    double velocity = 0;                  // mean into the domain [m/s]
+    double discharge = 0;                 // into the domain now [m3/s]; m2/s in two dimensions
     double volume_in = 0, volume_out = 0; // through the plane since the start [m3]
     double volume_asked = 0;              // net, of depth x velocity [m3]
 };
