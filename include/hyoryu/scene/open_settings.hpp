@@ -4,6 +4,7 @@
 
 #include "hyoryu/core/types.hpp"
 #include "hyoryu/fluid/open_boundary.hpp"
+#include "hyoryu/scene/place.hpp"
 
 #include <optional>
 #include <string>
@@ -12,13 +13,6 @@
 namespace hyoryu {
 
 struct Scene;
-
-/// Where in the case file something was said, for messages that come after reading.
-struct Place {
-    int line = 0;
-    int column = 0;
-    int length = 1;
-};
 
 /// What a window is open for: a flow that is asked for; nothing; the still water outside.
 enum class OpenKind { inflow, outflow, absorb };

@@ -11,6 +11,7 @@
 #include "hyoryu/geometry/height_grid.hpp"
 #include "hyoryu/rigid/law.hpp"
 #include "hyoryu/scene/open_settings.hpp"
+#include "hyoryu/scene/place.hpp"
 
 #include <array>
 #include <filesystem>
@@ -20,13 +21,6 @@
 #include <vector>
 
 namespace hyoryu {
-
-/// Where in the case file something was said, for messages that come after reading.
-struct Place {
-    int line = 0;
-    int column = 0;
-    int length = 1;
-};
 
 // Shapes. A body's shape is given about its middle, the centre of its volume; a wall's or a fluid
 // block's in space.
