@@ -15,19 +15,17 @@ constexpr double no_gain = 1e-6;
 // Round-off of their work, as a part of the kinetic energy.
 constexpr double round_off = 1e-13;
 
-// The work of the contacts on the bodies: what their kinetic energy gains beyond the work of
-// gravity and loads.
-double work_on(const StepContext& context, int k)
+// The work of the contacts on a body along a path that ends at a rotation: what its kinetic energy
+// gains beyond the work of gravity and loads.
+double work_on(const StepContext& context, int k, const Path& path, const Mat3& end)
 {
-    const ContactMemory& memory = context.memory;
-    const Path& path = memory.paths[k];
-    const Rotor& rotor = memory.rotors[k];
+    const Rotor& rotor = context.memory.rotors[k];
     const Vec3 mean = 0.5 * (path.v0 + path.v1);
     const Vec3 gain = path.v1 - path.v0 - path.h * acceleration(context, k);
     double work = context.rigid.bodies[k].mass.mass * mean.dot(gain);
     if (rotor.free_axes > 0) {
         const Vec3 before = inverse_inertia(rotor, path.start.R) * path.L0;
-        const Vec3 after = inverse_inertia(rotor, memory.end[k].R) * path.L1;
+        const Vec3 after = inverse_inertia(rotor, end) * path.L1;
         work += 0.5 * (path.L1.dot(after) - path.L0.dot(before)) -
                 0.5 * path.h * context.loads[k].torque.dot(before + after);
     }
@@ -68,7 +66,34 @@ double work_of_projection(const StepContext& context, const Row& row, double cha
     return change * apart / row.cone.K(0, 0);
 }
 
+// The first part of a path.
+Path up_to(double s, Path path)
+{
+    const double part = path.h > 0 ? s / path.h : 0;
+    path.v1 = path.v0 + part * (path.v1 - path.v0);
+    path.L1 = path.L0 + part * (path.L1 - path.L0);
+    path.h = s;
+    return path;
+}
+
 } // namespace
+
+double taken_by_contacts(const StepContext& context, const SubStep& sub, double s)
+{
+    const ContactMemory& memory = context.memory;
+    double taken = 0;
+    for (const int k : sub.cluster.bodies) {
+        if (memory.rotors[k].movable) {
+            taken -= work_on(context, k, up_to(s, memory.paths[k]), memory.poses[k].R);
+        }
+    }
+    const double part = sub.h > 0 ? s / sub.h : 0;
+    for (const Persistent& p : memory.persistent) {
+        const Vec3 wall = wall_velocity(memory, p.candidate.feature.b, sub.time + 0.5 * s);
+        taken += part * p.impulse.dot(wall);
+    }
+    return taken;
+}
 
 bool gains_energy(const StepContext& context, const SubStep& sub)
 {
@@ -79,7 +104,7 @@ bool gains_energy(const StepContext& context, const SubStep& sub)
     }
     double work = 0;
     for (const int k : sub.cluster.bodies) {
-        work += memory.rotors[k].movable ? work_on(context, k) : 0;
+        work += memory.rotors[k].movable ? work_on(context, k, memory.paths[k], memory.end[k].R) : 0;
     }
     const Configuration end = configuration(memory, memory.end, sub.time + sub.h);
     double left = gain_left(context, sub);

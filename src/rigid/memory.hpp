@@ -119,7 +119,7 @@ struct ContactMemory {
     bool stepped = false;     // contacts of the cluster in hand were not located
     int event_limit = 0;      // of a body of the cluster in this step
     double work = 0;          // spent on the cluster in this step, in updates of rows
-    double lost = 0;          // taken by impacts and unlocated contacts in the step [J]
+    double lost = 0;          // taken by contacts in the step and not given back [J]
     double worth = 0;         // what it may cost to locate
     std::vector<int> entries; // in the log, of each candidate; -1 if none
     std::vector<int> parents, island_of_root, island_of_row;

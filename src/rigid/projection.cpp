@@ -186,20 +186,88 @@ double work_of_opening(const StepContext& context, const Cluster& cluster)
 // Overlap beyond what a step of 5 ms may leave: it was there from the start [units].
 constexpr double from_before = 1e-3;
 
-// The part of the displacements that the energy lost in this step pays for, unless an overlap is
-// from before it.
-double share_of_opening(const StepContext& context, const Cluster& cluster)
+// The part of displacements that cost `work` that the energy lost in this step pays for, and what is
+// `given` besides [J]; all of them where an overlap is from before it.
+double share_of_opening(const StepContext& context, double work, double given)
 {
     ContactMemory& memory = context.memory;
-    const double work = work_of_opening(context, cluster);
     const double unit = context.rigid.settings.unit;
     const bool free =
-        work <= memory.lost || std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
+        work <= memory.lost + given || std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
             return c.touch.gap < -from_before * unit;
         });
-    const double share = free ? 1 : std::max(memory.lost, 0.0) / work;
+    const double share = free ? 1 : std::max(memory.lost + given, 0.0) / work;
     memory.lost -= share * work;
     return share;
+}
+
+// What the way from other poses costs against gravity and loads, and what it gives to the spin,
+// whose momentum stays [J].
+double work_from(const StepContext& context, const Cluster& cluster)
+{
+    const ContactMemory& memory = context.memory;
+    double work = 0;
+    for (const int k : cluster.bodies) {
+        const Body& body = context.rigid.bodies[k];
+        const Rotor& rotor = memory.rotors[k];
+        if (!rotor.movable) {
+            continue;
+        }
+        const SolidPose& from = memory.trial[k];
+        const SolidPose& to = memory.poses[k];
+        work -= body.mass.mass * acceleration(context, k).dot(to.x - from.x);
+        if (rotor.free_axes > 0) {
+            const Vec3& L = body.angular_momentum;
+            work += 0.5 * L.dot(inverse_inertia(rotor, to.R) * L - inverse_inertia(rotor, from.R) * L);
+            const Vec3 turn = 2 * (to.q * from.q.conjugate()).vec(); // of a small angle
+            work -= context.loads[k].torque.dot(turn);
+        }
+    }
+    return work;
+}
+
+// What lies at rest has no energy to open what it overlaps by: in a sub-step it may rise by this, so
+// that a micrometre is gone in a thousand of them [units].
+constexpr double creep = 1e-9;
+
+double work_of_creep(const StepContext& context, const Cluster& cluster)
+{
+    double weight = 0;
+    for (const int k : cluster.bodies) {
+        const bool movable = context.memory.rotors[k].movable;
+        weight += movable ? context.rigid.bodies[k].mass.mass * acceleration(context, k).norm() : 0;
+    }
+    return creep * context.rigid.settings.unit * weight;
+}
+
+// Whether contacts of the sub-step overlapped when it began, by more than located ones are left
+// with: what is not located leaves them so.
+bool overlapped_before(const StepContext& context)
+{
+    constexpr double by_location = 1e-9; // [units]
+    const double least = -by_location * context.rigid.settings.unit;
+    return std::ranges::any_of(context.memory.persistent, [&](const Persistent& p) {
+        return p.candidate.touch.gap < least;
+    });
+}
+
+// Goes back on the way from `trial` as far as the energy lost in this step does not pay for it. What
+// the sub-step itself changed the gaps by has been looked at when it was planned.
+void pay_for_projection(const StepContext& context, const SubStep& sub)
+{
+    ContactMemory& memory = context.memory;
+    const Cluster& cluster = sub.cluster;
+    const double work = work_from(context, cluster);
+    if (!overlapped_before(context)) {
+        memory.lost -= work;
+        return;
+    }
+    const double share = share_of_opening(context, work, work_of_creep(context, cluster));
+    for (const int k : cluster.bodies) {
+        const SolidPose& from = memory.trial[k];
+        const SolidPose& to = memory.poses[k];
+        memory.poses[k] = pose_of(from.x + share * (to.x - from.x), from.q.slerp(share, to.q));
+    }
 }
 
 void update_gaps(ContactMemory& memory, double time)
@@ -227,7 +295,7 @@ void open_gaps(const StepContext& context, const SubStep& sub, double time)
             lay_out_opening(context, sub, time);
             solve_islands(memory.rows, memory, swept_opening);
         }
-        const double share = share_of_opening(context, sub.cluster);
+        const double share = share_of_opening(context, work_of_opening(context, sub.cluster), 0);
         for (const int k : sub.cluster.bodies) {
             memory.poses[k].x += share * memory.responses[k].v;
             turn_by(memory.poses[k], share * memory.responses[k].omega);
@@ -260,6 +328,9 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
         return;
     }
     set_responses(context, sub.cluster);
+    for (const int k : sub.cluster.bodies) {
+        memory.trial[k] = memory.poses[k];
+    }
     const double no_gap = sub.no_gap * context.rigid.settings.unit;
     const auto sweep = [&] {
         double off = infinity;
@@ -277,6 +348,7 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
         }
         sweep();
     }
+    pay_for_projection(context, sub);
     update_gaps(memory, time);
 }
 

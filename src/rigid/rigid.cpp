@@ -140,6 +140,7 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
         const double s = first_event(context, sub);
         const double now = sub.time + s;
         move_to(context, sub, s);
+        context.memory.lost += taken_by_contacts(context, sub, s);
         remember(context.memory, sub.h);
         find_contacts(context, cluster, now);
         project_gaps(context, sub, now);
