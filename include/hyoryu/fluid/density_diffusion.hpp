@@ -2,6 +2,7 @@
 // Density diffusion: smooths the acoustic noise of the weakly compressible pressure.
 #pragma once
 
+#include "hyoryu/fluid/moments.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"
@@ -42,11 +43,9 @@ struct DensityGradient {
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
-        const Vec<N>& r = ij.r;
-        const Vec<N> step = (j[field::volume] * ij.f) * r;
+        const Vec<N> step = (j[field::volume] * ij.f) * ij.r;
         sum[field::pressure_gradient] += (j[field::pressure] - i[field::pressure]) * step;
-        sum[field::moments] += Vec<N>{-(step.x * r.x), -(step.y * r.y), -(step.z * r.z)};
-        sum[field::mixed_moments] += Vec<N>{-(step.y * r.z), -(step.x * r.z), -(step.x * r.y)};
+        add_moments(step, ij.r, sum);
     }
 };
 

@@ -8,6 +8,7 @@
 // the pressure is the change of the compression energy.
 #pragma once
 
+#include "hyoryu/fluid/moments.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/slot.hpp"
 
@@ -75,10 +76,7 @@ struct GradientMoments {
     template <class N>
     void operator()(const Pair<N>& ij, const auto&, const auto& j, auto& sum) const
     {
-        const Vec<N>& r = ij.r;
-        const Vec<N> step = (j[field::volume] * ij.f) * r;
-        sum[field::moments] += Vec<N>{-(step.x * r.x), -(step.y * r.y), -(step.z * r.z)};
-        sum[field::mixed_moments] += Vec<N>{-(step.y * r.z), -(step.x * r.z), -(step.x * r.y)};
+        add_moments(Vec<N>((j[field::volume] * ij.f) * ij.r), ij.r, sum);
     }
 };
 

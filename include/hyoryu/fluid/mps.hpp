@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hyoryu/core/sweep.hpp"
+#include "hyoryu/fluid/moments.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 
 namespace hyoryu {
@@ -29,9 +30,7 @@ struct MpsGradient {
         const Vec<N> step = weight * ij.r;
         sum[field::pressure_gradient] += difference * step;
         sum[field::crowding_gradient] += step;
-        sum[field::moments] += Vec<N>{-(step.x * ij.r.x), -(step.y * ij.r.y), -(step.z * ij.r.z)};
-        sum[field::mixed_moments] +=
-            Vec<N>{-(step.y * ij.r.z), -(step.x * ij.r.z), -(step.x * ij.r.y)};
+        add_moments(step, ij.r, sum);
     }
 };
 
