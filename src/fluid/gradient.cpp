@@ -7,7 +7,7 @@ namespace hyoryu {
 
 Mat3 correction(const Mat3& M)
 {
-    const real share = inner_share(M);
+    const real share = corrected_part * inner_share(M);
     return share > 0 ? Mat3(share * (M.inverse() - Mat3::Identity())) : Mat3(Mat3::Zero());
 }
 

@@ -104,7 +104,8 @@ bool gains_energy(const StepContext& context, const SubStep& sub)
     }
     double work = 0;
     for (const int k : sub.cluster.bodies) {
-        work += memory.rotors[k].movable ? work_on(context, k, memory.paths[k], memory.end[k].R) : 0;
+        work +=
+            memory.rotors[k].movable ? work_on(context, k, memory.paths[k], memory.end[k].R) : 0;
     }
     const Configuration end = configuration(memory, memory.end, sub.time + sub.h);
     double left = gain_left(context, sub);

@@ -186,16 +186,16 @@ double work_of_opening(const StepContext& context, const Cluster& cluster)
 // Overlap beyond what a step of 5 ms may leave: it was there from the start [units].
 constexpr double from_before = 1e-3;
 
-// The part of displacements that cost `work` that the energy lost in this step pays for, and what is
-// `given` besides [J]; all of them where an overlap is from before it.
+// The part of displacements that cost `work` that the energy lost in this step pays for, and what
+// is `given` besides [J]; all of them where an overlap is from before it.
 double share_of_opening(const StepContext& context, double work, double given)
 {
     ContactMemory& memory = context.memory;
     const double unit = context.rigid.settings.unit;
-    const bool free =
-        work <= memory.lost + given || std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
-            return c.touch.gap < -from_before * unit;
-        });
+    const bool free = work <= memory.lost + given ||
+                      std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
+                          return c.touch.gap < -from_before * unit;
+                      });
     const double share = free ? 1 : std::max(memory.lost + given, 0.0) / work;
     memory.lost -= share * work;
     return share;
@@ -218,7 +218,8 @@ double work_from(const StepContext& context, const Cluster& cluster)
         work -= body.mass.mass * acceleration(context, k).dot(to.x - from.x);
         if (rotor.free_axes > 0) {
             const Vec3& L = body.angular_momentum;
-            work += 0.5 * L.dot(inverse_inertia(rotor, to.R) * L - inverse_inertia(rotor, from.R) * L);
+            work +=
+                0.5 * L.dot(inverse_inertia(rotor, to.R) * L - inverse_inertia(rotor, from.R) * L);
             const Vec3 turn = 2 * (to.q * from.q.conjugate()).vec(); // of a small angle
             work -= context.loads[k].torque.dot(turn);
         }
@@ -226,8 +227,8 @@ double work_from(const StepContext& context, const Cluster& cluster)
     return work;
 }
 
-// What lies at rest has no energy to open what it overlaps by: in a sub-step it may rise by this, so
-// that a micrometre is gone in a thousand of them [units].
+// What lies at rest has no energy to open what it overlaps by: in a sub-step it may rise by this,
+// so that a micrometre is gone in a thousand of them [units].
 constexpr double creep = 1e-9;
 
 double work_of_creep(const StepContext& context, const Cluster& cluster)
@@ -246,13 +247,12 @@ bool overlapped_before(const StepContext& context)
 {
     constexpr double by_location = 1e-9; // [units]
     const double least = -by_location * context.rigid.settings.unit;
-    return std::ranges::any_of(context.memory.persistent, [&](const Persistent& p) {
-        return p.candidate.touch.gap < least;
-    });
+    return std::ranges::any_of(context.memory.persistent,
+                               [&](const Persistent& p) { return p.candidate.touch.gap < least; });
 }
 
-// Goes back on the way from `trial` as far as the energy lost in this step does not pay for it. What
-// the sub-step itself changed the gaps by has been looked at when it was planned.
+// Goes back on the way from `trial` as far as the energy lost in this step does not pay for it.
+// What the sub-step itself changed the gaps by has been looked at when it was planned.
 void pay_for_projection(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;

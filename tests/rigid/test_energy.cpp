@@ -170,7 +170,8 @@ TEST(Energy, NorDoTowersThatAreTooCostlyToLocate)
                 const double now = energy(rigid);
                 rise = std::max(rise, (now - least) / start);
                 least = std::min(least, now);
-                lift = std::max(lift, (now - last - part_of_motion * kinetic(rigid)) / weight(rigid));
+                lift =
+                    std::max(lift, (now - last - part_of_motion * kinetic(rigid)) / weight(rigid));
                 last = now;
             });
             EXPECT_LT(lift, most_lift) << "HYORYU_SEED=" << seed << " dt " << dt;

@@ -2,7 +2,7 @@
 // Density diffusion: smooths the acoustic noise of the weakly compressible pressure.
 #pragma once
 
-#include "hyoryu/fluid/moments.hpp"
+#include "hyoryu/fluid/moment_sum.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/fluid/slot.hpp"
 #include "hyoryu/fluid/stage.hpp"

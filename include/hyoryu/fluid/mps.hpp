@@ -3,7 +3,7 @@
 #pragma once
 
 #include "hyoryu/core/sweep.hpp"
-#include "hyoryu/fluid/moments.hpp"
+#include "hyoryu/fluid/moment_sum.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 
 namespace hyoryu {
