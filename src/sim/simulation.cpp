@@ -191,6 +191,7 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
             fluid.period[axis] = filling.domain.max[axis] - filling.domain.min[axis];
         }
     }
+    extend_domain(sim.scene, fluid);
     fluid.fixed_walls = fixed_walls(sim, filling, fluid);
     allocate(fluid, static_cast<Index>(filling.fluid.size()), fluid.fixed_walls.moving_rows,
              static_cast<Index>(sim.body_particles.points.size()));
