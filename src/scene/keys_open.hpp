@@ -111,6 +111,29 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
     }
 }
 
+/// Keys that tell how a file is read, where none is.
+inline void check_file_keys(TableReader& table, const OpenSettings& open, const SeriesKeys& keys)
+{
+    const bool file = keys.file || table.has("station");
+    for (const std::string_view key :
+         {"format", "columns", "azimuth_deg", "datum", "time_offset", "scale"}) {
+        if (!file && table.has(key)) {
+            table.error(key, "has no meaning without a series", "give `series`, or leave it out");
+        }
+    }
+    if (file && table.has("azimuth_deg") && keys.format == SeriesFormat::csv) {
+        table.error("azimuth_deg", "has no meaning with format = \"csv\"",
+                    "the velocities of a table are those into the domain");
+    }
+    if (file && table.has("columns") && keys.format == SeriesFormat::geoclaw) {
+        table.error("columns", "has no meaning with format = \"geoclaw\"",
+                    "its columns are level, time, h, hu, hv and eta");
+    }
+    if (open.hold && !file) {
+        table.error("hold", "has no meaning without a series", "leave it out");
+    }
+}
+
 inline void check_columns(TableReader& table, const std::vector<std::string>& columns)
 {
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -323,6 +346,7 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
     keys.tables("station", "A series at a place along the window; linear between them.",
                 open.series, source, open);
     keys.rule(check_asked, open, source);
+    keys.rule(check_file_keys, open, source);
     keys.rule(take_series, source, open);
     keys.rule(check_stations, open);
 }

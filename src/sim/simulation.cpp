@@ -268,30 +268,6 @@ void update_lists(Simulation& sim)
     }
 }
 
-// Carpets keep their lattice.
-void shift_fluid(Simulation& sim, double dt)
-{
-    Fluid& fluid = *sim.fluid;
-    if (!has_open_sides(sim) || held<Shifting>(fluid.effects) == nullptr) {
-        shift(fluid, dt);
-        return;
-    }
-    std::vector<Vec3> places;
-    const auto over_carpets = [&](const auto& f) {
-        for (const Carpet& carpet : sim.open.boundary.carpets) {
-            for (std::size_t k = 0; k < carpet.near.size(); ++k) {
-                if (carpet.behind[k] != 0) {
-                    f(fluid.particles.fluid[field::position][carpet.near[k]]);
-                }
-            }
-        }
-    };
-    over_carpets([&](const Vec3& x) { places.push_back(x); });
-    shift(fluid, dt);
-    std::size_t next = 0;
-    over_carpets([&](Vec3& x) { x = places[next++]; });
-}
-
 // A step of a fluid particle costs as much as ten updates of a contact, on one thread.
 constexpr double updates_of_particle = 10;
 
@@ -404,7 +380,7 @@ void step(Simulation& sim)
         move_walls(sim, sim.clock.time + dt / 2, next.end);
         update_rates(fluid);
         sim.pair_visits += static_cast<double>(fluid.neighbours.visits);
-        shift_fluid(sim, dt);
+        shift(fluid, dt);
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
         if (has_open_sides(sim)) {
