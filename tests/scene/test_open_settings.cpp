@@ -66,6 +66,11 @@ TEST(OpenSettings, MistakesAreToldWithTheirKeyLineAndHint)
         {"level = 0.7\n", "level = 0.7\ndatum = 0.5\n", "datum", "without a series"},
         {"level = 0.7\n", "level = 0.7\nhold = true\n", "hold", "without a series"},
         {"[fluid]\n", "[fluid]\nshifting.model = \"sun\"\n", "name", "fluid.shifting"},
+        {"level = 0.7\nvelocity = 0.2\n",
+         "[[open.station]]\nat = 0.5\ntimes = [0, 2, 1]\nlevels = [0.7, 0.7, 0.7]\n", "times[2]",
+         "does not follow"},
+        {"level = 0.7\nvelocity = 0.2\n",
+         "[[open.station]]\nat = 0.5\ntimes = [0, 1]\nlevels = [0.7]\n", "times", "1 values"},
         {"level = 0.7\n",
          "[[open.station]]\nat = 0.5\ntimes = [0, 1]\nlevels = [0.7, 0.7]\n"
          "[[open.station]]\nat = 0.2\ntimes = [0, 1]\nlevels = [0.7, 0.7]\n",
@@ -80,6 +85,7 @@ TEST(OpenSettings, MistakesAreToldWithTheirKeyLineAndHint)
         });
         ASSERT_NE(found, all.end()) << (all.empty() ? "nothing refused" : to_string(all.front()));
         EXPECT_GT(found->line, 0);
+        EXPECT_FALSE(found->hint.empty());
     }
 }
 
