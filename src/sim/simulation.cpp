@@ -268,6 +268,22 @@ void update_lists(Simulation& sim)
     }
 }
 
+// The new velocities: of the forces, then of what sponges, solid surfaces and open sides make of
+// them.
+void kick_fluid(Simulation& sim, double dt)
+{
+    sim.timer.begin("kick");
+    kick(*sim.fluid, dt);
+    if (is_built<Sponges> && !sim.scene.sponges.empty()) {
+        damp_in_sponges(sim, dt);
+    }
+    hold_fluid(sim, dt);
+    if (has_open_sides(sim)) {
+        sim.timer.begin("open sides");
+        drive_open(sim, dt);
+    }
+}
+
 // A step of a fluid particle costs as much as ten updates of a contact, on one thread.
 constexpr double updates_of_particle = 10;
 
@@ -354,16 +370,7 @@ void step(Simulation& sim)
         update_forces(fluid, dt);
         sim.timer.begin("loads");
         load_solids(sim);
-        sim.timer.begin("kick");
-        kick(fluid, dt);
-        if (is_built<Sponges> && !sim.scene.sponges.empty()) {
-            damp_in_sponges(sim, dt);
-        }
-        hold_fluid(sim, dt);
-        if (has_open_sides(sim)) {
-            sim.timer.begin("open sides");
-            drive_open(sim, dt);
-        }
+        kick_fluid(sim, dt);
     }
     if (is_built<RigidMotion> && sim.plan.rigid) {
         sim.timer.begin("bodies");
