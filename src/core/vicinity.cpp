@@ -116,21 +116,22 @@ private:
 
     void look_at_batch(Index tile, Batch& batch) const
     {
-        std::size_t last_found = 0;
+        std::size_t found_last = 0;
         const Index first_chunk = points_.chunk_start[at(tile)];
         for (Index chunk = first_chunk; chunk < points_.chunk_start[at(tile + 1)]; ++chunk) {
             const Index first = points_.start[at(tile)] + chunk_slots * (chunk - first_chunk);
             const Index last = std::min<Index>(first + chunk_slots, points_.start[at(tile + 1)]);
             Index left = std::count(marks_.begin() + first, marks_.begin() + last, 0);
+            const std::size_t begin = found_last;
             for (std::size_t k = 0; k < batch.count && left > 0; ++k) {
                 // The order is that of the batch, but for the chunk that found one last.
-                const std::size_t other = k == 0 ? last_found : k <= last_found ? k - 1 : k;
+                const std::size_t other = k == 0 ? begin : k <= begin ? k - 1 : k;
                 if (!is_near(points_.box[at(chunk)], batch.chunk[other].box, squared_radius_)) {
                     continue;
                 }
                 const Index found = mark_chunk(first, last, batch.chunk[other]);
                 left -= found;
-                last_found = found > 0 ? other : last_found;
+                found_last = found > 0 ? other : found_last;
             }
         }
         batch.count = 0;
