@@ -145,7 +145,7 @@ private:
         const real dp = f_.spacing;
         real outermost = s.empty() ? begin : *std::ranges::min_element(s);
         std::vector<real> added;
-        while (outermost > far_) {
+        while (outermost > far_ + 1e-6 * dp) { // rounding makes no column
             if (emit(outermost - dp, row)) {
                 outermost -= dp;
                 s.push_back(outermost);

@@ -39,7 +39,8 @@ inline void check_window(TableReader& table, const OpenSettings& open, const Sce
     const int axis = open.axis();
     const bool flat = scene.dimensions == 2;
     if (!scene.fluid) {
-        table.error("name", "an open side has no meaning in a case without fluid");
+        table.error("name", "an open side has no meaning in a case without fluid",
+                    "add a [fluid], or remove [[open]]");
     }
     if (flat && axis == 1) {
         table.error("into", "a case in two dimensions has no sides along y",
@@ -55,7 +56,8 @@ inline void check_window(TableReader& table, const OpenSettings& open, const Sce
             table.error("max", fmt::format("the window is {:.6g} m thick along its normal", size),
                         fmt::format("`min` and `max` must have the same {}", "xyz"[k]));
         } else if (k != axis && !(flat && k == 1) && !(size > 0)) {
-            table.error("max", fmt::format("must lie above `min` along {}", "xyz"[k]));
+            table.error("max", fmt::format("must lie above `min` along {}", "xyz"[k]),
+                        "`min` is the lower corner of the window, `max` the upper one");
         }
     }
     if (scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)]) {
@@ -111,6 +113,29 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
     }
 }
 
+/// Keys that tell how a file is read, where none is.
+inline void check_file_keys(TableReader& table, const OpenSettings& open, const SeriesKeys& keys)
+{
+    const bool file = keys.file || table.has("station");
+    for (const std::string_view key :
+         {"format", "columns", "azimuth_deg", "datum", "time_offset", "scale"}) {
+        if (!file && table.has(key)) {
+            table.error(key, "has no meaning without a series", "give `series`, or leave it out");
+        }
+    }
+    if (file && table.has("azimuth_deg") && keys.format == SeriesFormat::csv) {
+        table.error("azimuth_deg", "has no meaning with format = \"csv\"",
+                    "the velocities of a table are those into the domain");
+    }
+    if (file && table.has("columns") && keys.format == SeriesFormat::geoclaw) {
+        table.error("columns", "has no meaning with format = \"geoclaw\"",
+                    "its columns are level, time, h, hu, hv and eta");
+    }
+    if (open.hold && !file) {
+        table.error("hold", "has no meaning without a series", "leave it out");
+    }
+}
+
 inline void check_columns(TableReader& table, const std::vector<std::string>& columns)
 {
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -118,11 +143,12 @@ inline void check_columns(TableReader& table, const std::vector<std::string>& co
             columns[k] != "-" && std::find(columns.begin(), columns.begin() + static_cast<Index>(k),
                                            columns[k]) != columns.begin() + static_cast<Index>(k);
         if (twice) {
-            table.error_at("columns", k, fmt::format("\"{}\" stands twice", columns[k]));
+            table.error_at("columns", k, fmt::format("\"{}\" stands twice", columns[k]),
+                           "a column that is not needed is \"-\"");
         }
     }
     if (!columns.empty() && std::ranges::find(columns, "time") == columns.end()) {
-        table.error("columns", "names no column \"time\"");
+        table.error("columns", "names no column \"time\"", "each row of the table needs its time");
     }
 }
 
@@ -159,7 +185,11 @@ inline void load_series(TableReader& table, std::string_view key, const SeriesKe
     series.at = at;
     series.place = place;
     for (const std::string& fault : faults) {
-        table.error(key, fault, "");
+        table.error(key, fault,
+                    keys.format == SeriesFormat::geoclaw
+                        ? "a gauge of GeoClaw has rows of level, time, h, hu, hv and eta"
+                        : "a table has rows of time, level and velocity, of time and level, or of "
+                          "time and discharge, with times that ascend");
     }
     if (faults.empty()) {
         check_series(table, key, series);
@@ -218,8 +248,10 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
     }
     for (const auto* values : {&series.levels, &series.velocities, &series.discharges}) {
         if (!values->empty() && values->size() != series.times.size()) {
-            table.error("times", fmt::format("has {} times for {} values", series.times.size(),
-                                             values->size()));
+            table.error(
+                "times",
+                fmt::format("has {} times for {} values", series.times.size(), values->size()),
+                "each time needs one value");
             return;
         }
     }
@@ -227,7 +259,7 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
         std::ranges::adjacent_find(series.times, [](double a, double b) { return b <= a; });
     if (unsorted != series.times.end()) {
         table.error_at("times", static_cast<std::size_t>(unsorted + 1 - series.times.begin()),
-                       "times must ascend");
+                       "does not follow the time before it", "times must ascend");
     }
     check_series(table, "times", series);
 }
@@ -323,6 +355,7 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
     keys.tables("station", "A series at a place along the window; linear between them.",
                 open.series, source, open);
     keys.rule(check_asked, open, source);
+    keys.rule(check_file_keys, open, source);
     keys.rule(take_series, source, open);
     keys.rule(check_stations, open);
 }

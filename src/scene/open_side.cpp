@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hyoryu {
 
@@ -131,61 +132,107 @@ bool stands_on_ground(const Scene& scene, const OpenSide& side)
     return true;
 }
 
-void carry_walls_out(const Scene& scene, Filling& filling)
+namespace {
+
+// A wall particle: its place in the layers of its wall, and how far it is carried from there.
+struct WallParticle {
+    Vec3 home{0, 0, 0};
+    std::int32_t wall = 0;
+    double depth = 0; // behind the surface, the same wherever it is carried [m]
+    Index number = 0; // of the place in the layers
+    Vec3 shift{0, 0, 0};
+    Vec3 place() const { return home + shift; }
+};
+
+std::vector<WallParticle> wall_particles(const Filling& filling)
 {
-    if (scene.open.empty() || !scene.fluid) {
-        return;
+    std::vector<WallParticle> particles;
+    std::size_t run = 0;
+    for (std::size_t k = 0; k < filling.wall.size(); ++k) {
+        const auto index = static_cast<Index>(k);
+        while (run + 1 < filling.wall_runs.size() && filling.wall_runs[run + 1].first <= index) {
+            ++run;
+        }
+        const WallRun& of = filling.wall_runs[run];
+        particles.push_back({filling.wall[k], filling.wall_owner[k],
+                             filling.wall_depth.empty() ? 0 : filling.wall_depth[k],
+                             of.place + index - of.first, Vec3::Zero()});
     }
+    return particles;
+}
+
+void set_wall_particles(std::span<const WallParticle> particles, Filling& filling)
+{
+    const bool sticks = !filling.wall_depth.empty();
+    filling.wall.clear();
+    filling.wall_owner.clear();
+    filling.wall_depth.clear();
+    filling.wall_runs.clear();
+    std::vector<Vec3>& shifts = filling.wall_shifts;
+    const WallParticle* before = nullptr;
+    for (const WallParticle& p : particles) {
+        const auto index = static_cast<Index>(filling.wall.size());
+        if (before == nullptr || p.wall != before->wall || p.number != before->number + 1 ||
+            p.shift != before->shift) {
+            const auto found = std::ranges::find(shifts, p.shift) - shifts.begin();
+            if (found == std::ssize(shifts)) {
+                shifts.push_back(p.shift);
+            }
+            filling.wall_runs.push_back(
+                {index, p.number, p.wall, static_cast<std::int32_t>(found)});
+        }
+        filling.wall.push_back(p.place());
+        filling.wall_owner.push_back(p.wall);
+        if (sticks) {
+            filling.wall_depth.push_back(p.depth);
+        }
+        before = &p;
+    }
+}
+
+// The walls of a scene with those at one window carried out.
+std::vector<WallParticle> carried_out(const Scene& scene, const OpenSettings& open,
+                                      std::span<const WallParticle> walls)
+{
     const double dp = scene.spacing;
     const int layers = wall_layers(scene.fluid->smoothing_ratio);
-    for (const OpenSettings& open : scene.open) {
-        const Index across = 1 - open.axis();
-        const auto beside = [&](const Vec3& x) {
-            return scene.dimensions == 2 || (x[across] > open.min[across] - (layers + 0.5) * dp &&
-                                             x[across] < open.max[across] + (layers + 0.5) * dp);
-        };
-        const auto distance = [&](const Vec3& x) {
-            return open.sign() * (x[open.axis()] - open.plane());
-        };
-        std::vector<Vec3> place;
-        std::vector<std::int32_t> owner;
-        std::vector<double> depth;
-        const auto put = [&](std::size_t k, const Vec3& x) {
-            place.push_back(x);
-            owner.push_back(filling.wall_owner[k]);
-            if (!filling.wall_depth.empty()) {
-                depth.push_back(filling.wall_depth[k]);
-            }
-        };
-        const auto stays = [&](std::size_t k) {
-            const Vec3& x = filling.wall[k];
-            const Wall& wall = scene.walls[static_cast<std::size_t>(filling.wall_owner[k])];
-            return distance(x) >= 0 || !beside(x) || moves(wall.motion);
-        };
-        for (std::size_t k = 0; k < filling.wall.size(); ++k) {
-            if (stays(k)) {
-                put(k, filling.wall[k]);
+    const int columns = static_cast<int>(std::ceil(2 * scene.fluid->smoothing_ratio)) + 3 + layers;
+    const Index across = 1 - open.axis();
+    const auto distance = [&](const WallParticle& p) {
+        return open.sign() * (p.place()[open.axis()] - open.plane());
+    };
+    const auto belongs = [&](const WallParticle& p) {
+        const bool beside =
+            scene.dimensions == 2 || (p.place()[across] > open.min[across] - (layers + 0.5) * dp &&
+                                      p.place()[across] < open.max[across] + (layers + 0.5) * dp);
+        return beside && !moves(scene.walls[static_cast<std::size_t>(p.wall)].motion);
+    };
+    std::vector<WallParticle> all;
+    std::ranges::copy_if(walls, std::back_inserter(all),
+                         [&](const WallParticle& p) { return distance(p) >= 0 || !belongs(p); });
+    for (int column = 1; column <= columns; ++column) { // by columns: their runs go on
+        for (const WallParticle& p : walls) {
+            if (distance(p) >= 0 && distance(p) < dp * (1 - 1e-6) && belongs(p)) {
+                WallParticle& out = all.emplace_back(p);
+                out.shift -= open.sign() * column * dp * Vec3::Unit(open.axis());
             }
         }
-        const int columns =
-            static_cast<int>(std::ceil(2 * scene.fluid->smoothing_ratio)) + 3 + layers;
-        for (std::size_t k = 0; k < filling.wall.size(); ++k) {
-            const double s = distance(filling.wall[k]);
-            const Wall& wall = scene.walls[static_cast<std::size_t>(filling.wall_owner[k])];
-            if (!(s >= 0 && s < dp * (1 - 1e-6)) || !beside(filling.wall[k]) ||
-                moves(wall.motion)) {
-                continue;
-            }
-            for (int column = 1; column <= columns; ++column) {
-                Vec3 x = filling.wall[k];
-                x[open.axis()] -= open.sign() * column * dp;
-                put(k, x);
-            }
-        }
-        filling.wall = std::move(place);
-        filling.wall_owner = std::move(owner);
-        filling.wall_depth = std::move(depth);
     }
+    return all;
+}
+
+} // namespace
+
+void carry_walls_out(const Scene& scene, Filling& filling)
+{
+    if (scene.open.empty()) {
+        return;
+    }
+    std::vector<WallParticle> walls = wall_particles(filling);
+    for (const OpenSettings& open : scene.open) {
+        walls = carried_out(scene, open, walls);
+    }
+    set_wall_particles(walls, filling);
 }
 
 } // namespace hyoryu

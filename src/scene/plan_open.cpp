@@ -207,6 +207,18 @@ void check_bodies_at(const Scene& scene, const OpenSettings& open, const OpenSid
     }
 }
 
+// Shifting drives particles out through a free surface, and an open side always has one.
+void check_shifting(const Scene& scene, const Plan& plan, const OpenSettings& open,
+                    std::vector<Diagnostic>& errors)
+{
+    if (plan.runs("shifting")) {
+        errors.push_back(note_at(scene, open, "name",
+                                 "an open side has no meaning with `fluid.shifting`, under which "
+                                 "fluid expands at its free surface",
+                                 "set fluid.shifting.model = \"none\""));
+    }
+}
+
 void check_pairs(const Scene& scene, std::vector<Diagnostic>& errors)
 {
     for (std::size_t k = 1; k < scene.open.size(); ++k) {
@@ -247,6 +259,12 @@ void warn_about(const Scene& scene, const OpenSettings& open, const WaterAtStart
                  fmt::format("begins at {:.6g} s: the first values hold before", times.front()),
                  "set `time_offset`, or `hold = true`");
         }
+    }
+    if (std::ranges::any_of(scene.bodies, [](const BodySettings& body) { return !body.fixed; })) {
+        warn("name",
+             "bodies neither stop at an open side nor leave the run there: one that drifts through "
+             "falls off the ground behind the window",
+             "end the run before bodies come there, or put walls that hold them before the window");
     }
     double deepest = 0;
     for (int k = 0; k <= samples; ++k) {
@@ -321,6 +339,7 @@ void check_open(const Scene& scene, const Filling& filling, Plan& plan,
         check_ground(scene, open, side, errors);
         check_water(scene, open, water, errors);
         check_bodies_at(scene, open, side, errors);
+        check_shifting(scene, plan, open, errors);
         if (mean_bed(side) < infinity) {
             warn_about(scene, open, water, mean_bed(side), plan);
         }

@@ -169,19 +169,20 @@ WallMaker wall_maker(const Scene& scene, const Filling& filling,
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         places.push_back(layer_places(scene.walls[w], surfaces[w], lattice));
     }
-    return [walls = std::span(scene.walls), surfaces, places = std::move(places),
-            runs = filling.wall_runs, sticks = scene.fluid->walls.sticks,
-            dimensions = scene.dimensions](std::int32_t index) -> WallPoint {
-        const auto after = std::ranges::upper_bound(runs, index, {}, &WallRun::first);
-        const WallRun& run = *(after - 1);
-        const auto w = static_cast<std::size_t>(run.wall);
-        const auto place_in = [&](const auto& layers) {
-            return layers.place(run.place + index - run.first);
+    return
+        [walls = std::span(scene.walls), surfaces, places = std::move(places),
+         runs = filling.wall_runs, shifts = filling.wall_shifts, sticks = scene.fluid->walls.sticks,
+         dimensions = scene.dimensions](std::int32_t index) -> WallPoint {
+            const auto after = std::ranges::upper_bound(runs, index, {}, &WallRun::first);
+            const WallRun& run = *(after - 1);
+            const auto w = static_cast<std::size_t>(run.wall);
+            const auto place_in = [&](const auto& layers) {
+                return layers.place(run.place + index - run.first);
+            };
+            const Vec3 p = std::visit(place_in, places[w]).value();
+            const real depth = sticks ? depth_behind(walls[w], surfaces[w], p, dimensions) : 0;
+            return {p + shifts[static_cast<std::size_t>(run.shift)], depth, -1 - run.wall};
         };
-        const Vec3 p = std::visit(place_in, places[w]).value();
-        const real depth = sticks ? depth_behind(walls[w], surfaces[w], p, dimensions) : 0;
-        return {p, depth, -1 - run.wall};
-    };
 }
 
 double depth_behind(const Wall& wall, const Vec3& point, int dimensions)

@@ -55,20 +55,18 @@ void set_flows(Simulation& sim, double time)
     }
 }
 
-// The domain of the particles reaches as far as the carpets.
-void extend_domain(const OpenBoundary& open, Fluid& fluid)
+} // namespace
+
+void extend_domain(const Scene& scene, Fluid& fluid)
 {
     const double reach = (carpet_columns(fluid.parameters) + 4) * fluid.parameters.spacing;
-    for (const Carpet& carpet : open.carpets) {
-        const OpenSide& side = carpet.side;
-        double& low = fluid.domain_min[side.axis];
-        double& high = fluid.domain_max[side.axis];
-        low = side.into > 0 ? std::min(low, side.plane - reach) : low;
-        high = side.into < 0 ? std::max(high, side.plane + reach) : high;
+    for (const OpenSettings& open : scene.open) {
+        double& low = fluid.domain_min[open.axis()];
+        double& high = fluid.domain_max[open.axis()];
+        low = open.sign() > 0 ? std::min(low, open.plane() - reach) : low;
+        high = open.sign() < 0 ? std::max(high, open.plane() + reach) : high;
     }
 }
-
-} // namespace
 
 void start_open(Simulation& sim)
 {
@@ -78,7 +76,6 @@ void start_open(Simulation& sim)
         open.carpets.push_back(make_carpet(sim.scene, settings));
     }
     open.next_id = sim.plan.counts.particles();
-    extend_domain(open, fluid);
     find_rows(fluid, open);
     measure_start(fluid, open);
     for (const Carpet& carpet : open.carpets) {
@@ -92,6 +89,7 @@ void start_open(Simulation& sim)
     }
     set_flows(sim, 0);
     renew_carpets(fluid, open);
+    find_rows(fluid, open); // lists are made next, and must not make the carpets again
     open.impulse.setZero(); // the first carpets are part of the start
 }
 

@@ -191,6 +191,7 @@ Fluid make_fluid(const Simulation& sim, const Filling& filling)
             fluid.period[axis] = filling.domain.max[axis] - filling.domain.min[axis];
         }
     }
+    extend_domain(sim.scene, fluid);
     fluid.fixed_walls = fixed_walls(sim, filling, fluid);
     allocate(fluid, static_cast<Index>(filling.fluid.size()), fluid.fixed_walls.moving_rows,
              static_cast<Index>(sim.body_particles.points.size()));
@@ -267,28 +268,20 @@ void update_lists(Simulation& sim)
     }
 }
 
-// Carpets keep their lattice.
-void shift_fluid(Simulation& sim, double dt)
+// The new velocities: of the forces, then of what sponges, solid surfaces and open sides make of
+// them.
+void kick_fluid(Simulation& sim, double dt)
 {
-    Fluid& fluid = *sim.fluid;
-    if (!has_open_sides(sim) || held<Shifting>(fluid.effects) == nullptr) {
-        shift(fluid, dt);
-        return;
+    sim.timer.begin("kick");
+    kick(*sim.fluid, dt);
+    if (is_built<Sponges> && !sim.scene.sponges.empty()) {
+        damp_in_sponges(sim, dt);
     }
-    std::vector<Vec3> places;
-    const auto over_carpets = [&](const auto& f) {
-        for (const Carpet& carpet : sim.open.boundary.carpets) {
-            for (std::size_t k = 0; k < carpet.near.size(); ++k) {
-                if (carpet.behind[k] != 0) {
-                    f(fluid.particles.fluid[field::position][carpet.near[k]]);
-                }
-            }
-        }
-    };
-    over_carpets([&](const Vec3& x) { places.push_back(x); });
-    shift(fluid, dt);
-    std::size_t next = 0;
-    over_carpets([&](Vec3& x) { x = places[next++]; });
+    hold_fluid(sim, dt);
+    if (has_open_sides(sim)) {
+        sim.timer.begin("open sides");
+        drive_open(sim, dt);
+    }
 }
 
 // A step of a fluid particle costs as much as ten updates of a contact, on one thread.
@@ -377,16 +370,7 @@ void step(Simulation& sim)
         update_forces(fluid, dt);
         sim.timer.begin("loads");
         load_solids(sim);
-        sim.timer.begin("kick");
-        kick(fluid, dt);
-        if (is_built<Sponges> && !sim.scene.sponges.empty()) {
-            damp_in_sponges(sim, dt);
-        }
-        hold_fluid(sim, dt);
-        if (has_open_sides(sim)) {
-            sim.timer.begin("open sides");
-            drive_open(sim, dt);
-        }
+        kick_fluid(sim, dt);
     }
     if (is_built<RigidMotion> && sim.plan.rigid) {
         sim.timer.begin("bodies");
@@ -403,7 +387,7 @@ void step(Simulation& sim)
         move_walls(sim, sim.clock.time + dt / 2, next.end);
         update_rates(fluid);
         sim.pair_visits += static_cast<double>(fluid.neighbours.visits);
-        shift_fluid(sim, dt);
+        shift(fluid, dt);
         sim.timer.begin("drift");
         drift(fluid, dt / 2);
         if (has_open_sides(sim)) {

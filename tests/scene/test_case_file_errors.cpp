@@ -253,7 +253,8 @@ TEST(CaseFileErrors, UnknownKeysAreFoundInEveryTable)
         }
         const Parameter& parameter = *find_parameter(table);
         path += parameter.kind == ValueKind::tables ? "[0].zzzzzz=1" : ".zzzzzz=1";
-        const std::string others = "\n[[sponge]]\n[[debris]]\n[debris.array]\n[debris.scatter]\n";
+        const std::string others = "\n[[sponge]]\n[[debris]]\n[debris.array]\n[debris.scatter]\n"
+                                   "[[open]]\n[[open.station]]\n";
         const auto all = mistakes(full_case + others, {path});
         const bool told = std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
             return d.what == "unknown key" && d.key.ends_with("zzzzzz");

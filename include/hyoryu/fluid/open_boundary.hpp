@@ -90,7 +90,6 @@ struct Carpet {
 struct OpenBoundary {
     std::vector<Carpet> carpets;
     std::int64_t next_id = 0;    // number of the next particle that is made
-    std::int64_t most = 0;       // particles that the run may hold; 0: any
     Vec3 impulse{0, 0, 0};       // on the rows of the store since the start [N s]
     Vec3 dropped_force{0, 0, 0}; // viscous, of rows dropped in this step [N]
     real energy = 0;             // carried in through the planes since the start [J]

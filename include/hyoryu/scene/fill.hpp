@@ -21,6 +21,7 @@ struct WallRun {
     Index first = 0; // particle; those up to the first one of the next run belong to this one
     Index place = 0; // its number in the layers
     std::int32_t wall = 0;
+    std::int32_t shift = 0; // in `wall_shifts`: away from its place in the layers
 };
 
 /// All particles of a scene at the start.
@@ -34,6 +35,8 @@ struct Filling {
     std::vector<std::int32_t> wall_owner; // index of the wall
     std::vector<double> wall_depth;       // behind the surface [m]; empty where fluid slips
     std::vector<WallRun> wall_runs;       // of the wall particles, ascending
+    std::vector<Vec3> wall_shifts{
+        Vec3(0, 0, 0)}; // of runs; others lie below and beside carpets [m]
     std::vector<Aggregate> bodies;
     Bounds domain; // particles outside are removed from the run
     std::vector<Diagnostic> warnings;

@@ -16,8 +16,6 @@ struct Scene;
 
 /// What a window is open for: a flow that is asked for; nothing; the still water outside.
 enum class OpenKind { inflow, outflow, absorb };
-/// What becomes of bodies there.
-enum class OpenBodies { leave, stop };
 enum class FlowProfile { uniform, power };
 
 /// The flow at one place of a window: linear between its times, held before and after them. Each
@@ -42,7 +40,6 @@ struct OpenSettings {
     std::optional<double> discharge; // [m3/s]; m2/s in two dimensions
     std::vector<OpenSeries> series;  // ascending in `at`
     FlowProfile profile = FlowProfile::uniform;
-    OpenBodies bodies = OpenBodies::stop;
     bool hold = false; // the last values hold to the end of the run, knowingly
     Place place;
 

@@ -18,6 +18,9 @@ struct OpenFlow {
     bool runs() const { return !boundary.carpets.empty(); }
 };
 
+/// Extends the domain of the particles as far as the carpets reach; before any tiles are made.
+void extend_domain(const Scene& scene, Fluid& fluid);
+
 /// Makes the carpets of the scene with its first particles; before the first lists.
 void start_open(Simulation& sim);
 

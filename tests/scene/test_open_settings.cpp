@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+// Open sides in case files: what is asked for at a place and time, the ground below windows, the
+// walls carried out below carpets, and what is refused.
+#include "hyoryu/scene/open_settings.hpp"
+#include "hyoryu/scene/plan.hpp"
+#include "hyoryu/scene/wall_layers.hpp"
+
+#include "../../src/scene/series.hpp"
+#include "dice.hpp"
+#include "test_case_file_support.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+namespace hyoryu {
+namespace {
+
+// A basin of water in space with a window in its lower side along x.
+std::string basin(const std::string& keys, double from = 0, double to = 1)
+{
+    return fmt::format(
+        "[time]\nend = 2.0\n[particles]\nspacing = 0.1\n[fluid]\n[[fluid.block]]\nshape = \"box\"\n"
+        "min = [0, 0, 0]\nmax = [2, 1, 0.6]\n[[wall]]\nname = \"basin\"\nshape = \"basin\"\n"
+        "min = [0, 0, 0]\nmax = [2, 1, 1]\nopen = [\"-x\", \"+z\"]\n[[open]]\nname = \"sea\"\n"
+        "min = [0, {}, 0]\nmax = [0, {}, 1]\ninto = \"+x\"\n{}",
+        from, to, keys);
+}
+
+std::vector<Diagnostic> refused(const std::string& text)
+{
+    try {
+        const Scene scene = parse_case(text, "case.toml");
+        make_plan(scene, fill(scene));
+        return {};
+    } catch (const CaseError& error) {
+        return error.diagnostics();
+    }
+}
+
+struct Refusal {
+    std::string from, to; // replaced in the text
+    std::string key, words;
+};
+
+TEST(OpenSettings, MistakesAreToldWithTheirKeyLineAndHint)
+{
+    const std::string good = basin("kind = \"inflow\"\nlevel = 0.7\nvelocity = 0.2\n");
+    ASSERT_TRUE(refused(good).empty());
+    const std::vector<Refusal> refusals{
+        {"kind = \"inflow\"", "kind = \"outflow\"", "level", "asks for nothing"},
+        {"level = 0.7\n", "", "velocity", "needs a `level`"},
+        {"velocity = 0.2", "discharge = 0.2", "discharge", "beside `level`"},
+        {"level = 0.7\nvelocity = 0.2\n", "", "series", "needs a flow to follow"},
+        {"into = \"+x\"", "into = \"+y\"", "max", "thick along its normal"},
+        {"level = 0.7", "level = 1.2", "max", "above the window"},
+        {"min = [0, 0, 0]\nmax = [0, 1, 1]", "min = [0.5, 0, 0]\nmax = [0.5, 1, 1]", "min",
+         "must lie on that side"},
+        {"open = [\"-x\", \"+z\"]", "open = [\"+z\"]", "min", "a wall stands behind"},
+        {"min = [0, 0, 0]\nmax = [0, 1, 1]", "min = [0, 0, 0.3]\nmax = [0, 1, 1]", "min",
+         "above the ground"},
+        {"level = 0.7\nvelocity = 0.2\n", "series = \"nowhere.csv\"\n", "series", "nowhere.csv"},
+        {"level = 0.7\n", "level = 0.7\ndatum = 0.5\n", "datum", "without a series"},
+        {"level = 0.7\n", "level = 0.7\nhold = true\n", "hold", "without a series"},
+        {"[fluid]\n", "[fluid]\nshifting.model = \"sun\"\n", "name", "fluid.shifting"},
+        {"level = 0.7\nvelocity = 0.2\n",
+         "[[open.station]]\nat = 0.5\ntimes = [0, 2, 1]\nlevels = [0.7, 0.7, 0.7]\n", "times[2]",
+         "does not follow"},
+        {"level = 0.7\nvelocity = 0.2\n",
+         "[[open.station]]\nat = 0.5\ntimes = [0, 1]\nlevels = [0.7]\n", "times", "1 values"},
+        {"level = 0.7\n",
+         "[[open.station]]\nat = 0.5\ntimes = [0, 1]\nlevels = [0.7, 0.7]\n"
+         "[[open.station]]\nat = 0.2\ntimes = [0, 1]\nlevels = [0.7, 0.7]\n",
+         "station", "does not follow"},
+    };
+    for (const Refusal& r : refusals) {
+        const std::string text = replaced(good, r.from, r.to);
+        SCOPED_TRACE(text);
+        const auto all = refused(text);
+        const auto found = std::ranges::find_if(all, [&](const Diagnostic& d) {
+            return d.key.ends_with(r.key) && d.what.find(r.words) != std::string::npos;
+        });
+        ASSERT_NE(found, all.end()) << (all.empty() ? "nothing refused" : to_string(all.front()));
+        EXPECT_GT(found->line, 0);
+        EXPECT_FALSE(found->hint.empty());
+    }
+}
+
+TEST(OpenSettings, SeveralMistakesAreToldTogether)
+{
+    const std::string text = basin("kind = \"inflow\"\nlevel = 1.2\n", -0.5, 0.5) +
+                             "[[open]]\nname = \"sea\"\nmin = [0, 0.2, 0]\nmax = [0, 1, 1]\n"
+                             "into = \"+x\"\nkind = \"absorb\"\n";
+    EXPECT_FALSE(refused(text).empty());
+    const std::string other =
+        replaced(text, "name = \"sea\"\nmin = [0, 0.2", "name = \"b\"\nmin = [0, 0.2");
+    const auto all = refused(other);
+    EXPECT_GE(all.size(), 2U) << "the level above the window and the windows that overlap";
+}
+
+// A window that bodies may drift to, a flow that ends, water too shallow to enter.
+TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
+{
+    const auto warns = [](const std::string& text, const std::string& words) {
+        const Scene scene = parse_case(text, "case.toml");
+        const Plan plan = make_plan(scene, fill(scene));
+        return std::ranges::any_of(plan.warnings, [&](const Diagnostic& warning) {
+            return warning.what.find(words) != std::string::npos;
+        });
+    };
+    const std::string good = basin("kind = \"inflow\"\nlevel = 0.7\nvelocity = 0.2\n");
+    const std::string body = "[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [0.4, 0.4, 0.2]\n"
+                             "density = 500\nposition = [1, 0.5, 0.62]\n";
+    EXPECT_TRUE(warns(good + body, "neither stop"));
+    EXPECT_FALSE(warns(good + body + "fixed = true\n", "neither stop"));
+    EXPECT_FALSE(warns(good, "neither stop"));
+    const std::string series = "kind = \"inflow\"\n[[open.station]]\nat = 0.5\ntimes = [0, {}]\n"
+                               "levels = [0.6, 0.7]\nvelocities = [0, 0]\n";
+    EXPECT_TRUE(warns(basin(fmt::format(fmt::runtime(series), 1.0)), "values are held"));
+    EXPECT_FALSE(warns(basin(fmt::format(fmt::runtime(series), 3.0)), "values are held"));
+    EXPECT_TRUE(
+        warns(basin("kind = \"inflow\"\nlevel = 0.3\nvelocity = 3.0\n"), "needed to carry a body"));
+}
+
+// Bilinear between times and stations, held outside, against the formula of the plane through the
+// corners.
+TEST(OpenSettings, SeriesAreLinearInTimeAndAlongTheWindow)
+{
+    Dice dice(3);
+    for (int n = 0; n < 50; ++n) {
+        const double a = dice.between(-1, 1);
+        const double b = dice.between(-1, 1);
+        OpenSettings open;
+        for (const double at : {1.0, 4.0}) {
+            OpenSeries series{.at = at};
+            for (double t = 0; t < 6; t += dice.between(0.2, 2)) {
+                series.times.push_back(t);
+                series.levels.push_back(2 + a * at + b * t);
+            }
+            open.series.push_back(series);
+        }
+        const double last = std::min(open.series[0].times.back(), open.series[1].times.back());
+        const double y = dice.between(0, 5);
+        const double t = dice.between(-1, last);
+        const AskedFlow asked = asked_at(open, y, t, {}, 3);
+        const double expected = 2 + a * std::clamp(y, 1.0, 4.0) + b * std::max(t, 0.0);
+        EXPECT_NEAR(asked.level.value(), expected, 1e-12);
+        EXPECT_FALSE(asked.velocity || asked.discharge || asked.free);
+    }
+}
+
+class SeriesFiles : public testing::Test {
+protected:
+    SeriesFiles() { std::filesystem::create_directories(folder_); }
+    ~SeriesFiles() override { std::filesystem::remove_all(folder_); }
+
+    SeriesSource source(const std::string& text) const
+    {
+        std::ofstream(folder_ / "series.txt") << text;
+        return {.file = folder_ / "series.txt"};
+    }
+
+    std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() /
+        fmt::format("hyoryu_series_{}",
+                    testing::UnitTest::GetInstance()->random_seed() +
+                        static_cast<int>(
+                            std::hash<std::string>{}(
+                                testing::UnitTest::GetInstance()->current_test_info()->name()) %
+                            100000));
+};
+
+// hu and hv of a gauge, turned to the direction of the window: by the direction of the current and
+// the angle between the two, as a compass tells them.
+TEST_F(SeriesFiles, GaugesOfGeoClawAreTurnedToTheWindow)
+{
+    Dice dice(8);
+    for (int n = 0; n < 40; ++n) {
+        const double speed = dice.between(0, 3);
+        const double course = dice.between(0, 360); // of the current, clockwise from north
+        const double window = dice.between(0, 360);
+        const double h = dice.between(0.1, 4);
+        const double rad = std::numbers::pi / 180;
+        SeriesSource from = source(fmt::format(
+            "# gauge_id= 7\n# columns: level time h hu hv eta\n 1 {} {} {} {} {}\n 1 {} 0 0 0 0\n",
+            100.0, h, h * speed * std::sin(course * rad), h * speed * std::cos(course * rad), 0.4,
+            101.5));
+        from.format = SeriesFormat::geoclaw;
+        from.azimuth = window * rad;
+        from.datum = 0.25;
+        from.time_offset = 99;
+        from.scale = 2;
+        std::vector<std::string> faults;
+        const OpenSeries series = read_series(from, faults);
+        ASSERT_TRUE(faults.empty()) << faults.front();
+        EXPECT_EQ(series.times, (std::vector<double>{1, 2.5}));
+        EXPECT_NEAR(series.levels[0], 0.25 + 2 * 0.4, 1e-12);
+        EXPECT_NEAR(series.velocities[0], 2 * speed * std::cos((course - window) * rad), 1e-9);
+        EXPECT_EQ(series.velocities[1], 0) << "dry";
+    }
+}
+
+TEST_F(SeriesFiles, TablesTellTheirColumnsByHeaderOrKey)
+{
+    std::vector<std::string> faults;
+    SeriesSource from = source("time [s], level [m], velocity [m/s]\n0, 1, 2\n1, 1.5, 2.5\n");
+    OpenSeries series = read_series(from, faults);
+    EXPECT_EQ(series.levels, (std::vector<double>{1, 1.5}));
+    EXPECT_EQ(series.velocities, (std::vector<double>{2, 2.5}));
+    from = source("7;0;3\n7;1;4\n");
+    from.columns = {"-", "time", "discharge"};
+    series = read_series(from, faults);
+    EXPECT_EQ(series.times, (std::vector<double>{0, 1}));
+    EXPECT_EQ(series.discharges, (std::vector<double>{3, 4}));
+    EXPECT_TRUE(series.levels.empty() && series.velocities.empty());
+    EXPECT_TRUE(faults.empty());
+}
+
+TEST_F(SeriesFiles, FaultsNameTheLine)
+{
+    const std::vector<std::pair<std::string, std::string>> files{
+        {"0 1 2\n1 1 2\n1 1 2\n", ":3: time 1 does not follow 1"},
+        {"0 1 2\n1 one 2\n", ":2: expected a number, found \"one\""},
+        {"0 1 2\n1 2\n", ":2: expected 3 numbers, found 2"},
+        {"time,height\n0,1\n", ":1: the header has an unknown column \"height\""},
+        {"time [min],level\n0,1\n", ":1: the header gives the unit \"min\""},
+        {"level,velocity\n0,1\n", ":1: has no column of the time"},
+        {"# nothing\n", "has no row of numbers"},
+    };
+    for (const auto& [text, words] : files) {
+        std::vector<std::string> faults;
+        read_series(source(text), faults);
+        ASSERT_FALSE(faults.empty()) << text;
+        EXPECT_NE(faults.front().find(words), std::string::npos) << faults.front();
+    }
+}
+
+// Windows of any place and width in space: lanes lie within the window, and the ground is that of
+// the floor and of a step in it.
+TEST(OpenSettings, TheGroundBelowAWindowIsThatOfItsWalls)
+{
+    Dice dice(14);
+    for (int n = 0; n < 20; ++n) {
+        const double from = 0.1 * dice.below(4);
+        const double to = 1 - 0.1 * dice.below(4);
+        const double step = dice.between(0.1, 0.3);
+        const std::string text =
+            basin("kind = \"absorb\"\n", from, to) +
+            fmt::format("[[wall]]\nname = \"step\"\nshape = \"box\"\nmin = [-1, 0.5, -0.2]\n"
+                        "max = [2, 1.2, {}]\n",
+                        step);
+        SCOPED_TRACE(text);
+        const Scene scene = parse_case(text, "case.toml");
+        const OpenSide side = open_side(scene, scene.open.front());
+        ASSERT_EQ(side.lanes(), std::lround((to - from) / 0.1));
+        for (int lane = 0; lane < side.lanes(); ++lane) {
+            const double y = side.first + (lane + 0.5) * 0.1;
+            EXPECT_EQ(side.lane({0, y, 0}, 0.1), lane);
+            const double expected = y > 0.5 ? step : 0;
+            EXPECT_NEAR(side.bed[static_cast<std::size_t>(lane)], expected, 1e-6);
+            EXPECT_NEAR(side.strip[static_cast<std::size_t>(lane)], expected, 1e-6);
+        }
+    }
+}
+
+// Walls made one by one are those of the filling, bit for bit, also where they are carried out, and
+// behind a window each is a particle of the first column carried out by whole spacings.
+TEST(OpenSettings, WallsCarriedOutAreMadeAgainBitForBit)
+{
+    for (const bool sticks : {false, true}) {
+        std::string text = basin("kind = \"absorb\"\n");
+        if (sticks) {
+            text = replaced(text, "[fluid]\n",
+                            "[fluid]\nwalls = \"no_slip\"\nviscosity = { model = \"laminar\", "
+                            "kinematic = 0.01 }\n");
+        }
+        const Scene scene = parse_case(text, "case.toml");
+        const Filling filling = fill(scene);
+        std::vector<SolidSurface> surfaces;
+        for (const Wall& wall : scene.walls) {
+            surfaces.push_back(
+                surface_of(wall, wall_layers(scene.fluid->smoothing_ratio) * scene.spacing, 3));
+        }
+        const WallMaker make = wall_maker(scene, filling, surfaces);
+        int behind = 0;
+        for (std::size_t k = 0; k < filling.wall.size(); ++k) {
+            const WallPoint point = make(static_cast<std::int32_t>(k));
+            ASSERT_EQ(point.place, filling.wall[k]);
+            EXPECT_EQ(point.depth, sticks ? filling.wall_depth[k] : 0);
+            if (filling.wall[k].x() < 0) {
+                ++behind;
+                Vec3 first = filling.wall[k];
+                first.x() -= 0.1 * std::floor(first.x() / 0.1);
+                EXPECT_TRUE(std::ranges::any_of(
+                    filling.wall, [&](const Vec3& x) { return (x - first).norm() < 1e-9; }));
+            }
+        }
+        EXPECT_GT(behind, 300);
+    }
+}
+
+} // namespace
+} // namespace hyoryu
