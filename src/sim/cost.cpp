@@ -84,32 +84,32 @@ public:
     void add(const Simulation& sim)
     {
         const Spent now = spent(sim);
-        bodies_.push_back(now.bodies - last_.bodies);
+        bodies_ += now.bodies - last_.bodies;
         lists_ += now.lists - last_.lists;
         all_else_.push_back(now.all_else - last_.all_else);
         last_ = now;
     }
     /// Leaves a step out.
     void skip(const Simulation& sim) { last_ = spent(sim); }
-    /// Of a step on average, without stalls but those of lists.
+    /// Of a step on average, without stalls but those of lists. Bodies meet in some steps only,
+    /// which no median tells from stalls: what slowed the rest slowed them.
     Spent mean() const
     {
-        return {mean_without_stalls(bodies_), lists_ / static_cast<double>(all_else_.size()),
-                mean_without_stalls(all_else_)};
+        const auto count = static_cast<double>(all_else_.size());
+        return {bodies_ / (count * slowdown()), lists_ / count, mean_without_stalls(all_else_)};
     }
-    /// All but lists over the same without stalls.
+    /// All but bodies and lists over the same without stalls.
     double slowdown() const
     {
-        const auto count = static_cast<double>(all_else_.size());
-        const double free = count * (mean().bodies + mean().all_else);
-        const double taken = sum(bodies_) + sum(all_else_);
-        return free > 0 ? std::max(taken / free, 1.0) : 1.0;
+        const double free = static_cast<double>(all_else_.size()) * mean_without_stalls(all_else_);
+        return free > 0 ? std::max(sum(all_else_) / free, 1.0) : 1.0;
     }
 
 private:
     Spent last_;
+    double bodies_ = 0;
     double lists_ = 0;
-    std::vector<double> bodies_, all_else_;
+    std::vector<double> all_else_;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start)
@@ -154,27 +154,34 @@ public:
     {
         cut_no_step(sim_);
     }
-    /// Takes those that are due after so many steps of the run.
+    /// Takes some if they are due after so many steps of the run.
     void follow(double run)
     {
-        while (done_ < groups_ && run >= (done_ + 0.5) * every_) {
-            step(sim_); // warms the caches
-            times_.skip(sim_);
-            for (int k = 0; k < group; ++k) {
-                step(sim_);
-                times_.add(sim_);
-            }
-            ++done_;
+        if (done_ < groups_ && run >= (done_ + 0.5) * every_) {
+            take();
         }
     }
     /// Without bodies, lists and stalls.
     double mean()
     {
-        follow(infinity);
+        while (done_ < groups_) {
+            take();
+        }
         return times_.mean().all_else;
     }
 
 private:
+    void take()
+    {
+        step(sim_); // warms the caches
+        times_.skip(sim_);
+        for (int k = 0; k < group; ++k) {
+            step(sim_);
+            times_.add(sim_);
+        }
+        ++done_;
+    }
+
     static constexpr int group = 5;
     Simulation& sim_;
     StepTimes times_;
@@ -347,13 +354,11 @@ std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool
     const std::span<const double> all(steps);
     const std::size_t half = all.size() / 2;
     const bool done = finished(sim.clock, sim.scene);
-    if (half == 0 || (!done && mean_without_stalls(all.last(half)) >
-                                   grows * mean_without_stalls(all.first(half)))) {
+    if (half == 0 || (!done && sum(all.last(half)) > grows * sum(all.first(half)))) {
         return {};
     }
     const auto count = static_cast<double>(all.size());
-    cost.seconds = cost.bodies = mean_without_stalls(all);
-    cost.slowdown = cost.seconds > 0 ? std::max(sum(all) / (count * cost.seconds), 1.0) : 1.0;
+    cost.seconds = cost.bodies = sum(all) / count;
     cost.impacts *= done ? 1 : std::max(1.0, sim.plan.expected_steps / count);
     return cost;
 }

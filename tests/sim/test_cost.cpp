@@ -278,30 +278,6 @@ TEST(Cost, StallsAreLeftOutOfStepsThatGrow)
     EXPECT_EQ(mean_without_stalls(std::vector<double>{2, 4}), 3);
 }
 
-// A clock that other work stops now and then: the cost of a step is told without that, and how much
-// longer the steps took with it, which the forecast of the run takes for the rest of it.
-TEST(Cost, ABusyMachineIsToldApartFromTheCostOfAStep)
-{
-    Dice dice(6);
-    for (const double stall : {0.0, 5.0, 50.0}) {
-        Simulation sim = make(bounce);
-        double seconds = 0;
-        double stalled = 0;
-        int looks = 0;
-        const auto clock = [&] {
-            const double lost = ++looks % 2 == 0 && dice.chance(0.15) ? stall : 0; // within a step
-            stalled += lost;
-            return seconds += lost + (looks % 2 == 0 ? 1 : 0);
-        };
-        const auto cost = measure_bodies(
-            sim, [] { return true; }, clock);
-        ASSERT_TRUE(cost.has_value());
-        EXPECT_NEAR(cost->seconds, 1, 1e-9);
-        EXPECT_NEAR(cost->slowdown, 1 + stalled / (looks / 2), 1e-9);
-        EXPECT_NEAR(seconds_of_run(*cost) * looks / 2, seconds, 1e-6 * seconds);
-    }
-}
-
 // Columns of water of any width and depth that break in a tank: the steps that the coarse run of
 // twice the spacing foretells are those of the run, within the quarter that the forecast promises.
 TEST(Cost, StepsForetoldAreStepsTaken)
@@ -323,7 +299,7 @@ TEST(Cost, StepsForetoldAreStepsTaken)
         Simulation run = make(tank, overrides);
         const double foretold = found->steps * run.plan.expected_steps;
         while (!finished(run.clock, run.scene)) {
-            step(run);
+            step_on(run);
         }
         EXPECT_NEAR(foretold / static_cast<double>(run.clock.step), 1, 0.25)
             << width << " m x " << depth << " m";
