@@ -181,7 +181,8 @@ std::vector<PlaceFault> place_array(DebrisKeys& debris, Scene& scene)
     const Ground ground = ground_for(scene, array.on, far);
     for (std::int64_t n = 0; n < count[0] * count[1] && faults.empty(); ++n) {
         const double i = static_cast<double>(n % count[0]);
-        const double j = static_cast<double>(n / count[0]);
+        const std::int64_t row = n / count[0];
+        const double j = static_cast<double>(row);
         const Plan2 at{array.from.x() + i * array.pitch.x(), array.from.y() + j * array.pitch.y()};
         double z = array.from.z();
         if (!array.on.empty()) {
