@@ -5,6 +5,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"
+#include "hyoryu/core/parallel.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_file.hpp"
 
@@ -67,6 +68,23 @@ ordered_json per_fluid_particle(const ordered_json& bytes, const ordered_json& p
     return told ? ordered_json(bytes.get<double>() / fluid.get<double>()) : ordered_json();
 }
 
+// A few particles are stepped by one thread: their loops are shared out or not as the water
+// spreads, and what it takes to wake other threads is not how the work develops.
+class ThreadsFor {
+public:
+    explicit ThreadsFor(Index particles) : before_(thread_count())
+    {
+        constexpr Index few = 4 * worth_sharing_rows;
+        set_threads(particles < few ? 1 : before_);
+    }
+    ~ThreadsFor() { set_threads(before_); }
+    ThreadsFor(const ThreadsFor&) = delete;
+    ThreadsFor& operator=(const ThreadsFor&) = delete;
+
+private:
+    int before_;
+};
+
 // Runs the case at a multiple of its spacing; nothing if that takes more than `seconds`.
 std::optional<Development> develop(const CaseSource& source, const Plan& plan, double coarsening,
                                    int first, double seconds_of_step, double most_seconds)
@@ -81,6 +99,7 @@ std::optional<Development> develop(const CaseSource& source, const Plan& plan, d
     if (coarse.expected_steps * seconds_of_step * of_particles > most_seconds) {
         return {};
     }
+    const ThreadsFor threads(coarse.counts.fluid);
     Simulation sim = make_simulation(scene, coarse, filling);
     Simulation again = make_simulation(scene, coarse, filling);
     // Small scenes have steps of a few microseconds, of which it takes more to tell.
@@ -122,6 +141,7 @@ void predict_development(const CaseSource& source, const Plan& plan, int first, 
             return; // the case cannot be represented with so few particles
         }
         if (cost.development) {
+            cost.slowdown = cost.development->slowdown; // of more steps
             return;
         }
     }

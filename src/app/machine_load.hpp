@@ -25,5 +25,7 @@ private:
 
 /// From this share on times are reported as those of a busy machine [1].
 inline constexpr double noteworthy_waiting = 0.05;
+/// From that factor on by which stalls lengthen steps.
+inline constexpr double noteworthy_slowdown = 1.15;
 
 } // namespace hyoryu

@@ -22,10 +22,13 @@ namespace {
 nlohmann::ordered_json cost_json(const StepCost& cost)
 {
     using nlohmann::ordered_json;
-    ordered_json json{
-        {"seconds_per_step", seconds_of_run(cost)}, {"seconds_per_first_step", cost.seconds},
-        {"waiting_for_a_core", cost.waiting},       {"development", nullptr},
-        {"effects", ordered_json::object()},        {"effects_spread", ordered_json::object()}};
+    ordered_json json{{"seconds_per_step", seconds_of_run(cost)},
+                      {"seconds_per_first_step", cost.seconds},
+                      {"waiting_for_a_core", cost.waiting},
+                      {"slowdown", cost.slowdown},
+                      {"development", nullptr},
+                      {"effects", ordered_json::object()},
+                      {"effects_spread", ordered_json::object()}};
     if (cost.development) {
         const Development& d = *cost.development;
         json["development"] = {
@@ -185,13 +188,16 @@ std::string share_text(const StepCost::Share& share)
 // Times measured on a busy machine are reported with an estimate for an idle one.
 std::string busy_lines(const Plan& plan, const StepCost& timed)
 {
-    if (timed.waiting < noteworthy_waiting) {
+    if (timed.waiting < noteworthy_waiting && timed.slowdown < noteworthy_slowdown) {
         return {};
     }
+    StepCost free = timed;
+    free.slowdown = 1;
     return fmt::format("      the machine was busy   threads waited for a core in {:.0f} % of the "
-                       "timing:\n{:27}about {} once it is free\n",
-                       100 * timed.waiting, "",
-                       readable_seconds((1 - timed.waiting) * wall_forecast(plan, timed)));
+                       "timing,\n{:27}which made steps {:.1f} times as long: about {} once it is "
+                       "free\n",
+                       100 * timed.waiting, "", timed.slowdown,
+                       readable_seconds(wall_forecast(plan, free)));
 }
 
 std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)

@@ -2,6 +2,7 @@
 #include "resume.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_difference.hpp"
 #include "hyoryu/scene/case_file.hpp"
@@ -11,6 +12,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <sstream>
 
 namespace hyoryu {
 
@@ -20,6 +23,8 @@ namespace fs = std::filesystem;
 
 // Of the differences that a refusal lists.
 constexpr std::size_t most_listed = 20;
+// Between overrides in a checkpoint: none of them holds it.
+constexpr char separator = '\0';
 
 [[noreturn]] void refuse(const Scene& scene, const std::vector<KeyDifference>& differences)
 {
@@ -43,6 +48,53 @@ constexpr std::size_t most_listed = 20;
     }
     mistakes.back().hint = "run with the case.toml in the results folder, or restart with --force";
     throw CaseError(mistakes);
+}
+
+// Without a file that can be read, nothing.
+GivenCase given_case(const RunOptions& options)
+{
+    return why_unreadable(options.case_file, largest_text).empty()
+               ? GivenCase{bytes_of_file(options.case_file), options.overrides}
+               : GivenCase{};
+}
+
+GivenCase given_case(const Snapshot& state)
+{
+    const auto text = [&](const std::string& name) {
+        const auto found = state.texts.find(name);
+        return found == state.texts.end() ? std::string() : found->second;
+    };
+    GivenCase given{text("given"), {}};
+    std::istringstream overrides(text("overrides"));
+    for (std::string line; std::getline(overrides, line, separator);) {
+        given.overrides.push_back(line);
+    }
+    return given;
+}
+
+// Differences of [[debris]] in the place of those of their pieces, which follow from them.
+void name_debris(const GivenCase& before, const GivenCase& after, const Scene& scene,
+                 std::vector<KeyDifference>& differences)
+{
+    std::vector<KeyDifference> of_debris = debris_differences(before, after);
+    if (before.text.empty() || of_debris.empty()) {
+        return;
+    }
+    const std::vector<std::string> prefixes = piece_prefixes(after);
+    const auto is_piece = [&](const BodySettings& b) {
+        return std::ranges::any_of(prefixes,
+                                   [&](const std::string& p) { return b.name.starts_with(p); });
+    };
+    std::erase_if(differences, [&](const KeyDifference& d) {
+        constexpr std::string_view body = "body[";
+        std::size_t k = 0;
+        const bool of_body =
+            d.key.starts_with(body) &&
+            std::from_chars(d.key.data() + body.size(), d.key.data() + d.key.size(), k).ec ==
+                std::errc();
+        return of_body && (k >= scene.bodies.size() || is_piece(scene.bodies[k]));
+    });
+    differences.insert(differences.begin(), of_debris.begin(), of_debris.end());
 }
 
 Scene case_of(const Snapshot& state)
@@ -83,7 +135,20 @@ std::string quoted(const std::string& word)
 
 } // namespace
 
-Resumption resumption_of(const fs::path& folder, const Scene& scene)
+std::map<std::string, std::string> texts_of_given_case(const RunOptions& options)
+{
+    const GivenCase given = given_case(options);
+    if (piece_prefixes(given).empty()) {
+        return {};
+    }
+    std::string overrides;
+    for (const std::string& text : given.overrides) {
+        overrides += text + separator;
+    }
+    return {{"given", given.text}, {"overrides", overrides}};
+}
+
+Resumption resumption_of(const RunOptions& options, const fs::path& folder, const Scene& scene)
 {
     auto [state, passed_over] = read_newest_checkpoint(folder);
     const Scene before = case_of(state);
@@ -96,6 +161,7 @@ Resumption resumption_of(const fs::path& folder, const Scene& scene)
     found.changed = !differences.empty();
     std::erase_if(differences, [](const KeyDifference& d) { return may_change_on_resume(d.key); });
     if (!differences.empty()) {
+        name_debris(given_case(state), given_case(options), scene, differences);
         refuse(scene, differences);
     }
     const double time = time_of(state);

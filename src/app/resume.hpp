@@ -8,6 +8,7 @@
 #include "hyoryu/scene/scene.hpp"
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace hyoryu {
@@ -20,11 +21,16 @@ struct Resumption {
     bool changed = false;    // whether the case is not the one that wrote the checkpoint
 };
 
+/// The case as it was given, for checkpoints, if it has [[debris]]; else nothing. The resolved case
+/// has their pieces as bodies, and a refusal names the keys that the user wrote.
+std::map<std::string, std::string> texts_of_given_case(const RunOptions& options);
+
 /// Reads the newest checkpoint of the folder and fits it to the case. Where `output.every` is left
 /// to its default, end / 100, in both cases, it stays as it was: a later end moves no frame. Throws
 /// CaseError that names every key that may not change, with both values, and IoError if there is no
 /// checkpoint that can be read.
-Resumption resumption_of(const std::filesystem::path& folder, const Scene& scene);
+Resumption resumption_of(const RunOptions& options, const std::filesystem::path& folder,
+                         const Scene& scene);
 
 /// The command line that goes on with the run, for a shell.
 std::string command_to_go_on(const RunOptions& options, const std::filesystem::path& folder);

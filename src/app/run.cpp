@@ -114,6 +114,7 @@ struct Job {
     double until = infinity;
     std::string command_to_go_on; // for the user, where the run stops before its end
     CoreWatch cores = {};
+    std::map<std::string, std::string> given = {}; // texts of checkpoints beside the case
 };
 
 void write_closing(Job& job, const std::string& reason)
@@ -128,6 +129,7 @@ Snapshot state_of(const Job& job)
 {
     Snapshot state = job.outputs->snapshot(job.sim);
     state.texts["case"] = job.case_text;
+    state.texts.insert(job.given.begin(), job.given.end());
     return state;
 }
 
@@ -328,6 +330,7 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     Outputs outputs(folder, sim, domain);
     Job job{std::move(lock),   folder, case_text, std::move(sim), std::move(progress),
             std::move(outputs)};
+    job.given = texts_of_given_case(options);
     job.outputs->update(job.sim);
     if (scene.time.recover) {
         keep_good_state(job);
@@ -382,6 +385,7 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
             first_step,
             first_step,
             scene.time.recover ? std::optional(std::move(from.state)) : std::nullopt};
+    job.given = texts_of_given_case(options);
     if (changed) { // or a kill would leave a checkpoint of the case before
         write_checkpoint(job);
     }
@@ -398,7 +402,7 @@ int run_case(const RunOptions& options)
     Scene scene = read_case(options.case_file, options.overrides);
     std::optional<Resumption> from;
     if (options.resume) {
-        from = resumption_of(folder, scene);
+        from = resumption_of(options, folder, scene);
         scene = from->scene;
     }
     Filling filling = fill(scene);

@@ -37,8 +37,10 @@ Fluid make_cube(const LoopSetting& setting)
         const double jx = off(random);
         const double jy = off(random);
         const Vec3 jitter(jx, jy, off(random));
-        fluid.particles.fluid[field::position][k] =
-            dp * (Vec3(k % n, k / n % n, k / n / n) + jitter);
+        const int x = k % n;
+        const int y = k / n % n;
+        const int z = k / n / n;
+        fluid.particles.fluid[field::position][k] = dp * (Vec3(x, y, z) + jitter);
         fluid.particles.fluid[field::velocity][k] = {off(random), off(random), off(random)};
         fluid.particles.fluid[field::density][k] = 1000 + 5 * off(random);
     }

@@ -21,7 +21,8 @@ void gather_column(ColumnValues<T>& column, std::span<const std::int32_t> from,
         if (from[to] < 0) {
             std::memset(place, 0, sizeof(T));
         } else {
-            std::memcpy(place, &column[static_cast<std::size_t>(from[to])], sizeof(T));
+            const void* const row = &column[static_cast<std::size_t>(from[to])];
+            std::memcpy(place, row, sizeof(T));
         }
     });
     if (column.capacity() < rows) { // by itself a vector would take twice what it had

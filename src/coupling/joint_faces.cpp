@@ -202,10 +202,11 @@ private:
             int inside = 0;
             const int deep = scale_.dimensions == 2 ? 1 : samples;
             for (int s = 0; s < samples * deep; ++s) {
+                const int row = k / nu;
+                const int across = s / samples;
                 const double su = e.u + e.face.du * (k % nu + (s % samples + 0.5) / samples);
-                const double sv = scale_.dimensions == 2
-                                      ? 0
-                                      : e.v + e.face.dv * (k / nu + (s / samples + 0.5) / samples);
+                const double sv =
+                    scale_.dimensions == 2 ? 0 : e.v + e.face.dv * (row + (across + 0.5) / samples);
                 const Vec3 place = offset * polygon.normal + su * e.face.u + sv * e.face.v;
                 if (scale_.dimensions == 2 || within(polygon, place)) {
                     cell.centre += place;

@@ -27,22 +27,26 @@ void mirror_velocities(Fluid& fluid)
     });
 }
 
-// While it lives, the records of solids hold the mirrored velocities; then their own again.
-class MirroredVelocities {
-public:
-    explicit MirroredVelocities(Fluid& fluid) : fluid_(fluid) { show(true); }
-    MirroredVelocities(const MirroredVelocities&) = delete;
-    MirroredVelocities& operator=(const MirroredVelocities&) = delete;
-    ~MirroredVelocities() { show(false); }
+enum class SolidVelocity { own, mirrored };
 
-private:
-    void show(bool mirrored)
-    {
-        fluid_.mirrors_velocities = mirrored;
-        load_solids(fluid_, Fields<Velocity>{});
+void show_velocities(Fluid& fluid, SolidVelocity which)
+{
+    fluid.mirrors_velocities = which == SolidVelocity::mirrored;
+    load_solids(fluid, Fields<Velocity>{});
+}
+
+// Calls f while the records of solids hold the mirrored velocities; then they hold their own again.
+void with_mirrored_velocities(Fluid& fluid, const auto& f)
+{
+    show_velocities(fluid, SolidVelocity::mirrored);
+    try {
+        f();
+    } catch (...) {
+        show_velocities(fluid, SolidVelocity::own);
+        throw;
     }
-    Fluid& fluid_;
-};
+    show_velocities(fluid, SolidVelocity::own);
+}
 
 // nu_t of every fluid particle.
 void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
@@ -53,8 +57,8 @@ void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
     clear(store, StrainRate::Writes{});
     run<PassOf<StrainRate>>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     if (sticks) {
-        const MirroredVelocities mirrored(fluid);
-        run<PassOf<StrainRate>>(fluid, n.fluid_solid, to_fluid(fluid), terms);
+        with_mirrored_velocities(
+            fluid, [&] { run<PassOf<StrainRate>>(fluid, n.fluid_solid, to_fluid(fluid), terms); });
     }
     const auto strain = store[field::strain];
     const auto mixed = store[field::mixed_strain];
@@ -68,11 +72,12 @@ void add_friction(Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, 0);
-    const MirroredVelocities mirrored(fluid);
-    for_solids(fluid.particles, [](Store& solids) { clear(solids, Fields<ViscousForce>{}); });
-    run<NoSlip::Friction>(fluid, n.fluid_solid, to_fluid(fluid), terms);
-    run<NoSlip::Friction>(fluid, n.wall_fluid, to_walls(fluid), terms);
-    run<NoSlip::Friction>(fluid, n.body_fluid, to_bodies(fluid), terms);
+    with_mirrored_velocities(fluid, [&] {
+        for_solids(fluid.particles, [](Store& solids) { clear(solids, Fields<ViscousForce>{}); });
+        run<NoSlip::Friction>(fluid, n.fluid_solid, to_fluid(fluid), terms);
+        run<NoSlip::Friction>(fluid, n.wall_fluid, to_walls(fluid), terms);
+        run<NoSlip::Friction>(fluid, n.body_fluid, to_bodies(fluid), terms);
+    });
 }
 
 // The part of the density rate that solids make, and the end of gaps where there is no room for

@@ -4,6 +4,7 @@
 
 #include "atomic_file.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/types.hpp"
 #include "series.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ std::vector<SeriesEntry> checked_series(const fs::path& series, const std::strin
 {
     const std::regex pattern("frames/" + name + "_[0-9]{6,18}\\.hdf");
     std::vector<SeriesEntry> entries = read_series(series);
-    double before = -INFINITY;
+    double before = -infinity;
     for (const SeriesEntry& entry : entries) {
         if (!std::regex_match(entry.file.generic_string(), pattern)) {
             throw IoError(fmt::format("`{}` is damaged: it names `{}`, expected "

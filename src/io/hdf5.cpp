@@ -203,7 +203,7 @@ void put_attribute(hid_t object, const std::string& name, const std::string& tex
     const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
                            H5Aclose, action);
     const char* const letters = text.c_str();
-    check(H5Awrite(attribute, type, &letters), action);
+    check(H5Awrite(attribute, type, static_cast<const void*>(&letters)), action);
 }
 
 void put_fixed_attribute(hid_t object, const std::string& name, const std::string& text)
@@ -256,7 +256,7 @@ std::string text_attribute(hid_t object, const std::string& name)
             "cannot read the attribute `{}`: it is not a text of variable length", name));
     }
     char* letters = nullptr;
-    check(H5Aread(attribute, stored, &letters), "read an attribute");
+    check(H5Aread(attribute, stored, static_cast<void*>(&letters)), "read an attribute");
     const std::string text = letters == nullptr ? "" : letters;
     H5free_memory(letters);
     return text;
@@ -279,7 +279,9 @@ void put_text(hid_t parent, const std::string& name, const std::string& text)
         H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
         H5Dclose, action);
     const char* const letters = text.c_str();
-    check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &letters), action);
+    check(
+        H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<const void*>(&letters)),
+        action);
 }
 
 } // namespace hyoryu::hdf5

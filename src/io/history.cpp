@@ -186,12 +186,12 @@ struct History::State {
     }
 };
 
-History::History(const std::filesystem::path& folder, Table table)
+History::History(const std::filesystem::path& folder, const Table& table)
     : state_(std::make_unique<State>(folder, table, Kept{csv_header(table)}))
 {
 }
 
-History::History(const std::filesystem::path& folder, Table table, double keep_until,
+History::History(const std::filesystem::path& folder, const Table& table, double keep_until,
                  std::int64_t keep_rows)
     : state_(std::make_unique<State>(
           folder, table, kept_of(history_file(folder, table), table, keep_until, keep_rows)))

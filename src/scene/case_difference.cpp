@@ -142,7 +142,46 @@ TomlNode parsed(const std::string& text)
     }
 }
 
+// The list of [[debris]]; none without them.
+TomlNode debris_of(const GivenCase& given)
+{
+    TomlNode root = parse_toml(given.text);
+    for (const std::string& text : given.overrides) {
+        apply_override(root, text, 0); // the case was read with it
+    }
+    const TomlEntry* debris = find_entry(*root.table(), "debris");
+    return debris != nullptr && debris->node.array() != nullptr ? debris->node
+                                                                : TomlNode{TomlArray{}, {}, -1};
+}
+
 } // namespace
+
+std::vector<KeyDifference> debris_differences(const GivenCase& before, const GivenCase& after)
+try {
+    const TomlNode one = debris_of(before);
+    const TomlNode other = debris_of(after);
+    Comparison comparison;
+    comparison.compare("debris", &one, &other);
+    return comparison.found;
+} catch (const TomlFault&) {
+    return {};
+}
+
+std::vector<std::string> piece_prefixes(const GivenCase& given)
+try {
+    const TomlNode debris = debris_of(given);
+    std::vector<std::string> prefixes;
+    for (const TomlNode& entry : *debris.array()) {
+        const TomlEntry* name =
+            entry.table() != nullptr ? find_entry(*entry.table(), "name") : nullptr;
+        const auto* text = name != nullptr ? std::get_if<std::string>(&name->node.value) : nullptr;
+        prefixes.push_back(text != nullptr ? *text + "."
+                                           : fmt::format("debris.{}.", prefixes.size() + 1));
+    }
+    return prefixes;
+} catch (const TomlFault&) {
+    return {};
+}
 
 std::vector<KeyDifference> case_differences(const std::string& before, const std::string& after)
 {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace hyoryu {
 
@@ -164,20 +165,43 @@ struct Ray {
     Vec3 at(double s) const { return from + s * along; }
 };
 
+// The end of a bracket [from, to] of a ray, in which a value takes the other sign, after the
+// bracket was made `narrow` [m]: regula falsi (Illinois, Dowell and Jarratt 1971), whose places
+// keep from the ends by half of that, so that the bracket closes from both of them.
+double narrowed(const Ray& ray, double from, double to, double narrow, const auto& value)
+{
+    constexpr int most = 40; // a bracket as narrow as the numbers are fine shrinks no more
+    double low = value(ray.at(from));
+    double high = value(ray.at(to));
+    const bool positive = low > 0;
+    int kept = 0; // which end was kept the last time
+    for (int k = 0; k < most && to - from > narrow; ++k) {
+        const double falsi = from + (to - from) * low / (low - high);
+        const double s = std::clamp(falsi, from + narrow / 2, to - narrow / 2);
+        const double v = value(ray.at(s));
+        const bool is_before = (v > 0) == positive;
+        (is_before ? from : to) = s;
+        (is_before ? low : high) = v;
+        const int keeps = is_before ? 1 : -1;
+        if (keeps == kept) {
+            (is_before ? high : low) /= 2;
+        }
+        kept = keeps;
+    }
+    return to;
+}
+
 // The next place on a ray, from s on, where a function whose value changes no faster than the place
 // takes the other sign; `end` if there is none.
 double next_change(const Ray& ray, double s, double end, double least, const auto& value)
 {
+    constexpr double narrow = 1e-10; // of the least step
     const bool positive = value(ray.at(s)) > 0;
     double before = s;
     while (s < end) {
         const double v = value(ray.at(s));
         if ((v > 0) != positive) {
-            for (int halving = 0; halving < 40; ++halving) {
-                const double middle = (before + s) / 2;
-                ((value(ray.at(middle)) > 0) == positive ? before : s) = middle;
-            }
-            return s;
+            return narrowed(ray, before, s, narrow * least, value);
         }
         before = s;
         s += std::max(std::abs(v), least);
@@ -238,31 +262,50 @@ struct Piece {
     Vec3 sum{0, 0, 0}; // of the feet of those rays [m]
 };
 
+// An interval of a ray in which the sign of the depth is the same.
+struct Interval {
+    double to = 0; // it begins where the one before it ends [m]
+    bool is_free = false;
+};
+
+// `depth` changes no faster than the place.
+std::vector<Interval> intervals_of(const Ray& ray, double length, double spacing, const auto& depth)
+{
+    std::vector<Interval> found;
+    double from = 0;
+    for (double s = 0; s < length;) {
+        s = next_change(ray, s, length, spacing / 64, depth);
+        found.push_back({s, depth(ray.at((from + s) / 2)) > 0});
+        from = s;
+        s += 1e-9 * spacing; // past the change
+    }
+    return found;
+}
+
 // The free intervals of a bundle of rays, cut at all of their ends.
 std::vector<Piece> pieces_of(const FreeSpace& space, const Placed& block,
                              const std::vector<Ray>& rays, double length, double spacing)
 {
-    std::vector<std::vector<double>> ends(rays.size());
+    std::vector<std::vector<Interval>> of_ray;
     std::vector<double> cuts{0, length};
-    // Below the surface of the block and off the walls; changes no faster than the place.
-    const auto depth = [&](const Vec3& p) {
+    const auto depth = [&](const Vec3& p) { // below the surface of the block and off the walls
         return std::min(space.clearance(p), -signed_distance(block, p));
     };
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-        for (double s = 0; s < length;) {
-            s = next_change(rays[r], s, length, spacing / 64, depth);
-            ends[r].push_back(s);
-            cuts.push_back(s);
-            s += 1e-9 * spacing; // past the change
-        }
+    for (const Ray& ray : rays) {
+        of_ray.push_back(intervals_of(ray, length, spacing, depth));
+        std::ranges::transform(of_ray.back(), std::back_inserter(cuts), &Interval::to);
     }
     std::ranges::sort(cuts);
     std::vector<Piece> pieces;
     for (std::size_t c = 0; c + 1 < cuts.size(); ++c) {
         Piece piece{cuts[c], cuts[c + 1]};
+        if (piece.to - piece.from <= 1e-6 * spacing) {
+            continue;
+        }
+        const double middle = (piece.from + piece.to) / 2;
         for (std::size_t r = 0; r < rays.size(); ++r) {
-            if (piece.to - piece.from > 1e-6 * spacing &&
-                depth(rays[r].at((piece.from + piece.to) / 2)) > 0) {
+            const auto around = std::ranges::upper_bound(of_ray[r], middle, {}, &Interval::to);
+            if (around != of_ray[r].end() && around->is_free) {
                 piece.rays += 1;
                 piece.sum += rays[r].from;
             }

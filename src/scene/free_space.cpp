@@ -67,7 +67,8 @@ std::vector<int> FreeSpace::about(const Vec3& point, double distance) const
     return found;
 }
 
-NearestPlace FreeSpace::nearest(const Vec3& point, std::span<const int> among) const
+NearestPlace FreeSpace::nearest(const Vec3& point, std::span<const int> among,
+                                double farthest) const
 {
     NearestPlace nearest;
     for (const int k : among) {
@@ -77,7 +78,7 @@ NearestPlace FreeSpace::nearest(const Vec3& point, std::span<const int> among) c
         if (r.norm() - solid.reach >= nearest.distance) {
             continue;
         }
-        NearestPlace place = nearest_place(solid, solid.rotation.conjugate() * r);
+        NearestPlace place = nearest_place(solid, solid.rotation.conjugate() * r, farthest);
         if (place.distance < nearest.distance) {
             place.normal = solid.rotation * place.normal;
             nearest = place;
@@ -91,18 +92,19 @@ bool FreeSpace::is_in_wall(const Vec3& point) const
     return nearest(point, all().first(walls_)).distance < 0;
 }
 
-bool step_off(const FreeSpace& space, std::span<const int> among, double distance, Vec3& point)
+bool step_off(const FreeSpace& space, std::span<const int> among, double distance, Vec3& point,
+              double farthest)
 {
     constexpr int tries = 10; // corners of several surfaces take some
     for (int k = 0; k < tries; ++k) {
-        const NearestPlace nearest = space.nearest(point, among);
+        const NearestPlace nearest = space.nearest(point, among, farthest);
         const double lacking = distance - nearest.distance;
         if (lacking <= 1e-9 * distance) {
             return true;
         }
         point += lacking * nearest.normal;
     }
-    return space.nearest(point, among).distance > 0;
+    return space.nearest(point, among, farthest).distance > 0;
 }
 
 } // namespace hyoryu

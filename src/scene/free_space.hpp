@@ -22,8 +22,10 @@ public:
     std::span<const int> all() const { return all_; }
     std::vector<int> about(const Vec3& point, double distance) const;
 
-    /// The nearest surface of some obstacles, with its normal into the free space.
-    NearestPlace nearest(const Vec3& point, std::span<const int> among) const;
+    /// The nearest surface of some obstacles, with its normal into the free space; distance
+    /// infinity where the point is farther than `farthest` [m] from all of them, on either side.
+    NearestPlace nearest(const Vec3& point, std::span<const int> among,
+                         double farthest = infinity) const;
     /// Signed distance from the occupied space [m], negative inside it.
     double clearance(const Vec3& point) const { return nearest(point, all_).distance; }
     bool is_in_wall(const Vec3& point) const;
@@ -40,7 +42,8 @@ private:
 };
 
 /// Moves a point to a distance from those surfaces of some obstacles that are nearer; false if it
-/// is in one of them afterwards.
-bool step_off(const FreeSpace& space, std::span<const int> among, double distance, Vec3& point);
+/// is in one of them afterwards. `farthest`: as for nearest(), more than the distance.
+bool step_off(const FreeSpace& space, std::span<const int> among, double distance, Vec3& point,
+              double farthest = infinity);
 
 } // namespace hyoryu

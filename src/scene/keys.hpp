@@ -244,6 +244,8 @@ public:
     static void select(auto& value, std::size_t index) { hold(value, index); }
     /// Whether keys have a meaning in a case with that condition: the table lists them in any case.
     static bool applies(bool condition) { return condition; }
+    /// Whether a key is given, sound or not.
+    static bool gives(Text /*name*/) { return false; }
     /// Whether the writer writes keys.
     static bool shows(bool /*condition*/) { return true; }
     /// Lists a table before the keys that stand between its name and its own keys.

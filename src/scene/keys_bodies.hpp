@@ -83,6 +83,16 @@ inline void finish_matter(TableReader& table, BodySettings& body)
     }
 }
 
+inline void refuse_masses_of_fixed(TableReader& table, const BodySettings& body)
+{
+    for (const char* key : {"center_of_mass", "inertia"}) {
+        if (body.fixed && table.has(key)) {
+            table.error(key, "has no meaning for a fixed body",
+                        "omit it; `position` is then the middle of the shape");
+        }
+    }
+}
+
 inline void check_velocities(TableReader& table, const BodySettings& body)
 {
     const Vec3& w = body.angular_velocity;
@@ -239,6 +249,7 @@ void keys_of(auto& keys, Is<BodySettings> auto& body, auto& scene)
     keys.rule(check_material, body.material);
     keys.flag("fixed", body.fixed, "Whether the body is fixed.");
     keys.rule(check_velocities, body);
+    keys.rule(refuse_masses_of_fixed, body);
     keys.choice("stands", body.sealed, {"open", "sealed"},
                 "Whether water seeps into the joint between a standing body and its support. "
                 "\"open\": water enters from the rim and lifts the body; \"sealed\": the joint "

@@ -34,6 +34,11 @@ inline void check_state(TableReader& table, const DebrisKeys& debris)
     if (debris.load.load > 0 && kind.shape == DebrisShape::lying_cylinder) {
         table.error("load", fmt::format("a {} has no inside", kind.name));
     }
+    const bool laden = debris.load.load > 0 ||
+                       (known != kind.masses.end() && known->value > kind.masses.front().value);
+    if (table.has("load_height") && !table.has("load") && !laden) {
+        table.error("load_height", "has no meaning without cargo", "give its mass as `load`");
+    }
     const bool open = kind.size.value.empty();
     if (open != table.has("size")) {
         table.error("size",
@@ -52,6 +57,38 @@ inline void check_sizes(TableReader& table, const DebrisKeys& debris)
     }
 }
 
+/// Reads the yard of a file into the axes of the scene; false if it is mistaken, which is noted.
+inline bool load_polygon(TableReader& table, DebrisScatter& scatter, const std::string& file,
+                         const Scene& scene)
+{
+    const auto path = path_of_file(table, "polygon", file);
+    if (!path) {
+        return false;
+    }
+    try {
+        scatter.polygon = read_polygon(*path);
+    } catch (const IoError& error) {
+        table.error("polygon", error.what(), "a GeoJSON file of one polygon");
+        return false;
+    }
+    const auto terrain = std::ranges::find_if(scene.walls, is_terrain);
+    if (terrain == scene.walls.end()) {
+        return true;
+    }
+    const Shape& shape = std::get<SolidWall>(terrain->geometry).shape;
+    const TerrainPatch& patch = *std::get<MeshShape>(shape).terrain;
+    if (may_be_degrees(scatter.polygon) && !may_be_degrees({{patch.origin[0], patch.origin[1]}})) {
+        table.error("polygon",
+                    fmt::format("{}: its coordinates look like degrees, those of the terrain are "
+                                "in metres",
+                                path->string()),
+                    "project them to the map of the terrain, for instance to UTM");
+        return false;
+    }
+    into_axes_of(patch, scatter.polygon);
+    return true;
+}
+
 inline void find_polygon(TableReader& table, DebrisScatter& scatter, const std::string& file,
                          const std::vector<Vec3>& corners, const Scene& scene)
 {
@@ -64,22 +101,13 @@ inline void find_polygon(TableReader& table, DebrisScatter& scatter, const std::
     for (const Vec3& corner : corners) {
         scatter.polygon.push_back({corner.x(), corner.y()});
     }
-    if (table.has("polygon")) {
-        if (const auto path = path_of_file(table, "polygon", file)) {
-            try {
-                scatter.polygon = read_polygon(*path);
-            } catch (const IoError& error) {
-                table.error("polygon", error.what(), "a GeoJSON file of one polygon");
-            }
-            const auto terrain = std::ranges::find_if(scene.walls, is_terrain);
-            if (terrain != scene.walls.end()) {
-                const Shape& shape = std::get<SolidWall>(terrain->geometry).shape;
-                into_axes_of(*std::get<MeshShape>(shape).terrain, scatter.polygon);
-            }
-        }
+    const char* key = table.has("polygon") ? "polygon" : "corners";
+    if (!table.sound(key) || (table.has("polygon") && !load_polygon(table, scatter, file, scene))) {
+        return;
     }
-    if ((table.sound("polygon") || table.sound("corners")) && scatter.polygon.size() < 3) {
-        table.error(table.has("polygon") ? "polygon" : "corners", "a yard needs three corners");
+    const std::string fault = fault_of_yard(scatter.polygon);
+    if (!fault.empty()) {
+        table.error(key, fault, "the corners of one polygon, one after the other along its edge");
     }
 }
 
@@ -98,9 +126,9 @@ inline void place(TableReader& table, DebrisKeys& debris, const std::optional<De
     }
     debris.array = array.value_or(DebrisArray{});
     debris.scatter = scatter.value_or(DebrisScatter{});
-    const std::vector<std::string> faults = place_debris(debris, arrayed, scene);
-    for (const std::string& fault : faults) {
-        table.error(arrayed ? "array" : "scatter", fault);
+    const std::vector<PlaceFault> faults = place_debris(debris, arrayed, scene);
+    for (const PlaceFault& fault : faults) {
+        table.error(arrayed ? "array" : "scatter", fault.what, fault.hint);
     }
     for (auto k = scene.bodies.size() - debris.placed; k < scene.bodies.size(); ++k) {
         claim_name(table, scene.bodies[k].name);
@@ -113,6 +141,13 @@ inline void check_array_count(TableReader& table, const DebrisArray& array)
     if (array.count[0] * array.count[1] * array.count[2] > most) {
         table.error("count", fmt::format("asks for more than {} pieces", most),
                     "use fewer pieces, or several cases");
+    }
+}
+
+inline void check_height(TableReader& table, const DebrisArray& array)
+{
+    if (!array.on.empty() && table.count("from") > 2) {
+        table.error("from", "has a height, which `on` sets", "write [x, y], or omit `on`");
     }
 }
 
@@ -131,6 +166,7 @@ void keys_of(auto& keys, Is<DebrisArray> auto& array)
     keys.text("on", array.on,
               "\"ground\" drops every piece to rest on the walls, its lowest corner 1 mm above "
               "them; the name of a wall, on that wall. Upper pieces of a stack keep their pitch.");
+    keys.rule(check_height, array);
 }
 
 void keys_of(auto& keys, Is<DebrisScatter> auto& scatter, auto& scene)

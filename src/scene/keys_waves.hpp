@@ -59,7 +59,9 @@ inline void move_as_piston(TableReader& table, PistonWave& wave, Wall& wall, dou
         table.error("depth", "there are no waves without `gravity`");
     } else if (wave.solitary_height) {
         wall.motion = solitary_piston(*wave.solitary_height, depth, gravity, wave.theory);
-        wall.wave_length = solitary_length(*wave.solitary_height, depth, wave.theory);
+        wall.wave = {.height = *wave.solitary_height,
+                     .length = solitary_length(*wave.solitary_height, depth, wave.theory),
+                     .depth = depth};
     } else if (table.sound("period")) {
         constexpr double most_periods = 15000; // 64 points each, a million in all
         wave.train.height = *wave.height;
@@ -71,7 +73,11 @@ inline void move_as_piston(TableReader& table, PistonWave& wave, Wall& wall, dou
         }
         refuse_second_crests(table, wave, gravity);
         wall.motion = regular_piston(wave.train, gravity, end);
-        wall.wave_length = 2 * std::numbers::pi / wave_number(wave.train.period, depth, gravity);
+        const double number = wave_number(wave.train.period, depth, gravity);
+        wall.wave = {.height = *wave.height,
+                     .length = 2 * std::numbers::pi / number,
+                     .depth = depth,
+                     .period = wave.train.period};
     }
     if (wall.motion.absorption) {
         wall.motion.absorption->depth = depth;
@@ -94,7 +100,8 @@ void keys_of(auto& keys, Is<PistonWave> auto& wave, auto& wall, double gravity, 
                   no_default);
     keys.rule(find_wave, wave);
     keys.positive("depth", wave.train.depth, "m", "Depth of the water at rest.", needed);
-    if (keys.applies(wave.height.has_value())) {
+    const bool regular = wave.height.has_value() || keys.gives("height");
+    if (keys.applies(regular)) {
         keys.positive("period", wave.train.period, "s", "Period of regular waves.", needed);
         keys.integer("order", wave.train.order, 1, 2, "1 or 2",
                      "Order of the motion for regular waves: 2 adds the second harmonic, without "
@@ -104,7 +111,7 @@ void keys_of(auto& keys, Is<PistonWave> auto& wave, auto& wall, double gravity, 
                           "Time in which regular waves grow to their height.",
                           "wall.motion.piston.period");
     }
-    if (keys.applies(!wave.height.has_value())) {
+    if (keys.applies(!regular)) {
         keys.choice("theory", wave.theory, {"boussinesq", "rayleigh"},
                     "Shape of the solitary wave; \"rayleigh\" is longer where the wave is high and "
                     "leaves less of a tail.");

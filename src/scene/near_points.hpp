@@ -12,9 +12,10 @@
 
 namespace hyoryu {
 
-/// Calls f(k) for the points k in the cell of a place and in those about it, which hold all points
-/// within an edge of a cell. The place may be outside of the grid.
-void for_cells_about(const CellGrid& grid, const Vec3& place, const auto& f)
+/// Calls f(begin, end) for the runs of entries of grid.order that hold the points in the cell of a
+/// place and in those about it: all points within an edge of a cell. The place may be outside of
+/// the grid.
+void for_runs_about(const CellGrid& grid, const Vec3& place, const auto& f)
 {
     std::array<Index, 3> first{};
     std::array<Index, 3> last{};
@@ -28,13 +29,20 @@ void for_cells_about(const CellGrid& grid, const Vec3& place, const auto& f)
     for (Index z = first[2]; z < last[2]; ++z) {
         for (Index y = first[1]; y < last[1] && first[0] < last[0]; ++y) {
             const Index row = (z * grid.count[1] + y) * grid.count[0];
-            const auto begin = static_cast<std::size_t>(row + first[0]);
-            const auto end = static_cast<std::size_t>(row + last[0]);
-            for (std::int32_t k = grid.start[begin]; k < grid.start[end]; ++k) {
-                f(static_cast<std::size_t>(grid.order[static_cast<std::size_t>(k)]));
-            }
+            f(static_cast<std::size_t>(grid.start[static_cast<std::size_t>(row + first[0])]),
+              static_cast<std::size_t>(grid.start[static_cast<std::size_t>(row + last[0])]));
         }
     }
+}
+
+/// Calls f(k) for the points k of those runs.
+void for_cells_about(const CellGrid& grid, const Vec3& place, const auto& f)
+{
+    for_runs_about(grid, place, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            f(static_cast<std::size_t>(grid.order[k]));
+        }
+    });
 }
 
 /// Marks of the points within a distance [m] of marked ones, which stay marked.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "place_debris.hpp"
 
+#include "hyoryu/scene/shapes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -158,9 +160,9 @@ std::string unknown_ground(const Scene& scene, const std::string& on)
                  : fmt::format("`on` is \"{}\", expected \"ground\" or the name of a wall", on);
 }
 
-std::vector<std::string> place_array(DebrisKeys& debris, Scene& scene)
+std::vector<PlaceFault> place_array(DebrisKeys& debris, Scene& scene)
 {
-    std::vector<std::string> faults;
+    std::vector<PlaceFault> faults;
     const DebrisArray& array = debris.array;
     Placing placing(debris, scene);
     const Vec3& extent = placing.extent();
@@ -168,9 +170,9 @@ std::vector<std::string> place_array(DebrisKeys& debris, Scene& scene)
     count[1] = scene.dimensions == 2 ? 1 : count[1];
     const double storey = array.pitch.z() > 0 ? array.pitch.z() : extent.z();
     if (count[2] > 1 && storey < extent.z() * (1 - 1e-9)) {
-        faults.push_back(fmt::format("a stack with a pitch of {:.4g} m overlaps: the pieces are "
-                                     "{:.4g} m high",
-                                     storey, extent.z()));
+        faults.push_back({fmt::format("a stack with a pitch of {:.4g} m overlaps: the pieces are "
+                                      "{:.4g} m high",
+                                      storey, extent.z())});
     }
     const double turn = scene.dimensions == 2 ? 0 : array.turn_deg * std::numbers::pi / 180;
     const double far = array.from.norm() +
@@ -179,14 +181,15 @@ std::vector<std::string> place_array(DebrisKeys& debris, Scene& scene)
     const Ground ground = ground_for(scene, array.on, far);
     for (std::int64_t n = 0; n < count[0] * count[1] && faults.empty(); ++n) {
         const double i = static_cast<double>(n % count[0]);
-        const double j = static_cast<double>(n / count[0]);
+        const std::int64_t row = n / count[0];
+        const double j = static_cast<double>(row);
         const Plan2 at{array.from.x() + i * array.pitch.x(), array.from.y() + j * array.pitch.y()};
         double z = array.from.z();
         if (!array.on.empty()) {
             const Rest rest = rest_on(ground, footprint(extent, at, turn, 0));
             const std::string fault = fault_of(rest, extent.z(), at);
             if (!fault.empty()) {
-                faults.push_back("a piece " + fault);
+                faults.push_back({"a piece " + fault});
             }
             z = rest.height + clearance + extent.z() / 2;
         }
@@ -204,74 +207,146 @@ struct Spot {
     std::vector<Plan2> covered; // with half of the gap around it
 };
 
-// A place in the yard that is free, by random sequential addition; false if none was found.
-bool find_spot(const DebrisScatter& scatter, const Vec3& extent, const Ground& ground,
-               const std::vector<Spot>& taken, Dice& dice, Spot& spot)
+// A body that is there already, seen from above and along z.
+struct Taken {
+    std::vector<Plan2> covered;
+    double low = 0, high = 0; // [m]
+};
+
+// The bodies of the scene that reach into a box seen from above.
+std::vector<Taken> bodies_in(const Scene& scene, const Plan2& low, const Plan2& high)
 {
+    std::vector<Taken> found;
+    for (const BodySettings& body : scene.bodies) {
+        const Placed solid = placed(body, scene.dimensions);
+        const Bounds box = bounds(solid);
+        if (box.max.x() < low[0] || box.min.x() > high[0] || box.max.y() < low[1] ||
+            box.min.y() > high[1]) {
+            continue;
+        }
+        const Bounds own = bounds({.shape = solid.shape, .dimensions = scene.dimensions});
+        std::vector<Plan2> corners;
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 corner((k & 1) != 0 ? own.max.x() : own.min.x(),
+                              (k & 2) != 0 ? own.max.y() : own.min.y(),
+                              (k & 4) != 0 ? own.max.z() : own.min.z());
+            const Vec3 p = solid.centre + solid.rotation * corner;
+            corners.push_back({p.x(), p.y()});
+        }
+        found.push_back({hull_of(std::move(corners)), box.min.z(), box.max.z()});
+    }
+    return found;
+}
+
+// The box about a yard.
+struct Frame {
     Plan2 low{infinity, infinity};
     Plan2 high{-infinity, -infinity};
-    for (const Plan2& corner : scatter.polygon) {
+};
+
+Frame frame_of(const std::vector<Plan2>& polygon)
+{
+    Frame frame;
+    for (const Plan2& corner : polygon) {
         for (std::size_t k = 0; k < 2; ++k) {
-            low[k] = std::min(low[k], corner[k]);
-            high[k] = std::max(high[k], corner[k]);
+            frame.low[k] = std::min(frame.low[k], corner[k]);
+            frame.high[k] = std::max(frame.high[k], corner[k]);
         }
     }
+    return frame;
+}
+
+// What a yard holds already.
+struct Occupied {
+    std::vector<Taken> bodies;
+    std::vector<Spot> pieces;
+};
+
+// Whether a spot is clear of bodies at the heights of a piece there.
+bool is_clear(const std::vector<Taken>& bodies, const Spot& spot, double height, double gap)
+{
+    const double low = spot.ground + clearance;
+    return std::ranges::none_of(bodies, [&](const Taken& body) {
+        return body.low < low + height && body.high > low &&
+               apart(spot.covered, body.covered) < gap / 2;
+    });
+}
+
+// A place in the yard that is free, by random sequential addition; false if none was found.
+bool find_spot(const DebrisScatter& scatter, const Vec3& extent, const Ground& ground,
+               const Occupied& occupied, Dice& dice, Spot& spot)
+{
+    const Frame frame = frame_of(scatter.polygon);
     for (int n = 0; n < most_tries; ++n) {
-        spot.at = {dice.between(low[0], high[0]), dice.between(low[1], high[1])};
+        spot.at = {dice.between(frame.low[0], frame.high[0]),
+                   dice.between(frame.low[1], frame.high[1])};
         spot.turn = dice.between(scatter.turn_deg[0], scatter.turn_deg[1]) * std::numbers::pi / 180;
         const std::vector<Plan2> own = footprint(extent, spot.at, spot.turn, 0);
         if (!holds_all(scatter.polygon, own)) {
             continue;
         }
         spot.covered = footprint(extent, spot.at, spot.turn, scatter.gap / 2);
-        const bool free = std::ranges::none_of(
-            taken, [&](const Spot& other) { return apart(spot.covered, other.covered) < 0; });
+        const bool free = std::ranges::none_of(occupied.pieces, [&](const Spot& other) {
+            return apart(spot.covered, other.covered) < 0;
+        });
         if (!free) {
             continue;
         }
         const Rest rest = rest_on(ground, own);
-        if (fault_of(rest, extent.z(), spot.at).empty()) {
-            spot.ground = rest.height;
+        spot.ground = rest.height;
+        if (fault_of(rest, extent.z(), spot.at).empty() &&
+            is_clear(occupied.bodies, spot, extent.z(), scatter.gap)) {
             return true;
         }
     }
     return false;
 }
 
-std::vector<std::string> scatter_over_yard(DebrisKeys& debris, Scene& scene)
+std::vector<PlaceFault> scatter_over_yard(DebrisKeys& debris, Scene& scene)
 {
     const DebrisScatter& scatter = debris.scatter;
     if (scene.dimensions == 2) {
-        return {"a yard has a width, so it needs three dimensions; use `array`"};
+        return {{"a yard has a width, so it needs three dimensions", "use `array`"}};
     }
     if (scatter.turn_deg[1] < scatter.turn_deg[0]) {
-        return {"the largest of `turn_deg` is below the least"};
+        return {{"the largest of `turn_deg` is below the least"}};
     }
     Placing placing(debris, scene);
+    const Vec3& extent = placing.extent();
+    const Frame frame = frame_of(scatter.polygon);
+    const double least = std::min(extent.x(), extent.y());
+    if (std::min(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]) < least) {
+        return {{fmt::format("the yard is {:.3g} m by {:.3g} m, too small for a piece of {:.3g} m "
+                             "by {:.3g} m",
+                             frame.high[0] - frame.low[0], frame.high[1] - frame.low[1], extent.x(),
+                             extent.y()),
+                 "its coordinates must be in metres; degrees have to be projected, for instance "
+                 "to UTM"}};
+    }
     double far = 0;
     for (const Plan2& corner : scatter.polygon) {
         far = std::max(far, std::hypot(corner[0], corner[1]));
     }
     const Ground ground = ground_for(scene, scatter.on, far);
     Dice dice(scene.seed, debris.name);
-    std::vector<Spot> taken;
-    while (std::ssize(taken) < scatter.count) {
+    Occupied occupied{bodies_in(scene, frame.low, frame.high), {}};
+    while (std::ssize(occupied.pieces) < scatter.count) {
         Spot spot;
-        if (!find_spot(scatter, placing.extent(), ground, taken, dice, spot)) {
-            return {fmt::format("the yard has room for {} of {} pieces on level ground, after {} "
-                                "tries for the next",
-                                taken.size(), scatter.count, most_tries)};
+        if (!find_spot(scatter, extent, ground, occupied, dice, spot)) {
+            return {{fmt::format("the yard has room for {} of {} pieces on level ground, after {} "
+                                 "tries for the next",
+                                 occupied.pieces.size(), scatter.count, most_tries),
+                     "a larger yard, fewer pieces, or a smaller `gap`"}};
         }
-        placing.put({spot.at[0], spot.at[1], spot.ground + clearance + placing.extent().z() / 2},
-                    spot.turn);
-        taken.push_back(std::move(spot));
+        placing.put({spot.at[0], spot.at[1], spot.ground + clearance + extent.z() / 2}, spot.turn);
+        occupied.pieces.push_back(std::move(spot));
     }
     return {};
 }
 
 } // namespace
 
-std::vector<std::string> place_debris(DebrisKeys& debris, bool as_array, Scene& scene)
+std::vector<PlaceFault> place_debris(DebrisKeys& debris, bool as_array, Scene& scene)
 {
     if (debris.size) {
         debris.load.size.assign(debris.size->begin(), debris.size->end());
@@ -279,7 +354,7 @@ std::vector<std::string> place_debris(DebrisKeys& debris, bool as_array, Scene& 
     const std::string unknown =
         unknown_ground(scene, as_array ? debris.array.on : debris.scatter.on);
     if (!unknown.empty()) {
-        return {unknown};
+        return {{unknown}};
     }
     return as_array ? place_array(debris, scene) : scatter_over_yard(debris, scene);
 }

@@ -38,9 +38,15 @@ struct DebrisKeys {
     Place place;
 };
 
+/// What is wrong with a place; without a hint the meaning of the key stands for one.
+struct PlaceFault {
+    std::string what;
+    std::string hint = {};
+};
+
 /// Appends the pieces to the bodies of the scene and returns what is wrong with their places: no
-/// ground below, ground too uneven to stand on, a stack whose pieces overlap, no room in the yard.
-/// The same seed and name give the same places.
-std::vector<std::string> place_debris(DebrisKeys& debris, bool as_array, Scene& scene);
+/// ground below, ground too uneven to stand on, a stack whose pieces overlap, no room in the yard
+/// beside the bodies that are there already. The same seed and name give the same places.
+std::vector<PlaceFault> place_debris(DebrisKeys& debris, bool as_array, Scene& scene);
 
 } // namespace hyoryu

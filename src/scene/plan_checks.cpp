@@ -7,6 +7,7 @@
 #include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
 #include "plan_open.hpp"
+#include "plan_waves.hpp"
 #include "walls.hpp"
 
 #include <fmt/format.h>
@@ -329,6 +330,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     warn_about_slips(scene, plan);
     warn_about_bodies(scene, plan);
     warn_about_round_walls(scene, plan);
+    warn_about_waves(scene, filling, plan);
     if (scene.fluid) {
         warn_about_sound(scene, plan);
         warn_about_leaks(scene, filling, plan);

@@ -13,6 +13,15 @@ namespace hyoryu {
 /// IoError "FILE: fault".
 std::vector<Plan2> read_polygon(const std::filesystem::path& file);
 
+/// Why a polygon is no yard: too few or too many corners, or edges that cross; empty if it is one.
+std::string fault_of_yard(const std::vector<Plan2>& polygon);
+
+/// Whether all coordinates are within the range of longitudes and latitudes.
+bool may_be_degrees(const std::vector<Plan2>& polygon);
+
+/// The convex hull of some points, counter-clockwise.
+std::vector<Plan2> hull_of(std::vector<Plan2> points);
+
 /// Eastings and northings to the axes of a terrain.
 void into_axes_of(const TerrainPatch& patch, std::vector<Plan2>& polygon);
 

@@ -219,7 +219,7 @@ void check_waves(const Scene& scene, const Filling& filling, Plan& plan)
 {
     double longest = 0;
     for (const Wall& wall : scene.walls) {
-        longest = std::max(longest, wall.wave_length);
+        longest = std::max(longest, wall.wave.length);
     }
     for (const Sponge& sponge : scene.sponges) {
         const int axis = sponge.side / 2;

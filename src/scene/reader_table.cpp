@@ -34,7 +34,8 @@ std::vector<std::string_view> keys_within(std::string_view schema)
 
 std::string joined(std::string_view path, std::string_view key)
 {
-    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+    return path.empty() || key.empty() ? fmt::format("{}{}", path, key)
+                                       : fmt::format("{}.{}", path, key);
 }
 
 } // namespace

@@ -153,6 +153,7 @@ public:
     }
     void direction(std::string_view name, Vec3& member, std::string_view meaning,
                    Default fallback = {});
+    bool gives(std::string_view name) const { return has(name); }
     bool pick(const Parameter& rule, std::size_t& index, Default fallback);
     template <class What, class... Context>
     void table(std::string_view name, std::string_view /*meaning*/, What&& what,

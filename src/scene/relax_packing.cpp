@@ -3,10 +3,11 @@
 
 #include "free_space.hpp"
 #include "near_points.hpp"
+#include "packing_lists.hpp"
 
-#include "hyoryu/core/kernel.hpp"
 #include "hyoryu/core/parallel.hpp"
 
+#include <algorithm>
 #include <functional>
 
 namespace hyoryu {
@@ -19,6 +20,7 @@ constexpr double skin = 0.5;      // by which listed pairs may come nearer
 constexpr double longest = 0.1;   // way of a particle in a round
 constexpr double farthest = 1;    // that a particle is moved in all
 constexpr double beside = 2;      // farther from a surface than that none comes too near
+constexpr double looked = 1;      // distance to which surfaces are looked for
 constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
 
 constexpr int rounds = 100;
@@ -42,8 +44,10 @@ struct Packing {
     std::vector<Vec3> start;              // of those that move [m]
     std::vector<Vec3> way;                // that those that move went in the last round [m]
     std::vector<std::vector<int>> solids; // that each of them may come too near to
+    // Way that each of them may go before it can be too near to a solid [m]; less: unknown.
+    std::vector<double> room;
     Index moving = 0;
-    std::vector<std::size_t> first, neighbours; // of those that move
+    PackingLists lists; // of those that move
 };
 
 std::vector<Vec3> solid_points(const Scene& scene, const Filling& filling)
@@ -179,49 +183,13 @@ void find_surfaces(const Scene& scene, const FreeSpace& space, Packing& packing)
 {
     const double reach = beside * scene.spacing;
     packing.solids.resize(at(packing.moving));
+    packing.room.assign(at(packing.moving), 0);
     parallel_for(0, packing.moving, [&](Index i) {
         const std::vector<int> near = space.about(packing.points[at(i)], reach);
         if (space.nearest(packing.points[at(i)], near).distance < reach) {
             packing.solids[at(i)] = near;
         }
     });
-}
-
-void make_lists(Packing& packing, double reach)
-{
-    CellGrid grid;
-    build(grid, packing.points, 0, reach);
-    std::vector<std::vector<std::size_t>> of(at(packing.moving));
-    parallel_for(0, packing.moving, [&](Index i) {
-        const Vec3& x = packing.points[at(i)];
-        for_cells_about(grid, x, [&](std::size_t j) {
-            if (j != at(i) && (x - packing.points[j]).squaredNorm() < sq(reach)) {
-                of[at(i)].push_back(j);
-            }
-        });
-    });
-    packing.first.assign(1, 0);
-    packing.neighbours.clear();
-    for (const std::vector<std::size_t>& list : of) {
-        packing.neighbours.insert(packing.neighbours.end(), list.begin(), list.end());
-        packing.first.push_back(packing.neighbours.size());
-    }
-}
-
-// The force on a particle over its weight.
-Vec3 force_on(const Packing& packing, const Kernel& kernel, double volume, const Vec3& down,
-              std::size_t i)
-{
-    const double own = packing.depth[i];
-    Vec3 force = down;
-    for (std::size_t n = packing.first[i]; n < packing.first[i + 1]; ++n) {
-        const std::size_t j = packing.neighbours[n];
-        const Vec3 r = packing.points[i] - packing.points[j];
-        const double its = j < packing.depth.size() ? packing.depth[j] : own - r.dot(down);
-        const double f = kernel(Vec<real>{r.x(), r.y(), r.z()}).f;
-        force -= volume * (std::max(own, 0.0) + std::max(its, 0.0)) * f * r;
-    }
-    return force;
 }
 
 Vec3 middle_of_blocks(const Scene& scene)
@@ -239,29 +207,50 @@ Vec3 rounded(const Vec3& place, const Vec3& origin, double dp)
     return origin + unit * dp * units.array().round().matrix();
 }
 
+// Keeps the way of a particle off the surfaces: its end, or where it began if that is a corner.
+// Surfaces are looked at again only where it may have come too near since the last look, as no way
+// changes a distance by more than its length.
+Vec3 off_surfaces(const FreeSpace& space, double dp, std::span<const int> solids, const Vec3& from,
+                  const Vec3& to, double& room)
+{
+    if (solids.empty()) {
+        return to;
+    }
+    room -= (to - from).norm() + unit * dp; // places are rounded
+    if (room > 0) {
+        return to;
+    }
+    Vec3 p = to;
+    const double distance = space.nearest(p, solids, looked * dp).distance;
+    room = std::min(distance, looked * dp) - least * dp;
+    if (room < 0) {
+        step_off(space, solids, (least + 1e-6) * dp, p, looked * dp);
+        const bool in_corner = space.nearest(p, solids, looked * dp).distance < least * dp;
+        p = in_corner ? from : p;
+    }
+    return p;
+}
+
 // Where one round takes the particles that move.
-void descend(const Packing& packing, const FreeSpace& space, const Kernel& kernel,
-             const Scene& scene, const Vec3& origin, std::vector<Vec3>& moved)
+void descend(Packing& packing, const FreeSpace& space, const Kernel& kernel, const Scene& scene,
+             const Vec3& origin, std::vector<Vec3>& moved)
 {
     const double dp = scene.spacing;
     const double volume = std::pow(dp, scene.dimensions);
     const Vec3 down = scene.gravity.normalized();
     parallel_for(0, packing.moving, [&](Index i) {
-        const Vec3 force = force_on(packing, kernel, volume, down, at(i));
+        const Vec3& from = packing.points[at(i)];
+        const Vec3 force = down - volume * pressure_sum(packing.lists, packing.points,
+                                                        packing.depth, kernel, down, at(i));
         const double stiffness = (2 * std::max(packing.depth[at(i)], 0.0) + dp) / sq(dp);
         Vec3 way = momentum * packing.way[at(i)] + gain / stiffness * force;
         const double length = way.norm();
         way *= length > longest * dp ? longest * dp / length : 1.0;
-        Vec3 p = packing.points[at(i)] + way;
-        const std::vector<int>& solids = packing.solids[at(i)];
-        const auto is_near = [&] { return space.nearest(p, solids).distance < least * dp; };
-        if (!solids.empty() && is_near()) {
-            step_off(space, solids, (least + 1e-6) * dp, p);
-            p = is_near() ? packing.points[at(i)] : p; // in a corner
-        }
-        p = rounded(p, origin, dp);
+        const Vec3 free =
+            off_surfaces(space, dp, packing.solids[at(i)], from, from + way, packing.room[at(i)]);
+        const Vec3 p = rounded(free, origin, dp);
         const bool strays = (p - packing.start[at(i)]).norm() > farthest * dp;
-        moved[at(i)] = strays ? packing.points[at(i)] : p;
+        moved[at(i)] = strays ? from : p;
     });
 }
 
@@ -289,7 +278,7 @@ void relax_packing(const Scene& scene, Filling& filling)
             since = std::max(since, (packing.points[k] - listed[k]).norm());
         }
         if (since > (skin / 2 - longest) * dp) {
-            make_lists(packing, kernel.support + skin * dp);
+            make_lists(packing.points, packing.moving, kernel.support + skin * dp, packing.lists);
             listed.assign(packing.points.begin(), packing.points.begin() + packing.moving);
         }
         descend(packing, space, kernel, scene, middle, moved);

@@ -15,6 +15,10 @@ namespace hyoryu {
 namespace {
 
 constexpr int least_rounds = 2;
+// Short steps are timed longer, up to so many times as many as asked for: other work has a core for
+// some milliseconds at a time.
+constexpr double shortest_timing = 0.05; // [s]
+constexpr int most_rounds = 4;
 
 struct Variant {
     std::string without; // effect; none in the first
@@ -67,13 +71,46 @@ Spent spent(const Simulation& sim)
     return total;
 }
 
-// The mean cost of a step since `before`.
-Spent spent_since(const Spent& before, const Simulation& sim, double steps)
+double sum(std::span<const double> values)
 {
-    const Spent now = spent(sim);
-    return {(now.bodies - before.bodies) / steps, (now.lists - before.lists) / steps,
-            (now.all_else - before.all_else) / steps};
+    return std::accumulate(values.begin(), values.end(), 0.0);
 }
+
+// The stages of steps, one value a step [s].
+class StepTimes {
+public:
+    explicit StepTimes(const Simulation& sim) : last_(spent(sim)) {}
+
+    void add(const Simulation& sim)
+    {
+        const Spent now = spent(sim);
+        bodies_ += now.bodies - last_.bodies;
+        lists_ += now.lists - last_.lists;
+        all_else_.push_back(now.all_else - last_.all_else);
+        last_ = now;
+    }
+    /// Leaves a step out.
+    void skip(const Simulation& sim) { last_ = spent(sim); }
+    /// Of a step on average, without stalls but those of lists. Bodies meet in some steps only,
+    /// which no median tells from stalls: what slowed the rest slowed them.
+    Spent mean() const
+    {
+        const auto count = static_cast<double>(all_else_.size());
+        return {bodies_ / (count * slowdown()), lists_ / count, mean_without_stalls(all_else_)};
+    }
+    /// All but bodies and lists over the same without stalls.
+    double slowdown() const
+    {
+        const double free = static_cast<double>(all_else_.size()) * mean_without_stalls(all_else_);
+        return free > 0 ? std::max(sum(all_else_) / free, 1.0) : 1.0;
+    }
+
+private:
+    Spent last_;
+    double bodies_ = 0;
+    double lists_ = 0;
+    std::vector<double> all_else_;
+};
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
@@ -84,11 +121,6 @@ double impacts_of_step(const Simulation& sim)
 {
     return static_cast<double>(
         std::ranges::count(sim.contacts, Contact::Kind::impact, &Contact::kind));
-}
-
-double sum(std::span<const double> values)
-{
-    return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 // How the fluid of a simulation and its impacts went by.
@@ -113,17 +145,50 @@ void cut_no_step(Simulation& sim)
     sim.clock.frame = 1;
 }
 
-// Mean of a number of steps after the first one, without bodies and lists.
-double early_step(Simulation& sim, int first)
-{
-    cut_no_step(sim);
-    step(sim);
-    const Spent before = spent(sim);
-    for (int k = 0; k < first; ++k) {
-        step(sim);
+// The first steps of a scene, some at a time between those of its whole run, so that other work of
+// the machine lengthens both alike.
+class EarlySteps {
+public:
+    EarlySteps(Simulation& sim, int steps, double of_run)
+        : sim_(sim), times_(sim), groups_(std::max(1, steps / group)), every_(of_run / groups_)
+    {
+        cut_no_step(sim_);
     }
-    return spent_since(before, sim, first).all_else;
-}
+    /// Takes some if they are due after so many steps of the run.
+    void follow(double run)
+    {
+        if (done_ < groups_ && run >= (done_ + 0.5) * every_) {
+            take();
+        }
+    }
+    /// Without bodies, lists and stalls.
+    double mean()
+    {
+        while (done_ < groups_) {
+            take();
+        }
+        return times_.mean().all_else;
+    }
+
+private:
+    void take()
+    {
+        step(sim_); // warms the caches
+        times_.skip(sim_);
+        for (int k = 0; k < group; ++k) {
+            step(sim_);
+            times_.add(sim_);
+        }
+        ++done_;
+    }
+
+    static constexpr int group = 5;
+    Simulation& sim_;
+    StepTimes times_;
+    int groups_;
+    double every_; // steps of the run
+    int done_ = 0;
+};
 
 // Of making lists, in a fluid that has lists.
 double seconds_of_build(Fluid& fluid)
@@ -177,14 +242,35 @@ StepCost::Share share_of(std::string effect, std::vector<double> rounds)
     return {std::move(effect), std::max(median, 0.0), std::max(half, -median)};
 }
 
+double mean_without_stalls(std::span<const double> seconds)
+{
+    constexpr std::size_t longest = 15; // a run of steps
+    if (seconds.empty()) {
+        return 0;
+    }
+    const std::size_t runs = (seconds.size() + longest - 1) / longest;
+    double total = 0;
+    for (std::size_t k = 0; k < runs; ++k) {
+        const std::size_t first = k * seconds.size() / runs;
+        const std::size_t last = (k + 1) * seconds.size() / runs;
+        std::vector<double> run(seconds.begin() + static_cast<std::ptrdiff_t>(first),
+                                seconds.begin() + static_cast<std::ptrdiff_t>(last));
+        std::ranges::sort(run);
+        const double median = (run[(run.size() - 1) / 2] + run[run.size() / 2]) / 2;
+        total += median * static_cast<double>(run.size());
+    }
+    return total / static_cast<double>(seconds.size());
+}
+
 double seconds_of_run(const StepCost& cost)
 {
     if (!cost.development) {
-        return cost.seconds + cost.output;
+        return cost.slowdown * cost.seconds + cost.output;
     }
     const Development& over = *cost.development;
-    return over.step * (cost.seconds - cost.bodies - cost.lists) + over.builds * cost.build +
-           cost.bodies + cost.output;
+    const double step = over.step * (cost.seconds - cost.bodies - cost.lists) +
+                        over.builds * cost.build + cost.bodies;
+    return cost.slowdown * step + cost.output;
 }
 
 double measure_row(const Simulation& sim)
@@ -207,30 +293,33 @@ StepCost measure_cost(Simulation& sim, int steps)
     sim.scene.time.end = infinity;
     cut_no_step(sim);
     std::vector<Variant> all = variants(sim);
-    const int rounds = std::max(least_rounds, steps / static_cast<int>(all.size()));
+    const int asked = std::max(least_rounds, steps / static_cast<int>(all.size()));
     step(sim); // warms the caches
     StepCost cost;
-    const Spent start = spent(sim);
+    StepTimes times(sim);
     const long long builds_before = sim.fluid->neighbours.builds;
-    for (int round = 0; round < rounds; ++round) {
+    const auto begun = std::chrono::steady_clock::now();
+    int rounds = 0;
+    while (rounds < asked ||
+           (rounds < most_rounds * asked && seconds_since(begun) < shortest_timing)) {
+        ++rounds;
         for (Variant& variant : all) {
             sim.fluid->effects = variant.effects;
             const double lists = spent(sim).lists;
             const double seconds = seconds_of_step(sim);
+            times.add(sim);
             variant.seconds.push_back(seconds - (spent(sim).lists - lists));
-            if (variant.without.empty()) {
-                cost.seconds += variant.seconds.back() / rounds;
-            }
         }
     }
     // Lists are constructed in some steps only: their frequency is the mean over all steps.
     const double timed = rounds * static_cast<double>(all.size());
-    const Spent of_all = spent_since(start, sim, timed);
-    cost.seconds += of_all.lists;
+    const Spent of_all = times.mean();
     cost.bodies = of_all.bodies;
     const auto builds = static_cast<double>(sim.fluid->neighbours.builds - builds_before) / timed;
     cost.build = seconds_of_build(*sim.fluid);
     cost.lists = std::min(builds * cost.build, of_all.lists);
+    cost.seconds = mean_without_stalls(all.front().seconds) + cost.lists;
+    cost.slowdown = times.slowdown();
     for (const Variant& variant : all) {
         if (!variant.without.empty()) {
             cost.effects.push_back(share_of(variant.without, shares(all.front(), variant, of_all)));
@@ -283,19 +372,22 @@ std::optional<Development> measure_development(Simulation& sim, Simulation& agai
     Passed passed;
     try {
         count_step(sim, passed);
-        const Spent before = spent(sim);
+        StepTimes times(sim);
+        EarlySteps early_steps(again, first, sim.plan.expected_steps);
         while (!finished(sim.clock, sim.scene)) {
             if (!goes_on()) {
                 return {};
             }
             count_step(sim, passed);
+            times.add(sim);
+            early_steps.follow(static_cast<double>(sim.clock.step));
         }
         const auto steps = static_cast<double>(sim.clock.step);
         if (steps <= first) {
             return {};
         }
-        const double late = spent_since(before, sim, steps - 1).all_else;
-        const double early = early_step(again, first);
+        const double late = times.mean().all_else;
+        const double early = early_steps.mean();
         if (!(early > 0)) {
             return {};
         }
@@ -304,6 +396,7 @@ std::optional<Development> measure_development(Simulation& sim, Simulation& agai
                            .step = late / early,
                            .builds = static_cast<double>(sim.fluid->neighbours.builds) / steps,
                            .seconds = seconds_since(start),
+                           .slowdown = times.slowdown(),
                            .fluid = passed.fluid_time / (particles * sim.clock.time),
                            .fluid_end = left / particles,
                            .impacts = passed.impacts};

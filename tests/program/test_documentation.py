@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """The documentation against the program: links, the case of the guide, the layers, and the site where MkDocs is installed."""
+import json
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tomllib
 
 from program import CASES, ProgramTest, main
 
@@ -68,6 +70,85 @@ class Documentation(ProgramTest):
                  for name, cell in re.findall(r"^\| `(\w+)` \| (.*?) \|", text, re.M) if name != "app"}
         expected = {name: allowed for name, allowed in allowed_by.items() if name not in ("app", "view", "vtk")}
         self.assertEqual(table, expected)
+
+    def test_c6_references_are_those_of_the_sources(self):
+        # Kramer et al. (2021): 0.7561 s only makes times dimensionless, 0.8093 s is the measured first damped period at
+        # 0.3 D; models with the memory of the waves (Cummins 1962): first peak of the sphere 0.793 s, of the cylinder 0.637 s.
+        for case, peak, no_peak, others in (("kramer_sphere", 0.793, (0.7561,), (0.8093,)),
+                                            ("heave_cylinder", 0.637, (0.6208, 0.7561), ())):
+            benchmark = tomllib.loads((CASES / case / "verify.toml").read_text())
+            constants = benchmark.get("constants", {})
+            peaks = {}
+            for check in benchmark["check"]:
+                if check["measure"] == "peak_time" and check["index"] == 1:
+                    expected = check["expected"]
+                    peaks[check["name"]] = constants.get(expected, expected)
+            self.assertEqual(peaks["first peak after release [s]"], peak, case)
+            self.assertLessEqual(set(peaks.values()), {peak, *others}, case)
+            for number in no_peak:
+                self.assertNotIn(number, peaks.values(), case)
+            self.assertIn("Cummins", benchmark["source"], case)
+
+    def test_e13_the_readme_of_a_case_has_its_end(self):
+        told = 0
+        for readme in CASES.glob("*/README.md"):
+            end = tomllib.loads((readme.parent / "case.toml").read_text())["time"]["end"]
+            for line in re.findall(r"^- Size.*(?:\n  .*)*", readme.read_text(), re.M):
+                for seconds in re.findall(r"(?<![-\w.])([0-9.]+) s(?:[.,;]|$)", line):
+                    told += 1
+                    self.assertEqual(float(seconds.rstrip(".")), end, readme)
+        self.assertGreater(told, 0)
+
+    def test_e13_the_record_is_of_one_commit(self):
+        self.assertEqual(len(set(re.findall(r"commit ([0-9a-f]{7,40})", (ROOT / "docs/verification.md").read_text()))), 1)
+
+    def ci(self, number, failing="none"):
+        """What .ci/run calls at the commit of that number, in a tree where every script only tells its name; and its exit code."""
+        tree = self.dir / "tree"
+        for folder in (".ci", "scripts", "bin"):
+            (tree / folder).mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / ".ci/run", tree / ".ci/run")
+        stub = '#!/bin/sh\necho "$(basename "$0") $*" >>called\n[ "$(basename "$0")" != "$FAILING" ]\n'
+        for script in ("test", "sanitize", "valgrind", "lint", "package"):
+            (tree / "scripts" / script).write_text(stub)
+        (tree / "bin/git").write_text(f"#!/bin/sh\necho {number}\n")
+        for script in [*(tree / "scripts").iterdir(), tree / "bin/git"]:
+            script.chmod(0o755)
+        (tree / "called").write_text("")
+        done = subprocess.run([tree / ".ci/run"], capture_output=True, text=True,
+                              env={"PATH": f"{tree}/bin:/usr/bin:/bin", "FAILING": failing})
+        return (tree / "called").read_text().splitlines(), done.returncode
+
+    def test_e13_the_turns_leave_nothing_out_and_a_failure_of_any_is_one(self):
+        turns = [] # every one has come three times after 36 commits, as lint needs
+        failed = set()
+        for number in range(36):
+            lines, code = self.ci(number)
+            self.assertEqual(code, 0)
+            turns.append([line.strip() for line in lines])
+            self.assertEqual(turns[-1][0], "test")
+            for script in {line.split()[0] for line in lines} - failed:
+                failed.add(script)
+                self.assertNotEqual(self.ci(number, failing=script)[1], 0, (number, script))
+        self.assertEqual({call for turn in turns for call in turn},
+                         {"test", "sanitize --quick", "sanitize --threads --quick", "valgrind", "lint --part 0/3",
+                          "lint --part 1/3", "lint --part 2/3", "package --check"})
+        for one, next_one in zip(turns, turns[1:]): # memory is never left out twice in a row
+            self.assertIn("sanitize --quick", one + next_one)
+
+    def test_e13_lint_checks_format_clang_tidy_and_a_build_without_vtk(self):
+        lint = (ROOT / "scripts/lint").read_text()
+        for part in ("clang-format --dry-run --Werror", "clang-tidy-19", "--warnings-as-errors='*'", "cmake --build --preset clang"):
+            self.assertIn(part, lint)
+        presets = json.loads((ROOT / "CMakePresets.json").read_text())["configurePresets"]
+        clang = next(preset for preset in presets if preset["name"] == "clang")["cacheVariables"]
+        self.assertEqual((clang["CMAKE_CXX_COMPILER"], clang["HYORYU_VTK"], clang["HYORYU_STRICT"]), ("clang++-19", "OFF", "ON"))
+
+    def test_e13_parameters_of_tests_print_as_words(self):
+        for program in sorted((pathlib.Path(self.program).parent / "tests").glob("test_*")):
+            if program.is_file() and program.suffix == "":
+                done = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True)
+                self.assertNotIn("-byte object", done.stdout, program)
 
     def test_the_site_has_every_page_and_loads_nothing_from_a_network(self):
         if shutil.which("mkdocs") is None:

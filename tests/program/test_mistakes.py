@@ -16,6 +16,40 @@ class Mistakes(ProgramTest):
             self.assertIn(part, done.stderr)
         self.assertEqual(set(self.files()) - before, {"case.toml"} - before, "something was written")
 
+    def test_a_refused_resumption_names_the_keys_of_debris_and_not_those_of_its_pieces(self):
+        yard = """[time]
+end = 0.02
+step = 0.001
+[particles]
+spacing = 0.2
+[[wall]]
+shape = "plane"
+[[body]]
+name = "rock"
+shape = "box"
+size = [1.0, 1.0, 1.0]
+density = 2000.0
+position = [5.0, 5.0, 0.5]
+[[debris]]
+kind = "car"
+name = "yard"
+scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 3 }
+"""
+        self.write(yard)
+        asked = ("run", "case.toml", "-o", "out", "--quiet")
+        self.assertEqual(self.call(*asked, "--until", "0.01", "--set", "debris[0].scatter.gap=0.5").returncode, 0)
+        for text, keys, values in (
+                (yard.replace("count = 3", "count = 5, gap = 0.5"), ["debris[0].scatter.count"], ["with 3", "has 5"]),
+                (yard.replace("count = 3", "count = 2, gap = 0.5").replace("2000.0", "2100.0"),
+                 ["debris[0].scatter.count", "body[0].density"], ["with 3", "has 2", "2100"])):
+            self.write(text)
+            done = self.call(*asked, "--resume")
+            self.assertEqual(done.returncode, 2)
+            for part in [*keys, *values]:
+                self.assertIn(part, done.stderr)
+            self.assertNotIn("position", done.stderr)
+            self.assertEqual(done.stderr.count("error:"), len(keys), done.stderr)
+
     def test_unknown_key(self):
         self.refused(FLOOD.replace("[fluid]", "[fluid]\ndensty = 1000.0"),
                      "case.toml:8:1", "fluid.densty", "density", "^^^^^^")

@@ -6,9 +6,13 @@
 
 #include "hyoryu/core/error.hpp"
 
+#include "dice.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 namespace hyoryu {
@@ -197,6 +201,163 @@ TEST(Debris, MistakesAreToldWithTheirReason)
     EXPECT_NE(fault_of("kind = \"car\"\n[debris.scatter]\npolygon = \"none.geojson\"\ncount = 2")
                   .find("does not exist"),
               std::string::npos);
+}
+
+// The warnings and errors of a text of a case in a folder of its own, with one more file.
+std::string fault_beside(const std::string& file, const std::string& content,
+                         const std::string& debris, const std::string& ground = {})
+{
+    const auto folder = std::filesystem::temp_directory_path() / "hyoryu-debris-files";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / file) << content;
+    std::string what;
+    try {
+        parse_case("[time]\nend = 1\n[particles]\nspacing = 0.5\n[[wall]]\nshape = \"plane\"\n" +
+                       ground + "[[debris]]\n" + debris,
+                   folder / "case.toml");
+    } catch (const CaseError& error) {
+        what = error.what();
+    }
+    std::filesystem::remove_all(folder);
+    return what;
+}
+
+TEST(Debris, YardsThatAreNoneAreRefusedInWordsOfOurs)
+{
+    const std::string yard =
+        "kind = \"car\"\n[debris.scatter]\npolygon = \"yard.geojson\"\ncount = 2\n";
+    const auto fault = [&](const std::string& polygon) {
+        return fault_beside("yard.geojson", polygon, yard);
+    };
+    const auto of_ring = [](const std::string& ring) {
+        return "{\"type\": \"Polygon\", \"coordinates\": " + ring + "}";
+    };
+    EXPECT_EQ(fault(of_ring("[[[0,0],[60,0],[60,60],[0,60],[0,0]]]")), "");
+    const std::vector<std::pair<std::string, std::string>> mistakes = {
+        {of_ring("[]"), "a polygon without corners"},
+        {of_ring("[[]]"), "a polygon without corners"},
+        {of_ring("7"), "a \"coordinates\" that is no list"},
+        {of_ring("[[[0,0],[\"a\",0],[1,1]]]"), "a corner that is not [x, y]: number 2"},
+        {"{\"type\": \"Polygon\"}", "an object without \"coordinates\""},
+        {"[1]", "an object without \"type\""},
+        {"{\"type\": \"Polygon\",\n  \"coordinates\": [[[0,0],[NaN", "is not JSON, see line 2,"},
+        {"", "is not JSON"},
+        {of_ring("[[[0,0],[60,0],[0,0]]]"), "needs three corners"},
+        {of_ring("[[[0,0],[60,60],[60,0],[0,60],[0,0]]]"), "crosses itself"}};
+    for (const auto& [polygon, told] : mistakes) {
+        const std::string found = fault(polygon);
+        EXPECT_NE(found.find(told), std::string::npos) << polygon << "\n" << found;
+        EXPECT_EQ(found.find("json.exception"), std::string::npos) << found;
+        EXPECT_EQ(found.find("error:"), found.rfind("error:")) << "told once: " << found;
+    }
+}
+
+TEST(Debris, YardsInDegreesAreRefused)
+{
+    const std::string yard =
+        "kind = \"car\"\n[debris.scatter]\npolygon = \"yard.geojson\"\ncount = 2\n";
+    const std::string square =
+        "{\"type\": \"Polygon\", \"coordinates\": [[[140.1, 38.1], [140.1009, 38.1], [140.1009, "
+        "38.1008], [140.1, 38.1]]]}";
+    const std::string small = fault_beside("yard.geojson", square, yard);
+    EXPECT_NE(small.find("too small for a piece"), std::string::npos) << small;
+    EXPECT_NE(small.find("degrees have to be projected"), std::string::npos) << small;
+    // A terrain tells that the map is in metres, however large the yard is.
+    const std::string large = "{\"type\": \"Polygon\", \"coordinates\": [[[100, 10], [150, 10], "
+                              "[150, 60], [100, 10]]]}";
+    std::string heights = "ncols 3\nnrows 3\nxllcorner 378400\nyllcorner 4072300\ncellsize 100\n";
+    for (int k = 0; k < 9; ++k) {
+        heights += k % 3 == 2 ? "0\n" : "0 ";
+    }
+    const auto folder = std::filesystem::temp_directory_path() / "hyoryu-debris-grid";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "ground.asc") << heights;
+    const std::string terrain = fmt::format(
+        "[[wall]]\nshape = \"terrain\"\nfile = \"{}\"\norigin = [378450.0, 4072310.0]\n",
+        (folder / "ground.asc").string());
+    const std::string told = fault_beside("yard.geojson", large, yard, terrain);
+    std::filesystem::remove_all(folder);
+    EXPECT_NE(told.find("look like degrees"), std::string::npos) << told;
+}
+
+TEST(Debris, KeysWithoutMeaningAreRefused)
+{
+    const std::string array = "array = { count = [1, 1, 1], pitch = [0, 0, 0], from = [0, 0, 5] }";
+    EXPECT_NE(fault_of("kind = \"car\"\nload_height = 0.3\n" + array).find("without cargo"),
+              std::string::npos);
+    EXPECT_EQ(fault_of("kind = \"container_20ft\"\nload = 500\nload_height = 0.3\n" + array), "");
+    EXPECT_NE(fault_of("kind = \"car\"\narray = { count = [1, 1, 1], pitch = [0, 0, 0], from = [0, "
+                       "0, 5], on = \"ground\" }")
+                  .find("has a height, which `on` sets"),
+              std::string::npos);
+    // A mistake at the table itself names the table and no empty key.
+    const std::string none = fault_of("kind = \"car\"\n");
+    EXPECT_NE(none.find("`debris[0]`: has no place"), std::string::npos) << none;
+    const std::string body = "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\ndensity = 500\nposition "
+                             "= [0, 0, 9]\nfixed = true\n";
+    for (const std::string key : {"inertia = [80, 80, 80]", "center_of_mass = [0.1, 0, 0]"}) {
+        try {
+            read("kind = \"car\"\n" + array, 3, body + key);
+            FAIL() << key;
+        } catch (const CaseError& error) {
+            EXPECT_NE(std::string(error.what()).find("no meaning for a fixed body"),
+                      std::string::npos)
+                << error.what();
+        }
+    }
+}
+
+// Bodies at random places, of the case or of debris before: no piece lies within the gap of any,
+// but under one that hangs higher than a piece.
+TEST(Debris, YardsAreFilledBesideTheBodiesThatAreThere)
+{
+    Dice dice(26);
+    for (int n = 0; n < 6; ++n) {
+        std::string bodies;
+        for (int k = 0; k < 6; ++k) {
+            const double size = dice.between(1, 6);
+            bodies += fmt::format(
+                "[[body]]\nname = \"b{}\"\nshape = \"{}\"\n{}\ndensity = 500\nposition = [{}, {}, "
+                "{}]\nrotation_deg = {{ axis = [0, 0, 1], angle = {} }}\n",
+                k, k % 2 == 0 ? "box" : "sphere",
+                k % 2 == 0 ? fmt::format("size = [{}, {}, 2]", size, dice.between(1, 3))
+                           : fmt::format("radius = {}", size / 4),
+                dice.between(5, 35), dice.between(5, 35), 1.5 + (k % 2 == 0 ? 1.01 : size / 4),
+                dice.between(0, 90));
+        }
+        const double gap = dice.between(0, 1);
+        const Scene scene = read(
+            fmt::format("kind = \"container_20ft\"\nname = \"yard\"\n[debris.scatter]\ncorners "
+                        "= [[0, 0, 0], [40, 0, 0], [40, 40, 0], [0, 40, 0]]\ncount = 12\ngap = "
+                        "{}\n[[debris]]\nkind = \"car\"\nname = \"cars\"\n[debris.scatter]\n"
+                        "corners = [[0, 0, 0], [40, 0, 0], [40, 40, 0], [0, 40, 0]]\ncount = "
+                        "8\ngap = {}\n",
+                        gap, gap),
+            3, bodies);
+        ASSERT_EQ(scene.bodies.size(), 26U);
+        for (std::size_t b = 6; b < scene.bodies.size(); ++b) {
+            const BodySettings& piece = scene.bodies[b];
+            const Bounds own = bounds({.shape = &piece.shape, .dimensions = 3});
+            for (int k = 0; k < 9 * 9; ++k) {
+                Vec3 p = own.min;
+                p.x() += k % 9 / 8.0 * (own.max.x() - own.min.x());
+                p.y() += k / 9 / 8.0 * (own.max.y() - own.min.y());
+                p.z() = 0;
+                const Vec3 place = placed(piece, 3).centre + piece.rotation * p;
+                for (std::size_t other = 0; other < b; ++other) {
+                    EXPECT_GE(signed_distance(placed(scene.bodies[other], 3), place), gap - 1e-9)
+                        << "piece " << b << " and body " << other;
+                }
+            }
+        }
+    }
+    const std::string bridge = "[[body]]\nshape = \"box\"\nsize = [39, 39, 1]\ndensity = 500\n"
+                               "position = [20, 20, 9]\nfixed = true\n";
+    EXPECT_EQ(read("kind = \"car\"\n[debris.scatter]\ncorners = [[0, 0, 0], [40, 0, 0], [40, 40, "
+                   "0], [0, 40, 0]]\ncount = 20\n",
+                   3, bridge)
+                  .bodies.size(),
+              21U);
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Paths of pistons and gates, against numbers computed elsewhere, and their keys.
 #include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/piston.hpp"
+#include "hyoryu/scene/plan.hpp"
 
 #include "hyoryu/core/error.hpp"
 
@@ -134,6 +136,90 @@ TEST(Waves, MistakesAreToldWithTheirReason)
     EXPECT_NE(fault_of("absorb = true").find("depth"), std::string::npos);
     EXPECT_NE(fault_of("lift = { start = 1, speed = 1 }\nvelocity = [1, 0, 0]").find("give one of"),
               std::string::npos);
+}
+
+TEST(Waves, AMistakenHeightSpeaksForItselfAlone)
+{
+    const std::string told = fault_of("piston = { height = 0, period = 2, depth = 0.66 }");
+    EXPECT_NE(told.find("piston.height"), std::string::npos) << told;
+    EXPECT_EQ(told.find("no meaning"), std::string::npos) << told;
+}
+
+std::string warnings_of(const Scene& scene)
+{
+    std::string all;
+    for (const Diagnostic& warning : make_plan(scene, fill(scene)).warnings) {
+        all += warning.key + ": " + warning.what + "\n";
+    }
+    return all;
+}
+
+// On both sides of the limits of McCowan (0.78 of the depth) and Miche (0.142 tanh(kd) of the
+// length), with k of the dispersion relation solved by bisection.
+TEST(Waves, WavesThatBreakAtOnceAreWarnedOf)
+{
+    Dice dice(31);
+    for (int n = 0; n < 12; ++n) {
+        const double off = dice.chance(0.5) ? 1.03 : 0.97;
+        const std::string solitary = warnings_of(read(
+            fmt::format("piston = {{ solitary_height = {}, depth = 0.66 }}", off * 0.78 * 0.66)));
+        EXPECT_EQ(solitary.find("breaks at once") != std::string::npos, off > 1) << solitary;
+        const double period = dice.between(0.5, 1.2);
+        double low = 0, high = 1000;
+        for (int k = 0; k < 100; ++k) {
+            const double middle = (low + high) / 2;
+            const bool short_of = g * middle * std::tanh(0.66 * middle) < sq(2 * pi / period);
+            (short_of ? low : high) = middle;
+        }
+        const double most = 0.142 * std::tanh(0.66 * low) * 2 * pi / low;
+        const std::string regular = warnings_of(
+            read(fmt::format("piston = {{ height = {}, period = {}, depth = 0.66, order = 1 }}",
+                             off * most, period)));
+        EXPECT_EQ(regular.find("breaks at once") != std::string::npos, off > 1) << period << " s\n"
+                                                                                << regular;
+    }
+}
+
+TEST(Waves, DepthsThatAreNotThoseOfTheWaterAreWarnedOf)
+{
+    for (const double depth : {0.4, 0.6, 0.66, 0.7, 1.2}) {
+        for (const char* motion :
+             {"piston = {{ solitary_height = 0.05, depth = {} }}", "absorb = true\ndepth = {}"}) {
+            const std::string told = warnings_of(read(fmt::format(fmt::runtime(motion), depth)));
+            // the lattice rounds the water to its spacing of 0.05 m
+            EXPECT_EQ(told.find("water before") != std::string::npos, std::abs(depth - 0.66) > 0.07)
+                << depth << "\n"
+                << told;
+        }
+    }
+    const std::string behind =
+        warnings_of(read("piston = { solitary_height = 0.05, depth = 0.66 }\n[[wall]]\nname = "
+                         "\"basin\"\nshape = \"basin\"\nmin = [0, 0, 0]\nmax = [4, 0, 1]\n"));
+    EXPECT_EQ(behind.find("no water"), std::string::npos) << behind;
+}
+
+TEST(Waves, DampersWithoutWaterAreWarnedOf)
+{
+    const std::string still = "velocity = [0, 0, 0]\n";
+    const auto sponge = [](double left, double top) {
+        return fmt::format("[[sponge]]\nmin = [{}, 0, {}]\nmax = [{}, 0, {}]\ndepth = 0.66\n", left,
+                           top - 1, left + 1, top);
+    };
+    EXPECT_EQ(warnings_of(read(still + sponge(3, 1))).find("sponge["), std::string::npos);
+    for (const auto& [left, top] : {std::pair(5.0, 1.0), std::pair(3.0, 2.0)}) {
+        EXPECT_NE(warnings_of(read(still + sponge(left, top))).find("no water in the sponge"),
+                  std::string::npos)
+            << left << " " << top;
+    }
+    const Scene dry = parse_case(
+        "dimensions = 2\n[time]\nend = 1\n[particles]\nspacing = 0.05\n[[wall]]\nshape = \"box\"\n"
+        "min = [-0.3, 0, 0]\nmax = [0, 0, 1]\n[wall.motion]\nabsorb = true\ndepth = 0.66\n"
+        "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\ndensity = 500\nposition = [3, 0, 2]\n" +
+            sponge(3, 1),
+        "case.toml");
+    const std::string told = warnings_of(dry);
+    EXPECT_NE(told.find("sponge[0]: has no effect"), std::string::npos) << told;
+    EXPECT_NE(told.find("absorb: has no effect"), std::string::npos) << told;
 }
 
 } // namespace

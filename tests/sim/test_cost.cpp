@@ -5,6 +5,7 @@
 #include "dice.hpp"
 #include "runs.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -255,9 +256,60 @@ TEST(Cost, DevelopmentTellsWhatFluidIsLeft)
     EXPECT_LT(some->fluid, 0.9);
 }
 
+// Stalls of up to a thousand steps in a step of ten, in steps that grow to three times their first:
+// the mean of them without stalls is that of what was added up without them.
+TEST(Cost, StallsAreLeftOutOfStepsThatGrow)
+{
+    Dice dice(23);
+    for (int n = 0; n < 50; ++n) {
+        const int count = 30 + dice.below(1000);
+        const double grows = dice.between(0, 2);
+        std::vector<double> seconds;
+        double plain = 0;
+        for (int k = 0; k < count; ++k) {
+            const double own = 1e-3 * (1 + grows * k / count) * dice.between(0.9, 1.1);
+            plain += own / count;
+            seconds.push_back(own + (dice.chance(0.1) ? dice.between(0, 1) : 0));
+        }
+        EXPECT_NEAR(mean_without_stalls(seconds) / plain, 1, 0.05)
+            << count << " steps that grow by " << grows;
+    }
+    EXPECT_EQ(mean_without_stalls(std::vector<double>{}), 0);
+    EXPECT_EQ(mean_without_stalls(std::vector<double>{2, 4}), 3);
+}
+
+// Columns of water of any width and depth that break in a tank: the steps that the coarse run of
+// twice the spacing foretells are those of the run, within the quarter that the forecast promises.
+TEST(Cost, StepsForetoldAreStepsTaken)
+{
+    Dice dice(17);
+    for (int n = 0; n < 4; ++n) {
+        const double width = 0.04 * (2 + dice.below(4));
+        const double depth = 0.04 * (2 + dice.below(4));
+        const std::vector<std::string> overrides{
+            "time.end=0.3", "particles.spacing=0.01",
+            fmt::format("fluid.block[0].max=[{},0.0,{}]", width, depth),
+            "wall[0].max=[0.6,0.0,0.4]"};
+        std::vector<std::string> coarser = overrides;
+        coarser[1] = "particles.spacing=0.02";
+        Simulation coarse = make(tank, coarser);
+        Simulation again = make(tank, coarser);
+        const auto found = measure_development(coarse, again, 5, [] { return true; });
+        ASSERT_TRUE(found.has_value());
+        Simulation run = make(tank, overrides);
+        const double foretold = found->steps * run.plan.expected_steps;
+        while (!finished(run.clock, run.scene)) {
+            step_on(run);
+        }
+        EXPECT_NEAR(foretold / static_cast<double>(run.clock.step), 1, 0.25)
+            << width << " m x " << depth << " m";
+    }
+}
+
 TEST(Cost, OfTheRunHasWhatIsWritten)
 {
     EXPECT_EQ(seconds_of_run({.seconds = 5, .bodies = 2, .output = 1}), 6);
+    EXPECT_EQ(seconds_of_run({.seconds = 5, .output = 1, .slowdown = 2}), 11);
 }
 
 TEST(Cost, OfARowIsAFewLooksAtAllParticles)

@@ -134,6 +134,7 @@ void accumulate(const OutColumns<Out>& columns, Index row, const auto& sum)
 // terms are copies: what only this function sees need not be read again after every store.
 template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms>
 [[gnu::flatten]] void sweep_block(const SweepView<Real, PairKernel>& view, Index block_index,
+                                  // NOLINTNEXTLINE(performance-unnecessary-value-param)
                                   RecordRow<List, Real>* local, const Terms... terms)
 {
     using Out = Union<typename Terms::Writes...>;

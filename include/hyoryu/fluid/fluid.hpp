@@ -117,8 +117,8 @@ void drift(Fluid& fluid, real dt);
 void update_neighbours(Fluid& fluid);
 /// The lattice of the tiles of all particles; needs kernel, domain and period.
 TileLattice lattice_of(const Fluid& fluid);
-/// The two halves of update_neighbours, between which a caller may add and remove fluid rows: whether
-/// lists are due, or asked for, and their making.
+/// The two halves of update_neighbours, between which a caller may add and remove fluid rows:
+/// whether lists are due, or asked for, and their making.
 bool lists_are_due(Fluid& fluid, bool asked);
 void make_lists(Fluid& fluid);
 /// Makes the particles of fixed walls that the tiles of fluid and bodies are near to, as lists do

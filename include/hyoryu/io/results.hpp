@@ -92,13 +92,13 @@ public:
     static constexpr std::int64_t all_rows = std::numeric_limits<std::int64_t>::max();
 
     /// Opens a new `folder/<table.name>.csv`, replacing an existing one.
-    History(const std::filesystem::path& folder, Table table);
+    History(const std::filesystem::path& folder, const Table& table);
     /// Goes on with the file, keeping the rows whose first cell is at most `keep_until` [s], and no
     /// more than the first `keep_rows`: a row may be written later than the time it tells of. A
     /// last row that was torn by a kill is dropped. Throws IoError, and leaves the file as it is,
     /// if it has other columns or fewer such rows than `keep_rows`: rows that the state knows of
     /// are gone. Starts a new file if there is none and no row is to be kept.
-    History(const std::filesystem::path& folder, Table table, double keep_until,
+    History(const std::filesystem::path& folder, const Table& table, double keep_until,
             std::int64_t keep_rows = all_rows);
     ~History();
     History(History&&) noexcept;

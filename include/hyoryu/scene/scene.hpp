@@ -120,12 +120,20 @@ struct SolidWall {
     Quat rotation = Quat::Identity();
 };
 
+/// What a piston is asked for.
+struct PistonTarget {
+    double height = 0; // of the wave [m]
+    double length = 0; // [m]; 0: no wave is asked for
+    double depth = 0;  // of the water at rest [m]
+    double period = 0; // of regular waves [s]; 0: a solitary wave
+};
+
 struct Wall {
     std::string name;
     std::variant<PlaneWall, BasinWall, RoundWall, SolidWall> geometry;
-    std::string material;   // empty: none named
-    Motion motion;          // of [wall.motion]
-    double wave_length = 0; // of the waves that it makes [m]; 0: none known
+    std::string material; // empty: none named
+    Motion motion;        // of [wall.motion]
+    PistonTarget wave;    // of its piston, which a resolved case has as a path
     Place place;
 };
 

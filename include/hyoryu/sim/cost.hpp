@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Development {
     double step = 1;       // a step without bodies and lists, on average, over one of the first
     double builds = 0;     // of lists, in a step on average
     double seconds = 0;    // that it took
+    double slowdown = 1;   // its steps over what they take without stalls
     double fluid = 1;      // share of its fluid that is left, on average over the run [1]
     double fluid_end = 1;  // and at its end [1]
     double impacts = 0;    // of its bodies, which are those of the case
@@ -33,7 +35,7 @@ struct StepCost {
         double share = 0;   // of a step, median over the rounds; not below 0 [1]
         double spread = 0;  // half of the interquartile range of the rounds, at least -median [1]
     };
-    double seconds = 0; // of a step with everything on, on average [s]
+    double seconds = 0; // of a step with everything on, on average, without stalls [s]
     double bodies = 0;  // of them, for the motion of bodies and their contacts [s]
     double lists = 0;   // of them, for making lists, which some steps do [s]
     double build = 0;   // for making them once [s]
@@ -41,6 +43,8 @@ struct StepCost {
     double output = 0;  // mean additional time of a step for output, over the run [s]
     double impacts = 0; // rows of contacts.csv of kind impact, over the whole run
     double waiting = 0; // share of the timing in which a thread had no core: a busy machine [1]
+    // The timed steps over what they take without stalls, in which other work has the cores [1].
+    double slowdown = 1;
     std::vector<Share> effects;
     std::optional<Development> development;
 };
@@ -48,11 +52,17 @@ struct StepCost {
 /// The share of an effect and its spread, from those that single rounds found.
 StepCost::Share share_of(std::string effect, std::vector<double> rounds);
 
+/// The mean of durations of steps, one after the other, without stalls: the mean of the medians of
+/// runs of a few. A stall is longer than most steps and rarer, so that it moves no median, while
+/// steps that grow with the flow do [s].
+double mean_without_stalls(std::span<const double> seconds);
+
 /// The mean wall time of a step over the run [s], including output: that of the timed steps, if the
-/// development of the flow is unknown.
+/// development of the flow is unknown. On a machine as busy as it was while the steps were timed.
 double seconds_of_run(const StepCost& cost);
 
-/// Times about `steps` steps of a simulation with fluid, in at least two rounds: in each round one
+/// Times about `steps` steps of a simulation with fluid, up to four times as many if they take less
+/// than 0.05 s, in at least two rounds: in each round one
 /// step with all effects, and one without each optional effect. The cost of an effect is the time
 /// of the full step minus that of the step without it in the same round, not counting list
 /// building, which only some steps do; consecutive steps of one state, so that a busy machine
@@ -77,9 +87,9 @@ std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool
 double measure_row(const Simulation& sim);
 
 /// Runs a simulation with fluid to its end and compares all its steps with the `first` steps of the
-/// same scene begun `again`: timed afterwards, when memory and threads are as warm as in the later
-/// steps. None if it fails, or if `goes_on`, called before each step, returns false first.
-/// `coarsening` is left to the caller.
+/// same scene begun `again`, taken between them: memory and threads are as warm, and other work of
+/// the machine lengthens both. None if it fails, or if `goes_on`, called before each step, returns
+/// false first. `coarsening` is left to the caller.
 std::optional<Development> measure_development(Simulation& sim, Simulation& again, int first,
                                                const std::function<bool()>& goes_on);
 

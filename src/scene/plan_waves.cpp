@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "plan_waves.hpp"
+
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double highest = 0.78;   // height of a wave over the depth (McCowan 1894)
+constexpr double steepest = 0.142; // height over length in deep water (Miche 1944)
+constexpr double before = 3;       // spacings before a paddle in which its water is looked for
+// Of a depth that is as asked: cells are rounded to a spacing, ground may slope.
+constexpr double spacings_off = 1;
+constexpr double share_off = 0.02;
+
+class Warnings {
+public:
+    Warnings(const Scene& scene, Plan& plan) : scene_(scene), plan_(plan) {}
+
+    void add(const Place& place, std::string key, std::string what, std::string hint)
+    {
+        Diagnostic note =
+            diagnostic_at(scene_, place, std::move(key), std::move(what), std::move(hint));
+        note.severity = Diagnostic::Severity::warning;
+        plan_.warnings.push_back(std::move(note));
+    }
+
+private:
+    const Scene& scene_;
+    Plan& plan_;
+};
+
+void look_at_height(const Wall& wall, const std::string& key, Warnings& warnings)
+{
+    const PistonTarget& wave = wall.wave;
+    if (!(wave.length > 0)) {
+        return;
+    }
+    const std::string name = wave.period > 0 ? "height" : "solitary_height";
+    const double number = 2 * std::numbers::pi / wave.length;
+    const double steep = steepest * std::tanh(number * wave.depth);
+    if (wave.height > highest * wave.depth) {
+        warnings.add(wall.place, fmt::format("{}.piston.{}", key, name),
+                     fmt::format("a wave of {:.3g} m is {:.2f} of the depth of {:.3g} m, above "
+                                 "{}: it breaks at once",
+                                 wave.height, wave.height / wave.depth, wave.depth, highest),
+                     fmt::format("below {:.3g} m, or deeper water", highest * wave.depth));
+    } else if (wave.period > 0 && wave.height > steep * wave.length) {
+        warnings.add(wall.place, key + ".piston.height",
+                     fmt::format("a wave of {:.3g} m is {:.3f} of its length of {:.3g} m, above "
+                                 "{:.3f}: it breaks at once",
+                                 wave.height, wave.height / wave.length, wave.length, steep),
+                     fmt::format("below {:.3g} m, or a longer `period`", steep * wave.length));
+    }
+}
+
+// Depth of the water before the face of a paddle; 0 if there is none [m].
+double depth_before(const Scene& scene, const Filling& filling, const Bounds& paddle)
+{
+    double low = infinity;
+    double high = -infinity;
+    for (const Vec3& p : filling.fluid) {
+        const double away = p.x() - paddle.max.x();
+        const bool beside =
+            scene.dimensions == 3 && (p.y() < paddle.min.y() || p.y() > paddle.max.y());
+        if (away > 0 && away < before * scene.spacing && !beside) {
+            low = std::min(low, p.z());
+            high = std::max(high, p.z());
+        }
+    }
+    return high < low ? 0 : high - low + scene.spacing;
+}
+
+void look_at_depth(const Scene& scene, const Filling& filling, const Wall& wall,
+                   const std::string& key, Warnings& warnings)
+{
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    const double asked = wall.wave.length > 0     ? wall.wave.depth
+                         : wall.motion.absorption ? wall.motion.absorption->depth
+                                                  : 0;
+    if (solid == nullptr || !(asked > 0) || !scene.open.empty()) {
+        return;
+    }
+    const double found = depth_before(
+        scene, filling, bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}));
+    const std::string own = key + (wall.wave.length > 0 ? ".piston.depth" : ".depth");
+    if (found == 0) {
+        warnings.add(wall.place, own,
+                     fmt::format("there is no water at the +x side of \"{}\"", wall.name),
+                     "a paddle makes waves along +x: the water begins at its face");
+    } else if (std::abs(found - asked) > spacings_off * scene.spacing + share_off * asked) {
+        warnings.add(wall.place, own,
+                     fmt::format("{:.3g} m, but the water before \"{}\" is {:.3g} m deep at the "
+                                 "start: the wave will not have its height",
+                                 asked, wall.name, found),
+                     "write the depth of the water at rest");
+    }
+}
+
+bool holds_fluid(const Scene& scene, const Filling& filling, const Sponge& sponge)
+{
+    return std::ranges::any_of(filling.fluid, [&](const Vec3& p) {
+        const bool beside =
+            scene.dimensions == 3 && (p.y() < sponge.min.y() || p.y() > sponge.max.y());
+        return !beside && p.x() >= sponge.min.x() && p.x() <= sponge.max.x() &&
+               p.z() >= sponge.min.z() && p.z() <= sponge.max.z();
+    });
+}
+
+void look_at_sponge(const Scene& scene, const Filling& filling, std::size_t k, Warnings& warnings)
+{
+    const Sponge& sponge = scene.sponges[k];
+    const std::string key = fmt::format("sponge[{}]", k);
+    if (!scene.fluid) {
+        warnings.add(sponge.place, key, "has no effect: the scene has no fluid", "omit it");
+    } else if (scene.open.empty() && !holds_fluid(scene, filling, sponge)) {
+        warnings.add(sponge.place, key, "there is no water in the sponge at the start",
+                     "`min` and `max` are the corners of a box in the water, in m");
+    }
+}
+
+} // namespace
+
+void warn_about_waves(const Scene& scene, const Filling& filling, Plan& plan)
+{
+    Warnings warnings(scene, plan);
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        const Wall& wall = scene.walls[w];
+        const std::string key = fmt::format("wall[{}].motion", w);
+        look_at_height(wall, key, warnings);
+        if (scene.fluid) {
+            look_at_depth(scene, filling, wall, key, warnings);
+        } else if (wall.motion.absorption) {
+            warnings.add(wall.place, key + ".absorb", "has no effect: the scene has no fluid",
+                         "omit it");
+        }
+    }
+    for (std::size_t k = 0; k < scene.sponges.size(); ++k) {
+        look_at_sponge(scene, filling, k, warnings);
+    }
+}
+
+} // namespace hyoryu
