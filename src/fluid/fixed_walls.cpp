@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace hyoryu {
 
@@ -72,14 +73,10 @@ Index particles_in(const FixedWalls& walls, std::int32_t tile)
 }
 
 // Makes the candidates of a tile, in the order of their cells and indices.
-void make_candidates(const FixedWalls& walls, std::int32_t tile, Tiles& candidates, Index slot)
+void make_candidates(FixedWalls& walls, std::int32_t tile, Tiles& candidates, Index slot)
 {
-    struct Made {
-        std::uint64_t cell;
-        std::int32_t index;
-        Vec3 place;
-    };
-    std::vector<Made> made;
+    std::vector<WallCandidate>& made = walls.made[at(worker())];
+    made.clear();
     for (std::int32_t k = walls.start[at(tile)]; k < walls.start[at(tile + 1)]; ++k) {
         const IndexRun run = walls.run[at(k)];
         for (std::int32_t index = run.first; index < run.first + run.count; ++index) {
@@ -87,9 +84,9 @@ void make_candidates(const FixedWalls& walls, std::int32_t tile, Tiles& candidat
             made.push_back({candidates.lattice.cell_of(place), index, place});
         }
     }
-    std::ranges::sort(made, {}, [](const Made& m) { return std::pair(m.cell, m.index); });
+    std::ranges::sort(made, {}, [](const WallCandidate& m) { return std::pair(m.cell, m.index); });
     const Vec3 centre = candidates.lattice.centre(walls.tile[at(tile)]);
-    for (const Made& m : made) {
+    for (const WallCandidate& m : made) {
         const Vec3 r = m.place - centre;
         candidates.row[at(slot)] = m.index;
         candidates.x[at(slot)] = static_cast<float>(r.x());
@@ -113,10 +110,11 @@ void copy_candidates(const Tiles& from, Index tile, Tiles& to, Index slot)
 void update_candidates(FixedWalls& walls, const TileLattice& lattice,
                        std::span<const std::int32_t> near)
 {
-    Tiles next;
+    Tiles& next = walls.last_candidates;
     next.lattice = lattice;
-    next.tile.reserve(near.size());
-    next.start.reserve(near.size() + 1);
+    next.tile.clear();
+    next.start.assign(1, 0);
+    walls.made.resize(std::max(walls.made.size(), at(thread_count())));
     for (const std::int32_t tile : near) {
         next.tile.push_back(walls.tile[at(tile)]);
         next.start.push_back(next.start.back() +
@@ -135,7 +133,7 @@ void update_candidates(FixedWalls& walls, const TileLattice& lattice,
         }
     });
     bound_chunks(next);
-    walls.candidates = std::move(next);
+    std::swap(walls.candidates, walls.last_candidates);
     walls.near.assign(near.begin(), near.end());
 }
 
@@ -201,9 +199,15 @@ std::size_t FixedWalls::bytes() const
     const auto held = [](const auto&... values) {
         return (0 + ... + (values.capacity() * sizeof(values[0])));
     };
-    const Tiles& c = candidates;
-    return held(tile, start, run, near, exists, touched, wet_body, marks, row_of, old_row) +
-           held(c.tile, c.start, c.row, c.x, c.y, c.z, c.chunk_start, c.box);
+    const auto held_by = [&](const Tiles& c) {
+        return held(c.tile, c.start, c.row, c.x, c.y, c.z, c.chunk_start, c.box);
+    };
+    std::size_t sum =
+        held(tile, start, run, near, exists, touched, wet_body, marks, row_of, old_row);
+    for (const std::vector<WallCandidate>& of_worker : made) {
+        sum += held(of_worker);
+    }
+    return sum + held_by(candidates) + held_by(last_candidates);
 }
 
 void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,

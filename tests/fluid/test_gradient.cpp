@@ -2,6 +2,7 @@
 // The corrected pressure gradient: energy by its adjoint divergence, accuracy against an exact
 // gradient, the loops against the terms one pair at a time.
 #include "dice.hpp"
+#include "hyoryu/fluid/corrected_wall.hpp"
 #include "hyoryu/fluid/fluid.hpp"
 #include "hyoryu/fluid/gradient.hpp"
 
@@ -250,6 +251,58 @@ TEST(CorrectedGradient, LoopsEqualTheirReference)
         expect_same(fluid.particles.fluid, clearly, field::moments, tolerance);
         expect_same(fluid.particles.fluid, clearly, field::mixed_moments, tolerance);
     }
+}
+
+Eigen::Vector3d as_vector(const Vec<real>& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+// -V V F (p_solid B + p_fluid) r, B of the fluid, where both are pressed; the opposite on the
+// solid.
+TEST(CorrectedGradient, PressesOnASolidByTheOppositeAndNeverPulls)
+{
+    using List = Union<Fields<Position>, CorrectedWallForce::Reads>;
+    Dice dice(static_cast<std::uint64_t>(number_from("HYORYU_SEED", 15)));
+    const Kernel kernel = make_kernel(0.15, 0.1, 3);
+    int pressed = 0;
+    for (int k = 0; k < 500; ++k) {
+        const auto vector = [&](real most) {
+            const real a = dice.between(-most, most);
+            const real b = dice.between(-most, most);
+            return Vec<real>{a, b, dice.between(-most, most)};
+        };
+        Record<List, real> fluid;
+        Record<List, real> solid;
+        fluid[field::gradient_correction] = vector(0.2);
+        fluid[field::mixed_correction] = vector(0.2);
+        for (auto* row : {&fluid, &solid}) {
+            (*row)[field::volume] = dice.between(0.0005, 0.002);
+            (*row)[field::pressure] = dice.between(-500, 1500);
+        }
+        const Vec<real> r = vector(0.1);
+        const Pair<real> ij = kernel(r);
+        Record<CorrectedWallForce::Writes, real> on_fluid;
+        Record<CorrectedWallForce::Writes, real> on_solid;
+        CorrectedWallForce{}(ij, fluid, solid, on_fluid);
+        CorrectedWallForce{}(kernel(Vec<real>{-r.x, -r.y, -r.z}), solid, fluid, on_solid);
+        const Vec3 force = as_vector(on_fluid[field::force]);
+        EXPECT_EQ(force, -as_vector(on_solid[field::force]));
+        const real p_fluid = fluid[field::pressure];
+        const real p_solid = solid[field::pressure];
+        const Vec3 mixed = as_vector(fluid[field::mixed_correction]);
+        Mat3 B = as_vector(fluid[field::gradient_correction]).asDiagonal();
+        B(1, 2) = B(2, 1) = mixed[0];
+        B(0, 2) = B(2, 0) = mixed[1];
+        B(0, 1) = B(1, 0) = mixed[2];
+        B += Mat3::Identity();
+        const bool both = p_fluid > 0 && p_solid > 0;
+        pressed += both ? 1 : 0;
+        const real V = fluid[field::volume] * solid[field::volume];
+        const Vec3 expected = -V * ij.f * (p_solid * B * as_vector(r) + p_fluid * as_vector(r));
+        EXPECT_LE((force - (both ? expected : Vec3(Vec3::Zero()))).norm(), 1e-12 * expected.norm());
+    }
+    EXPECT_GT(pressed, 100);
 }
 
 TEST(CorrectedGradient, IsPlainAtASurfaceAndNineTenthsInside)

@@ -29,6 +29,13 @@ struct IndexRun {
     std::int32_t count = 0;
 };
 
+/// A particle of a tile, while its candidates are put in order.
+struct WallCandidate {
+    std::uint64_t cell = 0;
+    std::int32_t index = 0;
+    Vec3 place{0, 0, 0}; // [m]
+};
+
 struct FixedWalls {
     WallMaker make;
     std::int64_t first_number = 0; // of the particle of index 0; the others follow
@@ -50,6 +57,8 @@ struct FixedWalls {
     // Memory of `update_rows`, kept from one time to the next.
     std::vector<std::uint8_t> touched, wet_body, marks;
     std::vector<std::int32_t> row_of, old_row;
+    Tiles last_candidates;
+    std::vector<std::vector<WallCandidate>> made; // by worker
 
     std::size_t bytes() const;
 };

@@ -3,6 +3,7 @@
 // once for each instruction set and chosen at start.
 #pragma once
 
+#include "hyoryu/fluid/corrected_wall.hpp"
 #include "hyoryu/fluid/effects.hpp"
 #include "hyoryu/fluid/formulation.hpp"
 #include "hyoryu/fluid/parting.hpp"
@@ -40,6 +41,19 @@ void with_pressure(Formulation, const FluidTerms& terms, const auto& f, const au
     }
     f(typename Formulation::FluidPressure{}, more...);
 }
+/// f(pressure, more...): the pressure term between fluid and solids; `plain` without correction.
+template <class Formulation>
+void with_solid_pressure(Formulation, const FluidTerms& terms, const auto& plain, const auto& f,
+                         const auto&... more)
+{
+    if constexpr (Formulation::may_correct) {
+        if (held<CorrectedGradient>(terms.effects) != nullptr) {
+            f(CorrectedWallForce{}, more...);
+            return;
+        }
+    }
+    f(plain, more...);
+}
 /// f(continuity, more...): the continuity that belongs to that pressure, and sums for the next.
 template <class Formulation>
 void with_continuity(Formulation, const FluidTerms& terms, const auto& plain, const auto& corrected,
@@ -75,14 +89,15 @@ struct SolidForces {
     template <class Formulation>
     static void call(Formulation, const FluidTerms& terms, const auto& f)
     {
-        f(typename Formulation::SolidPressure{}, terms.backstop);
+        with_solid_pressure(Formulation{}, terms, typename Formulation::SolidPressure{}, f,
+                            terms.backstop);
     }
 };
 /// solid <- fluid: the reaction of pressure and backstop
 struct SolidLoads {
-    static void call(const auto&, const FluidTerms& terms, const auto& f)
+    static void call(auto formulation, const FluidTerms& terms, const auto& f)
     {
-        f(WallPressureForce{}, terms.backstop);
+        with_solid_pressure(formulation, terms, WallPressureForce{}, f, terms.backstop);
     }
 };
 /// body <- solid and back: pressure in thin films
