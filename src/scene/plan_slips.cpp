@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/plan_slips.hpp"
 
+#include "plan_warnings.hpp"
+
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/shapes.hpp"
 
@@ -21,23 +23,6 @@ constexpr double least_density = 5;
 constexpr double far_away = 3;
 constexpr double very_far_away = 30; // together with others, too
 constexpr double out_of_scale = 100;
-
-class Slips {
-public:
-    Slips(const Scene& scene, Plan& plan) : scene_(scene), plan_(plan) {}
-
-    void add(const Place& place, std::string key, std::string what, std::string hint)
-    {
-        Diagnostic note =
-            diagnostic_at(scene_, place, std::move(key), std::move(what), std::move(hint));
-        note.severity = Diagnostic::Severity::warning;
-        plan_.warnings.push_back(std::move(note));
-    }
-
-private:
-    const Scene& scene_;
-    Plan& plan_;
-};
 
 Bounds box_of(const Scene& scene, const BodySettings& body)
 {
@@ -96,7 +81,7 @@ Bounds rest_of(const Scene& scene, const Wall* wall, const BodySettings* body)
     return rest;
 }
 
-void look_at_density(const Scene& scene, Slips& slips)
+void look_at_density(const Scene& scene, PlanWarnings& slips)
 {
     const auto judge = [&](double density, const Place& place, const std::string& key) {
         if (density < least_density) {
@@ -117,7 +102,7 @@ void look_at_density(const Scene& scene, Slips& slips)
     }
 }
 
-void look_at_gravity(const Scene& scene, Slips& slips)
+void look_at_gravity(const Scene& scene, PlanWarnings& slips)
 {
     if (scene.gravity.z() > 0 && scene.gravity.z() >= 0.5 * scene.gravity.norm()) {
         slips.add({}, "gravity", "points upward: z is up",
@@ -148,7 +133,7 @@ bool is_first_of_entry(const Scene& scene, std::size_t b)
            scene.bodies[b].place.line != scene.bodies[b - 1].place.line;
 }
 
-void look_for_bodies_far_away(const Scene& scene, Slips& slips)
+void look_for_bodies_far_away(const Scene& scene, PlanWarnings& slips)
 {
     const Bounds rest = rest_of(scene, nullptr, nullptr);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -169,7 +154,7 @@ void look_for_bodies_far_away(const Scene& scene, Slips& slips)
 }
 
 void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, const Place& place,
-                   const std::string& key, const Scene& scene, Slips& slips)
+                   const std::string& key, const Scene& scene, PlanWarnings& slips)
 {
     const double size = across(box, scene.dimensions);
     const double others = across(rest, scene.dimensions);
@@ -192,7 +177,7 @@ void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, co
     }
 }
 
-void look_at_meshes(const Scene& scene, Slips& slips)
+void look_at_meshes(const Scene& scene, PlanWarnings& slips)
 {
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
@@ -210,7 +195,7 @@ void look_at_meshes(const Scene& scene, Slips& slips)
     }
 }
 
-void look_for_thin_walls(const Scene& scene, Slips& slips)
+void look_for_thin_walls(const Scene& scene, PlanWarnings& slips)
 {
     for (std::size_t w = 0; scene.fluid && w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
@@ -232,7 +217,7 @@ void look_for_thin_walls(const Scene& scene, Slips& slips)
 }
 
 // Water below the underside of the ground has nothing to stand on.
-void look_below_terrain(const Scene& scene, Slips& slips)
+void look_below_terrain(const Scene& scene, PlanWarnings& slips)
 {
     for (std::size_t b = 0; scene.fluid && b < scene.fluid->blocks.size(); ++b) {
         const FluidBlock& block = scene.fluid->blocks[b];
@@ -311,7 +296,7 @@ std::string cut_by_domain(const Scene& scene)
 
 void warn_about_slips(const Scene& scene, Plan& plan)
 {
-    Slips slips(scene, plan);
+    PlanWarnings slips(scene, plan);
     look_at_density(scene, slips);
     look_at_gravity(scene, slips);
     look_for_bodies_far_away(scene, slips);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plan_waves.hpp"
 
+#include "plan_warnings.hpp"
+
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/shapes.hpp"
 
@@ -21,24 +23,7 @@ constexpr double before = 3;       // spacings before a paddle in which its wate
 constexpr double spacings_off = 1;
 constexpr double share_off = 0.02;
 
-class Warnings {
-public:
-    Warnings(const Scene& scene, Plan& plan) : scene_(scene), plan_(plan) {}
-
-    void add(const Place& place, std::string key, std::string what, std::string hint)
-    {
-        Diagnostic note =
-            diagnostic_at(scene_, place, std::move(key), std::move(what), std::move(hint));
-        note.severity = Diagnostic::Severity::warning;
-        plan_.warnings.push_back(std::move(note));
-    }
-
-private:
-    const Scene& scene_;
-    Plan& plan_;
-};
-
-void look_at_height(const Wall& wall, const std::string& key, Warnings& warnings)
+void look_at_height(const Wall& wall, const std::string& key, PlanWarnings& warnings)
 {
     const PistonTarget& wave = wall.wave;
     if (!(wave.length > 0)) {
@@ -80,7 +65,7 @@ double depth_before(const Scene& scene, const Filling& filling, const Bounds& pa
 }
 
 void look_at_depth(const Scene& scene, const Filling& filling, const Wall& wall,
-                   const std::string& key, Warnings& warnings)
+                   const std::string& key, PlanWarnings& warnings)
 {
     const auto* solid = std::get_if<SolidWall>(&wall.geometry);
     const double asked = wall.wave.length > 0     ? wall.wave.depth
@@ -115,7 +100,8 @@ bool holds_fluid(const Scene& scene, const Filling& filling, const Sponge& spong
     });
 }
 
-void look_at_sponge(const Scene& scene, const Filling& filling, std::size_t k, Warnings& warnings)
+void look_at_sponge(const Scene& scene, const Filling& filling, std::size_t k,
+                    PlanWarnings& warnings)
 {
     const Sponge& sponge = scene.sponges[k];
     const std::string key = fmt::format("sponge[{}]", k);
@@ -131,7 +117,7 @@ void look_at_sponge(const Scene& scene, const Filling& filling, std::size_t k, W
 
 void warn_about_waves(const Scene& scene, const Filling& filling, Plan& plan)
 {
-    Warnings warnings(scene, plan);
+    PlanWarnings warnings(scene, plan);
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
         const std::string key = fmt::format("wall[{}].motion", w);
