@@ -128,8 +128,8 @@ inline constexpr int halvings = 8;
 /// of what it moves with.
 bool gains_energy(const StepContext& context, const SubStep& sub);
 
-/// Energy that the contacts took on the planned motion up to s, where the bodies are; what walls that
-/// move gave is left out [J].
+/// Energy that the contacts took on the planned motion up to s, where the bodies are; what walls
+/// that move gave is left out [J].
 double taken_by_contacts(const StepContext& context, const SubStep& sub, double s);
 
 /// Moves the bodies along their paths to s and books the share of the contact impulses.
@@ -137,7 +137,8 @@ void move_to(const StepContext& context, const SubStep& sub, double s);
 
 /// After a located sub-step: brings the gaps of pressed contacts to zero, and pushes overlapping
 /// ones apart, by position alone; the possible contacts that were found move with the bodies. Where
-/// they overlapped when it began, what is lifted gets no more energy than contacts took in this step.
+/// they overlapped when it began, what is lifted gets no more energy than contacts took in this
+/// step.
 void project_gaps(const StepContext& context, const SubStep& sub, double time);
 
 /// After an unlocated sub-step: moves the bodies, by position alone and as little as their masses

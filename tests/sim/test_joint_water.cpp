@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joints beside bodies that water is trapped by: what closes on water, and shafts that a body fills.
+// Joints beside bodies that water is trapped by: what closes on water, and shafts that a body
+// fills.
 #include "runs.hpp"
 
 #include <gtest/gtest.h>
