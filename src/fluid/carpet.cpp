@@ -168,8 +168,9 @@ private:
         }
         return added;
     }
-    // The part of a row on the top: so many of the new columns carry one more that the volume is
-    // that of the level.
+    // The top row is filled in part: of the new columns that share gets one more particle that
+    // makes the volume of the water that of the level. A particle whose place is taken is not made
+    // later.
     void cover(int row, real part, const std::vector<real>& added)
     {
         real& carry = carpet_.carry[at(lane_)];
@@ -179,7 +180,7 @@ private:
                 carry -= 1;
             }
         }
-        carry = std::clamp(carry, real(-1), real(1)); // places that were taken are not made up for
+        carry = std::clamp(carry, real(-1), real(1));
     }
 
     const FluidParameters& f_;

@@ -196,7 +196,7 @@ public:
         rule.shortest = rule.longest = 4;
         self().key(rule, member, no_default);
     }
-    /// Numbers or vectors, one for each point of a path, so many at least.
+    /// Numbers or vectors, one for each point of a path of at least `shortest` points.
     template <class Path>
     void path(Text name, Path& member, Text unit, Text meaning, Default fallback = needed,
               int shortest = 2)

@@ -28,7 +28,7 @@ LayerLattice layer_lattice(const Scene& scene, const Bounds& domain);
 /// count from the origin, so that parallel walls share one lattice.
 struct PlanePlaces {
     PlaneWall plane;
-    Vec3 along{1, 0, 0}, across{0, 1, 0}; // tangents, unit; in two dimensions there is no second
+    Vec3 along{1, 0, 0}, across{0, 1, 0}; // unit tangents; the second is unused in two dimensions
     std::array<Index, 2> first{};         // cells along them
     std::array<Index, 3> count{};         // and layers
     double spacing = 0;                   // [m]

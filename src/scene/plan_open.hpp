@@ -6,7 +6,7 @@
 
 namespace hyoryu {
 
-/// Lists the open sides, and foretells how many particles they may bring.
+/// Lists the open sides and estimates the largest number of particles that they add.
 void list_open(const Scene& scene, const Filling& filling, Plan& plan);
 
 /// Adds the faults of windows that only the filled scene shows, and warns.

@@ -13,7 +13,8 @@ namespace hyoryu {
 /// IoError "FILE: fault".
 std::vector<Plan2> read_polygon(const std::filesystem::path& file);
 
-/// Why a polygon is no yard: too few or too many corners, or edges that cross; empty if it is one.
+/// The reason why a polygon cannot serve as a yard: too few or too many corners, or edges that
+/// cross; empty if it can.
 std::string fault_of_yard(const std::vector<Plan2>& polygon);
 
 /// Whether all coordinates are within the range of longitudes and latitudes.

@@ -49,11 +49,11 @@ struct AskedFlow {
     std::optional<real> level;     // of the free surface [m]
     std::optional<real> velocity;  // into the domain [m/s]
     std::optional<real> discharge; // into the domain, of a metre of width [m2/s]
-    bool free = false;             // nothing: what the strip does goes on
+    bool free = false;             // outflow: the carpet takes over depth and velocity of the strip
     real still = 0;                // depth of the water at rest, for a level alone [m]
 };
 
-/// What a station reads and does.
+/// The flow that a station measures inside and gives to its carpet.
 struct StationFlow {
     real depth = 0;      // h_m: measured depth, filtered [m]
     real drift = 0;      // mean velocity of the strip into the domain, filtered [m/s]
