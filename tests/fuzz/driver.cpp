@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <sys/time.h>
 #include <unistd.h>
 #include <vector>
 
@@ -24,7 +25,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-constexpr unsigned longest = 20; // seconds for one input
+// Seconds for one input: of the processor, and on the clock, which runs on while other processes
+// have the cores.
+constexpr long most_work = 20;
+constexpr unsigned longest = 120;
 constexpr std::size_t largest = std::size_t{1} << 16;
 
 // What number and text readers stumble over.
@@ -51,12 +55,21 @@ void keep_input(int signal)
     ::_exit(128 + signal);
 }
 
+// SIGPROF after so much time of the processor [s]; 0: none.
+void limit_work(long seconds)
+{
+    const itimerval limit{{0, 0}, {seconds, 0}};
+    ::setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
 void feed(const std::string& input)
 {
     present = &input;
+    limit_work(most_work);
     ::alarm(longest);
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
     ::alarm(0);
+    limit_work(0);
 }
 
 class Mutator {
@@ -147,7 +160,7 @@ int main(int argc, char** argv)
         std::fprintf(stderr, "usage: %s CORPUS_FOLDER [MUTATIONS [SEED]]\n", argv[0]);
         return 2;
     }
-    for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGALRM}) {
+    for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGALRM, SIGPROF}) {
         std::signal(signal, keep_input);
     }
     const std::vector<std::string> corpus = read_corpus(argv[1]);
