@@ -107,9 +107,13 @@ void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
     const Configuration end = configuration(memory, memory.end, sub.time + ahead);
     for (Persistent& p : memory.persistent) {
         const Feature& f = p.candidate.feature;
-        p.touches = {touch_of(f, middle), touch_of(f, end)};
+        p.touches.push = touch_of(f, middle);
+        p.touches.see = touch_of(f, end);
     }
     for (const FrictionPatch& patch : memory.patches) {
+        if (memory.persistent[patch.contacts[0]].stuck > 0) {
+            continue; // rubs where it did
+        }
         const Vec3 push = centre_of(memory.persistent, patch,
                                     [](const Persistent& p) { return p.touches.push.point; });
         const Vec3 see = centre_of(memory.persistent, patch,
@@ -234,6 +238,7 @@ bool solve_pass(const StepContext& context, const SubStep& sub, double ahead)
             add_impulse(memory, row.b, -P, -row.turn_b * row.p);
         }
     }
+    note_sticking(context);
     return true;
 }
 
@@ -324,7 +329,7 @@ bool rubs_elsewhere(const ContactMemory& memory)
         const Persistent& p = memory.persistent[patch.contacts[0]];
         const Vec3 rub =
             (1 - patch.rule.scale) * (centre_of(memory.persistent, patch, point) - point(p));
-        return (rub - p.touches.push_rub).norm() > settled * memory.geometry.unit;
+        return p.stuck == 0 && (rub - p.touches.push_rub).norm() > settled * memory.geometry.unit;
     });
 }
 

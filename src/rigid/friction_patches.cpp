@@ -12,6 +12,10 @@ constexpr std::size_t most_contacts = 8;
 // Contacts of one patch: normals closer than this (1 - cosine), heights closer than that [units].
 constexpr double same_direction = 1e-9;
 constexpr double same_height = 1e-6;
+// Friction inside this part of the cone holds [1]: round-off, on top of what the solution calls so.
+constexpr double inside_cone = 1 - 1e-6;
+// The centre of pressure has not moved while it is within this part of the size of the patch.
+constexpr double settled_centre = 0.02;
 
 bool same_plane(const Touch& a, const Touch& b, double unit)
 {
@@ -92,6 +96,17 @@ PatchRule rule_of(const ContactMemory& memory, const FrictionPatch& patch)
     return patch_rule(points, n, form_of(memory, patch.contacts));
 }
 
+// The largest distance of a contact from the first [m].
+double size_of(const ContactMemory& memory, const FrictionPatch& patch)
+{
+    const Vec3& first = memory.persistent[patch.contacts[0]].candidate.touch.point;
+    double size = 0;
+    for (const int k : patch.contacts) {
+        size = std::max(size, (memory.persistent[k].candidate.touch.point - first).norm());
+    }
+    return size;
+}
+
 // Takes the contacts out that no patch kept, and numbers the others anew.
 void keep(const std::vector<char>& kept, ContactMemory& memory)
 {
@@ -109,6 +124,35 @@ void keep(const std::vector<char>& kept, ContactMemory& memory)
             k = number[k];
         }
     }
+}
+
+// Whether the patch is the one that stuck in the last sub-step, with the centre of its pressure
+// about where it was when friction was placed.
+bool rubs_where_it_did(const ContactMemory& memory, const FrictionPatch& patch, const Vec3& centre)
+{
+    const double shrunk = 1 - patch.rule.scale;
+    const double moved = settled_centre * shrunk;
+    return shrunk > 0 && std::ranges::all_of(patch.contacts, [&](int k) {
+               const Persistent& p = memory.persistent[k];
+               const Vec3 arm = centre - p.candidate.touch.point;
+               return p.stuck == static_cast<int>(patch.contacts.size()) &&
+                      (p.rub - shrunk * arm).norm() <= moved * patch.size;
+           });
+}
+
+bool sticks(const StepContext& context, const FrictionPatch& patch)
+{
+    double load = 0;
+    const bool inside = std::ranges::all_of(patch.contacts, [&](int k) {
+        const Persistent& p = context.memory.persistent[k];
+        const Feature& f = p.candidate.feature;
+        const Vec3& n = p.candidate.touch.normal;
+        const double pressed = n.dot(p.impulse);
+        const double mu = law_of(context.rigid, f.a, f.b).friction;
+        load += pressed;
+        return (p.impulse - pressed * n).norm() <= inside_cone * mu * pressed;
+    });
+    return inside && load > 0;
 }
 
 } // namespace
@@ -137,13 +181,14 @@ void find_patches(const StepContext& context, const SubStep& sub)
                 kept[m] = 1;
             }
             if (rubs && patch.size() > 1) {
-                memory.patches.push_back({patch, {}});
+                memory.patches.push_back({patch, {}, 0});
             }
         }
     }
     keep(kept, memory);
     for (FrictionPatch& patch : memory.patches) {
         patch.rule = rule_of(memory, patch);
+        patch.size = size_of(memory, patch);
     }
 }
 
@@ -152,9 +197,25 @@ void set_rubs(ContactMemory& memory)
     for (const FrictionPatch& patch : memory.patches) {
         const Vec3 centre = centre_of(memory.persistent, patch,
                                       [](const Persistent& p) { return p.candidate.touch.point; });
+        const bool stays = rubs_where_it_did(memory, patch, centre);
         for (const int k : patch.contacts) {
             Persistent& p = memory.persistent[k];
-            p.rub = (1 - patch.rule.scale) * (centre - p.candidate.touch.point);
+            if (!stays) {
+                p.rub = (1 - patch.rule.scale) * (centre - p.candidate.touch.point);
+                p.stuck = 0;
+            }
+            p.touches.push_rub = p.rub;
+            p.touches.see_rub = p.rub;
+        }
+    }
+}
+
+void note_sticking(const StepContext& context)
+{
+    for (const FrictionPatch& patch : context.memory.patches) {
+        const int size = sticks(context, patch) ? static_cast<int>(patch.contacts.size()) : 0;
+        for (const int k : patch.contacts) {
+            context.memory.persistent[k].stuck = size;
         }
     }
 }

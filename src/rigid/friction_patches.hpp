@@ -15,8 +15,13 @@ namespace hyoryu {
 void find_patches(const StepContext& context, const SubStep& sub);
 
 /// Sets where the contacts of each patch rub at the start of the sub-step (patch.hpp), by the
-/// impulses that they have from the last one.
+/// impulses that they have from the last one. A patch that sticks rubs where it did while the
+/// centre of its pressure stays within a fiftieth of its size: where many contacts share a load, a
+/// solution shares it anew if friction moves, which moves friction, without end.
 void set_rubs(ContactMemory& memory);
+
+/// Notes which patches stick: those that bear load, all of it inside the friction cones.
+void note_sticking(const StepContext& context);
 
 /// The centre of the pressure of a patch, by the impulses that its contacts have so far, through
 /// which the friction of a slide goes; the centroid while they have none. `point` gives the place

@@ -129,6 +129,8 @@ ContactStart contact_start(const Rigid& rigid)
                 {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f});
             start.forces.push_back(r.force);
             start.places.push_back(r.place);
+            start.rubs.push_back(r.rub);
+            start.stuck.push_back(r.stuck);
         }
     }
     return start;
@@ -137,14 +139,16 @@ ContactStart contact_start(const Rigid& rigid)
 void set_contact_start(Rigid& rigid, const ContactStart& start)
 {
     const std::size_t n = start.features.size();
-    if (start.forces.size() != n || start.places.size() != n) {
+    if (start.forces.size() != n || start.places.size() != n || start.rubs.size() != n ||
+        start.stuck.size() != n) {
         throw IoError("the contact forces of the checkpoint differ in number: it is damaged");
     }
     rigid.memory = std::make_unique<ContactMemory>();
     for (std::size_t k = 0; k < n; ++k) {
         const auto& [a, b, kind, owner, i, j, l, m, f] = start.features[k];
         const Feature feature{a, b, static_cast<FeatureKind>(kind), owner, i, j, l, m, f};
-        rigid.memory->forces.push_back({feature, start.forces[k], start.places[k]});
+        rigid.memory->forces.push_back(
+            {feature, start.forces[k], start.places[k], start.rubs[k], start.stuck[k]});
     }
 }
 

@@ -23,6 +23,8 @@ struct Remembered {
     Feature feature;
     Vec3 force{0, 0, 0}; // on a [N]
     Vec3 place{0, 0, 0}; // in the axes of a, from its centre of mass [m]
+    Vec3 rub{0, 0, 0};   // in the axes of a, from the contact point to that of its friction [m]
+    int stuck = 0;       // as of Persistent
 };
 
 void sort_by_feature(std::vector<Remembered>& forces);
@@ -62,6 +64,7 @@ struct Persistent {
     Vec3 place{0, 0, 0};       // as of Remembered
     Vec3 rub{0, 0, 0};         // from the contact point to that of its friction, at the start [m]
     bool recalled = false;     // a force of the last sub-step is its first guess
+    int stuck = 0;             // contacts of its patch, while none of them slides
     TwoTouches touches;        // at the middle and the end
     double effective_mass = 0; // [kg]
     double dissipated = 0;     // [J]
@@ -74,6 +77,7 @@ struct Persistent {
 struct FrictionPatch {
     std::vector<int> contacts;
     PatchRule rule;
+    double size = 0; // [m]
 };
 
 /// What a persistent contact did over a sub-step.

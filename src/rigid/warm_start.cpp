@@ -55,6 +55,8 @@ void recall_forces(ContactMemory& memory, double h)
         const auto known = std::ranges::lower_bound(memory.known, f, {}, &Remembered::feature);
         if (known != memory.known.end() && known->feature == f) {
             take(p, known - memory.known.begin());
+            p.rub = memory.poses[f.a].R * known->rub;
+            p.stuck = known->stuck;
         }
     }
     for (Persistent& p : memory.persistent) {
@@ -71,7 +73,8 @@ void remember(ContactMemory& memory, double h)
 {
     memory.recent.clear();
     for (const Persistent& p : memory.persistent) {
-        memory.recent.push_back({p.candidate.feature, p.impulse / h, p.place});
+        const Vec3 rub = memory.poses[p.candidate.feature.a].R.transpose() * p.touches.push_rub;
+        memory.recent.push_back({p.candidate.feature, p.impulse / h, p.place, rub, p.stuck});
     }
     sort_by_feature(memory.recent);
     memory.known = memory.recent;

@@ -159,6 +159,8 @@ void describe_rigid(State& state, Rigid& rigid)
     state.list("contacts/features", "", start.features);
     state.list("contacts/forces", "N", start.forces);
     state.list("contacts/places", "m", start.places);
+    state.list("contacts/rubs", "m", start.rubs);
+    state.list("contacts/stuck", "", start.stuck);
     if constexpr (State::reads) {
         set_contact_start(rigid, start);
     }

@@ -100,6 +100,8 @@ struct ContactStart {
     std::vector<std::array<int, 9>> features; // the bodies, and which features of them touch
     std::vector<Vec3> forces;                 // on the first body [N]
     std::vector<Vec3> places;                 // in its axes, from its centre of mass [m]
+    std::vector<Vec3> rubs;                   // in its axes, from there to where friction acts [m]
+    std::vector<int> stuck; // contacts of the patch that stuck together; 0: it slid
 };
 ContactStart contact_start(const Rigid& rigid);
 /// Throws IoError if the lists differ in length.
