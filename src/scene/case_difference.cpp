@@ -115,7 +115,8 @@ private:
             return entry != nullptr ? &entry->node : nullptr;
         };
         for (const std::string& key : keys) {
-            compare(path.empty() ? key : path + "." + key, at(before, key), at(after, key));
+            compare(path.empty() ? key : fmt::format("{}.{}", path, key), at(before, key),
+                    at(after, key));
         }
     }
 

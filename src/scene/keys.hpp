@@ -78,6 +78,8 @@ void hold(std::variant<Ts...>& value, std::size_t index)
 template <class Visitor>
 class KeyWords {
     using Text = std::string_view;
+    friend Visitor; // a class that passes another one than itself does not compile
+    KeyWords() = default;
 
 public:
     void number(Text name, auto& member, Text unit, Text meaning, Default fallback = {})

@@ -61,12 +61,11 @@ std::string animate(const std::filesystem::path& pictures, int fps)
     std::error_code reason;
     if (code == 0) {
         std::filesystem::rename(unfinished, pictures / "animation.mp4", reason);
-        return reason ? "no animation: " + reason.message() : "";
+        return reason ? reason.message() : "";
     }
     std::filesystem::remove(unfinished, reason);
-    return code < 0
-               ? fmt::format("no animation: ffmpeg cannot be started ({})", std::strerror(errno))
-               : fmt::format("no animation: ffmpeg failed with exit code {}", code);
+    return code < 0 ? fmt::format("ffmpeg cannot be started ({})", std::strerror(errno))
+                    : fmt::format("ffmpeg failed with exit code {}", code);
 }
 
 } // namespace hyoryu

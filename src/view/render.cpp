@@ -72,7 +72,7 @@ RenderResult render(const fs::path& results, const RenderSettings& settings)
         result.pictures.push_back(file);
     }
     if (result.pictures.size() < 2) {
-        result.note = "no animation: there is only one picture";
+        result.note = "there is only one picture";
         return result;
     }
     result.note = animate(folder, settings.fps);

@@ -102,39 +102,62 @@ class Documentation(ProgramTest):
     def test_e13_the_record_is_of_one_commit(self):
         self.assertEqual(len(set(re.findall(r"commit ([0-9a-f]{7,40})", (ROOT / "docs/verification.md").read_text()))), 1)
 
-    def ci(self, number, failing="none"):
-        """What .ci/run calls at the commit of that number, in a tree where every script only tells its name; and its exit code."""
+    def calls(self, script, *arguments, stubs, says="", failing="none"):
+        """What a script calls in a tree where each of the stubs only tells its name and says a word; and its exit code."""
         tree = self.dir / "tree"
-        for folder in (".ci", "scripts", "bin"):
-            (tree / folder).mkdir(parents=True, exist_ok=True)
-        shutil.copy(ROOT / ".ci/run", tree / ".ci/run")
-        stub = '#!/bin/sh\necho "$(basename "$0") $*" >>called\n[ "$(basename "$0")" != "$FAILING" ]\n'
-        for script in ("test", "sanitize", "valgrind", "lint", "package"):
-            (tree / "scripts" / script).write_text(stub)
-        (tree / "bin/git").write_text(f"#!/bin/sh\necho {number}\n")
-        for script in [*(tree / "scripts").iterdir(), tree / "bin/git"]:
-            script.chmod(0o755)
+        stub = f'#!/bin/sh\necho "$(basename "$0") $*" >>"{tree}/called"\necho {says}\n[ "$(basename "$0")" != "$FAILING" ]\n'
+        for path in (script, *stubs):
+            (tree / path).parent.mkdir(parents=True, exist_ok=True)
+            (tree / path).write_text((ROOT / path).read_text() if path == script else stub)
+            (tree / path).chmod(0o755)
         (tree / "called").write_text("")
-        done = subprocess.run([tree / ".ci/run"], capture_output=True, text=True,
+        done = subprocess.run([tree / script, *arguments], capture_output=True, text=True,
                               env={"PATH": f"{tree}/bin:/usr/bin:/bin", "FAILING": failing})
-        return (tree / "called").read_text().splitlines(), done.returncode
+        return [line.strip() for line in (tree / "called").read_text().splitlines()], done.returncode
+
+    def ci(self, number, failing="none"):
+        """What .ci/run calls at the commit of that number, and its exit code."""
+        scripts = [f"scripts/{name}" for name in ("test", "sanitize", "valgrind", "lint", "package")]
+        calls, code = self.calls(".ci/run", stubs=["bin/git", *scripts], says=number, failing=failing)
+        return [call for call in calls if not call.startswith("git ")], code
 
     def test_e13_the_turns_leave_nothing_out_and_a_failure_of_any_is_one(self):
-        turns = [] # every one has come three times after 36 commits, as lint needs
+        turns = [] # of the parts of lint, the rarest, one comes every 8 commits; the parts of memory take turns by 6
         failed = set()
-        for number in range(36):
-            lines, code = self.ci(number)
+        for number in range(96):
+            turn, code = self.ci(number)
             self.assertEqual(code, 0)
-            turns.append([line.strip() for line in lines])
-            self.assertEqual(turns[-1][0], "test")
-            for script in {line.split()[0] for line in lines} - failed:
+            turns.append(turn)
+            self.assertEqual(turn[0].split()[0], "test")
+            for script in {call.split()[0] for call in turn} - failed:
                 failed.add(script)
                 self.assertNotEqual(self.ci(number, failing=script)[1], 0, (number, script))
         self.assertEqual({call for turn in turns for call in turn},
-                         {"test", "sanitize --quick", "sanitize --threads --quick", "valgrind", "lint --part 0/3",
-                          "lint --part 1/3", "lint --part 2/3", "package --check"})
+                         {"test", "test --portable", "package --check", "valgrind", "sanitize --threads --quick",
+                          *(f"sanitize --quick {part}" for part in ("bodies", "scenes", "steps")),
+                          *(f"lint --part {k}/4" for k in range(4))})
         for one, next_one in zip(turns, turns[1:]): # memory is never left out twice in a row
-            self.assertIn("sanitize --quick", one + next_one)
+            self.assertIn("sanitize --quick", " ".join(one + next_one))
+
+    def test_e13_the_parts_of_the_sanitizers_leave_out_no_layer_and_build_what_they_run(self):
+        def built_and_run(*part):
+            stubs = ["scripts/install_dependencies", "bin/cmake", "bin/ctest"]
+            calls, code = self.calls("scripts/sanitize", "--quick", *part, stubs=stubs)
+            self.assertEqual(code, 0, part)
+            build, run = calls[-2].split(), calls[-1].split()
+            return set(build[build.index("--target") + 1:]), set(run[run.index("-L") + 1].strip("^$()").split("|"))
+        fuzz = re.search(r"foreach\(target (.*)\)", (ROOT / "tests/fuzz/CMakeLists.txt").read_text()).group(1)
+        targets = {f"fuzz_{target.split(':')[0]}" for target in fuzz.split()}
+        union = set()
+        for part in (["bodies"], ["scenes"], ["steps"], []):
+            built, run = built_and_run(*part)
+            self.assertEqual(built, {f"test_{label}" for label in run - {"fuzz"}} | (targets if "fuzz" in run else set()))
+            self.assertEqual(built & union, built if not part else set(), part) # no part repeats another
+            union |= built
+        self.assertEqual(built, union)
+        layers = re.search(r"foreach\(layer (.*)\)", (ROOT / "tests/CMakeLists.txt").read_text()).group(1).split()
+        above = {"report", "assess", "bench", "view"} # what the whole step does not need
+        self.assertEqual(union, targets | {f"test_{layer}" for layer in set(layers) - above})
 
     def test_e13_lint_checks_format_clang_tidy_and_a_build_without_vtk(self):
         lint = (ROOT / "scripts/lint").read_text()

@@ -429,6 +429,11 @@ position = [0.7, 0.0, 0.1]
         self.assertEqual(len(pictures), 2)
         for picture in pictures:
             self.assertGreater(picture.stat().st_size, 5000)
+        for times, reason in (("0", "there is only one picture"),
+                              ("0,0.5", "ffmpeg cannot be started (No such file or directory)")):
+            done = self.call("render", "out", "--times", times, "--width", "320", "--height", "240",
+                             env={**os.environ, "PATH": str(self.dir)})
+            self.assertIn(f"no animation: {reason}", done.stdout.splitlines())
 
 
 if __name__ == "__main__":
