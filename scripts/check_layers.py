@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "report": {"core", "scene", "io"},
     "bench": {"core", "fluid", "rigid", "coupling", "scene", "sim", "io"},
     "view": {"core", "io"},
+    "gis": {"core", "geometry"},
     "vtk": {"core", "io", "geometry", "view"},
     "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "assess",
             "report", "bench", "view"},

@@ -28,8 +28,9 @@ struct CheckOptions {
     std::filesystem::path case_file;
     std::vector<std::string> overrides;
     bool json = false;
-    bool accuracy = false; // also the expected error
-    bool time = false;     // times steps of the case for the forecast
+    bool accuracy = false;      // also the expected error
+    bool time = false;          // times steps of the case for the forecast
+    std::filesystem::path plan; // where a picture of the scene from above goes; empty: nowhere
 };
 int check_case(const CheckOptions& options);
 

@@ -3,7 +3,9 @@
 #include "build_info.hpp"
 #include "commands.hpp"
 #include "forecast.hpp"
+#include "ground_report.hpp"
 #include "options.hpp"
+#include "plan_picture.hpp"
 #include "plan_report.hpp"
 
 #include "hyoryu/assess/accuracy.hpp"
@@ -27,6 +29,15 @@ constexpr double part_for_development = 0.1;
 constexpr double least_for_development = 2;
 constexpr double most_for_development = 60;
 
+void draw_plan(const CheckOptions& options, const Scene& scene, const Filling& filling)
+{
+    if (scene.dimensions != 3) {
+        throw CaseError("--plan shows a scene from above, which needs three dimensions",
+                        "leave --plan out");
+    }
+    write_png(options.plan, plan_picture(scene, filling));
+}
+
 } // namespace
 
 std::string version_text()
@@ -43,6 +54,9 @@ int check_case(const CheckOptions& options)
     const Scene scene = read_case(options.case_file, options.overrides);
     const Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
+    if (!options.plan.empty()) {
+        draw_plan(options, scene, filling);
+    }
     std::optional<StepCost> timed;
     if (options.time) {
         timed = time_case({options.case_file, options.overrides}, scene, plan, filling,
@@ -55,7 +69,7 @@ int check_case(const CheckOptions& options)
         fmt::print("{}", plan_json(scene, plan, timed));
         return exit_code::done;
     }
-    fmt::print("{}", plan_text(scene, plan, timed));
+    fmt::print("{}{}", plan_text(scene, plan, timed), ground_text(scene));
     if (options.accuracy) {
         fmt::print("\n{}", expected_errors_text(expected_errors(scene, filling, plan)));
     }

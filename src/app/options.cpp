@@ -79,6 +79,9 @@ void add_check(CLI::App& app, CheckOptions& options)
         ->add_flag("--accuracy", options.accuracy,
                    "also print the expected error, from the standing studies")
         ->excludes(json);
+    check->add_option("--plan", options.plan, "also draw the scene from above, as a picture")
+        ->type_name("FILE.png")
+        ->check(a_name);
     check->add_flag("--time", options.time,
                     "measure some steps of the case for the forecast, and the cost of each effect");
 }

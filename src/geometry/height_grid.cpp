@@ -50,6 +50,16 @@ double mean_height(const HeightGrid& grid, const TerrainPatch& patch, std::array
     return sum / static_cast<double>(count[0] * count[1]);
 }
 
+// The last level area that holds a place of the case, or none.
+const LevelArea* level_at(const TerrainPatch& patch, const Plan2& place)
+{
+    const LevelArea* found = nullptr;
+    for (const LevelArea& level : patch.levels) {
+        found = holds(level.corners, place) ? &level : found;
+    }
+    return found;
+}
+
 double edge(const TerrainPatch& patch, std::size_t axis)
 {
     return (patch.extent[axis + 2] - patch.extent[axis]) /
@@ -201,12 +211,25 @@ std::vector<double> sample_heights(const HeightGrid& grid, const TerrainPatch& p
     heights.reserve(at((columns + 1) * (rows + 1)));
     for (Index j = 0; j <= rows; ++j) {
         for (Index i = 0; i <= columns; ++i) {
+            const Plan2 place{coordinate(patch, 0, i), coordinate(patch, 1, j)};
+            const LevelArea* level = level_at(patch, place);
             heights.push_back(
-                patch.datum +
-                mean_height(grid, patch, {coordinate(patch, 0, i), coordinate(patch, 1, j)}, size));
+                level != nullptr ? level->z : patch.datum + mean_height(grid, patch, place, size));
         }
     }
     return heights;
+}
+
+Index points_within(const TerrainPatch& patch, const Ring& ring)
+{
+    const auto [columns, rows] = lattice_cells(patch);
+    Index count = 0;
+    for (Index j = 0; j <= rows; ++j) {
+        for (Index i = 0; i <= columns; ++i) {
+            count += holds(ring, {coordinate(patch, 0, i), coordinate(patch, 1, j)}) ? 1 : 0;
+        }
+    }
+    return count;
 }
 
 Mesh terrain_mesh(const TerrainPatch& patch, const std::vector<double>& heights)

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The reader of ESRI ASCII grids.
-#include "hyoryu/core/error.hpp"
-#include "hyoryu/core/input_file.hpp"
-#include "hyoryu/geometry/height_grid.hpp"
+// The reader of ESRI ASCII grids, which hands other files to theirs.
+#include "grid_text.hpp"
 
-#include <fmt/format.h>
+#include "hyoryu/core/input_file.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -16,8 +13,6 @@
 namespace hyoryu {
 
 namespace {
-
-constexpr double most_cells = 2e8;
 
 // The words of a text, which are separated by blanks and ends of lines.
 class Words {
@@ -53,15 +48,6 @@ private:
     std::size_t place_ = 0;
     std::size_t start_ = 0;
 };
-
-std::optional<double> number_of(std::string_view word)
-{
-    double value = 0;
-    word.remove_prefix(word.starts_with('+') ? 1 : 0);
-    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool whole = fault == std::errc() && end == word.data() + word.size();
-    return whole ? std::optional(value) : std::nullopt;
-}
 
 using Header = std::map<std::string, double>;
 
@@ -146,12 +132,12 @@ void place_grid(const Header& header, const Words& words, HeightGrid& grid)
 {
     const double columns = required_number(header, words, "ncols");
     const double rows = required_number(header, words, "nrows");
-    const auto whole = [](double n) { return n >= 2 && n == std::floor(n) && n < most_cells; };
-    if (!whole(columns) || !whole(rows) || columns * rows > most_cells) {
+    const auto whole = [](double n) { return n >= 2 && n == std::floor(n) && n < most_grid_cells; };
+    if (!whole(columns) || !whole(rows) || columns * rows > most_grid_cells) {
         words.refuse(
             fmt::format("a grid of {} x {} cells is not supported: expected whole numbers, "
                         "at least 2 x 2 and at most {:.0e} cells",
-                        columns, rows, most_cells));
+                        columns, rows, most_grid_cells));
     }
     grid.columns = static_cast<Index>(columns);
     grid.rows = static_cast<Index>(rows);
@@ -163,12 +149,8 @@ void place_grid(const Header& header, const Words& words, HeightGrid& grid)
     }
     grid.first = {first_centre(header, words, 'x', grid.cell[0]),
                   first_centre(header, words, 'y', grid.cell[1])};
-    constexpr double degrees = 0.01; // a cell of one centimetre, or of a kilometre
-    const auto is_angle = [](double x) { return std::abs(x) <= 360; };
-    if (std::max(grid.cell[0], grid.cell[1]) < degrees && is_angle(grid.first[0]) &&
-        is_angle(grid.first[1])) {
-        words.refuse("the grid seems to be in degrees; reproject it to metres, for instance by "
-                     "`gdalwarp -t_srs EPSG:32654`");
+    if (may_be_degrees(grid)) {
+        words.refuse(grid_in_degrees);
     }
 }
 
@@ -207,6 +189,12 @@ HeightGrid read_height_grid(const std::filesystem::path& file, std::optional<dou
 {
     constexpr std::uintmax_t largest = std::uintmax_t(4) << 30;
     const std::string text = bytes_of_file(file, largest);
+    if (is_raster(text)) {
+        return read_raster(file, substitute.value_or(std::nan("")));
+    }
+    if (is_point_text(text)) {
+        return grid_of_points(file, text, substitute.value_or(std::nan("")));
+    }
     Words words(file, text);
     const Header header = read_header(words);
     HeightGrid grid;

@@ -51,6 +51,7 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
     keys_of(root, scene);
     root.finish();
     throw_if_any(reading);
+    scene.notices = std::move(reading.notices);
     return scene;
 }
 

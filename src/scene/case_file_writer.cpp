@@ -40,6 +40,11 @@ std::string toml(const std::string& text)
     return quoted + '"';
 }
 
+std::string toml(const NumberOrName& value)
+{
+    return value.number ? toml(*value.number) : toml(value.name);
+}
+
 std::string toml(const Vec3& v)
 {
     return fmt::format("[{}, {}, {}]", toml(v.x()), toml(v.y()), toml(v.z()));

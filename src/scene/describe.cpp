@@ -33,6 +33,8 @@ std::string kind_of(const Parameter& parameter)
     switch (parameter.kind) {
     case ValueKind::number:
         return "number";
+    case ValueKind::number_or_name:
+        return "number or text";
     case ValueKind::integer:
         return "whole number";
     case ValueKind::boolean:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fill_block.hpp"
 
+#include "seeded_water.hpp"
+
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/fill.hpp"
 
@@ -433,6 +435,11 @@ BlockParticles fill_block(const Scene& scene, std::size_t block)
         }
     }
     result.points = std::move(found.points);
+    if (own.seeded) {
+        const SeededCells cells = seeded_cells(scene, block, bounds(shape));
+        std::erase_if(result.points, [&](const Vec3& p) { return !is_reached(cells, space, p); });
+        result.in_walls = 0; // the box about the water is ours, not the user's
+    }
     return result;
 }
 

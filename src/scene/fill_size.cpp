@@ -69,7 +69,8 @@ double particles_asked(const Scene& scene)
     }
     if (scene.fluid) {
         for (const FluidBlock& block : scene.fluid->blocks) {
-            total += count(volume(block.shape, scene.dimensions), scene.spacing);
+            // Still water fills a part of its box, whose cells were counted when it was found.
+            total += block.seeded ? 0 : count(volume(block.shape, scene.dimensions), scene.spacing);
         }
         for (const Wall& wall : scene.walls) {
             total += count(wall_volume(scene, wall), scene.spacing);

@@ -36,8 +36,12 @@ FreeSpace::FreeSpace(const Scene& scene, std::size_t block)
     for (const Wall& wall : scene.walls) {
         obstacles_.push_back(surface_of(wall, endless, scene.dimensions));
     }
-    for (std::size_t b = 0; b < block; ++b) {
-        obstacles_.push_back(surface_of_block(scene.fluid->blocks[b], scene.dimensions));
+    const std::vector<FluidBlock>& blocks = scene.fluid->blocks;
+    const std::size_t end = blocks[block].seeded ? blocks.size() : block;
+    for (std::size_t b = 0; b < end; ++b) {
+        if (!blocks[b].seeded) {
+            obstacles_.push_back(surface_of_block(blocks[b], scene.dimensions));
+        }
     }
     number_obstacles();
 }

@@ -15,7 +15,8 @@ class FreeSpace {
 public:
     /// Space outside walls and bodies.
     explicit FreeSpace(const Scene& scene);
-    /// Space outside walls and the blocks before this one.
+    /// Space outside walls and the blocks before this one; for still water, which goes round them,
+    /// all blocks of another shape.
     FreeSpace(const Scene& scene, std::size_t block);
 
     /// Numbers of obstacles: of all, of those that may be within a distance of a point [m].

@@ -140,7 +140,7 @@ std::vector<std::size_t> Ground::near(const Plan2& low, const Plan2& high) const
     return found;
 }
 
-double Ground::highest_under(const std::vector<Plan2>& footprint) const
+Ground::Range Ground::range_under(const Ring& footprint) const
 {
     Plan2 low{infinity, infinity};
     Plan2 high{-infinity, -infinity};
@@ -153,7 +153,7 @@ double Ground::highest_under(const std::vector<Plan2>& footprint) const
     if (dimensions_ == 2) {
         low[1] = high[1] = 0;
     }
-    double highest = -infinity;
+    Range range;
     for (const std::size_t n : near(low, high)) {
         std::vector<Vec3> polygon(triangles_[n].begin(), triangles_[n].end());
         if (dimensions_ == 2) { // the section: its part between two verticals
@@ -164,10 +164,11 @@ double Ground::highest_under(const std::vector<Plan2>& footprint) const
             polygon = clipped(polygon, footprint[k], footprint[(k + 1) % footprint.size()]);
         }
         for (const Vec3& p : polygon) {
-            highest = std::max(highest, p.z());
+            range.highest = std::max(range.highest, p.z());
+            range.lowest = std::min(range.lowest, p.z());
         }
     }
-    return highest;
+    return range;
 }
 
 double Ground::height_at(const Plan2& place) const

@@ -72,6 +72,12 @@ void hold(std::variant<Ts...>& value, std::size_t index)
     }
 }
 
+/// A number, or the name of what holds numbers.
+struct NumberOrName {
+    std::optional<double> number;
+    std::string name; // empty beside a number
+};
+
 /// Each word declares one key: its name, the member that it stands for, its unit and what it means.
 /// A visitor defines `key` for all values, `pick` for one of some names, `table` and `tables`; and
 /// what it sees in another way than said here.
@@ -99,6 +105,11 @@ public:
     void not_positive(Text name, auto& member, Text unit, Text meaning, Default fallback = {})
     {
         self().key(bounded(name, unit, -unbounded, 0, "<= 0", meaning), member, fallback);
+    }
+    /// A number, or the name of what holds numbers.
+    void number_or_name(Text name, auto& member, Text unit, Text meaning, Default fallback = {})
+    {
+        self().key(row(name, ValueKind::number_or_name, unit, meaning), member, fallback);
     }
     /// A number without unit; `bounds` as the user reads them.
     void between(Text name, auto& member, double minimum, double maximum, Text bounds, Text meaning,
@@ -171,6 +182,14 @@ public:
         rule.shortest = shortest;
         rule.longest = 3;
         self().key(rule, member, fallback);
+    }
+    /// A place seen from above: x, and in three dimensions y.
+    void plan_place(Text name, std::vector<double>& member, Text meaning)
+    {
+        Parameter rule = row(name, ValueKind::vector, "m", meaning);
+        rule.shortest = 1;
+        rule.longest = 2;
+        self().key(rule, member, needed);
     }
     /// A vector in space: its y is zero in two dimensions.
     void planar(Text name, auto& member, Text unit, Text meaning, Default fallback = {},

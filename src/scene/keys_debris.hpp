@@ -2,6 +2,7 @@
 // The keys of debris: pieces of the library in arrays, stacks, or scattered over a yard.
 #pragma once
 
+#include "geojson.hpp"
 #include "keys_bodies.hpp"
 #include "keys_walls.hpp"
 #include "place_debris.hpp"

@@ -120,14 +120,49 @@ void model_keys(auto& keys, const SlotTable& table, auto& choice, FormulationKin
                       });
 }
 
-void keys_of(auto& keys, Is<FluidBlock> auto& block)
+inline void set_seed(TableReader& table, const std::vector<double>& seed, SeededWater& water)
 {
-    std::size_t kind = block.shape.index();
+    const std::size_t count = table.reading().dimensions == 2 ? 1 : 2;
+    if (table.sound("seed") && seed.size() != count) {
+        table.error("seed",
+                    fmt::format("expected {}, found {} numbers",
+                                count == 1 ? "[x] in two dimensions" : "[x, y]", seed.size()));
+    } else if (table.sound("seed")) {
+        water.seed = {seed[0], count == 2 ? seed[1] : 0, 0};
+    }
+}
+
+/// Water at rest about a seed; `block.seeded` is there.
+void still_water_keys(auto& keys, Is<SeededWater> auto& water, int dimensions)
+{
+    std::vector<double> seed{water.seed.x()};
+    if (dimensions == 3) {
+        seed.push_back(water.seed.y());
+    }
+    keys.number("level", water.level, "m", "z of the surface of still water.", needed);
+    keys.plan_place(
+        "seed", seed,
+        "A place under still water, [x, y], in two dimensions [x]: all that is connected "
+        "with it below the level and outside of walls is filled.");
+    keys.rule(set_seed, seed, water);
+}
+
+void keys_of(auto& keys, Is<FluidBlock> auto& block, const Scene& scene)
+{
+    constexpr std::size_t still_water = 4;
+    std::size_t kind = block.seeded ? still_water : block.shape.index();
     const bool known = keys.alternatives(
-        "shape", kind, {"box", "sphere", "cylinder", "mesh"},
+        "shape", kind, {"box", "sphere", "cylinder", "mesh", "still_water"},
         "box: min and max, or size and position; sphere: radius; cylinder: radius and length "
-        "along x before rotation; mesh: a closed surface from a file.",
+        "along x before rotation; mesh: a closed surface from a file; still_water: level and seed.",
         required, [&](std::size_t k) {
+            if (k == still_water) {
+                if constexpr (!std::is_const_v<std::remove_reference_t<decltype(block)>>) {
+                    block.seeded.emplace();
+                }
+                still_water_keys(keys, *block.seeded, scene.dimensions);
+                return;
+            }
             keys.select(block.shape, k);
             placed_keys(keys, block.shape, block.centre,
                         {"Lower corner of a box.", "Upper corner of a box.",
@@ -135,7 +170,7 @@ void keys_of(auto& keys, Is<FluidBlock> auto& block)
                          "Radius of a sphere or cylinder.", "Length of a cylinder.",
                          "STL or OBJ file of a mesh, relative to the case file."});
         });
-    if (known) {
+    if (known && keys.applies(kind != still_water)) {
         rotation_keys(keys, block.rotation, "Rotation about the centre of the shape.");
     }
     const bool round = std::holds_alternative<SphereShape>(block.shape) ||
@@ -161,7 +196,7 @@ void keys_of(auto& keys, Is<FluidBlock> auto& block)
     keys.rule(check_fields, block);
 }
 
-void keys_of(auto& keys, Is<FluidSettings> auto& fluid)
+void keys_of(auto& keys, Is<FluidSettings> auto& fluid, const Scene& scene)
 {
     keys.positive("density", fluid.density, "kg/m3", "Density of the fluid at rest.");
     keys.choice("formulation", fluid.formulation, {"sph", "mps"},
@@ -189,7 +224,7 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid)
         });
     });
     keys.rule(check_slip, fluid);
-    keys.tables("block", "A region filled with fluid at the start.", fluid.blocks);
+    keys.tables("block", "A region filled with fluid at the start.", fluid.blocks, scene);
     keys.rule(expect_block);
 }
 

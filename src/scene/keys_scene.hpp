@@ -3,11 +3,13 @@
 #pragma once
 
 #include "keys_bodies.hpp"
+#include "keys_buildings.hpp"
 #include "keys_contact.hpp"
 #include "keys_debris.hpp"
 #include "keys_fluid.hpp"
 #include "keys_gauges.hpp"
 #include "keys_open.hpp"
+#include "keys_still_water.hpp"
 #include "keys_walls.hpp"
 
 namespace hyoryu {
@@ -191,9 +193,12 @@ void general_keys(auto& keys, Is<Scene> auto& scene)
 void keys_of(auto& keys, Is<Scene> auto& scene)
 {
     general_keys(keys, scene);
-    keys.table("fluid", "The fluid; without this table no fluid is simulated.", scene.fluid);
+    keys.table("fluid", "The fluid; without this table no fluid is simulated.", scene.fluid, scene);
     keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
                 scene.gravity.norm(), scene);
+    std::vector<BuildingKeys> buildings; // walls when the case is resolved
+    keys.tables("buildings", "Buildings from footprints, each a wall of its own.", buildings,
+                scene);
     keys.tables("sponge", "A box that damps waves before they reach its end.", scene.sponges);
     keys.tables("open", "A window in a side of the domain through which fluid enters and leaves.",
                 scene.open, scene);
@@ -202,6 +207,7 @@ void keys_of(auto& keys, Is<Scene> auto& scene)
     std::vector<DebrisKeys> debris; // bodies when the case is resolved
     keys.tables("debris", "Pieces of the debris library: containers, logs, cars ...", debris,
                 scene);
+    keys.rule(find_still_water, scene);
     keys.rule(check_bodies, scene.bodies);
     keys.table("contact", "Contact of bodies with each other and with walls.", scene.contact,
                scene);

@@ -2,7 +2,9 @@
 // The keys of terrain: the ground of a case from a height grid.
 #pragma once
 
+#include "geojson.hpp"
 #include "keys_names.hpp"
+#include "plan_polygon.hpp"
 
 #include "hyoryu/geometry/height_grid.hpp"
 
@@ -16,6 +18,95 @@ struct TerrainKeys {
     std::optional<std::array<double, 4>> extent;
     std::optional<double> resolution, bottom, nodata;
 };
+
+/// [[wall.level]], whose polygon is from a file or from the case.
+struct LevelKeys {
+    std::string polygon; // a file, or empty:
+    std::vector<Vec3> corners;
+    Ring ring; // of the file, in its coordinates, or of the case
+    double z = 0;
+};
+
+inline void find_ring(TableReader& table, LevelKeys& level)
+{
+    if (table.has("polygon") == table.has("corners")) {
+        table.error(table.has("polygon") ? "corners" : "",
+                    table.has("polygon") ? "give either `polygon` or `corners`, not both"
+                                         : "has no place: give `polygon` or `corners`");
+        return;
+    }
+    const char* key = table.has("polygon") ? "polygon" : "corners";
+    for (const Vec3& corner : level.corners) {
+        level.ring.push_back({corner.x(), corner.y()});
+    }
+    if (table.has("polygon")) {
+        const auto path = path_of_file(table, "polygon", level.polygon);
+        if (!path) {
+            return;
+        }
+        try {
+            level.ring = read_polygon(*path);
+        } catch (const IoError& error) {
+            table.error("polygon", error.what(), "a GeoJSON file of one polygon");
+            return;
+        }
+    }
+    if (const std::string fault = outline_fault({level.ring}); table.sound(key) && !fault.empty()) {
+        table.error(key, "is no outline of an area: " + fault,
+                    "the corners of one polygon, one after the other along its edge");
+    }
+}
+
+void keys_of(auto& keys, Is<LevelKeys> auto& level)
+{
+    if (keys.shows(!level.polygon.empty())) {
+        keys.text("polygon", level.polygon,
+                  "GeoJSON file of the area, relative to the case file, in the coordinates of the "
+                  "terrain.");
+    }
+    constexpr int fewest = 3;
+    keys.path("corners", level.corners, "m",
+              "Corners of the area in the axes of the case in place of a file, [x, y, z] each, of "
+              "which z is not read.",
+              no_default, fewest);
+    keys.number("z", level.z, "m", "z of the ground within the area, in the axes of the case.",
+                required);
+    keys.rule(find_ring, level);
+}
+
+/// Areas of the terrain in the axes of the case.
+inline void place_levels(TableReader& table, const std::vector<LevelKeys>& levels,
+                         TerrainPatch& patch)
+{
+    for (const LevelKeys& level : levels) {
+        Ring ring = level.ring;
+        if (!level.polygon.empty() && may_be_degrees(ring) &&
+            !may_be_degrees({{patch.origin[0], patch.origin[1]}})) {
+            table.error("level",
+                        "the coordinates look like degrees, those of the terrain are in "
+                        "metres",
+                        "project them to the map of the terrain, for instance to UTM");
+        }
+        if (!level.polygon.empty()) {
+            into_axes_of(patch, ring);
+        }
+        patch.levels.push_back({std::move(ring), level.z});
+    }
+}
+
+/// Notes areas between the points of the surface, which would change none of them.
+inline void check_levels(TableReader& table, const TerrainPatch& patch)
+{
+    for (std::size_t k = 0; k < patch.levels.size(); ++k) {
+        if (points_within(patch, patch.levels[k].corners) == 0) {
+            table.error("level",
+                        fmt::format("number {} holds no point of the surface, whose points are "
+                                    "{:.4g} m apart",
+                                    k + 1, patch.resolution),
+                        "give a smaller `resolution`, or an area within `extent`");
+        }
+    }
+}
 
 inline void find_extent(TableReader& table, const HeightGrid& grid, const TerrainKeys& given,
                         TerrainPatch& patch)
@@ -78,7 +169,8 @@ inline void find_bottom(TableReader& table, const TerrainKeys& given, double low
 }
 
 /// Reads the grid and makes the closed surface of the ground; fills in what follows from the grid.
-inline void load_terrain(TableReader& table, const TerrainKeys& given, double spacing,
+inline void load_terrain(TableReader& table, const TerrainKeys& given,
+                         const std::vector<LevelKeys>& levels, double spacing,
                          const std::string& name, TerrainPatch& patch, Mesh& mesh)
 {
     const auto path = path_of_file(table, "file", name);
@@ -109,6 +201,8 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given, double sp
                                                   points, most_points));
             return;
         }
+        place_levels(table, levels, patch);
+        check_levels(table, patch);
         const std::vector<double> heights = sample_heights(grid, patch);
         check_heights(table, grid, patch, heights);
         if (table.reading().diagnostics.size() == before) {
@@ -122,11 +216,11 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given, double sp
     }
 }
 
-inline void finish_terrain(TableReader& table, const TerrainKeys& given, double spacing,
-                           MeshShape& shape)
+inline void finish_terrain(TableReader& table, const TerrainKeys& given,
+                           const std::vector<LevelKeys>& levels, double spacing, MeshShape& shape)
 {
     Mesh mesh;
-    load_terrain(table, given, spacing, shape.file, *shape.terrain, mesh);
+    load_terrain(table, given, levels, spacing, shape.file, *shape.terrain, mesh);
     shape.corners = std::move(mesh.corners);
     shape.triangles = std::move(mesh.triangles);
     if (!shape.file.empty()) {
@@ -136,10 +230,10 @@ inline void finish_terrain(TableReader& table, const TerrainKeys& given, double 
 }
 
 /// The ground from a height grid; `shape.terrain` is there.
-void terrain_keys(auto& keys, Is<MeshShape> auto& shape, double spacing, std::string_view of_file)
+void terrain_keys(auto& keys, Is<MeshShape> auto& shape, TerrainKeys& given,
+                  std::string_view of_file)
 {
     auto& patch = *shape.terrain;
-    TerrainKeys given;
     if (keys.writes) {
         given = {patch.origin, patch.extent, patch.resolution, patch.bottom, patch.nodata};
     }
@@ -157,11 +251,11 @@ void terrain_keys(auto& keys, Is<MeshShape> auto& shape, double spacing, std::st
                   "Longest edge of the cells of the surface. Coarser than the grid it takes means, "
                   "finer it interpolates.",
                   "the larger of the cells of the grid and particles.spacing");
-    keys.number("bottom", given.bottom, "m", "z of the lower side of the ground, which is a solid.",
+    keys.number("bottom", given.bottom, "m",
+                "z of the lower side of the ground, which is a solid, or of a prism.",
                 "a twentieth of the width below the lowest ground");
     keys.number("nodata", given.nodata, "m",
                 "Height to use where the grid has none; without it such places are refused.");
-    keys.rule(finish_terrain, given, spacing, shape);
 }
 
 } // namespace hyoryu

@@ -2,7 +2,7 @@
 // The keys of walls and of how they move.
 #pragma once
 
-#include "keys_shapes.hpp"
+#include "keys_prism.hpp"
 #include "keys_terrain.hpp"
 #include "keys_waves.hpp"
 
@@ -265,25 +265,34 @@ inline bool is_terrain(const Wall& wall)
     return mesh != nullptr && mesh->terrain;
 }
 
-/// The mesh of a wall as terrain, which a reader makes it.
-auto& terrain_of(auto& keys, Is<SolidWall> auto& solid)
+inline bool is_prism(const Wall& wall)
+{
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
+    return mesh != nullptr && mesh->prism;
+}
+
+/// The mesh of a wall, which a reader makes terrain or a prism.
+template <class Part>
+auto& mesh_of(auto& keys, Is<SolidWall> auto& solid, Part MeshShape::*part)
 {
     constexpr std::size_t mesh = 3;
     keys.select(solid.shape, mesh);
     auto& shape = std::get<mesh>(solid.shape);
     if constexpr (!std::is_const_v<std::remove_reference_t<decltype(solid)>>) {
-        shape.terrain.emplace();
+        (shape.*part).emplace();
     }
     return shape;
 }
 
 /// The shape of a wall and its keys.
-void geometry_keys(auto& keys, Is<Wall> auto& wall, double spacing)
+void geometry_keys(auto& keys, Is<Wall> auto& wall, TerrainKeys& given)
 {
     constexpr std::size_t round = 2;
     constexpr std::size_t solid = 3;
     constexpr std::size_t mesh = 6;
     constexpr std::size_t terrain = 7;
+    constexpr std::size_t prism = 8;
     constexpr ShapeWords words{"Lower corner of a basin or box.",
                                "Upper corner of a basin or box.",
                                "Edge lengths of a box, instead of min and max.",
@@ -293,14 +302,16 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, double spacing)
                                "heights of a terrain, relative to the case file."};
     const auto* held = std::get_if<SolidWall>(&wall.geometry);
     std::size_t kind = is_terrain(wall)  ? terrain
+                       : is_prism(wall)  ? prism
                        : held != nullptr ? solid + held->shape.index()
                                          : wall.geometry.index();
     const bool known = keys.alternatives(
         "shape", kind,
-        {"plane", "basin", "round_basin", "box", "sphere", "cylinder", "mesh", "terrain"},
+        {"plane", "basin", "round_basin", "box", "sphere", "cylinder", "mesh", "terrain", "prism"},
         "plane: point and normal; basin: the inside of a box; round_basin: the inside of a "
         "sphere, of a circle in two dimensions; box: min and max, or size and position; sphere, "
-        "cylinder and mesh as for bodies; terrain: the ground from a height grid.",
+        "cylinder and mesh as for bodies; terrain: the ground from a height grid; prism: a "
+        "polygon between two heights, such as a building.",
         required, [&](std::size_t k) {
             keys.select(wall.geometry, std::min(k, solid));
             if (auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
@@ -308,7 +319,9 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, double spacing)
             } else if (auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
                 keys_of(keys, *basin);
             } else if (auto* block = std::get_if<SolidWall>(&wall.geometry); k == terrain) {
-                terrain_keys(keys, terrain_of(keys, *block), spacing, words.file);
+                terrain_keys(keys, mesh_of(keys, *block, &MeshShape::terrain), given, words.file);
+            } else if (block != nullptr && k == prism) {
+                prism_keys(keys, mesh_of(keys, *block, &MeshShape::prism));
             } else if (block != nullptr) {
                 keys.select(block->shape, k - solid);
                 placed_keys(keys, block->shape, block->centre, words);
@@ -327,6 +340,58 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, double spacing)
     }
 }
 
+inline void finish_ground(TableReader& table, const TerrainKeys& given,
+                          const std::vector<LevelKeys>& levels, double spacing, Wall& wall)
+{
+    if (is_terrain(wall)) {
+        auto& solid = std::get<SolidWall>(wall.geometry);
+        finish_terrain(table, given, levels, spacing, std::get<MeshShape>(solid.shape));
+    }
+}
+
+/// The areas of a terrain, after all keys that are no tables.
+void ground_keys(auto& keys, Is<Wall> auto& wall, const TerrainKeys& given, double spacing)
+{
+    std::vector<LevelKeys> levels;
+    if (keys.writes && is_terrain(wall)) {
+        const Shape& shape = std::get<SolidWall>(wall.geometry).shape;
+        for (const LevelArea& area : std::get<MeshShape>(shape).terrain->levels) {
+            LevelKeys& level = levels.emplace_back();
+            level.z = area.z;
+            for (const Plan2& p : area.corners) {
+                level.corners.emplace_back(p[0], p[1], 0);
+            }
+        }
+    }
+    if (keys.applies(is_terrain(wall))) {
+        keys.tables("level",
+                    "An area of a terrain that is level, such as a quay or a yard that the grid "
+                    "smears: within its polygon the ground has this z.",
+                    levels);
+    }
+    keys.rule(finish_ground, given, levels, spacing, wall);
+}
+
+inline void check_manning(TableReader& table, const Wall& wall, const Scene& scene)
+{
+    constexpr double roughest = 1; // dense forest has 0.2
+    if (!(wall.manning > 0)) {
+        return;
+    }
+    if (wall.manning > roughest) {
+        table.error("manning", fmt::format("{} is out of range, expected at most {} s/m^(1/3)",
+                                           wall.manning, roughest));
+    }
+    if (!scene.fluid) {
+        table.error("manning", "has no meaning without a fluid");
+    } else if (scene.fluid->walls.sticks) {
+        table.error(
+            "manning", "needs fluid that slips along walls",
+            "leave `fluid.walls = \"no_slip\"` out: the formula is that of the mean velocity, "
+            "which no-slip does not have at the bed");
+    }
+}
+
 void keys_of(auto& keys, Is<Wall> auto& wall, double gravity, const Scene& scene)
 {
     keys.rule(number_name, "wall", wall.name);
@@ -334,11 +399,19 @@ void keys_of(auto& keys, Is<Wall> auto& wall, double gravity, const Scene& scene
               "wall.1, wall.2 ...");
     keys.rule(check_name, "name", wall.name);
     keys.rule(claim_name, wall.name);
-    geometry_keys(keys, wall, scene.spacing);
+    TerrainKeys given; // of the ground, which is made when its areas are read as well
+    geometry_keys(keys, wall, given);
     keys.text("material", wall.material, "Name of its material, for contact.pair.");
     keys.rule(check_material, wall.material);
+    if (keys.shows(wall.manning > 0)) {
+        keys.not_negative("manning", wall.manning, "",
+                          "Roughness n of the bed in s/m^(1/3), by Manning's formula: 0.025 is a "
+                          "natural channel, 0.015 concrete. The fluid must slip along walls.");
+    }
+    keys.rule(check_manning, wall, scene);
     keys.table("motion", "Motion of the wall; without it the wall is fixed.", wall.motion, wall,
                gravity, scene);
+    ground_keys(keys, wall, given, scene.spacing);
 }
 
 } // namespace hyoryu

@@ -2,6 +2,7 @@
 // Places for pieces of debris: arrays, stacks and yards, on the ground.
 #pragma once
 
+#include "place_fault.hpp"
 #include "plan_polygon.hpp"
 
 #include "hyoryu/scene/debris.hpp"
@@ -36,12 +37,6 @@ struct DebrisKeys {
     DebrisScatter scatter;
     std::size_t placed = 0; // bodies that it has become
     Place place;
-};
-
-/// What is wrong with a place; without a hint the meaning of the key stands for one.
-struct PlaceFault {
-    std::string what;
-    std::string hint = {};
 };
 
 /// Appends the pieces to the bodies of the scene and returns what is wrong with their places: no

@@ -238,6 +238,11 @@ void list_effects(const Scene& scene, Plan& plan)
                when(fluid && !scene.sponges.empty(),
                     fmt::format("{} sponges damp waves", scene.sponges.size())),
                fluid ? "the scene has no sponge" : dry);
+    const auto rough =
+        std::ranges::count_if(scene.walls, [](const Wall& wall) { return wall.manning > 0; });
+    census.add("bed_friction",
+               when(fluid && rough > 0, fmt::format("{} walls have `manning`", rough)),
+               fluid ? "no wall has `manning`" : dry);
     const bool absorbs = std::ranges::any_of(
         scene.walls, [](const Wall& wall) { return wall.motion.absorption.has_value(); });
     census.add("wave_absorption",
@@ -325,7 +330,8 @@ double list_bytes(const FluidParameters& fluid)
 Plan make_plan(const Scene& scene, const Filling& filling)
 {
     Plan plan;
-    plan.warnings = filling.warnings;
+    plan.warnings = scene.notices;
+    plan.warnings.insert(plan.warnings.end(), filling.warnings.begin(), filling.warnings.end());
     plan.counts = {static_cast<Index>(filling.fluid.size()),
                    static_cast<Index>(filling.wall.size()), 0,
                    static_cast<Index>(scene.bodies.size()), static_cast<Index>(scene.walls.size())};

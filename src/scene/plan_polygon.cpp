@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan_polygon.hpp"
 
-#include "hyoryu/core/error.hpp"
-#include "hyoryu/core/input_file.hpp"
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,89 +10,6 @@
 namespace hyoryu {
 
 namespace {
-
-using nlohmann::json;
-
-constexpr std::size_t most_corners = 2000;
-
-// What is wrong with a file that is JSON.
-struct Fault {
-    std::string what;
-};
-
-const json& member(const json& object, const char* name)
-{
-    const auto found = object.is_object() ? object.find(name) : object.end();
-    if (!object.is_object() || found == object.end()) {
-        throw Fault{fmt::format("an object without \"{}\"", name)};
-    }
-    return *found;
-}
-
-const json& list(const json& object, const char* name)
-{
-    const json& items = member(object, name);
-    if (!items.is_array()) {
-        throw Fault{fmt::format("a \"{}\" that is no list", name)};
-    }
-    return items;
-}
-
-// Polygons below a GeoJSON object, each a list of rings.
-void collect(const json& object, std::vector<json>& polygons)
-{
-    const json& type = member(object, "type");
-    if (type == "FeatureCollection") {
-        for (const json& feature : list(object, "features")) {
-            collect(feature, polygons);
-        }
-    } else if (type == "Feature") {
-        if (const json& geometry = member(object, "geometry"); geometry.is_object()) {
-            collect(geometry, polygons);
-        }
-    } else if (type == "Polygon") {
-        polygons.push_back(list(object, "coordinates"));
-    } else if (type == "MultiPolygon") {
-        for (const json& polygon : list(object, "coordinates")) {
-            polygons.push_back(polygon);
-        }
-    }
-}
-
-// The outer ring of a polygon.
-std::vector<Plan2> ring_of(const json& polygon)
-{
-    if (!polygon.is_array() || polygon.empty() || !polygon[0].is_array() || polygon[0].empty()) {
-        throw Fault{"a polygon without corners"};
-    }
-    std::vector<Plan2> ring;
-    for (const json& point : polygon[0]) {
-        if (!point.is_array() || point.size() < 2 || !point[0].is_number() ||
-            !point[1].is_number()) {
-            throw Fault{fmt::format("a corner that is not [x, y]: number {}", ring.size() + 1)};
-        }
-        ring.push_back({point[0].get<double>(), point[1].get<double>()});
-    }
-    if (ring.size() > 1 && ring.front() == ring.back()) {
-        ring.pop_back();
-    }
-    return ring;
-}
-
-// "line 3, column 7" of a byte of a text, from 1 on.
-std::string place_in(const std::string& text, std::size_t byte)
-{
-    const std::size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
-    const auto before = std::string_view(text).substr(0, end);
-    const std::size_t last = before.rfind('\n');
-    const std::size_t column = last == std::string_view::npos ? end : end - last - 1;
-    return fmt::format("line {}, column {}", std::ranges::count(before, '\n') + 1, column + 1);
-}
-
-double cross(const Plan2& o, const Plan2& a, const Plan2& b)
-{
-    return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
-}
 
 bool cross_each_other(const Plan2& a, const Plan2& b, const Plan2& c, const Plan2& d)
 {
@@ -120,34 +33,6 @@ double beyond_edges(const std::vector<Plan2>& a, const std::vector<Plan2>& b)
 }
 
 } // namespace
-
-std::vector<Plan2> read_polygon(const std::filesystem::path& file)
-{
-    const std::string text = bytes_of_file(file, largest_text);
-    try {
-        constexpr int deepest = 16; // a MultiPolygon in a FeatureCollection has eight levels
-        bool too_deep = false;
-        const auto is_shallow = [&](int depth, json::parse_event_t, json&) {
-            too_deep = too_deep || depth > deepest;
-            return depth <= deepest;
-        };
-        const json document = json::parse(text, is_shallow);
-        if (too_deep) {
-            throw Fault{fmt::format("more than {} levels, expected one polygon", deepest)};
-        }
-        std::vector<json> polygons;
-        collect(document, polygons);
-        if (polygons.size() != 1) {
-            throw Fault{fmt::format("{} polygons, expected one", polygons.size())};
-        }
-        return ring_of(polygons.front());
-    } catch (const json::parse_error& error) {
-        throw IoError(
-            fmt::format("{}: is not JSON, see {}", file.string(), place_in(text, error.byte)));
-    } catch (const Fault& fault) {
-        throw IoError(fmt::format("{}: has {}", file.string(), fault.what));
-    }
-}
 
 std::string fault_of_yard(const std::vector<Plan2>& polygon)
 {
@@ -204,20 +89,6 @@ void into_axes_of(const TerrainPatch& patch, std::vector<Plan2>& polygon)
         p = {east * std::sin(azimuth) + north * std::cos(azimuth),
              north * std::sin(azimuth) - east * std::cos(azimuth)};
     }
-}
-
-bool holds(const std::vector<Plan2>& polygon, const Plan2& point)
-{
-    bool inside = false;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Plan2& a = polygon[k];
-        const Plan2& b = polygon[(k + 1) % polygon.size()];
-        if ((a[1] > point[1]) != (b[1] > point[1]) &&
-            point[0] < a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) {
-            inside = !inside;
-        }
-    }
-    return inside;
 }
 
 bool holds_all(const std::vector<Plan2>& polygon, const std::vector<Plan2>& inner)

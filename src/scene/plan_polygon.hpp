@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Polygons seen from above, from GeoJSON files or from the case.
+// Polygons seen from above.
 #pragma once
 
 #include "ground.hpp"
 
-#include <filesystem>
-
 namespace hyoryu {
-
-/// The outer ring of the only polygon of a GeoJSON file (RFC 7946): a Polygon, a MultiPolygon of
-/// one, or a Feature or FeatureCollection of one; other geometries are not looked at. Throws
-/// IoError "FILE: fault".
-std::vector<Plan2> read_polygon(const std::filesystem::path& file);
 
 /// The reason why a polygon cannot serve as a yard: too few or too many corners, or edges that
 /// cross; empty if it can.
@@ -25,9 +18,6 @@ std::vector<Plan2> hull_of(std::vector<Plan2> points);
 
 /// Eastings and northings to the axes of a terrain.
 void into_axes_of(const TerrainPatch& patch, std::vector<Plan2>& polygon);
-
-/// Whether a point lies within a polygon, whichever way it runs.
-bool holds(const std::vector<Plan2>& polygon, const Plan2& point);
 
 /// Whether a convex polygon lies within another polygon: its corners do, and no edges cross.
 bool holds_all(const std::vector<Plan2>& polygon, const std::vector<Plan2>& inner);

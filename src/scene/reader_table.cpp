@@ -203,6 +203,13 @@ void TableReader::error_at(std::string_view key, std::size_t index, std::string 
                    std::move(what), std::move(hint));
 }
 
+void TableReader::warn(std::string_view key, std::string what, std::string hint)
+{
+    const TomlNode* node = find(key);
+    reading_.warn(node != nullptr ? node->place : place(), full(key), std::move(what),
+                  std::move(hint));
+}
+
 void TableReader::report_unknown(const TomlEntry& entry)
 {
     std::vector<std::string_view> names = keys_within(schema_);

@@ -23,13 +23,16 @@ struct Reading {
     std::vector<std::string> overrides;
     int dimensions = 3;
     std::vector<Diagnostic> diagnostics;
+    std::vector<Diagnostic> notices;  // warnings
     std::map<std::string, int> names; // of walls and bodies, and the line where each stands
 
     /// Notes a mistake at a place of the file, or of that override. Without a hint the meaning of
     /// the key stands for one.
     void error(const Place& place, int override_number, std::string key, std::string what,
                std::string hint = {});
-    /// The same at a value.
+    /// Notes what is worth knowing, in the same way.
+    void warn(const Place& place, std::string key, std::string what, std::string hint);
+    /// A mistake at a value.
     void error(const TomlNode& node, std::string key, std::string what, std::string hint = {});
 };
 
@@ -54,7 +57,8 @@ struct Asked {
 bool read(const Asked& asked, double& member);
 bool read(const Asked& asked, std::int64_t& member);
 bool read(const Asked& asked, bool& member);
-bool read(const Asked& asked, std::string& member); // one of the choices, if there are some
+bool read(const Asked& asked, std::string& member);  // one of the choices, if there are some
+bool read(const Asked& asked, NumberOrName& member); // a text that begins with a digit has a unit
 bool read(const Asked& asked, Vec3& member);
 bool read(const Asked& asked, Quat& member);
 
@@ -191,6 +195,8 @@ public:
     void error(std::string_view key, std::string what, std::string hint = {});
     /// The same at an element of a list.
     void error_at(std::string_view key, std::size_t index, std::string what, std::string hint = {});
+    /// Notes what is worth knowing, in the same place.
+    void warn(std::string_view key, std::string what, std::string hint);
     /// A key that must be there in this case although not in every one.
     void require(std::string_view key);
     /// No key of this table is judged as meaningless any more; for after a mistake.

@@ -122,6 +122,14 @@ void Reading::error(const Place& place, int override_number, std::string key, st
     diagnostics.push_back(std::move(diagnostic));
 }
 
+void Reading::warn(const Place& place, std::string key, std::string what, std::string hint)
+{
+    error(place, -1, std::move(key), std::move(what), std::move(hint));
+    diagnostics.back().severity = Diagnostic::Severity::warning;
+    notices.push_back(std::move(diagnostics.back()));
+    diagnostics.pop_back();
+}
+
 void Reading::error(const TomlNode& node, std::string key, std::string what, std::string hint)
 {
     error(node.place, node.override_number, std::move(key), std::move(what), std::move(hint));
@@ -198,6 +206,20 @@ bool read(const Asked& asked, std::string& member)
     const bool sound = is_choice(asked, *value);
     member = sound ? *value : member;
     return sound;
+}
+
+bool read(const Asked& asked, NumberOrName& member)
+{
+    const auto* text = std::get_if<std::string>(&asked.node.value);
+    const bool is_quantity =
+        text == nullptr ||
+        (!text->empty() &&
+         std::string_view("+-.0123456789").find(text->front()) != std::string_view::npos);
+    if (is_quantity) {
+        return read(asked, member.number);
+    }
+    member.name = *text;
+    return !text->empty() || asked.refuse("is empty, expected a number or a name");
 }
 
 const TomlArray* elements(const Asked& asked, std::string_view what)

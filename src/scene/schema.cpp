@@ -71,6 +71,9 @@ std::string object_schema(std::string_view prefix)
         switch (parameter.kind) {
         case ValueKind::number:
             return number_schema(parameter);
+        case ValueKind::number_or_name:
+            return fmt::format("\"anyOf\": [{{{}}}, {{\"type\": \"string\"}}]",
+                               number_schema({.key = {}, .kind = ValueKind::number}));
         case ValueKind::integer:
             return integer_schema(parameter);
         case ValueKind::boolean:

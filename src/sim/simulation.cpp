@@ -34,6 +34,9 @@ struct SurfaceBarrier {
 struct Sponges {
     static constexpr std::string_view name = "sponge";
 };
+struct RoughBeds {
+    static constexpr std::string_view name = "bed_friction";
+};
 struct WaveAbsorption {
     static constexpr std::string_view name = "wave_absorption";
 };
@@ -278,6 +281,10 @@ void kick_fluid(Simulation& sim, double dt)
         damp_in_sponges(sim, dt);
     }
     hold_fluid(sim, dt);
+    if (is_built<RoughBeds> && !sim.bed.walls.empty()) {
+        sim.timer.begin("bed friction");
+        rub_on_beds(sim, dt);
+    }
     if (has_open_sides(sim)) {
         sim.timer.begin("open sides");
         drive_open(sim, dt);
@@ -328,6 +335,7 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         // Initial rates, so that the first half step compresses the fluid like all later ones.
         update_rates(*sim.fluid);
         sim.waves = make_waves(sim);
+        sim.bed = make_bed_friction(sim);
     }
     sim.conservation.start = totals(sim);
     return sim;

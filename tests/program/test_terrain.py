@@ -4,6 +4,8 @@ import json
 import math
 import os
 import random
+import struct
+import zlib
 
 from program import ProgramTest, main
 
@@ -131,6 +133,129 @@ class Terrain(ProgramTest):
         self.write(CASE.format(keys=keys + "nodata = 0.0", spacing=0.1, end=0.02))
         done = self.call("check", "case.toml")
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    TOWN = """
+[time]
+end = 0.1
+[particles]
+spacing = {spacing}
+[domain]
+min = [0.0, 0.0, -1.0]
+max = [3.0, 2.0, 1.5]
+[fluid]
+[[fluid.block]]
+shape = "still_water"
+level = 0.25
+seed = [0.3, 0.3]
+[[wall]]
+name = "ground"
+shape = "terrain"
+file = "ground.asc"
+{keys}
+manning = 0.03
+[[wall.level]]
+corners = [[2.3, -0.1, 0.0], [3.2, -0.1, 0.0], [3.2, 2.2, 0.0], [2.3, 2.2, 0.0]]
+z = 0.4
+[[buildings]]
+file = "town.geojson"
+height = "height"
+name = "id"
+material = "concrete"
+[[wall]]
+name = "sides"
+shape = "basin"
+min = [0.0, 0.0, -1.0]
+max = [3.0, 2.0, 1.5]
+open = ["+z", "-z"]
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.3, 0.4, 0.3]
+density = 500.0
+position = [2.65, 1.0, 0.552]
+[[gauge]]
+name = "push"
+type = "force"
+on = "hall"
+[output]
+every = 0.05
+"""
+
+    def town(self, spacing=0.1, azimuth=25.0, origin=(4e5, 4e6)):
+        """Hills with a quay and two buildings, one of them with a courtyard, in a map."""
+        keys = self.grid(origin, azimuth, 0.1, lambda x, y: 0.1 * math.cos(2 * x) * math.cos(y), reach=4.5)
+        keys = keys.replace("[-0.2, -0.2, 1.4, 1.2]", "[-0.2, -0.2, 3.2, 2.2]")
+        a = math.radians(azimuth)
+
+        def on_map(ring):
+            return [[origin[0] + x * math.sin(a) - y * math.cos(a), origin[1] + x * math.cos(a) + y * math.sin(a)]
+                    for x, y in ring + ring[:1]]
+
+        hall = [[(0.8, 0.5), (1.9, 0.5), (1.9, 1.6), (0.8, 1.6)], [(1.15, 0.85), (1.15, 1.25), (1.55, 1.25), (1.55, 0.85)]]
+        shed = [[(0.1, 1.6), (0.5, 1.6), (0.3, 1.9)]]
+        features = [{"type": "Feature", "properties": {"id": name, "height": height},
+                     "geometry": {"type": "Polygon", "coordinates": [on_map(ring) for ring in rings]}}
+                    for name, height, rings in (("hall", 0.9, hall), ("shed", "0.5", shed))]
+        self.write(json.dumps({"type": "FeatureCollection", "features": features}), "town.geojson")
+        self.write(self.TOWN.format(spacing=spacing, keys=keys))
+
+    def test_a_town_runs_and_its_resolved_case_gives_the_same_bits(self):
+        self.town()
+        done = self.call("run", "case.toml", "-o", "one", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (self.dir / "town.geojson").unlink()
+        done = self.call("run", "one/case.toml", "-o", "two", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("energy.csv", "gauges.csv", "case.toml"):
+            self.assertEqual(*((self.dir / d / name).read_text() for d in ("one", "two")))
+        summary = json.loads((self.dir / "one" / "summary.json").read_text())
+        self.assertEqual(summary["particles_lost"], 0)
+        self.assertEqual(summary["particles_in_solids"], 0)
+        plan = json.loads((self.dir / "one" / "plan.json").read_text())
+        self.assertIn("bed_friction", [effect["name"] for effect in plan["on"]])
+        header = (self.dir / "one" / "gauges.csv").read_text().splitlines()
+        self.assertTrue(any("push" in line for line in header[:2]))
+
+    def test_check_tells_of_the_ground_and_draws_the_plan(self):
+        self.town()
+        done = self.call("check", "case.toml", "--plan", "plan.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for text in ("ground \"ground\"", "window ", "grid less surface", "rms", "steeper than 45 deg"):
+            self.assertIn(text, done.stdout)
+        colours = self.colours_of("plan.png")
+        self.assertGreater(colours["solid"], 5000)
+        self.assertGreater(colours["body"], 500)
+        self.assertGreater(colours["blue"], 20000)
+        self.assertEqual(self.call("check", "case.toml", "--plan", "none/plan.png").returncode, 4)
+        self.write(CASE.format(keys=self.grid((0.0, 0.0), 90.0, 0.1), spacing=0.1, end=0.1)
+                   .replace("dimensions = 3", "dimensions = 2"), "flat.toml")
+        self.assertNotEqual(self.call("check", "flat.toml", "--plan", "flat.png").returncode, 0)
+        self.assertFalse((self.dir / "flat.png").exists())
+
+    def colours_of(self, name):
+        """Pixels of a PNG by what they are, decoded here."""
+        data = (self.dir / name).read_bytes()
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        place, packed = 8, b""
+        while place < len(data):
+            size, kind = struct.unpack(">I4s", data[place:place + 8])
+            body = data[place + 8:place + 8 + size]
+            self.assertEqual(struct.unpack(">I", data[place + 8 + size:place + 12 + size])[0], zlib.crc32(kind + body))
+            if kind == b"IHDR":
+                width, height = struct.unpack(">II", body[:8])
+            packed += body if kind == b"IDAT" else b""
+            place += 12 + size
+        rows = zlib.decompress(packed)
+        self.assertEqual(len(rows), height * (3 * width + 1))
+        found = {"solid": 0, "body": 0, "blue": 0}
+        for j in range(height):
+            row = rows[j * (3 * width + 1) + 1:(j + 1) * (3 * width + 1)]
+            for i in range(0, 3 * width, 3):
+                red, green, blue = row[i:i + 3]
+                found["solid"] += (red, green, blue) == (150, 146, 148)
+                found["body"] += (red, green, blue) == (214, 96, 40)
+                found["blue"] += blue > red + 40
+        return found
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-# What `cmake --install` and the Debian packages hold: the component `program`, and `vtk` with the module
-# that needs VTK, which the program finds in ../lib/hyoryu from its own folder.
+# What `cmake --install` and the Debian packages hold: the component `program`, and `vtk` and `gis` with the
+# modules that need VTK and GDAL, which the program finds in ../lib/hyoryu from its own folder.
 include(GNUInstallDirs)
 install(TARGETS hyoryu RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/texts/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
@@ -22,6 +22,11 @@ if(HYORYU_VTK)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hyoryu-vtk RENAME copyright
     COMPONENT vtk)
 endif()
+if(TARGET hyoryu_gis)
+  install(TARGETS hyoryu_gis LIBRARY DESTINATION lib/hyoryu COMPONENT gis)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hyoryu-gis RENAME copyright
+    COMPONENT gis)
+endif()
 
 # Debian packages, by scripts/package.
 set(CPACK_GENERATOR DEB)
@@ -33,6 +38,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program)
 if(HYORYU_VTK)
   list(APPEND CPACK_COMPONENTS_ALL vtk)
+endif()
+if(TARGET hyoryu_gis)
+  list(APPEND CPACK_COMPONENTS_ALL gis)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -47,4 +55,7 @@ set(CPACK_DEBIAN_VTK_PACKAGE_NAME hyoryu-vtk)
 set(CPACK_DEBIAN_VTK_PACKAGE_DEPENDS "hyoryu (= ${PROJECT_VERSION}), libgl1-mesa-dri")
 set(CPACK_DEBIAN_VTK_PACKAGE_RECOMMENDS ffmpeg)
 set(CPACK_COMPONENT_VTK_DESCRIPTION "Meshes and pictures for hyoryu: what needs VTK.")
+set(CPACK_DEBIAN_GIS_PACKAGE_NAME hyoryu-gis)
+set(CPACK_DEBIAN_GIS_PACKAGE_DEPENDS "hyoryu (= ${PROJECT_VERSION})")
+set(CPACK_COMPONENT_GIS_DESCRIPTION "GeoTIFF and other rasters for hyoryu: what needs GDAL.")
 include(CPack)

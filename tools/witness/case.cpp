@@ -2,6 +2,7 @@
 // The resolved case, read with tomlplusplus.
 #include "mass.hpp"
 #include "scene.hpp"
+#include "prism.hpp"
 #include "terrain.hpp"
 
 #include <toml++/toml.h>
@@ -81,12 +82,13 @@ std::vector<Vec3> points_of(const std::filesystem::path& file)
 
 Kind kind_of(const std::string& shape)
 {
-    constexpr std::array<std::pair<const char*, Kind>, 9> kinds{
+    constexpr std::array<std::pair<const char*, Kind>, 10> kinds{
         {{"box", Kind::box},
          {"sphere", Kind::ball},
          {"cylinder", Kind::cylinder},
          {"mesh", Kind::mesh},
          {"terrain", Kind::mesh},
+         {"prism", Kind::mesh},
          {"particles", Kind::cubes},
          {"plane", Kind::plane},
          {"basin", Kind::basin},
@@ -131,6 +133,17 @@ Placement placement_of(const toml::table& table)
             .nodata = table["nodata"].value_or(0.0)};
 }
 
+Mesh read_prism(const toml::table& table)
+{
+    std::vector<Vec3> corners;
+    const toml::array* list = table["corners"].as_array();
+    for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
+        corners.push_back(vector_of(toml::node_view<const toml::node>((*list)[k]), Vec3::Zero()));
+    }
+    return prism_of(corners, table["bottom"].value_or(std::nan("")),
+                    table["top"].value_or(std::nan("")));
+}
+
 Solid read_solid(const toml::table& table, const Scene& scene)
 {
     Solid solid;
@@ -151,6 +164,8 @@ Solid read_solid(const toml::table& table, const Scene& scene)
     const std::filesystem::path file = table["file"].value_or(std::string());
     if (table["shape"].value_or(std::string()) == "terrain") {
         solid.mesh = ground_of(file, placement_of(table));
+    } else if (table["shape"].value_or(std::string()) == "prism") {
+        solid.mesh = read_prism(table);
     } else if (solid.kind == Kind::mesh) {
         solid.mesh = read_mesh(file, table["scale"].value_or(1.0));
     } else if (solid.kind == Kind::cubes) {

@@ -11,10 +11,12 @@
 
 namespace hyoryu {
 
-/// `vector` is a list of numbers, `vectors` of lists of three numbers, `integers` of whole numbers,
-/// `texts` of texts; `tables` is written [[so]].
+/// `number_or_name` is a number, or a text that names where numbers are found; `vector` is a list
+/// of numbers, `vectors` of lists of three numbers, `integers` of whole numbers, `texts` of texts;
+/// `tables` is written [[so]].
 enum class ValueKind {
     number,
+    number_or_name,
     integer,
     boolean,
     text,

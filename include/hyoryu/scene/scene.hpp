@@ -4,11 +4,13 @@
 // effects, fields and limits of the run.
 #pragma once
 
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/core/motion.hpp"
 #include "hyoryu/core/types.hpp"
 #include "hyoryu/fluid/effects.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 #include "hyoryu/geometry/height_grid.hpp"
+#include "hyoryu/geometry/outline.hpp"
 #include "hyoryu/rigid/law.hpp"
 #include "hyoryu/scene/open_settings.hpp"
 #include "hyoryu/scene/place.hpp"
@@ -35,11 +37,13 @@ struct CylinderShape {
     double radius = 0; // [m]
     double length = 0; // [m], along the body's x axis; a rectangle in two dimensions
 };
-/// A closed triangle surface (STL, OBJ or a height grid), read and checked when the case is read.
+/// A closed triangle surface (STL, OBJ, a height grid or a prism), made and checked when the case
+/// is read.
 struct MeshShape {
     std::string file;
     double scale = 1;
     std::optional<TerrainPatch> terrain;       // if the file is a height grid
+    std::optional<PrismOutline> prism;         // if there is no file
     std::vector<Vec3> corners;                 // [m], scaled
     std::vector<std::array<int, 3>> triangles; // outward orientation
 };
@@ -68,8 +72,15 @@ struct DomainSettings {
     std::array<bool, 3> periodic{}; // x y z
 };
 
+/// Water at rest in all places that are connected with a seed, below a level and outside of walls.
+struct SeededWater {
+    double level = 0;   // z [m]
+    Vec3 seed{0, 0, 0}; // [m]; z is not read
+};
+
 /// A region that is filled with fluid particles at the start.
 struct FluidBlock {
+    std::optional<SeededWater> seeded; // its shape is the box about it
     Shape shape;
     Vec3 centre{0, 0, 0}; // of the shape [m]
     Quat rotation = Quat::Identity();
@@ -132,6 +143,7 @@ struct Wall {
     std::string name;
     std::variant<PlaneWall, BasinWall, RoundWall, SolidWall> geometry;
     std::string material; // empty: none named
+    double manning = 0;   // roughness of its bed n [s/m^(1/3)]; 0: none
     Motion motion;        // of [wall.motion]
     PistonTarget wave;    // of its piston, which a resolved case has as a path
     Place place;
@@ -227,7 +239,8 @@ struct Scene {
     ContactSettings contact;
     std::vector<Gauge> gauges;
     OutputSettings output;
-    std::vector<OpenSettings> open; // sides through which fluid enters and leaves
+    std::vector<OpenSettings> open;  // sides through which fluid enters and leaves
+    std::vector<Diagnostic> notices; // of the reader: warnings of the plan
 };
 
 } // namespace hyoryu

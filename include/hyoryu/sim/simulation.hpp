@@ -8,6 +8,7 @@
 #include "hyoryu/coupling/coupling.hpp"
 #include "hyoryu/coupling/seepage.hpp"
 #include "hyoryu/scene/plan.hpp"
+#include "hyoryu/sim/bed_friction.hpp"
 #include "hyoryu/sim/clock.hpp"
 #include "hyoryu/sim/conservation.hpp"
 #include "hyoryu/sim/gauges.hpp"
@@ -40,6 +41,7 @@ struct Simulation {
     Loads loads;
     Seepage seepage; // of the joints of standing bodies
     Waves waves;
+    BedFriction bed; // of one step
     Clock clock;
     Conservation conservation;
     GaugeMemory gauges;

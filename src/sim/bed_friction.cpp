@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/bed_friction.hpp"
+
+#include "hyoryu/fluid/sum_units.hpp"
+#include "solid_places.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double column_width = 4; // spacings
+constexpr double fine = 1 << 30;   // parts of c0 that velocities are added in, as integers
+
+std::size_t at(Index row)
+{
+    return static_cast<std::size_t>(row);
+}
+
+// Whole columns across the domain, so that those of a periodic one are alike.
+void lay_columns(const Fluid& fluid, BedFriction& bed)
+{
+    const double wanted = column_width * fluid.parameters.spacing;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const auto a = static_cast<Index>(axis);
+        const bool flat = fluid.parameters.dimensions == 2 && axis == 1;
+        const double length = fluid.domain_max[a] - fluid.domain_min[a];
+        bed.count[axis] = flat ? 1 : std::max<Index>(1, static_cast<Index>(length / wanted));
+        bed.width[axis] = flat ? 1 : length / static_cast<double>(bed.count[axis]);
+    }
+    const std::size_t columns = at(bed.count[0] * bed.count[1]);
+    bed.particles.assign(columns, 0);
+    bed.speeds.assign(columns, {0, 0, 0});
+    bed.taken.assign(at(fluid.particles.fluid.size()), Vec3::Zero());
+    bed.by.assign(at(fluid.particles.fluid.size()), -1);
+}
+
+std::size_t column_of(const Fluid& fluid, const BedFriction& bed, const Vec3& x)
+{
+    const Vec3 own =
+        fluid.period == Vec3(0, 0, 0) ? x : Vec3(fluid.neighbours.fluid.lattice.wrapped(x));
+    std::array<Index, 2> cell{};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const auto a = static_cast<Index>(axis);
+        const double place = (own[a] - fluid.domain_min[a]) / bed.width[axis];
+        cell[axis] = bed.count[axis] == 1
+                         ? 0
+                         : std::clamp(static_cast<Index>(place), Index(0), bed.count[axis] - 1);
+    }
+    return at(cell[1] * bed.count[0] + cell[0]);
+}
+
+// Sums of integers, which threads may add in any order.
+void fill_columns(const Fluid& fluid, BedFriction& bed)
+{
+    const auto x = fluid.particles.fluid[field::position];
+    const auto v = fluid.particles.fluid[field::velocity];
+    const double unit = fluid.parameters.eos.c0 / fine;
+    parallel_for(0, fluid.particles.fluid.size(), [&](Index i) {
+        const std::size_t column = column_of(fluid, bed, x[at(i)]);
+        std::atomic_ref(bed.particles[column]).fetch_add(1, std::memory_order_relaxed);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto units = std::llround(v[at(i)][static_cast<Index>(axis)] / unit);
+            std::atomic_ref(bed.speeds[column][axis]).fetch_add(units, std::memory_order_relaxed);
+        }
+    });
+}
+
+// The depth of a column, at least a spacing [m].
+double depth_of(const Fluid& fluid, const BedFriction& bed, std::size_t column)
+{
+    const FluidParameters& f = fluid.parameters;
+    const double area = bed.width[0] * (f.dimensions == 2 ? 1 : bed.width[1]);
+    const double volume = bed.particles[column] * f.mass / f.eos.rho0;
+    return std::max(volume / area, static_cast<double>(f.spacing));
+}
+
+struct RoughPlace {
+    int wall = -1;
+    double distance = 0;    // [m]
+    Vec3 normal{0, 0, 1};   // out of the wall
+    Vec3 velocity{0, 0, 0}; // of the wall [m/s]
+};
+
+// The nearest rough wall within a spacing of a place.
+RoughPlace nearest_rough(const Simulation& sim, const Vec3& x)
+{
+    const WallBarrier& barrier = *sim.barrier;
+    RoughPlace found{.distance = barrier.spacing};
+    for_images(*sim.fluid, x, barrier.spacing, [&](const Vec3& image) {
+        for (const int wall : sim.bed.walls) {
+            const SolidPlace& place = barrier.places[at(wall)];
+            const NearestPlace nearest =
+                nearest_of(barrier, place, at(wall), image, barrier.spacing);
+            if (nearest.distance < found.distance) {
+                found = {wall, nearest.distance, place.rotation * nearest.normal, place.velocity};
+            }
+        }
+    });
+    return found;
+}
+
+// Brakes one particle, and keeps what was taken from it.
+void rub_row(Simulation& sim, Index i, double dt)
+{
+    Fluid& fluid = *sim.fluid;
+    BedFriction& bed = sim.bed;
+    const Vec3& x = std::as_const(fluid.particles.fluid)[field::position][at(i)];
+    Vec3& v = fluid.particles.fluid[field::velocity][at(i)];
+    const RoughPlace rough = nearest_rough(sim, x);
+    if (rough.wall < 0) {
+        return;
+    }
+    const auto along = [&](const Vec3& velocity) {
+        const Vec3 relative = velocity - rough.velocity;
+        return Vec3(relative - relative.dot(rough.normal) * rough.normal);
+    };
+    const std::size_t column = column_of(fluid, bed, x);
+    const auto& sum = bed.speeds[column];
+    const double unit = fluid.parameters.eos.c0 / fine / bed.particles[column];
+    const Vec3 mean = unit * Vec3(static_cast<double>(sum[0]), static_cast<double>(sum[1]),
+                                  static_cast<double>(sum[2]));
+    const Vec3 own = along(v);
+    const double n = sim.scene.walls[at(rough.wall)].manning;
+    const double braked = dt * sim.scene.gravity.norm() * sq(n) * along(mean).squaredNorm() /
+                          (std::cbrt(depth_of(fluid, bed, column)) * sim.barrier->spacing);
+    if (braked > 0 && own.norm() > 0) {
+        bed.taken[at(i)] = own * (braked / (own.norm() + braked));
+        bed.by[at(i)] = rough.wall;
+        v -= bed.taken[at(i)];
+    }
+}
+
+// Whether a particle may be within a spacing of a solid, by what the barrier has seen.
+bool may_be_near(const WallBarrier& barrier, Index i, const Vec3& from_centre)
+{
+    const WallBarrier::Seen& seen = barrier.seen[at(i)];
+    const Vec3 moved = from_centre - Vec3(seen.x, seen.y, seen.z);
+    const double left = seen.clearance - barrier.way - barrier.spacing;
+    return !(left > 0 && moved.squaredNorm() < sq(left));
+}
+
+} // namespace
+
+BedFriction make_bed_friction(const Simulation& sim)
+{
+    BedFriction bed;
+    for (std::size_t w = 0; sim.fluid && w < sim.scene.walls.size(); ++w) {
+        if (sim.scene.walls[w].manning > 0) {
+            bed.walls.push_back(static_cast<int>(w));
+        }
+    }
+    return bed;
+}
+
+void rub_on_beds(Simulation& sim, double dt)
+{
+    const Fluid& fluid = *sim.fluid;
+    BedFriction& bed = sim.bed;
+    lay_columns(fluid, bed);
+    fill_columns(fluid, bed);
+    const Tiles& tiles = fluid.neighbours.fluid;
+    const auto x = fluid.particles.fluid[field::position];
+    parallel_blocks(0, tiles.tiles(), [&](Index tile) {
+        const Vec3 centre = tiles.lattice.centre(tiles.tile[at(tile)]);
+        for (Index i = tiles.start[at(tile)]; i < tiles.start[at(tile + 1)]; ++i) {
+            if (may_be_near(*sim.barrier, i, x[at(i)] - centre)) {
+                rub_row(sim, i, dt);
+            }
+        }
+    });
+    const FixedUnit unit = sum_units(fluid.parameters).velocity;
+    for (const int wall : bed.walls) {
+        const auto [px, py, pz] = sum_by_tile<3>(tiles, {unit, unit, unit}, [&](Index i) {
+            const Vec3 taken = bed.by[at(i)] == wall ? bed.taken[at(i)] : Vec3(Vec3::Zero());
+            return std::array{taken.x(), taken.y(), taken.z()};
+        });
+        sim.loads.walls[at(wall)] += fluid.parameters.mass / dt * Vec3(px, py, pz);
+    }
+}
+
+} // namespace hyoryu

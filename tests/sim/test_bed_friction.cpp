@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Rough beds: uniform flow comes to the velocity of Manning's formula, the books of momentum close,
+// the same bits come out of any number of threads and of a restart, and a smooth bed costs nothing.
+#include "runs.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hyoryu {
+namespace {
+
+// A slope as a level bed on which gravity has a part along x; it repeats itself.
+std::string slope(double manning, double depth, double spacing, double velocity, double drive)
+{
+    return fmt::format(R"(
+dimensions = 2
+[time]
+end = 100.0
+[particles]
+spacing = {1}
+[domain]
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, 1.0]
+periodic = ["x"]
+[fluid]
+acceleration = [{3}, 0.0, 0.0]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [1.0, 0.0, {0}]
+velocity = [{2}, 0.0, 0.0]
+[[wall]]
+name = "bed"
+shape = "plane"
+manning = {4}
+)",
+                       depth, spacing, velocity, drive, manning);
+}
+
+double mean_velocity(const Simulation& sim)
+{
+    const auto v = sim.fluid->particles.fluid[field::velocity];
+    double sum = 0;
+    for (Index i = 0; i < sim.fluid->particles.fluid.size(); ++i) {
+        sum += v[i].x();
+    }
+    return sum / static_cast<double>(sim.fluid->particles.fluid.size());
+}
+
+double flow_for(Simulation& sim, double seconds)
+{
+    double sum = 0;
+    int count = 0;
+    while (sim.clock.time < seconds) {
+        step_on(sim);
+        if (sim.clock.time > 0.75 * seconds) {
+            sum += mean_velocity(sim);
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+// S = 0.01, n = 0.025, h = 0.5 m: u = h^(2/3) S^(1/2) / n = 2.52 m/s, from above and from below.
+// What is left of the start after t is exp(-2 g S t / u) of it: 0.31 after 15 s, of 0.1 m/s 1.2 %.
+TEST(BedFriction, UniformFlowHasTheVelocityOfManning)
+{
+    const double drive = 0.01 * 9.81;
+    const double expected = std::pow(0.5, 2.0 / 3) * std::sqrt(0.01) / 0.025;
+    for (const double spacing : {0.1, 0.05}) {
+        for (const double start : {expected - 0.1, expected + 0.1}) {
+            Simulation sim = make(slope(0.025, 0.5, spacing, start, drive));
+            EXPECT_NEAR(flow_for(sim, 15), expected, 0.04 * expected) << spacing << " " << start;
+            EXPECT_LT(sim.conservation.worst_closure, 1e-12);
+            EXPECT_EQ(sim.fluid->lost.count, 0);
+        }
+    }
+}
+
+// Without slope the flow dies away as du/dt = -g n^2 u^2 / h^(4/3): 1/u grows linearly.
+TEST(BedFriction, AFlowOnALevelBedDiesAwayHyperbolically)
+{
+    for (const double spacing : {0.1, 0.05}) {
+        for (const double n : {0.02, 0.05}) {
+            Simulation sim = make(slope(n, 0.5, spacing, 2, 0));
+            const double before = sim.conservation.wall_impulse.x();
+            while (sim.clock.time < 4) {
+                step_on(sim);
+            }
+            const double rate = 9.81 * n * n / std::pow(0.5, 4.0 / 3);
+            const double expected = 2 / (1 + 2 * rate * sim.clock.time);
+            EXPECT_NEAR(mean_velocity(sim), expected, 0.04 * (2 - expected)) << spacing << " " << n;
+            const double taken = 500 * (2 - mean_velocity(sim)); // kg/m of water
+            EXPECT_NEAR(before - sim.conservation.wall_impulse.x(), taken, 1e-9 * taken);
+        }
+    }
+}
+
+// A dam breaks over a rough bed in space.
+const std::string dam = R"(
+[time]
+end = 10.0
+[particles]
+spacing = 0.08
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.8, 0.64, 0.64]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [2.4, 0.64, 1.2]
+open = ["+z"]
+manning = 0.04
+[[wall]]
+name = "block"
+shape = "box"
+min = [1.6, 0.2, -0.4]
+max = [1.9, 0.4, 0.8]
+manning = 0.02
+)";
+
+TEST(BedFriction, AnyNumberOfThreadsAndARestartGiveTheSameBits)
+{
+    set_threads(1);
+    Simulation one = make(dam);
+    advance(one, 60);
+    set_threads(3);
+    Simulation three = make(dam);
+    advance(three, 40);
+    const Snapshot middle = save(three);
+    advance(three, 20);
+    expect_same_bits(save(one), save(three));
+    Simulation again = make(dam);
+    restore(again, middle);
+    advance(again, 20);
+    expect_same_bits(save(one), save(again));
+    EXPECT_LT(one.conservation.worst_closure, 1e-12);
+    set_threads(0);
+}
+
+TEST(BedFriction, ARoughBedIsSlowerAndASmoothOneHasNoMemory)
+{
+    Simulation rough = make(dam);
+    Simulation smooth = make(dam, {"wall[0].manning=0", "wall[1].manning=0"});
+    EXPECT_TRUE(smooth.bed.walls.empty());
+    EXPECT_TRUE(rough.plan.runs("bed_friction"));
+    EXPECT_FALSE(smooth.plan.runs("bed_friction"));
+    while (rough.clock.time < 0.4) {
+        step_on(rough);
+    }
+    while (smooth.clock.time < 0.4) {
+        step_on(smooth);
+    }
+    EXPECT_EQ(smooth.bed.particles.capacity(), 0u);
+    EXPECT_EQ(smooth.bed.taken.capacity(), 0u);
+    EXPECT_LT(mean_velocity(rough), 0.99 * mean_velocity(smooth));
+    EXPECT_GT(mean_velocity(rough), 0.5 * mean_velocity(smooth));
+}
+
+TEST(BedFriction, RoughnessThatHasNoMeaningIsRefused)
+{
+    const auto fault = [](const std::string& text, const std::vector<std::string>& overrides) {
+        try {
+            parse_case(text, "case.toml", overrides);
+        } catch (const CaseError& error) {
+            return std::string(error.what());
+        }
+        return std::string("none");
+    };
+    EXPECT_EQ(fault(dam, {}), "none");
+    EXPECT_NE(fault(dam, {"fluid.walls=\"no_slip\""}).find("needs fluid that slips"),
+              std::string::npos);
+    EXPECT_NE(fault(dam, {"wall[0].manning=-1"}).find("out of range"), std::string::npos);
+    EXPECT_NE(fault(dam, {"wall[0].manning=33"}).find("at most 1 s/m^(1/3)"), std::string::npos);
+    EXPECT_NE(
+        fault("[time]\nend = 1\n[particles]\nspacing = 0.1\n[[wall]]\nshape = \"plane\"\n"
+              "manning = 0.02\n[[body]]\nshape = \"sphere\"\nradius = 1\ndensity = 500\nposition "
+              "= [0, 0, 2]\n",
+              {})
+            .find("has no meaning without a fluid"),
+        std::string::npos);
+}
+
+} // namespace
+} // namespace hyoryu
