@@ -200,7 +200,7 @@ Colour colour_of(const Map& map, int i, int j, const Extremes& ground, const Ext
     }
     constexpr double shallow = 0.45; // share of blue
     constexpr double deep = 0.95;
-    const double part = depth.empty() ? 0 : map.depth(k) / depth.high;
+    const double part = depth.empty() ? 0 : std::min(1.0F, map.depth(k) / depth.high);
     return map.depth(k) > 0 ? mixed(colour, water, shallow + (deep - shallow) * part) : colour;
 }
 

@@ -186,6 +186,28 @@ TEST(Outlines, RoofsAreDividedIntoTrianglesThatRunUpwards)
     }
 }
 
+// Around a sharp corner of the outer ring: several bridges end there.
+TEST(Outlines, BridgesMayShareACorner)
+{
+    Dice dice(14);
+    for (int k = 0; k < 200; ++k) {
+        std::vector<Ring> rings{{{20, 0}, {-60, 60}, {-60, -60}}};
+        double area = shoelace(rings[0]);
+        const int yards = 2 + dice.below(4);
+        for (int y = 0; y < yards; ++y) {
+            const double angle = 0.6 * ((y + 0.5) / yards - 0.5) * 2;
+            const double away = dice.between(8, 14);
+            rings.push_back(star(dice, {20 - away * std::cos(angle), away * std::sin(angle)}, 0.2,
+                                 0.6, 3 + dice.below(3)));
+            area -= shoelace(rings.back());
+        }
+        ASSERT_EQ(outline_fault(rings), "") << k;
+        const Mesh mesh = prism_mesh({cut_open(rings), 0, 1});
+        ASSERT_EQ(closure_fault(mesh), "") << k;
+        EXPECT_NEAR(solid_properties(mesh).volume, area, 1e-9 * area) << k;
+    }
+}
+
 TEST(Outlines, CoordinatesOfMapsHaveTheSamePrism)
 {
     Dice dice(13);

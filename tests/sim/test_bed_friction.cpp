@@ -22,6 +22,7 @@ dimensions = 2
 end = 100.0
 [particles]
 spacing = {1}
+precision = "double"
 [domain]
 min = [0.0, 0.0, 0.0]
 max = [1.0, 0.0, 1.0]
@@ -40,6 +41,9 @@ manning = {4}
 )",
                        depth, spacing, velocity, drive, manning);
 }
+
+// Momentum closes to the rounding of the pair sums in double precision.
+constexpr double closes = 1e-10;
 
 double mean_velocity(const Simulation& sim)
 {
@@ -75,13 +79,14 @@ TEST(BedFriction, UniformFlowHasTheVelocityOfManning)
         for (const double start : {expected - 0.1, expected + 0.1}) {
             Simulation sim = make(slope(0.025, 0.5, spacing, start, drive));
             EXPECT_NEAR(flow_for(sim, 15), expected, 0.04 * expected) << spacing << " " << start;
-            EXPECT_LT(sim.conservation.worst_closure, 1e-12);
+            EXPECT_LT(sim.conservation.worst_closure, closes);
             EXPECT_EQ(sim.fluid->lost.count, 0);
         }
     }
 }
 
-// Without slope the flow dies away as du/dt = -g n^2 u^2 / h^(4/3): 1/u grows linearly.
+// Without slope the flow dies away as du/dt = -g n^2 u^2 / h^(4/3): 1/u grows linearly. While the
+// water settles, a part of a row more or less is within a spacing of the bed: first order in dp/h.
 TEST(BedFriction, AFlowOnALevelBedDiesAwayHyperbolically)
 {
     for (const double spacing : {0.1, 0.05}) {
@@ -93,7 +98,8 @@ TEST(BedFriction, AFlowOnALevelBedDiesAwayHyperbolically)
             }
             const double rate = 9.81 * n * n / std::pow(0.5, 4.0 / 3);
             const double expected = 2 / (1 + 2 * rate * sim.clock.time);
-            EXPECT_NEAR(mean_velocity(sim), expected, 0.04 * (2 - expected)) << spacing << " " << n;
+            const double part = 0.4 * spacing / 0.5;
+            EXPECT_NEAR(mean_velocity(sim), expected, part * (2 - expected)) << spacing << " " << n;
             const double taken = 500 * (2 - mean_velocity(sim)); // kg/m of water
             EXPECT_NEAR(before - sim.conservation.wall_impulse.x(), taken, 1e-9 * taken);
         }
@@ -106,6 +112,7 @@ const std::string dam = R"(
 end = 10.0
 [particles]
 spacing = 0.08
+precision = "double"
 [fluid]
 [[fluid.block]]
 shape = "box"
@@ -141,7 +148,7 @@ TEST(BedFriction, AnyNumberOfThreadsAndARestartGiveTheSameBits)
     restore(again, middle);
     advance(again, 20);
     expect_same_bits(save(one), save(again));
-    EXPECT_LT(one.conservation.worst_closure, 1e-12);
+    EXPECT_LT(one.conservation.worst_closure, closes);
     set_threads(0);
 }
 
