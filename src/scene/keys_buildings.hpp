@@ -47,7 +47,7 @@ inline void check_height_of_all(TableReader& table, const BuildingKeys& building
     }
 }
 
-inline void build(TableReader& table, const BuildingKeys& buildings, Scene& scene)
+inline void add_buildings(TableReader& table, const BuildingKeys& buildings, Scene& scene)
 {
     const std::vector<Footprint> footprints = load_footprints(table, buildings);
     if (footprints.empty() || !table.reading().diagnostics.empty()) {
@@ -89,7 +89,7 @@ void keys_of(auto& keys, Is<BuildingKeys> auto& buildings, auto& scene)
               "Property that names each building; without it they are building.1, building.2 ...");
     keys.text("material", buildings.material, "Name of their material, for contact.pair.");
     keys.rule(check_material, buildings.material);
-    keys.rule(build, buildings, scene);
+    keys.rule(add_buildings, buildings, scene);
 }
 
 } // namespace hyoryu
