@@ -255,11 +255,18 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
         const auto at = floor.try_emplace(column(p), p.z()).first;
         at->second = std::min(at->second, p.z());
     }
-    Index open = 0;
-    for (const Vec3& p : filling.fluid) {
-        const auto below = floor.find(column(p));
-        open += below == floor.end() || below->second > p.z() ? 1 : 0;
-    }
+    // The particles of a bed that does not follow the lattice leave columns out.
+    const auto has_floor = [&](const Vec3& p) {
+        const auto [x, y] = column(p);
+        for (long long k = 0; k < 9; ++k) {
+            const auto below = floor.find({x + k % 3 - 1, y + k / 3 - 1});
+            if (below != floor.end() && below->second <= p.z()) {
+                return true;
+            }
+        }
+        return false;
+    };
+    const auto open = std::ranges::count_if(filling.fluid, std::not_fn(has_floor));
     if (open > 0) {
         warn(
             scene, {}, "wall",

@@ -111,5 +111,29 @@ TEST(PlanWarnings, OfWhatIsProbablyASlip)
     }
 }
 
+// Water over a slab that lies askew to the lattice, a square of a side.
+std::string water_over_slab(double turn, double angle, double dp, double side)
+{
+    return fmt::format(
+        "[time]\nend = 1.0\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\n"
+        "shape = \"box\"\nmin = [-0.6, -0.6, -0.6]\nmax = [0.6, 0.6, 0.5]\n[[wall]]\n"
+        "name = \"slab\"\nshape = \"box\"\nsize = [{}, {}, 0.6]\n"
+        "position = [0, 0, -0.3]\n[wall.rotation_deg]\naxis = [0.3, 1, {}]\n"
+        "angle = {}\n",
+        dp, side, side, turn, angle);
+}
+
+TEST(PlanWarnings, OfLeaksAreOfWaterWithoutABedAndOfNoneOverABedAskew)
+{
+    const std::string words = "have no wall below them";
+    for (int k = 0; k < 12; ++k) {
+        const double turn = 0.4 * k;
+        const double angle = 1.9 * k;
+        const double dp = k % 2 == 0 ? 0.1 : 0.13;
+        EXPECT_FALSE(warns(water_over_slab(turn, angle, dp, 3), words)) << turn << ", " << angle;
+        EXPECT_TRUE(warns(water_over_slab(turn, angle, dp, 0.5), words)) << turn << ", " << angle;
+    }
+}
+
 } // namespace
 } // namespace hyoryu
