@@ -3,6 +3,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/sim/frames.hpp"
 #include "hyoryu/sim/gauges.hpp"
+#include "hyoryu/sim/wall_barrier.hpp"
 
 #include <gtest/gtest.h>
 
@@ -192,6 +193,25 @@ TEST(Cases, DebrisFloodStartsSoundly)
     // %.
     EXPECT_LE(sim.conservation.worst_density_error, 0.2);
     EXPECT_GE(sim.scene.bodies.size(), 8u);
+}
+
+TEST(Cases, PortTakesTheTsunamiIn)
+{
+    // Four spacings of water and the first seconds of the wave, that is all there is time for.
+    Simulation sim = open_case("port", {"particles.spacing=1.5", "time.end=2.5"});
+    Index accounted_for = sim.plan.counts.fluid;
+    run(sim, [&] { EXPECT_EQ(count_in_solids(sim), 0); });
+    for (const Carpet& carpet : sim.open.boundary.carpets) {
+        accounted_for += carpet.made - carpet.dropped;
+    }
+    EXPECT_EQ(sim.scene.bodies.size(), 36u);
+    EXPECT_EQ(sim.fluid->particles.fluid.size(), accounted_for);
+    EXPECT_EQ(sim.fluid->lost.count, 0);
+    EXPECT_LE(sim.conservation.worst_closure, closes_in_single);
+    for (const Body& body : sim.rigid.bodies) {
+        EXPECT_GT(body.position.x(), 40.0) << body.name << " stands on the quay";
+        EXPECT_LT(body.velocity.norm(), 0.1) << body.name << " has not met water yet";
+    }
 }
 
 } // namespace
