@@ -74,6 +74,54 @@ ordered_json open_sides(const Simulation& sim)
             {"energy_in", sim.open.boundary.energy}};
 }
 
+// What has run, and how far.
+void add_run(ordered_json& json, const Simulation& sim, const std::string& exit_reason,
+             double wall_seconds)
+{
+    json["version"] = build_info::version;
+    json["commit"] = build_info::commit;
+    json["exit_reason"] = exit_reason;
+    json["steps"] = sim.clock.step;
+    json["simulated_seconds"] = sim.clock.time;
+    json["wall_seconds"] = wall_seconds;
+    json["threads"] = thread_count();
+    if (sim.fluid) {
+        json["precision"] = name(sim.scene.precision);
+        json["instruction_set"] = name(sim.fluid->instruction_set);
+    }
+    json["dimensions"] = sim.scene.dimensions;
+    json["per_metre_of_width"] = sim.scene.dimensions == 2;
+}
+
+Index fluid_particles(const Simulation& sim)
+{
+    return sim.fluid ? sim.fluid->particles.fluid.size() : 0;
+}
+
+// The speed of this call of the program, in which so many steps were made.
+void add_rates(ordered_json& json, const Simulation& sim, std::int64_t steps, double wall_seconds)
+{
+    const auto count = static_cast<double>(steps);
+    json["particle_steps_per_second"] =
+        wall_seconds > 0 ? static_cast<double>(sim.plan.counts.particles()) * count / wall_seconds
+                         : 0;
+    json["fluid_particle_steps_per_second"] =
+        wall_seconds > 0 ? static_cast<double>(fluid_particles(sim)) * count / wall_seconds : 0;
+    json["pair_interactions"] = sim.pair_visits;
+    json["pairs_per_second"] = wall_seconds > 0 ? sim.pair_visits / wall_seconds : 0;
+}
+
+ordered_json momenta(const Simulation& sim, const Totals& end)
+{
+    return {{"start", array(sim.conservation.start.momentum)},
+            {"end", array(end.momentum)},
+            {"wall_impulse", array(sim.conservation.wall_impulse)},
+            {"gravity_impulse", array(sim.conservation.gravity_impulse)},
+            {"open_impulse", array(sim.open.boundary.impulse)},
+            {"lost", array(sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()))},
+            {"worst_closure_of_a_step", sim.conservation.worst_closure}};
+}
+
 } // namespace
 
 double peak_memory()
@@ -88,29 +136,10 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                          const FrameWriter::Cost& frames)
 {
     const Totals end = totals(sim);
-    const auto steps = static_cast<double>(sim.clock.step - first_step);
     const auto& n = sim.plan.counts;
-    const Index fluid_now = sim.fluid ? sim.fluid->particles.fluid.size() : 0;
     ordered_json json;
-    json["version"] = build_info::version;
-    json["commit"] = build_info::commit;
-    json["exit_reason"] = exit_reason;
-    json["steps"] = sim.clock.step;
-    json["simulated_seconds"] = sim.clock.time;
-    json["wall_seconds"] = wall_seconds;
-    json["threads"] = thread_count();
-    if (sim.fluid) {
-        json["precision"] = name(sim.scene.precision);
-        json["instruction_set"] = name(sim.fluid->instruction_set);
-    }
-    json["dimensions"] = sim.scene.dimensions;
-    json["per_metre_of_width"] = sim.scene.dimensions == 2;
-    json["particle_steps_per_second"] =
-        wall_seconds > 0 ? static_cast<double>(n.particles()) * steps / wall_seconds : 0;
-    json["fluid_particle_steps_per_second"] =
-        wall_seconds > 0 ? static_cast<double>(fluid_now) * steps / wall_seconds : 0;
-    json["pair_interactions"] = sim.pair_visits;
-    json["pairs_per_second"] = wall_seconds > 0 ? sim.pair_visits / wall_seconds : 0;
+    add_run(json, sim, exit_reason, wall_seconds);
+    add_rates(json, sim, sim.clock.step - first_step, wall_seconds);
     json["peak_memory_bytes"] = peak_memory();
     json["stages"] = seconds_by_stage(sim.timer);
     json["output"] = seconds_by_stage(output);
@@ -120,7 +149,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     json["steps_by_limit"] = ordered_json(sim.steps_by_limit);
     json["share_of_time_step"] = sim.clock.share; // below 1 after recoveries
     json["neighbour_builds"] = sim.fluid ? sim.fluid->neighbours.builds : 0;
-    json["counts"] = {{"fluid", fluid_now},
+    json["counts"] = {{"fluid", fluid_particles(sim)},
                       {"wall", n.wall},
                       {"body", n.body},
                       {"bodies", n.bodies},
@@ -138,13 +167,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     json["energy"] = {{"start", energies(sim.conservation.start)},
                       {"end", energies(end)},
                       {"contact_loss", sim.conservation.contact_loss}};
-    json["momentum"] = {{"start", array(sim.conservation.start.momentum)},
-                        {"end", array(end.momentum)},
-                        {"wall_impulse", array(sim.conservation.wall_impulse)},
-                        {"gravity_impulse", array(sim.conservation.gravity_impulse)},
-                        {"open_impulse", array(sim.open.boundary.impulse)},
-                        {"lost", array(sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()))},
-                        {"worst_closure_of_a_step", sim.conservation.worst_closure}};
+    json["momentum"] = momenta(sim, end);
     json["contact"] = contact_counters(sim.rigid.counters, sim.clock.step);
     return json.dump(2) + "\n";
 }
