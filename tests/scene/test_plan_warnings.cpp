@@ -117,8 +117,8 @@ std::string water_over_slab(double turn, double angle, double dp, double side)
     return fmt::format(
         "[time]\nend = 1.0\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\n"
         "shape = \"box\"\nmin = [-0.6, -0.6, -0.6]\nmax = [0.6, 0.6, 0.5]\n[[wall]]\n"
-        "name = \"slab\"\nshape = \"box\"\nsize = [{}, {}, 0.6]\n"
-        "position = [0, 0, -0.3]\n[wall.rotation_deg]\naxis = [0.3, 1, {}]\n"
+        "name = \"slab\"\nshape = \"box\"\nsize = [{}, {}, 1.6]\n"
+        "position = [0, 0, -0.8]\n[wall.rotation_deg]\naxis = [0.3, 1, {}]\n"
         "angle = {}\n",
         dp, side, side, turn, angle);
 }
