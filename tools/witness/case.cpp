@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The resolved case, read with tomlplusplus.
 #include "mass.hpp"
-#include "scene.hpp"
 #include "prism.hpp"
+#include "scene.hpp"
 #include "terrain.hpp"
 
 #include <toml++/toml.h>

@@ -26,9 +26,8 @@ void add_level(Mesh& mesh, const std::pair<double, double>& below,
     mesh.corners.emplace_back(above.second, y1, z);
     mesh.corners.emplace_back(above.first, y1, z);
     for (const int k : {1, 2}) {
-        mesh.triangles.push_back(facing > 0
-                                     ? std::array<int, 3>{first, first + k, first + k + 1}
-                                     : std::array<int, 3>{first, first + k + 1, first + k});
+        mesh.triangles.push_back(facing > 0 ? std::array<int, 3>{first, first + k, first + k + 1}
+                                            : std::array<int, 3>{first, first + k + 1, first + k});
     }
 }
 
