@@ -112,6 +112,15 @@ class Overlaps(Folder):
             self.row(0, ((0.2, 0.1, low - depth), about((0, 1, 0), 30)))
             self.expect_depth(depth, "log", "table")
 
+    def test_a_body_whose_centre_of_mass_lies_off_its_middle(self):
+        # The rows tell where the centre of mass is: 0.3 from the upper end of a post that is 1 high.
+        self.wall("floor", 'shape = "plane"')
+        self.body("post", 'shape = "box"\nsize = [0.2, 0.2, 1]\ncenter_of_mass = [0, 0, 0.2]')
+        for turn, above in ((0, 0.7), (180, 0.3), (90, 0.1)):
+            self.rows.clear()
+            self.row(0, ((0, 0, above - 1e-4), about((0, 1, 0), turn)))
+            self.expect_depth(1e-4, "post", "floor")
+
     def test_a_cap_on_an_edge(self):
         # Edge along y at height h of a box turned by 45 degrees; the flat end of a log stands on it.
         self.body("box", 'shape = "box"\nsize = [0.2, 0.6, 0.2]')

@@ -160,6 +160,10 @@ Solid read_solid(const toml::table& table, const Scene& scene)
     solid.path = path_of(table["motion"]);
     solid.density = table["density"].value_or(0.0);
     solid.given = table["mass"].value<double>();
+    solid.middle = -vector_of(table["center_of_mass"], {0, 0, 0});
+    if (table.contains("inertia")) {
+        solid.inertia = vector_of(table["inertia"], {0, 0, 0});
+    }
     solid.held = table["fixed"].value_or(false);
     const std::filesystem::path file = table["file"].value_or(std::string());
     if (table["shape"].value_or(std::string()) == "terrain") {

@@ -190,7 +190,7 @@ private:
 
 double signed_distance(const Solid& solid, const State& pose, const Vec3& point, int dimensions)
 {
-    Vec3 p = pose.q.conjugate() * (point - pose.x);
+    Vec3 p = pose.q.conjugate() * (point - pose.x) - solid.middle;
     switch (solid.kind) {
     case Kind::plane:
         return solid.normal.dot(p - solid.point);

@@ -116,6 +116,11 @@ double distance_to_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const V
 
 MassProperties mass_of(const Solid& body, int dimensions)
 {
+    if (body.inertia) {
+        Solid uniform = body;
+        uniform.inertia.reset();
+        return {mass_of(uniform, dimensions).mass, body.inertia->asDiagonal()};
+    }
     if (!body.given) {
         return dimensions == 2 ? flat(body) : solid(body);
     }

@@ -80,7 +80,7 @@ public:
             bodies_.push_back(parts_of(body, scene.dimensions));
             double reach = 0;
             for (const Convex& part : bodies_.back()) {
-                reach = std::max(reach, part.middle.norm() + part.reach);
+                reach = std::max(reach, (part.middle + body.middle).norm() + part.reach);
             }
             reach_.push_back(reach);
         }
@@ -123,7 +123,8 @@ private:
 
     Placed place(const Row& row, std::size_t body, const Convex& part) const
     {
-        return {&part, turns_[body], row.bodies[body].x};
+        return {&part, turns_[body],
+                row.bodies[body].x + turns_[body] * scene_.bodies[body].middle};
     }
 
     void note(double depth, double time, const std::string& a, const std::string& b, double fcl)

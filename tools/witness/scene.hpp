@@ -53,8 +53,11 @@ struct Solid {
     Quat rotation = Quat::Identity();
     Path path; // of a wall
     std::optional<double>
-        given;          // mass of a body, if the case gives it in place of the density [kg]
-    double density = 0; // of a body [kg/m3]
+        given;            // mass of a body, if the case gives it in place of the density [kg]
+    double density = 0;   // of a body [kg/m3]
+    Vec3 middle{0, 0, 0}; // of the shape of a body, from its centre of mass, in its axes [m]
+    std::optional<Vec3>
+        inertia;        // about the centre of mass, in its axes, if the case gives it [kg m2]
     double spacing = 0; // of the particles of a body
     bool held = false;  // a body that is fixed
 };
