@@ -28,6 +28,8 @@ Rigid turned_stack(Dice& dice, int boxes)
 }
 
 // Layers of bricks set off against one another, each by a part of its length and with a small turn.
+// The end bricks of each second layer are held by those above them alone. Of such walls of seven
+// layers and more most still move by 1e-9 to 1e-6 m/s after two seconds.
 Rigid masonry(Dice& dice, int layers)
 {
     Rigid rigid = on_floor(0.2, dice.between(0.4, 0.8));
