@@ -98,7 +98,7 @@ Index fluid_particles(const Simulation& sim)
     return sim.fluid ? sim.fluid->particles.fluid.size() : 0;
 }
 
-// The speed of this call of the program, in which so many steps were made.
+// Particle-steps and pairs per second of this call of the program, which made `steps` steps.
 void add_rates(ordered_json& json, const Simulation& sim, std::int64_t steps, double wall_seconds)
 {
     const auto count = static_cast<double>(steps);

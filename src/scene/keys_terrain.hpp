@@ -52,7 +52,7 @@ inline void find_ring(TableReader& table, LevelKeys& level)
         }
     }
     if (const std::string fault = outline_fault({level.ring}); table.sound(key) && !fault.empty()) {
-        table.error(key, "is no outline of an area: " + fault,
+        table.error(key, "does not outline an area: " + fault,
                     "the corners of one polygon, one after the other along its edge");
     }
 }

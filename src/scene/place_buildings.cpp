@@ -111,7 +111,7 @@ void build(const Footprint& footprint, const std::string& name, const Ground& gr
                                   : fmt::format("{} (\"{}\")", footprint.where, name);
     if (outline.corners.empty() || ear_triangles(outline.corners).empty()) {
         buildings.faults.push_back(
-            {fmt::format("{} is no outline of a building: {}", where,
+            {fmt::format("{} does not outline a building: {}", where,
                          fault.empty() ? "it cannot be divided into triangles" : fault),
              "repair it, for instance by `ogr2ogr -makevalid NEW.geojson FILE.geojson`"});
         return;

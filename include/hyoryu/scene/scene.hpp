@@ -43,7 +43,7 @@ struct MeshShape {
     std::string file;
     double scale = 1;
     std::optional<TerrainPatch> terrain;       // if the file is a height grid
-    std::optional<PrismOutline> prism;         // if there is no file
+    std::optional<PrismOutline> prism;         // of a prism, which has no file
     std::vector<Vec3> corners;                 // [m], scaled
     std::vector<std::array<int, 3>> triangles; // outward orientation
 };
