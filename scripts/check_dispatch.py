@@ -3,13 +3,15 @@
 
 Usage: scripts/check_dispatch.py NM OBJECT...; objects of one set have its name in their path, as in
 `hyoryu_fluid_32`. The linker keeps one of several weak definitions; were it that of a wider set, the
-program would stop on machines without that set.
+program would stop on machines without that set. Data are shared, and have to be: fields are known by
+their addresses.
 """
 import collections
 import re
 import subprocess
 import sys
 
+FUNCTIONS = "WTi"  # weak, global and indirect ones, as nm marks them
 SET = re.compile(r"hyoryu_\w+_(\d+)\.dir")
 
 
@@ -20,7 +22,7 @@ def shared_symbols(nm, objects):
                               text=True).stdout
         for line in text.splitlines():
             kind, name = line.split()[-2:]
-            if kind in "WVuwvT":
+            if kind in FUNCTIONS:
                 sets[name].add(SET.search(path)[1])
     return sorted(name for name, found in sets.items() if len(found) > 1)
 
