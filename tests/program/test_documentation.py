@@ -122,7 +122,7 @@ class Documentation(ProgramTest):
         return [call for call in calls if not call.startswith("git ")], code
 
     def test_e13_the_turns_leave_nothing_out_and_a_failure_of_any_is_one(self):
-        turns = [] # of the parts of lint, the rarest, one comes every 8 commits; the parts of memory take turns by 6
+        turns = [] # of the parts of lint, the rarest, one comes every 8 commits; the parts of memory take turns by 8
         failed = set()
         for number in range(96):
             turn, code = self.ci(number)
@@ -134,7 +134,7 @@ class Documentation(ProgramTest):
                 self.assertNotEqual(self.ci(number, failing=script)[1], 0, (number, script))
         self.assertEqual({call for turn in turns for call in turn},
                          {"test", "test --portable", "package --check", "valgrind", "sanitize --threads --quick",
-                          *(f"sanitize --quick {part}" for part in ("bodies", "scenes", "steps")),
+                          *(f"sanitize --quick {part}" for part in ("bodies", "scenes", "files", "steps")),
                           *(f"lint --part {k}/4" for k in range(4))})
         for one, next_one in zip(turns, turns[1:]): # memory is never left out twice in a row
             self.assertIn("sanitize --quick", " ".join(one + next_one))
@@ -149,7 +149,7 @@ class Documentation(ProgramTest):
         fuzz = re.search(r"foreach\(target (.*)\)", (ROOT / "tests/fuzz/CMakeLists.txt").read_text()).group(1)
         targets = {f"fuzz_{target.split(':')[0]}" for target in fuzz.split()}
         union = set()
-        for part in (["bodies"], ["scenes"], ["steps"], []):
+        for part in (["bodies"], ["scenes"], ["files"], ["steps"], []):
             built, run = built_and_run(*part)
             self.assertEqual(built, {f"test_{label}" for label in run - {"fuzz"}} | (targets if "fuzz" in run else set()))
             self.assertEqual(built & union, built if not part else set(), part) # no part repeats another
