@@ -185,6 +185,9 @@ void Outputs::write_bodies(const Simulation& sim)
 {
     for (std::size_t b = 0; b < sim.rigid.bodies.size(); ++b) {
         const Body& body = sim.rigid.bodies[b];
+        if (body.left) {
+            continue;
+        }
         const Quat& q = body.orientation;
         std::vector<std::string> row{cell(sim.clock.time), cell(std::string_view(body.name))};
         append(row, body.position);

@@ -50,6 +50,19 @@ ordered_json contact_counters(const RigidCounters& c, std::int64_t steps)
             {"worst_penetration", c.worst_penetration}};
 }
 
+ordered_json bodies_left(const Simulation& sim)
+{
+    ordered_json list = ordered_json::array();
+    for (const LeftBody& left : sim.open.left) {
+        list.push_back({{"name", sim.rigid.bodies[static_cast<std::size_t>(left.body)].name},
+                        {"side", sim.scene.open[static_cast<std::size_t>(left.side)].name},
+                        {"time", left.time},
+                        {"position", array(left.position)},
+                        {"velocity", array(left.velocity)}});
+    }
+    return list;
+}
+
 // Rows of fluid are a whole number: those of the start + made - dropped - lost.
 ordered_json open_sides(const Simulation& sim)
 {
@@ -71,7 +84,8 @@ ordered_json open_sides(const Simulation& sim)
     return {{"sides", list},
             {"fluid_at_start", sim.plan.counts.fluid},
             {"unaccounted_particles", sim.fluid->particles.fluid.size() - rows},
-            {"energy_in", sim.open.boundary.energy}};
+            {"energy_in", sim.open.boundary.energy},
+            {"bodies_left", bodies_left(sim)}};
 }
 
 // What has run, and how far.

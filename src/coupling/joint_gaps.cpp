@@ -51,7 +51,9 @@ JointTables joint_tables(const Rigid& rigid, double reach)
     const int dimensions = rigid.settings.dimensions;
     tables.reach = reach;
     for (const Boundary& boundary : rigid.boundaries) {
-        tables.walls.push_back(ray_wall(boundary, dimensions));
+        if (!boundary.lets_water_pass) {
+            tables.walls.push_back(ray_wall(boundary, dimensions));
+        }
     }
     tables.displaced.resize(tables.walls.size());
     for (const Body& body : rigid.bodies) {
@@ -69,11 +71,15 @@ void find_near(JointTables& tables, const Rigid& rigid, const std::vector<Pose>&
         tables.displaced[w] = displacement(rigid.boundaries[w].motion, time);
     }
     for (std::size_t b = 0; b < poses.size(); ++b) {
-        tables.along_x[b] = {poses[b].position.x() - tables.solids[b].reach, static_cast<int>(b)};
+        const double end = poses[b].position.x() - tables.solids[b].reach;
+        tables.along_x[b] = {rigid.bodies[b].left ? infinity : end, static_cast<int>(b)};
     }
     std::ranges::sort(tables.along_x);
     parallel_blocks(0, static_cast<Index>(poses.size()), [&](Index b) {
         tables.bodies[at(b)].near.clear();
+        if (rigid.bodies[at(b)].left) {
+            return;
+        }
         find_near_walls(tables, static_cast<int>(b), poses[at(b)].position);
         find_near_bodies(tables, poses, static_cast<int>(b));
     });

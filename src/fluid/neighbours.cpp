@@ -315,6 +315,13 @@ int pack_lanes(const Fluid& fluid)
         fluid.pair_data);
 }
 
+void clear_lists(std::initializer_list<PairList*> lists)
+{
+    for (PairList* list : lists) {
+        list->clear();
+    }
+}
+
 void build_lists(Fluid& fluid)
 {
     const Particles& particles = fluid.particles;
@@ -337,6 +344,8 @@ void build_lists(Fluid& fluid)
         n.fluid_solid.mark_met(n.met);
         n.wall_fluid.build(n.wall, of_fluid, settings, {.wanted = n.met});
         n.body_fluid.build(n.body, of_fluid, settings, {.wanted = n.met});
+    } else { // the last body may have left
+        clear_lists({&n.fluid_solid, &n.wall_fluid, &n.body_fluid});
     }
     if (particles.body.size() > 0) {
         collect_owners(particles, n);
@@ -345,6 +354,8 @@ void build_lists(Fluid& fluid)
         n.met.assign(at(particles.size()), 0);
         n.body_solid.mark_met(n.met);
         n.wall_body.build(n.wall, of_bodies, settings, {.wanted = n.met});
+    } else {
+        clear_lists({&n.body_solid, &n.wall_body});
     }
     connect(fluid);
     std::visit([&](auto& data) { data.slots = fluid.particles.size(); }, fluid.pair_data);

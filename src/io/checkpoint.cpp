@@ -19,7 +19,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr int format_version = 7;
+constexpr int format_version = 8;
 constexpr std::size_t header_size = 512; // the first place after 0 where HDF5 looks for a file
 constexpr std::string_view magic = "hyoryu checkpoint";
 

@@ -4,6 +4,7 @@
 #include "rotor.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hyoryu {
 
@@ -23,6 +24,32 @@ Mat3 free_inertia(const Body& body)
     return inertia;
 }
 
+double reach_of(const Polytope& shape, const Vec3& n)
+{
+    double reach = -infinity;
+    for (const Vec3& corner : shape.corners) {
+        reach = std::max(reach, n.dot(corner));
+    }
+    return reach;
+}
+double reach_of(const Ball& ball, const Vec3& n)
+{
+    return n.dot(ball.middle) + ball.radius;
+}
+double reach_of(const Rod& rod, const Vec3& n)
+{
+    return n.dot(rod.middle) + 0.5 * rod.length * std::abs(n.x()) +
+           rod.radius * std::hypot(n.y(), n.z());
+}
+double reach_of(const Compound& shape, const Vec3& n)
+{
+    double reach = -infinity;
+    for (const Polytope& part : shape.parts) {
+        reach = std::max(reach, reach_of(part, n));
+    }
+    return reach;
+}
+
 } // namespace
 
 Vec3 angular_velocity(const Body& body)
@@ -40,6 +67,12 @@ double kinetic_energy(const Body& body)
 {
     return 0.5 * body.mass.mass * body.velocity.squaredNorm() +
            0.5 * angular_velocity(body).dot(body.angular_momentum);
+}
+
+double reach_along(const Body& body, const Vec3& n)
+{
+    const Vec3 local = body.orientation.conjugate() * n;
+    return std::visit([&](const auto& shape) { return reach_of(shape, local); }, body.shape);
 }
 
 const ContactLaws::Law& ContactLaws::of(int a, int b) const

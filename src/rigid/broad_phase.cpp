@@ -49,12 +49,17 @@ double travel(const StepContext& context, int k)
 }
 
 // The pairs of a body with those of higher number whose boxes meet its own.
-void add_pairs_of(const ContactMemory& memory, int a, const std::vector<AlignedBox>& boxes,
+void add_pairs_of(const StepContext& context, int a, const std::vector<AlignedBox>& boxes,
                   const BoxTree& tree, std::vector<int>& near, std::vector<BodyPair>& pairs)
 {
+    const ContactMemory& memory = context.memory;
+    const std::vector<Body>& bodies = context.rigid.bodies;
+    if (bodies[a].left) {
+        return;
+    }
     find_near(tree, boxes[a], near);
     for (const int b : near) {
-        if (b > a && boxes[a].meets(boxes[b]) &&
+        if (b > a && !bodies[b].left && boxes[a].meets(boxes[b]) &&
             (memory.rotors[a].movable || memory.rotors[b].movable)) {
             pairs.push_back({a, b});
         }
@@ -77,7 +82,7 @@ std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<d
         std::vector<int> near;
         const int first = static_cast<int>(block) * bodies_per_block;
         for (int a = first; a < std::min(n, first + bodies_per_block); ++a) {
-            add_pairs_of(memory, a, boxes, tree, near, of_block[static_cast<std::size_t>(block)]);
+            add_pairs_of(context, a, boxes, tree, near, of_block[static_cast<std::size_t>(block)]);
         }
     });
     std::vector<BodyPair> pairs;

@@ -47,6 +47,9 @@ void prepare(Rigid& rigid)
     memory.guesses.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         Body& body = rigid.bodies[k];
+        if (body.left && memory.rotors[k].movable) {
+            memory.rotors[k] = rotor_of(body, dimensions);
+        }
         memory.poses[k] = pose_of(body.position, body.orientation);
         for (int m = 0; m < 3; ++m) { // a locked axis does not move, whatever its velocity was
             body.velocity[m] = memory.rotors[k].inverse_mass[m] > 0 ? body.velocity[m] : 0;

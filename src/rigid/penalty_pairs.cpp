@@ -153,6 +153,7 @@ public:
 
 private:
     bool movable(int k) const { return context_.memory.rotors[k].movable; }
+    bool left(int k) const { return context_.rigid.bodies[static_cast<std::size_t>(k)].left; }
     const SolidPose& pose(int k) const { return context_.memory.poses[k]; }
     const ParticleCloud& cloud(int k) const { return penalty_.bodies[static_cast<std::size_t>(k)]; }
 
@@ -243,7 +244,8 @@ private:
         for (std::size_t m = 0; m < order.size(); ++m) {
             const double high = pose(order[m]).x.x() + margin(order[m]);
             for (std::size_t n = m + 1; n < order.size() && low(order[n]) < high; ++n) {
-                if (movable(order[m]) || movable(order[n])) {
+                if ((movable(order[m]) || movable(order[n])) && !left(order[m]) &&
+                    !left(order[n])) {
                     meet_body(std::min(order[m], order[n]), std::max(order[m], order[n]));
                 }
             }

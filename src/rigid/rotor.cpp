@@ -100,9 +100,9 @@ Rotor rotor_of(const Body& body, int dimensions)
     const bool planar = dimensions == 2;
     const std::array<bool, 6> plane{false, true, false, true, false, true};
     for (int k = 0; k < 3; ++k) {
-        const bool moves = !body.locks[k] && !(planar && plane[k]);
+        const bool moves = !body.left && !body.locks[k] && !(planar && plane[k]);
         rotor.inverse_mass[k] = moves ? 1 / body.mass.mass : 0;
-        rotor.turns[k] = !body.locks[3 + k] && !(planar && plane[3 + k]);
+        rotor.turns[k] = !body.left && !body.locks[3 + k] && !(planar && plane[3 + k]);
     }
     rotor.free_axes = static_cast<int>(std::count(rotor.turns.begin(), rotor.turns.end(), true));
     rotor.movable = rotor.free_axes > 0 || (rotor.inverse_mass.array() > 0).any();

@@ -314,6 +314,12 @@ void series_keys(auto& keys, SeriesKeys& source)
     keys.rule(check_columns, source.columns);
 }
 
+/// What comes with water from outside must not drift out against it.
+inline void default_bodies(TableReader& /*table*/, OpenSettings& open)
+{
+    open.bodies = open.kind == OpenKind::inflow ? BodiesAtSide::stop : BodiesAtSide::leave;
+}
+
 void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
 {
     SeriesKeys source;
@@ -347,6 +353,11 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
     keys.choice("profile", open.profile, {"uniform", "power"},
                 "Velocity over the depth: uniform, or with the height above the ground to the "
                 "power of 1/7.");
+    keys.rule(default_bodies, open);
+    keys.choice("bodies", open.bodies, {"stop", "leave"},
+                "stop: for bodies the window is a smooth wall without rebound; leave: a body that "
+                "has passed the window whole is taken out of the run and listed in `summary.json`.",
+                "stop at an inflow, leave elsewhere");
     if (keys.shows(open.hold)) {
         keys.flag("hold", open.hold,
                   "The last values of a series that ends before the run hold to its end; no "

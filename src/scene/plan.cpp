@@ -340,7 +340,9 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     }
     plan.rigid = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                              [](const BodySettings& b) { return !b.fixed; });
-    plan.contact = plan.rigid && (scene.bodies.size() > 1 || !scene.walls.empty());
+    const bool stops = std::ranges::any_of(
+        scene.open, [](const OpenSettings& open) { return open.bodies == BodiesAtSide::stop; });
+    plan.contact = plan.rigid && (scene.bodies.size() > 1 || !scene.walls.empty() || stops);
     if (scene.fluid) {
         plan.counts.body = plan.counts.drawn;
         plan.expected_speed = expected_speed(scene, filling);

@@ -92,7 +92,7 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
 {
     const Rigid rigid = make_rigid(scene);
     const auto bodies = static_cast<int>(rigid.bodies.size());
-    const auto walls = static_cast<int>(rigid.boundaries.size());
+    const auto walls = static_cast<int>(scene.walls.size());
     const auto report = [&](int a, const std::string& other, double depth) {
         const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
         errors.push_back(diagnostic_at(

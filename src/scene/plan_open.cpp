@@ -238,6 +238,54 @@ void check_pairs(const Scene& scene, std::vector<Diagnostic>& errors)
     }
 }
 
+// A body leaves when it has passed whole, or when its middle is beyond the water behind the window.
+void warn_about_long_bodies(const Scene& scene, const OpenSettings& open, double carpet,
+                            const auto& warn)
+{
+    const BodySettings* longest = nullptr;
+    double length = 2 * carpet;
+    for (const BodySettings& body : scene.bodies) {
+        const Bounds box = bounds({.shape = &body.shape, .dimensions = scene.dimensions});
+        const double own = (box.max - box.min).maxCoeff();
+        if (!body.fixed && own > length) {
+            longest = &body;
+            length = own;
+        }
+    }
+    if (open.bodies == BodiesAtSide::leave && longest != nullptr) {
+        warn("bodies",
+             fmt::format("body \"{}\" is {:.3g} m long and the water behind the window reaches "
+                         "{:.3g} m: it is taken out of the run when half of it has passed the end "
+                         "of that water, with its rear still before the window",
+                         longest->name, length, carpet),
+             "what happens near the window is disturbed then; move the window away from what is "
+             "studied");
+    }
+}
+
+void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
+                            std::vector<Diagnostic>& errors)
+{
+    if (open.bodies != BodiesAtSide::stop || scene.bodies.empty()) {
+        return;
+    }
+    if (scene.contact.penalty) {
+        errors.push_back(note_at(scene, open, "bodies",
+                                 "bodies do not stop at a window with contact.method = "
+                                 "\"penalty\", which knows walls by their particles alone",
+                                 "set bodies = \"leave\", or contact.method = \"impulse\""));
+    }
+    for (const Wall& wall : scene.walls) {
+        if (wall.name == open.name) {
+            errors.push_back(note_at(scene, open, "name",
+                                     fmt::format("a wall is named \"{}\", too: contacts with the "
+                                                 "window could not be told from those with it",
+                                                 open.name),
+                                     "give the window another name"));
+        }
+    }
+}
+
 void warn_about(const Scene& scene, const OpenSettings& open, const WaterAtStart& water, double bed,
                 Plan& plan)
 {
@@ -260,12 +308,7 @@ void warn_about(const Scene& scene, const OpenSettings& open, const WaterAtStart
                  "set `time_offset`, or `hold = true`");
         }
     }
-    if (std::ranges::any_of(scene.bodies, [](const BodySettings& body) { return !body.fixed; })) {
-        warn("name",
-             "bodies neither stop at an open side nor leave the run there: one that drifts through "
-             "falls off the ground behind the window",
-             "end the run before bodies come there, or put walls that hold them before the window");
-    }
+    warn_about_long_bodies(scene, open, carpet_columns(*plan.fluid) * scene.spacing, warn);
     double deepest = 0;
     for (int k = 0; k <= samples; ++k) {
         const double time = scene.time.end * k / samples;
@@ -339,6 +382,7 @@ void check_open(const Scene& scene, const Filling& filling, Plan& plan,
         check_ground(scene, open, side, errors);
         check_water(scene, open, water, errors);
         check_bodies_at(scene, open, side, errors);
+        check_bodies_that_stop(scene, open, errors);
         check_shifting(scene, plan, open, errors);
         if (mean_bed(side) < infinity) {
             warn_about(scene, open, water, mean_bed(side), plan);

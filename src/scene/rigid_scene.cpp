@@ -23,6 +23,8 @@ public:
                    ? 0
                    : known_.try_emplace(name, static_cast<int>(known_.size()) + 1).first->second;
     }
+    /// An index that no name has so far, one more than the largest.
+    int another() const { return static_cast<int>(known_.size()) + 1; }
 
 private:
     std::map<std::string, int> known_;
@@ -239,6 +241,43 @@ Boundary make_boundary(const Wall& wall, const Scene& scene, Materials& material
     return boundary;
 }
 
+// The surface on which bodies stop at an open side: the window, as a block behind it that no body
+// is thicker than.
+Boundary make_stop(const OpenSettings& open, const Rigid& rigid, int material)
+{
+    const int dimensions = rigid.settings.dimensions;
+    double thickness = 0;
+    for (const Body& body : rigid.bodies) {
+        thickness = std::max(thickness, 2 * bounding_radius(body, dimensions));
+    }
+    Vec3 size = open.max - open.min;
+    size[open.axis()] = thickness;
+    Vec3 centre = (open.min + open.max) / 2;
+    centre[open.axis()] -= open.sign() * thickness / 2;
+    return {.name = open.name,
+            .surface = Obstacle{box_polytope(size, dimensions), centre},
+            .material = material,
+            .lets_water_pass = true};
+}
+
+// Neither rebound nor friction.
+void add_stops(const Scene& scene, Materials& materials, Rigid& rigid)
+{
+    const auto stops = [](const OpenSettings& open) { return open.bodies == BodiesAtSide::stop; };
+    if (rigid.bodies.empty() || rigid.penalty || std::ranges::none_of(scene.open, stops)) {
+        return;
+    }
+    const int material = materials.another();
+    for (int other = 0; other < material; ++other) {
+        rigid.laws.pairs.push_back({{material, other}, {0, 0}});
+    }
+    for (const OpenSettings& open : scene.open) {
+        if (stops(open)) {
+            rigid.boundaries.push_back(make_stop(open, rigid, material));
+        }
+    }
+}
+
 // Particles of the bodies, and of the obstacles down to the depth that contact reaches.
 Penalty make_penalty(const Scene& scene)
 {
@@ -330,6 +369,7 @@ Rigid make_rigid(const Scene& scene)
             {{materials.index(pair.materials[0]), materials.index(pair.materials[1])},
              {pair.restitution, pair.friction}});
     }
+    add_stops(scene, materials, rigid);
     return rigid;
 }
 

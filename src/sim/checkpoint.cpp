@@ -225,6 +225,18 @@ void describe_absorbers(State& state, Simulation& sim)
     }
 }
 
+// Each body once, and each side one at which bodies leave.
+bool are_of_case(const Simulation& sim, std::vector<int> bodies, std::span<const int> sides)
+{
+    const auto is_below = [](std::size_t count) {
+        return [count](int k) { return k >= 0 && static_cast<std::size_t>(k) < count; };
+    };
+    std::ranges::sort(bodies);
+    return std::ranges::all_of(bodies, is_below(sim.rigid.bodies.size())) &&
+           std::ranges::all_of(sides, is_below(sim.scene.open.size())) &&
+           std::ranges::adjacent_find(bodies) == bodies.end();
+}
+
 template <class State, class Boundary>
 void describe_open(State& state, Boundary& open)
 {
@@ -249,6 +261,39 @@ void describe_open(State& state, Boundary& open)
     }
 }
 
+// Before the particles: those of the bodies that left are not there.
+template <class State, class Simulation>
+void describe_left_bodies(State& state, Simulation& sim)
+{
+    std::vector<int> bodies, sides;
+    std::vector<double> times;
+    std::vector<Vec3> positions, velocities;
+    for (const LeftBody& left : sim.open.left) {
+        bodies.push_back(left.body);
+        sides.push_back(left.side);
+        times.push_back(left.time);
+        positions.push_back(left.position);
+        velocities.push_back(left.velocity);
+    }
+    state.list("open/left/body", "", bodies);
+    state.list("open/left/side", "", sides);
+    state.list("open/left/time", "s", times);
+    state.list("open/left/position", "m", positions);
+    state.list("open/left/velocity", "m/s", velocities);
+    if constexpr (State::reads) {
+        const std::size_t count = bodies.size();
+        if (sides.size() != count || times.size() != count || positions.size() != count ||
+            velocities.size() != count || !are_of_case(sim, bodies, sides)) {
+            throw IoError("the checkpoint lists bodies that left, but they are not of this case: "
+                          "it is damaged or belongs to another case");
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            sim.open.left.push_back({bodies[k], sides[k], times[k], positions[k], velocities[k]});
+        }
+        remove_left_bodies(sim);
+    }
+}
+
 template <class State, class Simulation>
 void describe_all(State& state, Simulation& sim)
 {
@@ -269,6 +314,9 @@ void describe_all(State& state, Simulation& sim)
         }
     }
     describe_rigid(state, sim.rigid);
+    if (sim.open.runs()) {
+        describe_left_bodies(state, sim);
+    }
     if (sim.fluid) {
         describe_fluid(state, *sim.fluid, sim.open);
     }

@@ -85,7 +85,8 @@ Vec3 weight(const Simulation& sim)
     }
     for (const Body& body : sim.rigid.bodies) {
         for (int axis = 0; axis < 3; ++axis) {
-            total[axis] += locked(body, axis) ? 0 : body.mass.mass * sim.scene.gravity[axis];
+            const bool free = !body.left && !locked(body, axis);
+            total[axis] += free ? body.mass.mass * sim.scene.gravity[axis] : 0;
         }
     }
     return total;
@@ -129,7 +130,7 @@ Totals totals(const Simulation& sim)
     }
     for (const Body& body : sim.rigid.bodies) {
         t.body_kinetic += kinetic_energy(body);
-        t.body_potential -= body.mass.mass * sim.scene.gravity.dot(body.position);
+        t.body_potential -= body.left ? 0 : body.mass.mass * sim.scene.gravity.dot(body.position);
     }
     const MomentumSum all = motion(sim);
     t.momentum = all.momentum;

@@ -62,7 +62,7 @@ private:
     double speed_of(int b) const
     {
         return b < 0 ? push_.normal.dot(
-                           velocity(sim_.scene.walls[static_cast<std::size_t>(-1 - b)].motion,
+                           velocity(sim_.rigid.boundaries[static_cast<std::size_t>(-1 - b)].motion,
                                     sim_.clock.time))
                      : 0;
     }
@@ -105,7 +105,7 @@ private:
 std::optional<Crushed> crushed(const Simulation& sim)
 {
     const double deep = 0.25 * std::min(sim.scene.spacing, sim.thinnest);
-    const auto& walls = sim.scene.walls;
+    const auto& walls = sim.rigid.boundaries;
     if (!has_moving_walls(sim.scene) ||
         std::ranges::none_of(sim.contacts, [&](const Contact& c) { return c.depth > deep; })) {
         return std::nullopt;

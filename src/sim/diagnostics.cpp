@@ -32,9 +32,11 @@ std::string owner_name(const Simulation& sim, std::int32_t owner)
 
 std::string solid_name(const Simulation& sim, int b)
 {
-    return b >= 0 ? fmt::format("body \"{}\"", sim.rigid.bodies[static_cast<std::size_t>(b)].name)
-                  : fmt::format("wall \"{}\"",
-                                sim.rigid.boundaries[static_cast<std::size_t>(-1 - b)].name);
+    if (b >= 0) {
+        return fmt::format("body \"{}\"", sim.rigid.bodies[static_cast<std::size_t>(b)].name);
+    }
+    const Boundary& boundary = sim.rigid.boundaries[static_cast<std::size_t>(-1 - b)];
+    return fmt::format("{} \"{}\"", boundary.lets_water_pass ? "open side" : "wall", boundary.name);
 }
 
 std::string nearby_particles(const Simulation& sim, std::size_t row)
@@ -73,8 +75,14 @@ Overlap deepest_overlap(const Simulation& sim)
     Overlap deepest;
     const auto bodies = static_cast<int>(sim.rigid.bodies.size());
     const auto walls = static_cast<int>(sim.rigid.boundaries.size());
+    const auto left = [&](int b) {
+        return b >= 0 && sim.rigid.bodies[static_cast<std::size_t>(b)].left;
+    };
     for (int a = 0; a < bodies; ++a) {
         for (int b = -walls; b < a; ++b) {
+            if (left(a) || left(b)) {
+                continue;
+            }
             const double depth = overlap(sim.rigid, a, b, sim.clock.time);
             if (depth > deepest.depth) {
                 deepest = {solid_name(sim, a) + " and " + solid_name(sim, b), depth};

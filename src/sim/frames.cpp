@@ -225,6 +225,9 @@ Surface body_surface(const Simulation& sim)
     std::vector<float> velocities;
     for (std::size_t b = 0; b < sim.rigid.bodies.size(); ++b) {
         const Body& body = sim.rigid.bodies[b];
+        if (body.left) {
+            continue;
+        }
         TriangleSurface own = triangles_of(sim.scene.bodies[b].shape, sim.scene.dimensions);
         move_to_middle(sim.scene.bodies[b], own.corners);
         const std::size_t added = append(all, own, {body.position, body.orientation});

@@ -99,6 +99,7 @@ void renew_open(Simulation& sim)
     OpenBoundary& open = sim.open.boundary;
     count_crossings(fluid, open);
     if (lists_are_due(fluid, carpets_due(fluid, open))) {
+        let_bodies_leave(sim);
         renew_carpets(fluid, open);
         make_lists(fluid);
         find_rows(fluid, open);

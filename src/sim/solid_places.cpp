@@ -51,7 +51,7 @@ void place_solids(const Simulation& sim, std::span<const Pose> poses, double tim
     for (std::size_t b = 0; b < poses.size(); ++b) {
         const Body& body = sim.rigid.bodies[b];
         places.push_back({poses[b].position, poses[b].orientation.toRotationMatrix(), body.velocity,
-                          angular_velocity(body)});
+                          angular_velocity(body), body.left});
     }
 }
 
@@ -62,7 +62,7 @@ NearestPlace nearest_of(const WallBarrier& barrier, const SolidPlace& place, std
     if (barrier.dimensions == 2) {
         r.y() = 0;
     }
-    if (r.squaredNorm() > sq(barrier.solids[solid].reach + farthest)) {
+    if (place.left || r.squaredNorm() > sq(barrier.solids[solid].reach + farthest)) {
         return {};
     }
     return nearest_place(barrier.solids[solid], place.rotation.transpose() * r, farthest);

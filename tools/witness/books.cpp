@@ -30,7 +30,7 @@ public:
     {
         Sums sums;
         for (std::size_t b = 0; b < masses_.size(); ++b) {
-            if (scene_.bodies[b].held) {
+            if (scene_.bodies[b].held || !row.bodies[b].there) {
                 continue;
             }
             const State& s = row.bodies[b];
@@ -56,6 +56,9 @@ public:
             double fall =
                 std::sqrt(masses_[b].inertia.trace() / masses_[b].mass) * scene_.gravity.norm();
             for (const Row& row : rows) {
+                if (!row.bodies[b].there) {
+                    break;
+                }
                 fall = std::max(fall, scene_.gravity.dot(row.bodies[b].x - rows[0].bodies[b].x));
             }
             energy += masses_[b].mass * fall;

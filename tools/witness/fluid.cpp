@@ -136,6 +136,9 @@ public:
                 note(d, frame.time, wall.name, deepest);
             }
             for (std::size_t b = 0; b < poses.size(); ++b) {
+                if (!poses[b].there) {
+                    continue;
+                }
                 const double d = signed_distance(scene_.bodies[b], poses[b], p, scene_.dimensions);
                 note(d, frame.time, scene_.bodies[b].name, deepest);
             }
@@ -169,7 +172,7 @@ private:
         double scale = 0;
         Vec3 sum = momentum_of(frame, scene_, scale);
         for (std::size_t b = 0; b < scene_.bodies.size() && told; ++b) {
-            if (!scene_.bodies[b].held) {
+            if (!scene_.bodies[b].held && pose_at(rows_, b, frame.time).there) {
                 const double m = mass_of(scene_.bodies[b], scene_.dimensions).mass;
                 sum += m * pose_at(rows_, b, frame.time).v;
                 scale += m * pose_at(rows_, b, frame.time).v.norm();
@@ -228,6 +231,9 @@ State pose_at(const std::vector<Row>& rows, std::size_t body, double t)
         return b;
     }
     const State& a = (next - 1)->bodies[body];
+    if (!b.there) { // since some time between the rows
+        return b;
+    }
     const double h = next->time - (next - 1)->time;
     const double s = (t - (next - 1)->time) / h;
     State pose = b;

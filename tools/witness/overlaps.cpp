@@ -100,7 +100,8 @@ public:
             }
             broad.pairs(centres, [&](std::size_t i, std::size_t j) { meet_bodies(row, i, j); });
             for (std::size_t b = 0; b < bodies_.size(); ++b) {
-                for (std::size_t w = 0; w < walls_.size() && !scene_.bodies[b].held; ++w) {
+                const bool meets = !scene_.bodies[b].held && row.bodies[b].there;
+                for (std::size_t w = 0; w < walls_.size() && meets; ++w) {
                     meet_wall(row, b, w);
                 }
             }
@@ -159,7 +160,8 @@ private:
 
     void meet_bodies(const Row& row, std::size_t i, std::size_t j)
     {
-        if (scene_.bodies[i].held && scene_.bodies[j].held) {
+        const bool both_held = scene_.bodies[i].held && scene_.bodies[j].held;
+        if (both_held || !row.bodies[i].there || !row.bodies[j].there) {
             return;
         }
         for (const Convex& a : bodies_[i]) {

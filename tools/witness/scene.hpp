@@ -77,8 +77,9 @@ struct Scene {
 struct State {
     Vec3 x{0, 0, 0}; // [m]
     Quat q = Quat::Identity();
-    Vec3 v{0, 0, 0}; // [m/s]
-    Vec3 w{0, 0, 0}; // [rad/s], world axes
+    Vec3 v{0, 0, 0};   // [m/s]
+    Vec3 w{0, 0, 0};   // [rad/s], world axes
+    bool there = true; // it has not left the run through an open side
 };
 
 /// The bodies at one time, in the order of the case.

@@ -2,6 +2,8 @@
 // Histories, mesh files and paths of walls, by readers of few lines.
 #include "scene.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -175,6 +177,35 @@ Table read_table(const std::filesystem::path& file)
     return table;
 }
 
+namespace {
+
+// The bodies that left the run, and when.
+std::map<std::string, double> left_bodies(const std::filesystem::path& folder)
+{
+    std::map<std::string, double> left;
+    if (std::ifstream stream(folder / "summary.json"); stream) {
+        const auto summary = nlohmann::json::parse(stream);
+        if (summary.contains("open")) {
+            for (const auto& body : summary["open"]["bodies_left"]) {
+                left[body["name"]] = body["time"];
+            }
+        }
+    }
+    return left;
+}
+
+// The state in the last columns of a row, from x on.
+State state_in(const std::vector<std::string>& cells, std::size_t first)
+{
+    const auto n = [&](std::size_t k) { return std::stod(cells.at(first + k)); };
+    return {{n(0), n(1), n(2)},
+            Quat(n(3), n(4), n(5), n(6)).normalized(),
+            {n(7), n(8), n(9)},
+            {n(10), n(11), n(12)}};
+}
+
+} // namespace
+
 std::vector<Row> read_rows(const std::filesystem::path& folder, const Scene& scene)
 {
     const Table table = read_table(folder / "bodies.csv");
@@ -186,21 +217,24 @@ std::vector<Row> read_rows(const std::filesystem::path& folder, const Scene& sce
     if (!first || !named) {
         throw std::runtime_error("bodies.csv is missing or has no columns `body` and `x`");
     }
-    const std::size_t count = scene.bodies.size();
-    for (std::size_t line = 0; line + count <= table.rows.size(); line += count) {
-        Row row;
-        row.time = std::stod(table.rows[line][0]);
-        for (std::size_t b = 0; b < count; ++b) {
-            const auto& cells = table.rows[line + b];
-            if (cells[*named] != scene.bodies[b].name) {
-                throw std::runtime_error("bodies.csv: expected " + scene.bodies[b].name +
-                                         ", found " + cells[*named]);
+    const auto left = left_bodies(folder);
+    for (std::size_t line = 0; line < table.rows.size();) {
+        Row row{.time = std::stod(table.rows[line][0])};
+        for (const Solid& body : scene.bodies) {
+            const auto gone = left.find(body.name);
+            if (gone != left.end() && row.time > gone->second) {
+                row.bodies.push_back({.there = false});
+                continue;
             }
-            const auto n = [&](std::size_t k) { return std::stod(cells.at(*first + k)); };
-            row.bodies.push_back({{n(0), n(1), n(2)},
-                                  Quat(n(3), n(4), n(5), n(6)).normalized(),
-                                  {n(7), n(8), n(9)},
-                                  {n(10), n(11), n(12)}});
+            if (line == table.rows.size()) {
+                return rows; // a run that was cut off within these rows
+            }
+            const auto& cells = table.rows[line++];
+            if (cells[*named] != body.name || std::stod(cells[0]) != row.time) {
+                throw std::runtime_error("bodies.csv: expected " + body.name + ", found " +
+                                         cells[*named]);
+            }
+            row.bodies.push_back(state_in(cells, *first));
         }
         rows.push_back(std::move(row));
     }

@@ -90,7 +90,7 @@ struct Carpet {
 struct OpenBoundary {
     std::vector<Carpet> carpets;
     std::int64_t next_id = 0;    // number of the next particle that is made
-    Vec3 impulse{0, 0, 0};       // on the rows of the store since the start [N s]
+    Vec3 impulse{0, 0, 0};       // on fluid and bodies of the run since the start [N s]
     Vec3 dropped_force{0, 0, 0}; // viscous, of rows dropped in this step [N]
     real energy = 0;             // carried in through the planes since the start [J]
 };

@@ -74,6 +74,7 @@ struct Body {
     Quat orientation = Quat::Identity(); // q, body to world
     Vec3 velocity{0, 0, 0};              // V [m/s]
     Vec3 angular_momentum{0, 0, 0};      // L [kg m2/s]
+    bool left = false;                   // it is no longer there: it meets nothing and stays
 };
 
 /// omega = R I_b^-1 R^T L; with locked axes, the inertia restricted to the free axes is inverted
@@ -83,6 +84,9 @@ Vec3 angular_velocity(const Body& body);
 Vec3 angular_momentum(const Body& body, const Vec3& omega);
 /// 1/2 M V^2 + 1/2 omega . L [J]
 double kinetic_energy(const Body& body);
+/// How far the body reaches from its centre of mass along a unit vector: the largest n . (x - x_cg)
+/// of its points [m].
+double reach_along(const Body& body, const Vec3& n);
 
 /// Force and torque about the centre of mass, constant over a step.
 struct Wrench {
@@ -126,6 +130,7 @@ struct Boundary {
     std::variant<Plane, Basin, Obstacle, MeshSurface> surface; // where it is at time 0
     int material = 0;
     Motion motion;
+    bool lets_water_pass = false; // it is a surface for bodies alone
 };
 
 /// Restitution and friction of every pair of materials.

@@ -71,7 +71,7 @@ struct ContactMemory; // persistent contacts and their impulses (warm start); pr
 struct Rigid {
     RigidSettings settings;
     std::vector<Body> bodies;
-    std::vector<Boundary> boundaries;
+    std::vector<Boundary> boundaries; // those that let water pass stand last
     ContactLaws laws;
     std::optional<Penalty> penalty; // the method of contact in place of impulses; none: impulses
     RigidCounters counters;
@@ -87,10 +87,11 @@ struct Rigid {
 /// (`loads[k]` acts on `bodies[k]`), with impacts located in time, and appends what happened to
 /// `log`. The impulses in the log make up all that contact did to a body: M dV = sum of impulses +
 /// M g dt + F dt to round-off. Torques act with the arms at the middle of a sub-step (`point`),
-/// exact for impacts. Shapes, masses and locks must not change after the first step; locked
-/// velocities are set to zero. With `penalty` set, springs between particles take the place of
-/// impulses, and the log sums them over the step as resting contacts. Source: the project's contact
-/// notes; Moreau (1988) for the time-discrete cone law.
+/// exact for impacts. Shapes, masses and locks must not change after the first step; a body may
+/// leave between two steps, for good. Locked velocities are set to zero. With `penalty` set,
+/// springs between particles take the place of impulses, and the log sums them over the step as
+/// resting contacts. Source: the project's contact notes; Moreau (1988) for the time-discrete cone
+/// law.
 void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
           std::vector<Contact>& log);
 

@@ -17,6 +17,9 @@ struct Scene;
 /// What a window is open for: a flow that is asked for; nothing; the still water outside.
 enum class OpenKind { inflow, outflow, absorb };
 enum class FlowProfile { uniform, power };
+/// What bodies meet at a window: a smooth surface that stops them without rebound, or nothing, so
+/// that they leave the run.
+enum class BodiesAtSide { stop, leave };
 
 /// The flow at one place of a window: linear between its times, held before and after them. Each
 /// list is as long as that of the times, or empty.
@@ -40,6 +43,7 @@ struct OpenSettings {
     std::optional<double> discharge; // [m3/s]; m2/s in two dimensions
     std::vector<OpenSeries> series;  // ascending in `at`
     FlowProfile profile = FlowProfile::uniform;
+    BodiesAtSide bodies = BodiesAtSide::leave;
     bool hold = false; // the last values hold to the end of the run, knowingly
     Place place;
 

@@ -4,6 +4,7 @@
 
 #include "hyoryu/fluid/open_boundary.hpp"
 #include "hyoryu/scene/open_settings.hpp"
+#include "hyoryu/sim/open_bodies.hpp"
 
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Simulation;
 struct OpenFlow {
     OpenBoundary boundary;
     std::vector<std::vector<StillWater>> still; // of each carpet, by station
+    std::vector<LeftBody> left;                 // in the order in which they left
     bool runs() const { return !boundary.carpets.empty(); }
 };
 

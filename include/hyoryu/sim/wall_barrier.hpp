@@ -48,6 +48,7 @@ struct SolidPlace {
     Mat3 rotation = Mat3::Identity();
     Vec3 velocity{0, 0, 0}; // of the origin of its axes [m/s]
     Vec3 spin{0, 0, 0};     // angular velocity [rad/s]
+    bool left = false;      // the body is no longer there
 };
 
 /// The solids of a scene, and which fluid particles need not be looked at. The latter is kept from

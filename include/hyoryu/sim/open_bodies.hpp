@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Bodies that leave the run through open sides.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+namespace hyoryu {
+
+struct Simulation;
+
+/// A body that has left, and the state in which it did.
+struct LeftBody {
+    int body = 0;           // its number in the scene
+    int side = 0;           // the number of the open side
+    double time = 0;        // at the start of the step [s]
+    Vec3 position{0, 0, 0}; // of the centre of mass [m]
+    Vec3 velocity{0, 0, 0}; // [m/s]
+};
+
+/// Takes the bodies out of the run that have passed a window at which they leave: those that are
+/// behind it with all of them by the support of the kernel, so that no water inside notices, and
+/// those whose centre of mass is beyond the carpet, behind which nothing carries them. Their
+/// particles, contacts and joints go, their momentum and energy are booked as carried out. Only
+/// before lists are made: rows of body particles move.
+void let_bodies_leave(Simulation& sim);
+
+/// The same for those that a checkpoint lists, before its rows of particles are read.
+void remove_left_bodies(Simulation& sim);
+
+} // namespace hyoryu
