@@ -101,6 +101,28 @@ TEST(OpenSettings, SeveralMistakesAreToldTogether)
     EXPECT_GE(all.size(), 2U) << "the level above the window and the windows that overlap";
 }
 
+TEST(OpenSettings, BodiesStopWhereContactKnowsTheWindow)
+{
+    const std::string body = "[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [0.4, 0.4, 0.4]\n"
+                             "density = 500\nposition = [1, 0.5, 0.62]\n";
+    const std::string springs = "[contact]\nmethod = \"penalty\"\n[contact.penalty]\n"
+                                "stiffness = \"2 kN/m\"\ndamping = \"0.1 N s/m\"\n";
+    const std::string stops = basin("kind = \"inflow\"\nlevel = 0.7\nvelocity = 0.2\n");
+    const std::string leaves = stops + "bodies = \"leave\"\n";
+    const auto words_of = [](const std::string& text) {
+        const auto all = refused(text);
+        return all.empty() ? std::string() : all.front().what;
+    };
+    EXPECT_NE(words_of(stops + body + springs).find("penalty"), std::string::npos);
+    EXPECT_EQ(words_of(stops + springs), "");
+    EXPECT_EQ(words_of(leaves + body + springs), "");
+    const auto named_alike = [](const std::string& text) {
+        return replaced(text, "name = \"sea\"", "name = \"basin\"");
+    };
+    EXPECT_NE(words_of(named_alike(stops + body)).find("a wall is named"), std::string::npos);
+    EXPECT_EQ(words_of(named_alike(leaves + body)), "");
+}
+
 // A window that bodies may drift to, a flow that ends, water too shallow to enter.
 TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
 {
@@ -112,11 +134,18 @@ TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
         });
     };
     const std::string good = basin("kind = \"inflow\"\nlevel = 0.7\nvelocity = 0.2\n");
-    const std::string body = "[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [0.4, 0.4, 0.2]\n"
-                             "density = 500\nposition = [1, 0.5, 0.62]\n";
-    EXPECT_TRUE(warns(good + body, "neither stop"));
-    EXPECT_FALSE(warns(good + body + "fixed = true\n", "neither stop"));
-    EXPECT_FALSE(warns(good, "neither stop"));
+    const std::string leaves = good + "bodies = \"leave\"\n";
+    const auto body = [](double length) {
+        return fmt::format("[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [{}, 0.4, 0.2]\n"
+                           "density = 500\nposition = [1, 0.5, 0.62]\n",
+                           length);
+    };
+    // The carpet is six columns deep, 0.6 m.
+    EXPECT_TRUE(warns(leaves + body(1.3), "rear still"));
+    EXPECT_FALSE(warns(leaves + body(1.1), "rear still"));
+    EXPECT_FALSE(warns(leaves + body(1.3) + "fixed = true\n", "rear still"));
+    EXPECT_FALSE(warns(good + body(1.3), "rear still"));
+    EXPECT_FALSE(warns(leaves, "rear still"));
     const std::string series = "kind = \"inflow\"\n[[open.station]]\nat = 0.5\ntimes = [0, {}]\n"
                                "levels = [0.6, 0.7]\nvelocities = [0, 0]\n";
     EXPECT_TRUE(warns(basin(fmt::format(fmt::runtime(series), 1.0)), "values are held"));
