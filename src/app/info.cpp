@@ -122,7 +122,8 @@ json frames_of(const fs::path& folder)
 json histories_of(const fs::path& folder)
 {
     json names = json::array();
-    for (const char* name : {"bodies.csv", "contacts.csv", "energy.csv", "gauges.csv"}) {
+    for (const char* name :
+         {"bodies.csv", "contacts.csv", "energy.csv", "gauges.csv", "open.csv"}) {
         if (fs::exists(folder / name)) {
             names.push_back(name);
         }

@@ -168,7 +168,8 @@ HeightGrid grid_of_points(const std::filesystem::path& file, const std::string& 
 {
     const std::vector<Point> points = points_of(file, text);
     if (points.empty()) {
-        refuse(file, 1, "there is no height");
+        refuse(file, 1,
+               "no point follows the heading, expected lines of easting, northing and height in m");
     }
     const auto [x, y] = axes_of(file, points);
     HeightGrid grid{.columns = static_cast<Index>(x.count),

@@ -36,6 +36,13 @@ struct Found {
     std::size_t part = 0;             // of a MultiPolygon of several, from 1 on; 0: the only one
 };
 
+// The beginning of a value, to tell it.
+std::string text_of(const json& value)
+{
+    constexpr std::size_t most = 40;
+    return value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, most);
+}
+
 const json& member(const json& object, const char* name)
 {
     const auto found = object.is_object() ? object.find(name) : object.end();
@@ -49,7 +56,7 @@ const json& list(const json& object, const char* name)
 {
     const json& items = member(object, name);
     if (!items.is_array()) {
-        throw Fault{fmt::format("a \"{}\" that is no list", name)};
+        throw Fault{fmt::format("\"{}\" = {}, expected a list", name, text_of(items))};
     }
     return items;
 }
@@ -163,12 +170,6 @@ json parse_file(const std::filesystem::path& file)
     } catch (const json::out_of_range&) {
         throw Fault{"a number that is too large"};
     }
-}
-
-std::string text_of(const json& value)
-{
-    constexpr std::size_t most = 40;
-    return value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, most);
 }
 
 // A property of a feature; a fault names those that there are.

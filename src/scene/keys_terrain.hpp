@@ -139,9 +139,10 @@ inline void check_heights(TableReader& table, const HeightGrid& grid, const Terr
     const double x = patch.extent[0] + static_cast<double>(number % columns) *
                                            (patch.extent[2] - patch.extent[0]) /
                                            static_cast<double>(columns - 1);
-    const double rows = static_cast<double>(lattice_cells(patch)[1]);
-    const double y = patch.extent[1] + static_cast<double>(number / columns) *
-                                           (patch.extent[3] - patch.extent[1]) / rows;
+    const Index row = number / columns;
+    const double y = patch.extent[1] + static_cast<double>(row) *
+                                           (patch.extent[3] - patch.extent[1]) /
+                                           static_cast<double>(lattice_cells(patch)[1]);
     const auto last = [&](std::size_t axis, Index count) {
         return grid.first[axis] + static_cast<double>(count - 1) * grid.cell[axis];
     };

@@ -133,7 +133,9 @@ TEST_F(GridFormats, LinesThatAreNoGridAreRefusedWithTheirPlace)
         fault("x y z\n140.001 38.001 1\n140.002 38.001 1\n140.001 38.002 1\n140.002 38.002 1\n")
             .find("in degrees"),
         std::string::npos);
-    EXPECT_EQ(fault("x,y,z\n"), ":1: there is no height");
+    EXPECT_EQ(
+        fault("x,y,z\n"),
+        ":1: no point follows the heading, expected lines of easting, northing and height in m");
 }
 
 // A TIFF 6.0 file of one strip of floats with the tags of GeoTIFF 1.1, little-endian.

@@ -236,7 +236,7 @@ TEST(Debris, YardsThatAreNoneAreRefusedInWordsOfOurs)
     const std::vector<std::pair<std::string, std::string>> mistakes = {
         {of_ring("[]"), "a polygon without corners"},
         {of_ring("[[]]"), "a polygon without corners"},
-        {of_ring("7"), "a \"coordinates\" that is no list"},
+        {of_ring("7"), "\"coordinates\" = 7, expected a list"},
         {of_ring("[[[0,0],[\"a\",0],[1,1]]]"), "a corner that is not [x, y]: number 2"},
         {"{\"type\": \"Polygon\"}", "an object without \"coordinates\""},
         {"[1]", "an object without \"type\""},
