@@ -3,10 +3,10 @@
 // next column of a row stands one spacing behind its outermost particle, so that the places of the
 // particles are all that a carpet remembers.
 #include "carpet.hpp"
+#include "places.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace hyoryu {
 
@@ -20,48 +20,6 @@ std::size_t at(Index k)
 {
     return static_cast<std::size_t>(k);
 }
-
-// Places about a carpet, in cells of one spacing; only looked up, never walked.
-class Places {
-public:
-    explicit Places(real spacing) : spacing_(spacing) {}
-
-    void add(const Vec3& x) { cells_.emplace(key(cell(x)), x); }
-    bool is_free(const Vec3& x) const
-    {
-        const auto c = cell(x);
-        for (Index way = 0; way < 27; ++way) {
-            const auto [from, to] = cells_.equal_range(
-                key({c[0] + way % 3 - 1, c[1] + way / 3 % 3 - 1, c[2] + way / 9 - 1}));
-            for (auto near = from; near != to; ++near) {
-                if ((near->second - x).norm() < least_distance * spacing_) {
-                    return false;
-                }
-            }
-        }
-        return true;
-    }
-
-private:
-    std::array<Index, 3> cell(const Vec3& x) const
-    {
-        std::array<Index, 3> c{};
-        for (int a = 0; a < 3; ++a) {
-            c[at(a)] = static_cast<Index>(std::floor(x[a] / spacing_));
-        }
-        return c;
-    }
-    static std::uint64_t key(const std::array<Index, 3>& c)
-    {
-        std::uint64_t h = 1;
-        for (const Index v : c) {
-            h = (h ^ static_cast<std::uint64_t>(v)) * 0x9E3779B97F4A7C15ULL;
-        }
-        return h;
-    }
-    real spacing_;
-    std::unordered_multimap<std::uint64_t, Vec3> cells_;
-};
 
 // A particle to be made.
 struct NewParticle {
@@ -77,7 +35,7 @@ class Emitter {
 public:
     Emitter(const Fluid& fluid, Carpet& carpet, Places& places, std::vector<NewParticle>& made)
         : f_(fluid.parameters), carpet_(carpet), places_(places), made_(made),
-          far_(-(carpet_columns(f_) - 0.5) * f_.spacing)
+          far_(-(carpet.side.columns - 0.5) * f_.spacing)
     {
     }
 
@@ -193,16 +151,17 @@ private:
 };
 
 // Whether a row behind the plane has left the carpet.
-bool has_left(const Fluid& fluid, const Carpet& carpet, const Vec3& x)
+bool has_left(const Fluid& fluid, const Carpet& carpet, const Vec3& x, bool beside_body)
 {
     const real dp = fluid.parameters.spacing;
     const int lane = carpet.side.lane(x, dp);
     const int inside = std::clamp(lane, 0, carpet.side.lanes() - 1);
     const real bed = carpet.side.bed[at(inside)];
     const StationFlow& flow = station_of(carpet, lane);
-    return carpet.side.distance(x) < -(carpet_columns(fluid.parameters) + 0.5) * dp || lane < -1 ||
+    const bool keeps_level = !flow.passes && !beside_body;
+    return carpet.side.distance(x) < -(carpet.side.columns + 0.5) * dp || lane < -1 ||
            lane > carpet.side.lanes() || !(bed < infinity) || x.z() < bed - dp ||
-           (!flow.passes && x.z() > flow.level + highest * dp);
+           (keeps_level && x.z() > flow.level + highest * dp);
 }
 
 struct Lanes {
@@ -219,10 +178,11 @@ Lanes sort_into_lanes(const Fluid& fluid, const Carpet& carpet, Places& places,
     const auto x = fluid.particles.fluid[field::position];
     Lanes lanes{std::vector<std::vector<Vec3>>(at(side.lanes())),
                 std::vector<real>(at(side.lanes()), infinity)};
-    for (const std::int32_t row : carpet.near) {
+    for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+        const std::int32_t row = carpet.near[k];
         const Vec3& p = x[row];
         const real s = side.distance(p);
-        if (s < 0 && has_left(fluid, carpet, p)) {
+        if (s < 0 && has_left(fluid, carpet, p, carpet.is_beside_body(k))) {
             left[at(row)] = 1;
             continue;
         }
@@ -245,7 +205,7 @@ Lanes sort_into_lanes(const Fluid& fluid, const Carpet& carpet, Places& places,
 void add_bodies(const Fluid& fluid, const Carpet& carpet, Places& places)
 {
     const auto x = fluid.particles.body[field::position];
-    const real far = (carpet_columns(fluid.parameters) + 2) * fluid.parameters.spacing;
+    const real far = (carpet.side.columns + 2) * fluid.parameters.spacing;
     for (Index row = 0; row < fluid.particles.body.size(); ++row) {
         const real s = carpet.side.distance(x[row]);
         if (s < fluid.parameters.spacing && s > -far) {
@@ -303,7 +263,7 @@ void renew_carpets(Fluid& fluid, OpenBoundary& open)
     std::vector<std::uint8_t> left(at(fluid.particles.fluid.size()), 0);
     std::vector<NewParticle> made;
     for (Carpet& carpet : open.carpets) {
-        Places places(fluid.parameters.spacing);
+        Places places(least_distance * fluid.parameters.spacing);
         const auto gone = std::ranges::count(left, 1);
         const Lanes lanes = sort_into_lanes(fluid, carpet, places, left);
         add_bodies(fluid, carpet, places);

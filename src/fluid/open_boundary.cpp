@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "carpet.hpp"
+#include "places.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,68 +9,17 @@ namespace hyoryu {
 
 namespace {
 
-constexpr real strip_half = 4; // spacings from the plane to the middle of the strip
-
 std::size_t at(Index k)
 {
     return static_cast<std::size_t>(k);
 }
 
-real gravity_of(const Fluid& fluid)
-{
-    return fluid.parameters.gravity.norm();
-}
-
-// Hat of the strip: the particles of a lattice sum to its depth whatever their phase.
-real strip_weight(real s, real spacing)
-{
-    const real a = strip_half * spacing;
-    return std::max(real(0), 1 - std::abs(s - a) / a);
-}
-
-struct StripSums {
-    real volume = 0, moved = 0; // sum of w V and of w V u
-};
-
-// Sums over the strips of all stations, in the order of the rows.
-std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
-{
-    const OpenSide& side = carpet.side;
-    const Store& store = fluid.particles.fluid;
-    const auto x = store[field::position];
-    const auto v = store[field::velocity];
-    const auto rho = store[field::density];
-    const real dp = fluid.parameters.spacing;
-    std::vector<StripSums> sums(at(side.stations()));
-    for (std::size_t k = 0; k < carpet.near.size(); ++k) {
-        const auto row = at(carpet.near[k]);
-        const real s = side.distance(x[row]);
-        const real w = s >= 0 ? strip_weight(s, dp) : 0;
-        const int lane = side.lane(x[row], dp);
-        if (w > 0 && lane >= 0 && lane < side.lanes()) {
-            const real V = w * fluid.parameters.mass / rho[row];
-            sums[at(lane / side.station_lanes)].volume += V;
-            sums[at(lane / side.station_lanes)].moved += V * side.into * v[row][side.axis];
-        }
-    }
-    return sums;
-}
-
-// Area of a station seen from above, through which the strip is weighed [m2]; m in two dimensions.
-real strip_area(const Fluid& fluid, const OpenSide& side, int station)
-{
-    const real dp = fluid.parameters.spacing;
-    const real width =
-        fluid.parameters.dimensions == 2 ? 1 : static_cast<real>(side.open_lanes(station)) * dp;
-    return strip_half * dp * width;
-}
-
 } // namespace
 
-int carpet_columns(const FluidParameters& f)
+int least_carpet_columns(real smoothing_ratio)
 {
     constexpr int spare = 3;
-    return static_cast<int>(std::ceil(2 * f.h / f.spacing - 1e-9)) + spare;
+    return static_cast<int>(std::ceil(2 * smoothing_ratio - 1e-9)) + spare;
 }
 
 int OpenSide::lane(const Vec3& x, real spacing) const
@@ -183,9 +133,9 @@ bool in_reach(const OpenSide& side, const Vec3& x, real spacing, real outward, r
     return s > -outward && s < inward && lane >= -2 && lane <= side.lanes() + 1;
 }
 
-real outer_reach(const FluidParameters& f)
+real outer_reach(const OpenSide& side, real spacing)
 {
-    return (carpet_columns(f) + 3) * f.spacing;
+    return (side.columns + 3) * spacing;
 }
 
 } // namespace
@@ -207,8 +157,17 @@ void find_rows(const Fluid& fluid, OpenBoundary& open)
     for (Carpet& carpet : open.carpets) {
         carpet.near.clear();
         for (Index row = 0; row < fluid.particles.fluid.size(); ++row) {
-            if (in_reach(carpet.side, x[row], f.spacing, outer_reach(f), inward)) {
+            if (in_reach(carpet.side, x[row], f.spacing, outer_reach(carpet.side, f.spacing),
+                         inward)) {
                 carpet.near.push_back(static_cast<std::int32_t>(row));
+            }
+        }
+        carpet.near_bodies.clear();
+        for (Index row = 0; row < fluid.particles.body.size(); ++row) {
+            const Vec3& place = fluid.particles.body[field::position][row];
+            if (in_reach(carpet.side, place, f.spacing, outer_reach(carpet.side, f.spacing),
+                         inward)) {
+                carpet.near_bodies.push_back(static_cast<std::int32_t>(row));
             }
         }
         carpet.behind.resize(carpet.near.size());
@@ -218,34 +177,34 @@ void find_rows(const Fluid& fluid, OpenBoundary& open)
     }
 }
 
-void measure_start(const Fluid& fluid, OpenBoundary& open)
+void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open)
 {
-    for (Carpet& carpet : open.carpets) {
-        const auto sums = strip_sums(fluid, carpet);
-        for (int c = 0; c < carpet.side.stations(); ++c) {
-            const real area = strip_area(fluid, carpet.side, c);
-            StationFlow& flow = carpet.stations[at(c)];
-            flow.depth = area > 0 ? sums[at(c)].volume / area : 0;
-            flow.drift = sums[at(c)].volume > 0 ? sums[at(c)].moved / sums[at(c)].volume : 0;
-        }
-    }
-}
-
-void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt)
-{
+    constexpr int kept = 4; // columns
     const real dp = fluid.parameters.spacing;
+    const real reach = fluid.kernel.support;
+    const auto x = fluid.particles.fluid[field::position];
+    const auto solid = fluid.particles.body[field::position];
     for (Carpet& carpet : open.carpets) {
-        const auto sums = strip_sums(fluid, carpet);
-        for (int c = 0; c < carpet.side.stations(); ++c) {
-            const real area = strip_area(fluid, carpet.side, c);
-            StationFlow& flow = carpet.stations[at(c)];
-            const real tau =
-                strip_half * dp / std::sqrt(gravity_of(fluid) * std::max(flow.depth, dp));
-            const real share = -std::expm1(-dt / tau);
-            const real depth = area > 0 ? sums[at(c)].volume / area : 0;
-            const real drift = sums[at(c)].volume > 0 ? sums[at(c)].moved / sums[at(c)].volume : 0;
-            flow.depth += share * (depth - flow.depth);
-            flow.drift += share * (drift - flow.drift);
+        carpet.beside_body.clear();
+        real farthest = infinity; // of a body particle, along the way into the domain
+        for (const std::int32_t row : carpet.near_bodies) {
+            farthest = std::min(farthest, carpet.side.distance(solid[row]));
+        }
+        if (!(farthest < reach)) {
+            continue;
+        }
+        Places bodies(reach);
+        for (const std::int32_t row : carpet.near_bodies) {
+            if (carpet.side.distance(solid[row]) < reach) {
+                bodies.add(solid[row]);
+            }
+        }
+        carpet.beside_body.resize(carpet.near.size());
+        const real far = std::max((kept - carpet.side.columns) * dp, farthest - reach);
+        for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+            const real s = carpet.side.distance(x[carpet.near[k]]);
+            const bool near = s < 0 && s > far && !bodies.is_free(x[carpet.near[k]]);
+            carpet.beside_body[k] = near ? 1 : 0;
         }
     }
 }
@@ -310,12 +269,12 @@ real bed_of(const Carpet& carpet, int lane)
     return carpet.side.bed[at(std::clamp(lane, 0, carpet.side.lanes() - 1))];
 }
 
-// Calls f(row, lane) for the rows behind the plane.
+// Calls f(row, lane) for the rows behind the plane whose state is given.
 void for_carpet(const Fluid& fluid, const Carpet& carpet, const auto& f)
 {
     const auto x = fluid.particles.fluid[field::position];
     for (std::size_t k = 0; k < carpet.near.size(); ++k) {
-        if (carpet.behind[k] != 0) {
+        if (carpet.behind[k] != 0 && !carpet.is_beside_body(k)) {
             const auto row = at(carpet.near[k]);
             f(row, carpet.side.lane(x[row], fluid.parameters.spacing));
         }

@@ -71,6 +71,23 @@ Vec3 point_of_window(const OpenSide& side, int lane, double distance, double spa
     return x;
 }
 
+int carpet_columns(const Scene& scene, const OpenSettings& open)
+{
+    constexpr int ahead = 5; // columns before the front of a body, where the flow is given
+    double longest = 0;
+    for (const BodySettings& body : scene.bodies) {
+        if (open.bodies == BodiesAtSide::leave && !body.fixed) {
+            const Bounds box = bounds({.shape = &body.shape, .dimensions = scene.dimensions});
+            Vec3 size = box.max - box.min;
+            size.y() = scene.dimensions == 2 ? 0 : size.y();
+            longest = std::max(longest, size.norm()); // however it turns
+        }
+    }
+    const int least = least_carpet_columns(scene.fluid->smoothing_ratio);
+    return longest > 0 ? least + ahead + static_cast<int>(std::ceil(longest / scene.spacing))
+                       : least;
+}
+
 OpenSide open_side(const Scene& scene, const OpenSettings& open)
 {
     constexpr int strip_columns = 8;
@@ -81,6 +98,7 @@ OpenSide open_side(const Scene& scene, const OpenSettings& open)
     side.plane = open.plane();
     side.into = open.sign();
     side.low = open.min.z();
+    side.columns = carpet_columns(scene, open);
     side.repeats = scene.domain && scene.domain->periodic[across];
     const double width = open.width(scene.dimensions);
     const int lanes =
@@ -130,6 +148,27 @@ bool stands_on_ground(const Scene& scene, const OpenSide& side)
         }
     }
     return true;
+}
+
+double ground_behind(const Scene& scene, const OpenSide& side)
+{
+    constexpr double near = 1.5;
+    const double dp = scene.spacing;
+    const std::vector<SolidSurface> surfaces = surfaces_of(scene);
+    double least = side.columns * dp;
+    for (int lane = 0; lane < side.lanes(); ++lane) {
+        double ground = side.bed[static_cast<std::size_t>(lane)];
+        for (double s = dp / 2; ground < infinity && s < least + near * dp; s += dp) {
+            Vec3 x = point_of_window(side, lane, -s, dp, scene.dimensions);
+            x.z() = ground;
+            const double above = distance_to_walls(surfaces, x);
+            if (above > near * dp) {
+                least = std::min(least, std::max(s - near * dp, 0.0));
+            }
+            ground -= above; // follows a slope
+        }
+    }
+    return least;
 }
 
 namespace {
@@ -196,7 +235,7 @@ std::vector<WallParticle> carried_out(const Scene& scene, const OpenSettings& op
 {
     const double dp = scene.spacing;
     const int layers = wall_layers(scene.fluid->smoothing_ratio);
-    const int columns = static_cast<int>(std::ceil(2 * scene.fluid->smoothing_ratio)) + 3 + layers;
+    const int columns = carpet_columns(scene, open) + layers;
     const Index across = 1 - open.axis();
     const auto distance = [&](const WallParticle& p) {
         return open.sign() * (p.place()[open.axis()] - open.plane());

@@ -16,6 +16,10 @@ bool is_walled(const Scene& scene, const OpenSide& side);
 /// Whether the lower edge of the window is on the ground or below it.
 bool stands_on_ground(const Scene& scene, const OpenSide& side);
 
+/// How far the ground goes on behind the window [m]: to the first place, in any lane, from which it
+/// is more than one and a half spacings away; at most the length of the carpet.
+double ground_behind(const Scene& scene, const OpenSide& side);
+
 /// Continues the fixed walls at each window outwards as they are at its plane, below and beside the
 /// carpet.
 void carry_walls_out(const Scene& scene, Filling& filling);

@@ -238,28 +238,22 @@ void check_pairs(const Scene& scene, std::vector<Diagnostic>& errors)
     }
 }
 
-// A body leaves when it has passed whole, or when its middle is beyond the water behind the window.
-void warn_about_long_bodies(const Scene& scene, const OpenSettings& open, double carpet,
-                            const auto& warn)
+// Below a body that leaves ground has to reach as far as the carpet does.
+void warn_about_ground(const Scene& scene, const OpenSide& side, const auto& warn)
 {
-    const BodySettings* longest = nullptr;
-    double length = 2 * carpet;
-    for (const BodySettings& body : scene.bodies) {
-        const Bounds box = bounds({.shape = &body.shape, .dimensions = scene.dimensions});
-        const double own = (box.max - box.min).maxCoeff();
-        if (!body.fixed && own > length) {
-            longest = &body;
-            length = own;
-        }
+    if (side.columns == least_carpet_columns(scene.fluid->smoothing_ratio)) {
+        return; // nothing leaves here
     }
-    if (open.bodies == BodiesAtSide::leave && longest != nullptr) {
-        warn("bodies",
-             fmt::format("body \"{}\" is {:.3g} m long and the water behind the window reaches "
-                         "{:.3g} m: it is taken out of the run when half of it has passed the end "
-                         "of that water, with its rear still before the window",
-                         longest->name, length, carpet),
-             "what happens near the window is disturbed then; move the window away from what is "
-             "studied");
+    const double ends = ground_behind(scene, side);
+    const double carpet = side.columns * scene.spacing;
+    if (ends < carpet - scene.spacing) {
+        warn(
+            "bodies",
+            fmt::format("the ground ends {:.3g} m behind the window, and the longest body needs "
+                        "{:.3g} m of it until all of it has passed: a body that touches the ground "
+                        "may tip over its end",
+                        ends, carpet),
+            "extend the walls beyond the window; they may leave the domain");
     }
 }
 
@@ -286,8 +280,8 @@ void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
     }
 }
 
-void warn_about(const Scene& scene, const OpenSettings& open, const WaterAtStart& water, double bed,
-                Plan& plan)
+void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& side,
+                const WaterAtStart& water, Plan& plan)
 {
     const auto warn = [&](std::string_view key, std::string what, std::string hint) {
         Diagnostic note = note_at(scene, open, key, std::move(what), std::move(hint));
@@ -308,8 +302,9 @@ void warn_about(const Scene& scene, const OpenSettings& open, const WaterAtStart
                  "set `time_offset`, or `hold = true`");
         }
     }
-    warn_about_long_bodies(scene, open, carpet_columns(*plan.fluid) * scene.spacing, warn);
+    warn_about_ground(scene, side, warn);
     double deepest = 0;
+    const double bed = mean_bed(side);
     for (int k = 0; k <= samples; ++k) {
         const double time = scene.time.end * k / samples;
         deepest = std::max(deepest, inflow_at(scene, open, water, bed, time).depth);
@@ -357,8 +352,8 @@ void list_open(const Scene& scene, const Filling& filling, Plan& plan)
             volume += std::max(flow.discharge, 0.0) * scene.time.end / samples;
             deepest = std::max(deepest, flow.depth);
         }
-        const double carpet = std::ceil(deepest / scene.spacing + 1) * side.lanes() *
-                              (carpet_columns(*plan.fluid) + 1);
+        const double carpet =
+            std::ceil(deepest / scene.spacing + 1) * side.lanes() * (side.columns + 1);
         plan.open.push_back({open.name, what_of(scene, open), static_cast<Index>(carpet)});
         carpets += carpet;
         entering += volume / particle_volume(scene);
@@ -385,7 +380,7 @@ void check_open(const Scene& scene, const Filling& filling, Plan& plan,
         check_bodies_that_stop(scene, open, errors);
         check_shifting(scene, plan, open, errors);
         if (mean_bed(side) < infinity) {
-            warn_about(scene, open, water, mean_bed(side), plan);
+            warn_about(scene, open, side, water, plan);
         }
     }
 }

@@ -29,8 +29,7 @@ bool has_passed(const Simulation& sim, const OpenSide& side, const Body& body, c
     if (behind <= 0 || lane < 0 || lane >= side.lanes()) {
         return false;
     }
-    return behind - reach_along(body, side.normal()) > sim.fluid->kernel.support ||
-           behind > carpet_columns(f) * f.spacing;
+    return behind - reach_along(body, side.normal()) > sim.fluid->kernel.support;
 }
 
 // Takes the particles of a body out of the stores. The rows behind them move up.

@@ -59,8 +59,8 @@ void set_flows(Simulation& sim, double time)
 
 void extend_domain(const Scene& scene, Fluid& fluid)
 {
-    const double reach = (carpet_columns(fluid.parameters) + 4) * fluid.parameters.spacing;
     for (const OpenSettings& open : scene.open) {
+        const double reach = (carpet_columns(scene, open) + 4) * fluid.parameters.spacing;
         double& low = fluid.domain_min[open.axis()];
         double& high = fluid.domain_max[open.axis()];
         low = open.sign() > 0 ? std::min(low, open.plane() - reach) : low;
@@ -98,11 +98,13 @@ void renew_open(Simulation& sim)
     Fluid& fluid = *sim.fluid;
     OpenBoundary& open = sim.open.boundary;
     count_crossings(fluid, open);
+    mark_beside_bodies(fluid, open);
     if (lists_are_due(fluid, carpets_due(fluid, open))) {
         let_bodies_leave(sim);
         renew_carpets(fluid, open);
         make_lists(fluid);
         find_rows(fluid, open);
+        mark_beside_bodies(fluid, open);
     }
     set_densities(fluid, open);
     keep_velocities(fluid, open);

@@ -140,12 +140,23 @@ TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
                            "density = 500\nposition = [1, 0.5, 0.62]\n",
                            length);
     };
-    // The carpet is six columns deep, 0.6 m.
-    EXPECT_TRUE(warns(leaves + body(1.3), "rear still"));
-    EXPECT_FALSE(warns(leaves + body(1.1), "rear still"));
-    EXPECT_FALSE(warns(leaves + body(1.3) + "fixed = true\n", "rear still"));
-    EXPECT_FALSE(warns(good + body(1.3), "rear still"));
-    EXPECT_FALSE(warns(leaves, "rear still"));
+    // A body of 1.3 m by 0.4 m by 0.2 m needs 1.4 m of water behind the window and 1.1 m beyond.
+    const auto ground = [](double length) {
+        return fmt::format("[domain]\nmin = [0, 0, 0]\nmax = [2, 1, 1]\n"
+                           "[[wall]]\nname = \"apron\"\nshape = \"box\"\nmin = [{}, -0.5, -0.4]\n"
+                           "max = [0.0, 1.5, 0.0]\n",
+                           -length);
+    };
+    Dice dice(4);
+    for (int n = 0; n < 5; ++n) {
+        const double length = dice.between(0.5, 4);
+        EXPECT_EQ(warns(leaves + body(1.3) + ground(length), "the ground ends"), length < 2.4)
+            << length;
+    }
+    EXPECT_TRUE(warns(leaves + body(1.3), "the longest body needs 2.5 m"));
+    EXPECT_FALSE(warns(leaves + body(1.3) + "fixed = true\n", "the ground ends"));
+    EXPECT_FALSE(warns(good + body(1.3), "the ground ends"));
+    EXPECT_FALSE(warns(leaves, "the ground ends"));
     const std::string series = "kind = \"inflow\"\n[[open.station]]\nat = 0.5\ntimes = [0, {}]\n"
                                "levels = [0.6, 0.7]\nvelocities = [0, 0]\n";
     EXPECT_TRUE(warns(basin(fmt::format(fmt::runtime(series), 1.0)), "values are held"));

@@ -48,11 +48,11 @@ Reach drawn_channel(Dice& dice, int dimensions)
 }
 
 // Two boxes drift out one after the other. Between the moment when its front reaches the window and
-// that when its rear is behind it by the support of the kernel a box keeps its speed, and so it is
-// out when that takes it there. To be held are 5 % of the speed of the water; a box that fills half
-// of the depth and of the width of so small a channel comes to 13 %, and 15 % are held. The second
-// box passes where the first one left and meets nothing. Momentum closes in every step to the
-// single precision of the pair forces.
+// that when its rear is behind it by the support of the kernel a box has the speed of the water. To
+// be held are 5 % of that; a box that fills half of the depth of so small a channel turns and
+// heaves there, which comes to 10 % at a moment and 5 % of the time. The second box passes where
+// the first one left and meets nothing. Momentum closes in every step to the single precision of
+// the pair forces.
 TEST(OpenBodies, DriftOutWithTheWaterAndAreGone)
 {
     Dice dice(261);
@@ -73,26 +73,28 @@ TEST(OpenBodies, DriftOutWithTheWaterAndAreGone)
         const Index of_both = sim.fluid->particles.body.size();
         const double half = reach_along(sim.rigid.bodies[1], Vec3::UnitX());
         double crossed = 0;
-        double speed = 0;
+        double slowest = infinity;
+        double fastest = 0;
         while (sim.open.left.size() < 2 && sim.clock.time < 60 * reach.spacing / reach.velocity) {
             step_on(sim);
             const std::size_t left = sim.open.left.size();
             ASSERT_EQ(sim.fluid->particles.body.size(),
                       of_both * (2 - static_cast<Index>(left)) / 2);
             const Body& box = sim.rigid.bodies[1];
-            if (speed == 0 && box.position.x() + half > to) {
-                crossed = sim.clock.time;
-                speed = box.velocity.x();
+            if (!box.left && box.position.x() + half > to) {
+                crossed = crossed == 0 ? sim.clock.time : crossed;
+                slowest = std::min(slowest, box.velocity.x());
+                fastest = std::max(fastest, box.velocity.x());
             }
         }
         ASSERT_EQ(sim.open.left.size(), 2U);
         const LeftBody& first = sim.open.left[0];
         EXPECT_EQ(first.body, 1);
         EXPECT_EQ(first.side, 1);
-        EXPECT_NEAR(first.velocity.x(), speed, 0.15 * reach.velocity);
-        const double way = 2 * half + sim.fluid->kernel.support;
-        const double due = way / (0.5 * (speed + first.velocity.x()));
-        EXPECT_NEAR(first.time - crossed, due, 0.15 * due);
+        EXPECT_GT(slowest, 0.88 * reach.velocity);
+        EXPECT_LT(fastest, 1.12 * reach.velocity);
+        const double due = (2 * half + sim.fluid->kernel.support) / reach.velocity;
+        EXPECT_NEAR(first.time - crossed, due, 0.07 * due);
         EXPECT_LT(sim.conservation.worst_closure, 6e-8);
         const Totals now = totals(sim);
         EXPECT_EQ(now.body_kinetic, 0);
@@ -101,6 +103,49 @@ TEST(OpenBodies, DriftOutWithTheWaterAndAreGone)
         EXPECT_EQ(sim.rigid.bodies[1].velocity, Vec3(0, 0, 0));
         EXPECT_EQ(sim.loads.bodies[1].force, Vec3(0, 0, 0));
         EXPECT_EQ(sim.rigid.counters.impacts, 0);
+        EXPECT_LT(sim.conservation.worst_closure, 6e-8);
+    }
+}
+
+// A log lies along the flow. Until its rear is through water carries all of it: it does not tip
+// over the end of that water, and keeps its speed.
+TEST(OpenBodies, LongOnesKeepTheirSpeedUntilTheirRearIsThrough)
+{
+    Dice dice(265);
+    for (int n = 0; n < 5; ++n) {
+        Reach reach = drawn_channel(dice, n < 4 ? 2 : 3);
+        const double dp = reach.spacing;
+        const double length = dice.between(9, 16) * dp;
+        const double height = dice.between(2, 3) * dp;
+        const double to = reach.from + reach.length;
+        const double density = dice.between(300, 700);
+        const std::string text =
+            case_of(reach) +
+            fmt::format("[[body]]\nname = \"log\"\nshape = \"box\"\nsize = [{}, {}, {}]\n"
+                        "density = {}\nposition = [{}, {}, {}]\nvelocity = [{}, 0.0, 0.0]\n",
+                        length, 2 * dp, height, density, to - length / 2 - 2 * dp,
+                        reach.dimensions == 3 ? reach.width / 2 : 0.0,
+                        reach.depth + height * (0.5 - density / 1000) + 0.3 * dp, reach.velocity);
+        SCOPED_TRACE(text);
+        Simulation sim = make(text);
+        double slowest = infinity;
+        double fastest = 0;
+        double steepest = 0;
+        const double most = 4 * (length + 10 * dp) / reach.velocity;
+        while (sim.open.left.empty() && sim.clock.time < most) {
+            step_on(sim);
+            const Body& log = sim.rigid.bodies[0];
+            if (!log.left && log.position.x() + length / 2 > to) {
+                slowest = std::min(slowest, log.velocity.x());
+                fastest = std::max(fastest, log.velocity.x());
+                steepest = std::max(steepest, std::abs((log.orientation * Vec3::UnitX()).z()));
+            }
+        }
+        ASSERT_EQ(sim.open.left.size(), 1U);
+        EXPECT_GT(sim.open.left[0].position.x() - length / 2, to);
+        EXPECT_GT(slowest, 0.85 * reach.velocity);
+        EXPECT_LT(fastest, 1.15 * reach.velocity);
+        EXPECT_LT(steepest, 0.1);
         EXPECT_LT(sim.conservation.worst_closure, 6e-8);
     }
 }

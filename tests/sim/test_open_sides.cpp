@@ -119,9 +119,9 @@ TEST(OpenSides, TheFirstCarpetsGoOnWithTheLatticeOfTheWater)
         SCOPED_TRACE(case_of(reach));
         const Simulation sim = make(case_of(reach));
         EXPECT_GT(nearest_pair(sim).distance, 0.99 * reach.spacing);
-        const int columns = carpet_columns(sim.fluid->parameters);
         for (const Carpet& carpet : sim.open.boundary.carpets) {
-            EXPECT_EQ(carpet.made, rows * columns * (reach.dimensions == 3 ? 4 : 1));
+            EXPECT_EQ(carpet.side.columns, 6); // twice 1.5 spacings, and three
+            EXPECT_EQ(carpet.made, rows * 6 * (reach.dimensions == 3 ? 4 : 1));
             EXPECT_EQ(carpet.dropped, 0);
         }
     }

@@ -15,8 +15,9 @@
 
 namespace hyoryu {
 
-/// Columns of a carpet: the support of the kernel, and three for what moves between two lists.
-int carpet_columns(const FluidParameters& f);
+/// Columns that a carpet has at least: the support of the kernel, and three for what moves between
+/// two lists. `smoothing_ratio`: smoothing length / spacing [1].
+int least_carpet_columns(real smoothing_ratio);
 
 /// A vertical plane through which fluid enters and leaves. `s` is the distance from it into the
 /// domain, lanes are strips of one spacing along it; in two dimensions there is one lane.
@@ -31,6 +32,7 @@ struct OpenSide {
         bed; // ground below the carpet, by lane; infinity where it fills the window [m]
     std::vector<real> strip; // mean ground of the strip in which the depth is measured, by lane [m]
     int station_lanes = 4;   // lanes of a station, in each of which one depth is measured
+    int columns = 6;         // of the carpet: as many as a body covers that leaves, and the least
 
     int lanes() const { return static_cast<int>(bed.size()); }
     int stations() const { return (lanes() + station_lanes - 1) / station_lanes; }
@@ -82,8 +84,12 @@ struct Carpet {
 
     // Rows that may be behind the plane or in the strip until lists are made again.
     std::vector<std::int32_t> near;
-    std::vector<std::uint8_t> behind; // of those, now
-    std::vector<Vec3> kept;           // velocities of those behind before the kick [m/s]
+    std::vector<std::int32_t> near_bodies; // the same of bodies
+    std::vector<std::uint8_t> behind;      // of the rows of fluid, now
+    std::vector<std::uint8_t> beside_body; // the same: free to move, see below; or empty
+    std::vector<Vec3> kept;                // velocities of those that are set before the kick [m/s]
+
+    bool is_beside_body(std::size_t k) const { return !beside_body.empty() && beside_body[k] != 0; }
 };
 
 /// The open sides of a scene, and what passed them.
@@ -97,6 +103,11 @@ struct OpenBoundary {
 
 /// Finds the rows about each plane; after lists were made or rows came back from a checkpoint.
 void find_rows(const Fluid& fluid, OpenBoundary& open);
+
+/// Marks the rows behind a plane that are beside a body. These move as water inside does: a body
+/// that turns or heaves pushes them aside, which a carpet of given velocity would not yield to. The
+/// outermost columns are never free, since nothing presses against them from outside.
+void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open);
 
 /// Measures depth and velocity of the strip inside each plane, as they are now, without a filter.
 void measure_start(const Fluid& fluid, OpenBoundary& open);

@@ -66,6 +66,10 @@ double fastest_asked(const OpenSettings& open, double bed, double gravity, int d
 /// Highest level that is asked for; none where no level is [m].
 std::optional<double> highest_asked(const OpenSettings& open);
 
+/// Columns of the carpet behind a window: below the longest body that leaves there it reaches so
+/// far that water carries the body until all of it has passed.
+int carpet_columns(const Scene& scene, const OpenSettings& open);
+
 /// The plane of a window with its lanes and the ground there.
 OpenSide open_side(const Scene& scene, const OpenSettings& open);
 

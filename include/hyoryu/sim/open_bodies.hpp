@@ -18,8 +18,7 @@ struct LeftBody {
 };
 
 /// Takes the bodies out of the run that have passed a window at which they leave: those that are
-/// behind it with all of them by the support of the kernel, so that no water inside notices, and
-/// those whose centre of mass is beyond the carpet, behind which nothing carries them. Their
+/// behind it with all of them by the support of the kernel, so that no water inside notices. Their
 /// particles, contacts and joints go, their momentum and energy are booked as carried out. Only
 /// before lists are made: rows of body particles move.
 void let_bodies_leave(Simulation& sim);

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Depth and velocity of the water in the strips before open sides.
+#include "carpet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+real gravity_of(const Fluid& fluid)
+{
+    return fluid.parameters.gravity.norm();
+}
+
+// Hat of the strip: the particles of a lattice sum to its depth whatever their phase.
+real strip_weight(real s, real spacing)
+{
+    const real a = strip_half * spacing;
+    return std::max(real(0), 1 - std::abs(s - a) / a);
+}
+
+struct StripSums {
+    real volume = 0, moved = 0; // of the water: sum of w V and of w V u
+    real displaced = 0;         // sum of w V of what bodies displace
+};
+
+// Sums of the water in the strips of all stations, in the order of the rows.
+std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
+{
+    const OpenSide& side = carpet.side;
+    const Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    const auto v = store[field::velocity];
+    const auto rho = store[field::density];
+    const real dp = fluid.parameters.spacing;
+    std::vector<StripSums> sums(at(side.stations()));
+    for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+        const auto row = at(carpet.near[k]);
+        const real s = side.distance(x[row]);
+        const real w = s >= 0 ? strip_weight(s, dp) : 0;
+        const int lane = side.lane(x[row], dp);
+        if (w > 0 && lane >= 0 && lane < side.lanes()) {
+            const real V = w * fluid.parameters.mass / rho[row];
+            sums[at(lane / side.station_lanes)].volume += V;
+            sums[at(lane / side.station_lanes)].moved += V * side.into * v[row][side.axis];
+        }
+    }
+    return sums;
+}
+
+// Adds what bodies displace to the volumes of the strips: water that carries a body stands as high
+// as if the part of the body below its surface were water. `depth` of the stations: where the
+// surface is.
+void add_displaced(const Fluid& fluid, const Carpet& carpet, std::vector<StripSums>& sums)
+{
+    const OpenSide& side = carpet.side;
+    const Store& store = fluid.particles.body;
+    const real dp = fluid.parameters.spacing;
+    for (const std::int32_t row : carpet.near_bodies) {
+        const Vec3& x = store[field::position][row];
+        const real s = side.distance(x);
+        const real w = s >= 0 ? strip_weight(s, dp) : 0;
+        const int lane = side.lane(x, dp);
+        if (w > 0 && lane >= 0 && lane < side.lanes()) {
+            const int c = lane / side.station_lanes;
+            const real surface = side.station_strip(c) + carpet.stations[at(c)].depth;
+            const real wet = std::clamp((surface - x.z()) / dp + 0.5, real(0), real(1));
+            sums[at(c)].displaced +=
+                w * wet * stand_in_mass(fluid, store.owner()[at(row)]) / fluid.parameters.eos.rho0;
+        }
+    }
+}
+
+// Area of a station seen from above, through which the strip is weighed [m2]; m in two dimensions.
+real strip_area(const Fluid& fluid, const OpenSide& side, int station)
+{
+    const real dp = fluid.parameters.spacing;
+    const real width =
+        fluid.parameters.dimensions == 2 ? 1 : static_cast<real>(side.open_lanes(station)) * dp;
+    return strip_half * dp * width;
+}
+
+std::vector<StripSums> sums_of(const Fluid& fluid, const Carpet& carpet)
+{
+    std::vector<StripSums> sums = strip_sums(fluid, carpet);
+    add_displaced(fluid, carpet, sums);
+    return sums;
+}
+
+real depth_of(const StripSums& sums, real area)
+{
+    return area > 0 ? (sums.volume + sums.displaced) / area : 0;
+}
+
+real drift_of(const StripSums& sums)
+{
+    return sums.volume > 0 ? sums.moved / sums.volume : 0;
+}
+
+} // namespace
+
+void measure_start(const Fluid& fluid, OpenBoundary& open)
+{
+    constexpr int turns = 4; // the surface and what bodies displace below it depend on each other
+    for (Carpet& carpet : open.carpets) {
+        for (int turn = 0; turn < turns; ++turn) {
+            const auto sums = sums_of(fluid, carpet);
+            for (int c = 0; c < carpet.side.stations(); ++c) {
+                StationFlow& flow = carpet.stations[at(c)];
+                flow.depth = depth_of(sums[at(c)], strip_area(fluid, carpet.side, c));
+                flow.drift = drift_of(sums[at(c)]);
+            }
+        }
+    }
+}
+
+void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt)
+{
+    const real dp = fluid.parameters.spacing;
+    for (Carpet& carpet : open.carpets) {
+        const auto sums = sums_of(fluid, carpet);
+        for (int c = 0; c < carpet.side.stations(); ++c) {
+            StationFlow& flow = carpet.stations[at(c)];
+            const real tau =
+                strip_half * dp / std::sqrt(gravity_of(fluid) * std::max(flow.depth, dp));
+            const real share = -std::expm1(-dt / tau);
+            const real depth = depth_of(sums[at(c)], strip_area(fluid, carpet.side, c));
+            flow.depth += share * (depth - flow.depth);
+            flow.drift += share * (drift_of(sums[at(c)]) - flow.drift);
+        }
+    }
+}
+
+} // namespace hyoryu
