@@ -92,7 +92,7 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Boun
     if (sim.plan.contact) {
         contacts_.emplace(folder_, contacts_table(d));
     }
-    energy_.emplace(folder_, energy_table(d));
+    energy_.emplace(folder_, energy_table(sim.scene));
     if (!sim.scene.gauges.empty()) {
         gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)));
     }
@@ -122,7 +122,7 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     if (sim.plan.contact) {
         contacts_.emplace(folder_, contacts_table(d), now, state.contacts);
     }
-    energy_.emplace(folder_, energy_table(d), now, state.energy);
+    energy_.emplace(folder_, energy_table(sim.scene), now, state.energy);
     if (!sim.scene.gauges.empty()) {
         gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now, state.gauges);
     }
@@ -214,6 +214,10 @@ void Outputs::write_energy(const Simulation& sim)
     const LostParticles lost = sim.fluid ? sim.fluid->lost : LostParticles{};
     row.push_back(cell(lost.energy));
     append(row, lost.momentum);
+    if (open_) {
+        row.push_back(cell(sim.open.boundary.energy));
+        append(row, sim.open.boundary.impulse);
+    }
     energy_->append(row);
 }
 

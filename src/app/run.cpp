@@ -361,7 +361,7 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
         take_previous_checkpoint(folder);
         progress.line(fmt::format("note: {}; using the previous checkpoint", from.passed_over));
     }
-    change_columns(folder, energy_table(scene.dimensions)); // of a version that wrote fewer
+    change_columns(folder, energy_table(scene)); // of a version that wrote fewer
     if (scene.gauges.empty()) {
         set_aside(folder, "gauges");
     } else {

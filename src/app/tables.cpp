@@ -50,8 +50,9 @@ Table contacts_table(int dimensions)
     return table;
 }
 
-Table energy_table(int dimensions)
+Table energy_table(const Scene& scene)
 {
+    const int dimensions = scene.dimensions;
     Table table{"energy", {{"time", "s"}}};
     for (const char* name : {"fluid_kinetic", "fluid_potential", "fluid_internal", "body_kinetic",
                              "body_potential", "contact_loss"}) {
@@ -62,6 +63,10 @@ Table energy_table(int dimensions)
     add_vector(table, "gravity_impulse_", per_width("N s", dimensions));
     table.heads.push_back({"lost_energy", per_width("J", dimensions)});
     add_vector(table, "lost_momentum_", per_width("kg m/s", dimensions));
+    if (!scene.open.empty()) {
+        table.heads.push_back({"open_energy", per_width("J", dimensions)});
+        add_vector(table, "open_impulse_", per_width("N s", dimensions));
+    }
     return table;
 }
 

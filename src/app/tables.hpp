@@ -14,7 +14,8 @@ namespace hyoryu {
 // Units say it where two dimensions mean per metre of width.
 Table bodies_table(int dimensions);
 Table contacts_table(int dimensions);
-Table energy_table(int dimensions);
+/// energy.csv; with open sides also what these gave.
+Table energy_table(const Scene& scene);
 /// open.csv: level, velocity and discharge of each open side, and what has passed it.
 Table open_table(const Scene& scene);
 Table gauges_table(std::vector<Table::Head> gauges);

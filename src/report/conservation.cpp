@@ -49,9 +49,8 @@ void add(Values& sum, const Values& values, double factor)
     }
 }
 
-/// Energy and momentum of fluid that has left the domain by then; none in results of versions that
-/// did not record it.
-Values lost(const RunResults& run, const std::string& name)
+/// A column that not every run has: zero where it is missing.
+Values optional_column(const RunResults& run, const std::string& name)
 {
     const CsvTable::Column* found = run.energy.find(name);
     return found == nullptr ? Values(run.energy.rows, 0.0) : found->numbers;
@@ -94,7 +93,12 @@ std::string energy_balance(const RunResults& run, const Values& time)
             chart.lines.push_back({label, time, values});
         }
     }
-    const Values left = lost(run, "lost_energy");
+    const Values entered = change(optional_column(run, "open_energy"));
+    add(sum, entered, -1);
+    if (largest_magnitude(entered) > 0) {
+        chart.lines.push_back({"came in through open sides", time, entered});
+    }
+    const Values left = optional_column(run, "lost_energy");
     add(sum, left, 1);
     if (largest_magnitude(left) > 0) {
         chart.lines.push_back({"left the domain", time, left});
@@ -103,14 +107,15 @@ std::string energy_balance(const RunResults& run, const Values& time)
     return "<h3>Energy</h3>\n" + svg_chart(chart) + energy_text(run, sum.back(), scale);
 }
 
-/// Change of momentum, with that of lost fluid, less the impulses of walls and gravity.
+/// Change of momentum, with that of lost fluid, less the impulses of walls, gravity and open sides.
 Values unexplained(const RunResults& run, char axis)
 {
     const auto of = [&](const char* name) { return column(run, fmt::format("{}_{}", name, axis)); };
     Values rest = change(of("momentum"));
     add(rest, change(of("wall_impulse")), -1);
     add(rest, change(of("gravity_impulse")), -1);
-    add(rest, lost(run, fmt::format("lost_momentum_{}", axis)), 1);
+    add(rest, change(optional_column(run, fmt::format("open_impulse_{}", axis))), -1);
+    add(rest, optional_column(run, fmt::format("lost_momentum_{}", axis)), 1);
     return rest;
 }
 
@@ -122,21 +127,24 @@ double norm(const nlohmann::ordered_json& vector)
 std::string momentum_text(const RunResults& run)
 {
     const auto& m = run.summary.at("momentum");
+    const nlohmann::ordered_json sides = m.value("open_impulse", nlohmann::ordered_json{0, 0, 0});
     Vec3 rest;
     for (std::size_t k = 0; k < 3; ++k) {
         rest[static_cast<Eigen::Index>(k)] =
             number(m.at("end").at(k)) - number(m.at("start").at(k)) + number(m.at("lost").at(k)) -
-            number(m.at("wall_impulse").at(k)) - number(m.at("gravity_impulse").at(k));
+            number(m.at("wall_impulse").at(k)) - number(m.at("gravity_impulse").at(k)) -
+            number(sides.at(k));
     }
-    const double scale = std::max({norm(m.at("start")), norm(m.at("end")),
-                                   norm(m.at("wall_impulse")), norm(m.at("gravity_impulse"))});
-    return html_paragraph(
-        fmt::format("Closure error at the end, including the momentum of lost particles: {} {}, {} "
-                    "of the largest of momentum, wall impulse and gravity impulse. Worst of a "
-                    "single step, relative: {}.",
-                    readable(rest.norm()), run.per_width("N s"),
-                    scale > 0 ? readable(rest.norm() / scale) : "–",
-                    readable(number(m.at("worst_closure_of_a_step")))));
+    const double scale =
+        std::max({norm(m.at("start")), norm(m.at("end")), norm(m.at("wall_impulse")),
+                  norm(m.at("gravity_impulse")), norm(sides)});
+    return html_paragraph(fmt::format(
+        "Closure error at the end, including the momentum of lost particles: {} {}, {} "
+        "of the largest of momentum and impulses of walls, gravity and open sides. Worst of a "
+        "single step, relative: {}.",
+        readable(rest.norm()), run.per_width("N s"),
+        scale > 0 ? readable(rest.norm() / scale) : "–",
+        readable(number(m.at("worst_closure_of_a_step")))));
 }
 
 std::string momentum_balance(const RunResults& run, const Values& time)
@@ -146,7 +154,7 @@ std::string momentum_balance(const RunResults& run, const Values& time)
                    .x_axis = "time [s]",
                    .y_axis = fmt::format("momentum [{}]", unit),
                    .lines = {}};
-    Chart rest{.title = "momentum not explained by walls, gravity and lost fluid",
+    Chart rest{.title = "momentum not explained by walls, gravity, open sides and lost fluid",
                .x_axis = "time [s]",
                .y_axis = fmt::format("closure error [{}]", unit),
                .lines = {}};

@@ -2,6 +2,7 @@
 """The report of a run."""
 import json
 import re
+import shutil
 import xml.etree.ElementTree
 
 from program import FLOOD, ProgramTest, main
@@ -167,6 +168,81 @@ material = "pine"
         _, root = self.page()
         charts = {svg.get("aria-label"): "".join(svg.itertext()) for svg in root.findall(".//{*}svg")}
         self.assertIn("left the domain", charts["energy: change since the start"])
+
+    OPEN = """dimensions = 2
+[time]
+end = 1.0
+[particles]
+spacing = {spacing}
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [1.5, 0.0, 0.4]
+velocity = [{speed}, 0.0, 0.0]
+[[wall]]
+name = "bed"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.5, 0.0, 1.0]
+open = ["-x", "+x", "+z"]
+[[open]]
+name = "in"
+min = [0.0, 0.0, 0.0]
+max = [0.0, 0.0, 1.0]
+into = "+x"
+kind = "inflow"
+level = 0.5
+velocity = {speed}
+[[open]]
+name = "out"
+min = [1.5, 0.0, 0.0]
+max = [1.5, 0.0, 1.0]
+into = "-x"
+kind = "outflow"
+[[body]]
+name = "box"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 500
+position = [1.0, 0.0, 0.42]
+velocity = [{speed}, 0.0, 0.0]
+[output]
+every = 0.5
+history_every = 0.02
+"""
+
+    def test_books_count_what_passes_open_sides(self):
+        for spacing, speed in ((0.05, 0.9), (0.04, 1.3)):
+            shutil.rmtree(self.dir / "out", ignore_errors=True)
+            self.run_case(self.OPEN.format(spacing=spacing, speed=speed))
+            summary = json.loads((self.dir / "out/summary.json").read_text())
+            self.assertEqual(len(summary["open"]["bodies_left"]), 1)
+            rows = [line.split(",") for line in (self.dir / "out/energy.csv").read_text().splitlines()[1:]]
+            rows = [dict(zip(rows[0], map(float, row))) for row in rows[1:]]
+            first, scale, worst, without = rows[0], 0.0, 0.0, 0.0
+            for row in rows:
+                for axis in "xyz":
+                    rest = (row["momentum_" + axis] - first["momentum_" + axis] + row["lost_momentum_" + axis]
+                            - row["wall_impulse_" + axis] - row["gravity_impulse_" + axis])
+                    passed = row["open_impulse_" + axis] - first["open_impulse_" + axis]
+                    scale = max(scale, abs(row["wall_impulse_" + axis]))
+                    worst = max(worst, abs(rest - passed))
+                    without = max(without, abs(rest))
+            self.assertLess(worst, 1e-5 * scale)  # single precision of the pair loops
+            self.assertGreater(without, 0.01 * scale, "nothing passed that the books could miss")
+            # Energy: what comes in, goes out and is lost to viscosity and mixing, against the sum in the domain.
+            def total(row):
+                return sum(row[n] for n in ("fluid_kinetic", "fluid_potential", "fluid_internal",
+                                            "body_kinetic", "body_potential"))
+            gain = total(rows[-1]) - total(first)
+            entered = rows[-1]["open_energy"] - first["open_energy"]
+            self.assertLess(abs(gain - entered), 0.15 * max(abs(gain), abs(entered)) + 0.05 * total(first))
+            text, root = self.page()
+            charts = {svg.get("aria-label"): "".join(svg.itertext()) for svg in root.findall(".//{*}svg")}
+            self.assertIn("came in through open sides", charts["energy: change since the start"])
+            closure = re.search(r"including the momentum of lost particles: ([0-9.e+-]+) N s", text)
+            self.assertLess(float(closure[1]), 1e-5 * scale)
 
     def test_impacts_have_the_numbers_of_the_drop(self):
         self.run_case(self.DROP)

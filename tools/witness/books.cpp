@@ -115,7 +115,9 @@ void compare(const std::vector<Row>& rows, const Books& books, const Table& ener
         const Vec3 gravity = vector_in(energy, k, "gravity_impulse_");
         const Vec3 walls = vector_in(energy, k, "wall_impulse_");
         impulse = std::max(impulse, gravity.norm() + walls.norm());
-        open = std::max(open, (told - vector_in(energy, 0, "momentum_") - gravity - walls).norm());
+        const Vec3 sides = vector_in(energy, k, "open_impulse_");
+        const Vec3 rest = told - vector_in(energy, 0, "momentum_") - gravity - walls - sides;
+        open = std::max(open, rest.norm());
     }
     found.kinetic_error = largest > 0 ? kinetic_error / largest : 0;
     found.momentum_error = !found.judged || speed == 0 ? 0 : momentum_error / speed;
