@@ -17,7 +17,7 @@ EAST = (math.sin(AZIMUTH), -math.cos(AZIMUTH))  # eastward parts of +x and +y
 NORTH = (math.cos(AZIMUTH), math.sin(AZIMUTH))
 FOLDER = Path(__file__).parent
 CELL = 1.0
-EXTENT = (-8.0, -8.0, 116.0, 68.0)  # of the ground that is needed, in the axes of the case [m]
+EXTENT = (-8.0, -8.0, 122.0, 68.0)  # of the ground that is needed, in the axes of the case [m]
 
 HARBOUR = -6.0  # bed [m]
 QUAY = 1.8      # level of the quay [m]

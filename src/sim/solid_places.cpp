@@ -79,6 +79,10 @@ Index particles_in_solids(const Simulation& sim)
     std::vector<SolidPlace> places;
     place_solids(sim, present_poses(sim.rigid), sim.clock.time, places);
     const auto x = fluid.particles.fluid[field::position];
+    const auto counts = [&](Index row) {
+        return sim.open.boundary.carpets.empty() ||
+               !is_behind(sim.open.boundary, x[row], barrier.spacing);
+    };
     const auto inside = [&](const Vec3& p, std::span<const std::size_t> near) {
         bool in = false;
         for_images(fluid, p, 0, [&](const Vec3& image) {
@@ -95,13 +99,15 @@ Index particles_in_solids(const Simulation& sim)
         const Index last = std::min(rows, (block + 1) * group);
         Bounds box;
         for (Index i = block * group; i < last; ++i) {
-            for_images(fluid, x[i], 0, [&](const Vec3& image) { box.add(image); });
+            if (counts(i)) {
+                for_images(fluid, x[i], 0, [&](const Vec3& image) { box.add(image); });
+            }
         }
         std::vector<std::size_t> near;
         find_solids(barrier, places, box.min, box.max, near);
         Index count = 0;
         for (Index i = block * group; i < last && !near.empty(); ++i) {
-            count += inside(x[i], near) ? 1 : 0;
+            count += counts(i) && inside(x[i], near) ? 1 : 0;
         }
         return count;
     });
