@@ -323,6 +323,13 @@ every = 0.05
         self.assertNotEqual(self.call("check", "flat.toml", "--plan", "flat.png").returncode, 0)
         self.assertFalse((self.dir / "flat.png").exists())
 
+    def test_a_body_below_the_ground_is_refused_with_its_depth(self):
+        self.town()  # whose quay lies at 0.4 m: the crate of 0.3 m stands on it at 0.55 m
+        for z, depth in (0.54, "0.01 m"), (0.4, "0.15 m"), (0.2, "0.35 m"), (0.0, ""):
+            done = self.call("check", "case.toml", "--set", f"body[0].position=[2.65, 1.0, {z}]")
+            self.assertEqual(done.returncode, 2, (z, done.stderr))
+            self.assertIn(f'body "crate" overlaps wall "ground" by {depth}', done.stderr)
+
     def colours_of(self, name):
         """Pixels of a PNG by what they are, decoded here."""
         data = (self.dir / name).read_bytes()
