@@ -162,7 +162,8 @@ class Overlaps(Folder):
         # A later area covers those before it, whichever way its corners run; beside them the ground is that of the grid.
         rows = "\n".join(" ".join(["0.05"] * 31) for _ in range(31))
         (self.dir / "flat.asc").write_text(f"ncols 31\nnrows 31\nxllcenter 7\nyllcenter 9\ncellsize 0.1\n{rows}\n")
-        areas = ((0.4, "[[1, -1, 0], [4, -1, 0], [4, 4, 0], [1, 4, 0]]"), (-0.2, "[[2, 1, 0], [2, 2, 0], [4, 2, 0], [4, 1, 0]]"))
+        areas = ((0.4, "[[1, -1, 0], [4, -1, 0], [4, 4, 0], [1, 4, 0]]"),
+                 (-0.2, "[[2, 1, 0], [2, 2, 0], [4, 2, 0], [4, 1, 0]]"))
         self.wall("ground", f'shape = "terrain"\nfile = "{self.dir}/flat.asc"\norigin = [7, 9]\nazimuth_deg = 90\n'
                   "datum = 0.1\nbottom = -3\nextent = [0, 0, 3, 3]\nresolution = 0.1\n"
                   + "\n".join(f"[[wall.level]]\nz = {z}\ncorners = {ring}" for z, ring in areas))
