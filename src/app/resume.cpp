@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "resume.hpp"
 
+#include "case_files.hpp"
+
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
@@ -26,7 +28,8 @@ constexpr std::size_t most_listed = 20;
 // Between overrides in a checkpoint: none of them holds it.
 constexpr char separator = '\0';
 
-[[noreturn]] void refuse(const Scene& scene, const std::vector<KeyDifference>& differences)
+[[noreturn]] void refuse(const Scene& scene, const std::vector<KeyDifference>& differences,
+                         const char* hint)
 {
     std::vector<Diagnostic> mistakes;
     for (const KeyDifference& d : differences) {
@@ -46,7 +49,7 @@ constexpr char separator = '\0';
                                  "and physics cannot change in a resumed run",
                                  value(d.before), value(d.after))});
     }
-    mistakes.back().hint = "run with the case.toml in the results folder, or restart with --force";
+    mistakes.back().hint = hint;
     throw CaseError(mistakes);
 }
 
@@ -97,6 +100,20 @@ void name_debris(const GivenCase& before, const GivenCase& after, const Scene& s
     differences.insert(differences.begin(), of_debris.begin(), of_debris.end());
 }
 
+// Before the case of the checkpoint is read, which reads the files again.
+void refuse_changed_files(const Snapshot& state, const Scene& scene)
+{
+    const auto files = state.texts.find("files");
+    if (files == state.texts.end()) {
+        return; // the case named none
+    }
+    const std::vector<KeyDifference> changed =
+        file_differences(files->second, hashes_of_files(scene));
+    if (!changed.empty()) {
+        refuse(scene, changed, "restore the file, or restart with --force");
+    }
+}
+
 Scene case_of(const Snapshot& state)
 {
     const auto stored = state.texts.find("case");
@@ -135,22 +152,30 @@ std::string quoted(const std::string& word)
 
 } // namespace
 
-std::map<std::string, std::string> texts_of_given_case(const RunOptions& options)
+std::map<std::string, std::string> texts_of_given_case(const RunOptions& options,
+                                                       const Scene& scene)
 {
+    std::map<std::string, std::string> texts;
+    if (std::string files = hashes_of_files(scene); !files.empty()) {
+        texts.emplace("files", std::move(files));
+    }
     const GivenCase given = given_case(options);
     if (piece_prefixes(given).empty()) {
-        return {};
+        return texts;
     }
     std::string overrides;
     for (const std::string& text : given.overrides) {
         overrides += text + separator;
     }
-    return {{"given", given.text}, {"overrides", overrides}};
+    texts.emplace("given", given.text);
+    texts.emplace("overrides", overrides);
+    return texts;
 }
 
 Resumption resumption_of(const RunOptions& options, const fs::path& folder, const Scene& scene)
 {
     auto [state, passed_over] = read_newest_checkpoint(folder);
+    refuse_changed_files(state, scene);
     const Scene before = case_of(state);
     Resumption found{.state = {}, .scene = scene, .passed_over = passed_over};
     if (leaves_frames_to_default(before) && leaves_frames_to_default(scene)) {
@@ -162,7 +187,8 @@ Resumption resumption_of(const RunOptions& options, const fs::path& folder, cons
     std::erase_if(differences, [](const KeyDifference& d) { return may_change_on_resume(d.key); });
     if (!differences.empty()) {
         name_debris(given_case(state), given_case(options), scene, differences);
-        refuse(scene, differences);
+        refuse(scene, differences,
+               "run with the case.toml in the results folder, or restart with --force");
     }
     const double time = time_of(state);
     if (scene.time.end < time * (1 - 1e-9)) {

@@ -21,9 +21,11 @@ struct Resumption {
     bool changed = false;    // whether the case is not the one that wrote the checkpoint
 };
 
-/// The case as it was given, for checkpoints, if it has [[debris]]; else nothing. The resolved case
+/// Texts for checkpoints beside the resolved case: hashes of the files that it names, by which a
+/// changed one is noticed; and, if it has [[debris]], the case as it was given: the resolved case
 /// has their pieces as bodies, and a refusal names the keys that the user wrote.
-std::map<std::string, std::string> texts_of_given_case(const RunOptions& options);
+std::map<std::string, std::string> texts_of_given_case(const RunOptions& options,
+                                                       const Scene& scene);
 
 /// Reads the newest checkpoint of the folder and fits it to the case. Where `output.every` is left
 /// to its default, end / 100, in both cases, it stays as it was: a later end moves no frame. Throws

@@ -330,7 +330,7 @@ Job start(const RunOptions& options, const fs::path& folder, const Scene& scene,
     Outputs outputs(folder, sim, domain);
     Job job{std::move(lock),   folder, case_text, std::move(sim), std::move(progress),
             std::move(outputs)};
-    job.given = texts_of_given_case(options);
+    job.given = texts_of_given_case(options, scene);
     job.outputs->update(job.sim);
     if (scene.time.recover) {
         keep_good_state(job);
@@ -385,7 +385,7 @@ Job resume(const RunOptions& options, const fs::path& folder, Resumption from, c
             first_step,
             first_step,
             scene.time.recover ? std::optional(std::move(from.state)) : std::nullopt};
-    job.given = texts_of_given_case(options);
+    job.given = texts_of_given_case(options, scene);
     if (changed) { // or a kill would leave a checkpoint of the case before
         write_checkpoint(job);
     }

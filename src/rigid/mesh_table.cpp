@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <span>
+#include <utility>
 
 namespace hyoryu {
 
@@ -19,7 +20,12 @@ constexpr double straight = 1e-6;
 // Slack of a cone of normals, as the cosine with its border.
 constexpr double cone_slack = 1e-6;
 
-using Sides = std::map<std::pair<int, int>, std::vector<int>>; // edge to triangles
+// One side of an edge.
+struct Side {
+    int i = 0, j = 0; // corners, i < j
+    int triangle = 0;
+    auto operator<=>(const Side&) const = default;
+};
 
 std::size_t at(int k)
 {
@@ -36,32 +42,23 @@ public:
     explicit Builder(const MeshSurface& surface) : triangles_(surface.triangles)
     {
         for (const Vec3& corner : surface.corners) {
-            mesh_.corners.push_back({surface.position + surface.orientation * corner, {}, false});
+            mesh_.corners.push_back({surface.position + surface.orientation * corner, 0, 0, false});
             bounds_.add(mesh_.corners.back().point);
         }
         std::erase_if(triangles_, [&](const auto& t) { return !(area_vector(t).norm() > 0); });
-        for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                sides_[edge_of(triangles_[t], k)].push_back(static_cast<int>(t));
-            }
-        }
+        sort_sides();
     }
 
     MeshTable table()
     {
         grow_patches();
         flatten();
+        release(edge_);
+        release(triangles_);
+        grow_tree();
+        find_neighbours();
         find_creases();
         find_sharp_corners();
-        std::vector<AlignedBox> boxes;
-        for (const FlatTriangle& t : mesh_.triangles) {
-            AlignedBox box;
-            for (const Vec3& point : t.point) {
-                box.add(point);
-            }
-            boxes.push_back(box);
-        }
-        mesh_.tree = tree_over(boxes);
         return std::move(mesh_);
     }
 
@@ -73,10 +70,62 @@ private:
         return (point(t[1]) - point(t[0])).cross(point(t[2]) - point(t[0]));
     }
 
+    // A table may be as large as the memory allows: what is no longer needed is given back.
+    template <class T>
+    static void release(std::vector<T>& list)
+    {
+        list = std::vector<T>();
+    }
+
+    // The sides of all edges, edge by edge, and where those of each edge of a triangle begin.
+    void sort_sides()
+    {
+        sides_.reserve(3 * triangles_.size());
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [i, j] = edge_of(triangles_[t], k);
+                sides_.push_back({i, j, static_cast<int>(t)});
+            }
+        }
+        std::sort(sides_.begin(), sides_.end());
+        edge_.resize(triangles_.size());
+        for_edges([&](std::span<const Side> both) {
+            for (const Side& side : both) {
+                const auto& t = triangles_[at(side.triangle)];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if (edge_of(t, k) == std::pair(side.i, side.j)) {
+                        edge_[at(side.triangle)][k] = static_cast<int>(both.data() - sides_.data());
+                    }
+                }
+            }
+        });
+    }
+
+    std::span<const Side> sides_from(std::size_t first) const
+    {
+        std::size_t last = first;
+        while (last < sides_.size() && sides_[last].i == sides_[first].i &&
+               sides_[last].j == sides_[first].j) {
+            ++last;
+        }
+        return std::span(sides_).subspan(first, last - first);
+    }
+
+    // Calls visit(sides) for every edge, in the order of its corners.
+    void for_edges(const auto& visit) const
+    {
+        for (std::size_t k = 0; k < sides_.size();) {
+            const std::span<const Side> both = sides_from(k);
+            visit(both);
+            k += both.size();
+        }
+    }
+
     // Seeds the largest triangles first: their planes are the best known.
     void grow_patches()
     {
         std::vector<std::pair<double, int>> seeds;
+        seeds.reserve(triangles_.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             seeds.emplace_back(-area_vector(triangles_[t]).norm(), static_cast<int>(t));
         }
@@ -100,11 +149,11 @@ private:
         std::vector<int> open{seed};
         patch_[at(seed)] = patch;
         while (!open.empty()) {
-            const auto& t = triangles_[at(open.back())];
+            const std::size_t t = at(open.back());
             open.pop_back();
             for (std::size_t k = 0; k < 3; ++k) {
-                const auto& both = sides_[edge_of(t, k)];
-                for (const int other : both) {
+                const std::span<const Side> both = sides_from(at(edge_[t][k]));
+                for (const auto& [i, j, other] : both) {
                     const auto& o = triangles_[at(other)];
                     const bool fits =
                         patch_[at(other)] < 0 && both.size() == 2 &&
@@ -123,6 +172,7 @@ private:
 
     void flatten()
     {
+        mesh_.triangles.reserve(triangles_.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             FlatTriangle triangle{patch_[t], triangles_[t], {-1, -1, -1}, {}, {}};
             const Patch& patch = mesh_.patches[at(triangle.patch)];
@@ -150,63 +200,127 @@ private:
         return Vec3::Zero();
     }
 
-    void find_creases()
+    void grow_tree()
     {
-        for (const auto& [edge, both] : sides_) {
-            const int a = both.front();
-            const int b = both.back();
-            if (both.size() == 2 && patch_[at(a)] == patch_[at(b)]) {
-                continue;
+        std::vector<AlignedBox> boxes;
+        boxes.reserve(mesh_.triangles.size());
+        for (const FlatTriangle& t : mesh_.triangles) {
+            AlignedBox box;
+            for (const Vec3& point : t.point) {
+                box.add(point);
             }
-            edges_within_[edge.first].push_back(edge.second);
-            edges_within_[edge.second].push_back(edge.first);
-            Crease crease{edge.first, edge.second, into(a, edge), into(b, edge)};
-            const Vec3& na = mesh_.patches[at(patch_[at(a)])].normal;
-            const Vec3& nb = mesh_.patches[at(patch_[at(b)])].normal;
-            const bool rim = both.size() == 1;
-            crease.outward = rim ? Vec3(-crease.left) : Vec3(na + nb);
-            if (rim || na.dot(crease.right) < 0) {
-                note(crease, both);
-            }
+            boxes.push_back(box);
         }
+        mesh_.tree = tree_over(boxes);
     }
 
-    void note(const Crease& crease, const std::vector<int>& triangles)
+    // Corners along the edges of each corner, in the order of the edges.
+    void find_neighbours()
     {
-        const int number = static_cast<int>(mesh_.creases.size());
-        mesh_.creases.push_back(crease);
-        for (const int t : triangles) {
-            FlatTriangle& triangle = mesh_.triangles[at(t)];
+        for_edges([&](std::span<const Side> both) {
+            ++mesh_.corners[at(both[0].i)].count;
+            ++mesh_.corners[at(both[0].j)].count;
+        });
+        int first = 0;
+        for (MeshCorner& corner : mesh_.corners) {
+            corner.first = first;
+            first += std::exchange(corner.count, 0);
+        }
+        mesh_.neighbours.resize(at(first));
+        const auto add = [&](MeshCorner& corner, int end) {
+            mesh_.neighbours[at(corner.first + corner.count++)] = end;
+        };
+        for_edges([&](std::span<const Side> both) {
+            add(mesh_.corners[at(both[0].i)], both[0].j);
+            add(mesh_.corners[at(both[0].j)], both[0].i);
+        });
+    }
+
+    bool within_a_patch(std::span<const Side> both) const
+    {
+        return both.size() == 2 && patch_[at(both[0].triangle)] == patch_[at(both[1].triangle)];
+    }
+
+    Crease crease_of(std::span<const Side> both) const
+    {
+        const int a = both.front().triangle;
+        const int b = both.back().triangle;
+        const std::pair edge(both[0].i, both[0].j);
+        Crease crease{edge.first, edge.second, into(a, edge), into(b, edge)};
+        crease.outward = both.size() == 1 ? Vec3(-crease.left) : Vec3(normal_of(a) + normal_of(b));
+        return crease;
+    }
+
+    const Vec3& normal_of(int triangle) const
+    {
+        return mesh_.patches[at(patch_[at(triangle)])].normal;
+    }
+
+    bool is_convex(std::span<const Side> both) const
+    {
+        return !within_a_patch(both) &&
+               (both.size() == 1 ||
+                normal_of(both.front().triangle).dot(crease_of(both).right) < 0);
+    }
+
+    void find_creases()
+    {
+        std::size_t count = 0;
+        for_edges([&](std::span<const Side> both) { count += is_convex(both) ? 1 : 0; });
+        mesh_.creases.reserve(count);
+        for_edges([&](std::span<const Side> both) {
+            if (is_convex(both)) {
+                note(both);
+            }
+        });
+    }
+
+    void note(std::span<const Side> both)
+    {
+        for (const Side& side : both) {
+            FlatTriangle& triangle = mesh_.triangles[at(side.triangle)];
             for (std::size_t k = 0; k < 3; ++k) {
-                if (edge_of(triangle.corner, k) == std::pair(crease.i, crease.j)) {
-                    triangle.crease[k] = number;
+                if (edge_of(triangle.corner, k) == std::pair(side.i, side.j)) {
+                    triangle.crease[k] = static_cast<int>(mesh_.creases.size());
                 }
             }
         }
+        mesh_.creases.push_back(crease_of(both));
     }
 
     void find_sharp_corners()
     {
-        for (const auto& [edge, both] : sides_) {
-            mesh_.corners[at(edge.first)].neighbours.push_back(edge.second);
-            mesh_.corners[at(edge.second)].neighbours.push_back(edge.first);
-        }
-        for (const auto& [corner, ends] : edges_within_) {
-            const auto direction = [&](int end) {
-                return Vec3((point(end) - point(corner)).normalized());
+        struct Ends {
+            int count = 0; // of edges between patches
+            std::array<int, 2> corner{};
+        };
+        std::vector<Ends> ends(mesh_.corners.size());
+        const auto add = [&](int corner, int end) {
+            Ends& known = ends[at(corner)];
+            known.corner[at(std::min(known.count++, 1))] = end;
+        };
+        for_edges([&](std::span<const Side> both) {
+            if (!within_a_patch(both)) {
+                add(both[0].i, both[0].j);
+                add(both[0].j, both[0].i);
+            }
+        });
+        for (std::size_t k = 0; k < ends.size(); ++k) {
+            const auto direction = [&](std::size_t end) {
+                return Vec3((point(ends[k].corner[end]) - mesh_.corners[k].point).normalized());
             };
             const bool on_a_line =
-                ends.size() == 2 && (direction(ends[0]) + direction(ends[1])).norm() < straight;
-            mesh_.corners[at(corner)].sharp = !on_a_line;
+                ends[k].count == 2 && (direction(0) + direction(1)).norm() < straight;
+            mesh_.corners[k].sharp = ends[k].count > 0 && !on_a_line;
         }
     }
 
     MeshTable mesh_;
     std::vector<std::array<int, 3>> triangles_;
     AlignedBox bounds_;
-    Sides sides_;
+    std::vector<Side> sides_;
+    std::vector<std::array<int, 3>> edge_; // of a triangle: where the sides of its edges begin
     std::vector<int> patch_;
-    std::map<int, std::vector<int>> edges_within_; // edges between patches, by their corners
 };
 
 } // namespace
@@ -223,7 +337,8 @@ bool in_cone(const Crease& crease, const Vec3& n)
 
 bool in_cone(const MeshTable& mesh, const MeshCorner& corner, const Vec3& n)
 {
-    return std::all_of(corner.neighbours.begin(), corner.neighbours.end(), [&](int k) {
+    const std::span ends(mesh.neighbours);
+    return std::ranges::all_of(ends.subspan(at(corner.first), at(corner.count)), [&](int k) {
         const Vec3 d = mesh.corners[at(k)].point - corner.point;
         return n.dot(d) <= cone_slack * d.norm();
     });

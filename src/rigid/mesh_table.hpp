@@ -38,8 +38,8 @@ struct Crease {
 
 /// A corner of the mesh; only where creases meet at an angle it can touch by itself.
 struct MeshCorner {
-    Vec3 point{0, 0, 0};         // [m]
-    std::vector<int> neighbours; // along the edges
+    Vec3 point{0, 0, 0};      // [m]
+    int first = 0, count = 0; // of the corners along its edges, in `MeshTable::neighbours`
     bool sharp = false;
 };
 
@@ -49,7 +49,8 @@ struct MeshTable {
     std::vector<FlatTriangle> triangles;
     std::vector<Crease> creases;
     std::vector<MeshCorner> corners;
-    BoxTree tree; // of the triangles
+    std::vector<int> neighbours; // corners along the edges of each corner, one after the other
+    BoxTree tree;                // of the triangles
 };
 
 MeshTable mesh_table(const MeshSurface& surface);

@@ -31,16 +31,36 @@ std::string body_key(std::size_t b)
     return fmt::format("body[{}]", b);
 }
 
-// Depth of the centre of a body within a wall that is a mesh: contact looks at surfaces, and a body
-// that is wholly inside touches none.
+double thinnest(const Shape& shape, int dimensions)
+{
+    if (const auto* box = std::get_if<BoxShape>(&shape)) {
+        return dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
+    }
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+        return 2 * sphere->radius;
+    }
+    if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+        return std::min(2 * cylinder->radius, cylinder->length);
+    }
+    const Bounds box = bounds({.shape = &shape, .dimensions = dimensions});
+    return (box.max - box.min).minCoeff();
+}
+
+// Depth of a body in a wall that is a mesh, at least, if its middle is within or on it: contact
+// looks at surfaces from outside, and a body that is farther inside touches none. 0 if it is not.
 double depth_in_mesh(const BodySettings& body, const Wall& wall, int dimensions)
 {
     const auto* solid = std::get_if<SolidWall>(&wall.geometry);
     if (solid == nullptr || !std::holds_alternative<MeshShape>(solid->shape)) {
         return 0;
     }
-    return -signed_distance({&solid->shape, solid->centre, solid->rotation, dimensions},
-                            body.position);
+    const bool convex = !std::holds_alternative<MeshShape>(body.shape) &&
+                        !std::holds_alternative<ParticleShape>(body.shape);
+    const double half = convex ? thinnest(body.shape, dimensions) / 2 : 0;
+    const Vec3 middle = body.position - body.rotation * body.centre_of_mass.value_or(Vec3(0, 0, 0));
+    const double depth =
+        -signed_distance({&solid->shape, solid->centre, solid->rotation, dimensions}, middle);
+    return depth > -allowed_overlap * body.spacing ? depth + half : 0;
 }
 
 // Whether the ball about a body is clear of a wall that is made of planes: most of many bodies in a
@@ -145,21 +165,6 @@ void warn(const Scene& scene, const Place& place, std::string key, std::string w
     Diagnostic note = diagnostic_at(scene, place, std::move(key), std::move(what), std::move(hint));
     note.severity = Diagnostic::Severity::warning;
     plan.warnings.push_back(std::move(note));
-}
-
-double thinnest(const Shape& shape, int dimensions)
-{
-    if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        return dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
-    }
-    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
-        return 2 * sphere->radius;
-    }
-    if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
-        return std::min(2 * cylinder->radius, cylinder->length);
-    }
-    const Bounds box = bounds({.shape = &shape, .dimensions = dimensions});
-    return (box.max - box.min).minCoeff();
 }
 
 // A body that is not convex and has no lattice of its own meets others by one.

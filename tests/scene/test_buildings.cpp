@@ -260,5 +260,46 @@ TEST_F(BuildingFiles, ABoxAndItsPrismDisplaceTheSameWater)
     }
 }
 
+// Two footprints that overlap displace the water of their union, and no particles of their walls
+// stand in one place.
+TEST_F(BuildingFiles, OverlappingOnesAreOneSolidForTheWater)
+{
+    Dice dice(26);
+    for (const double spacing : {0.25, 0.2}) {
+        const double x = dice.between(1, 2);
+        const double y = dice.between(1, 2);
+        const double wide = dice.between(1, 1.5);
+        const double shift = dice.between(0.4, 0.8) * wide;
+        const auto rectangle = [&](double from, double to) {
+            return feature("{}", listed(text_of({{from, y}, {to, y}, {to, y + 1}, {from, y + 1}})));
+        };
+        const auto filled = [&](const std::vector<std::string>& footprints) {
+            write("b.geojson", collection(footprints));
+            return fill(read(fmt::format(
+                "[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\n"
+                "shape = \"box\"\nmin = [0, 0, 0]\nmax = [6, 4, 1]\n[[wall]]\nshape = "
+                "\"basin\"\nmin = [0, 0, 0]\nmax = [6, 4, 3]\nopen = [\"+z\"]\n[[buildings]]\n"
+                "file = \"b.geojson\"\nheight = 2\n",
+                spacing)));
+        };
+        const Filling one = filled({rectangle(x, x + shift + wide)});
+        const Filling two =
+            filled({rectangle(x, x + wide), rectangle(x + shift, x + shift + wide)});
+        ASSERT_EQ(one.fluid.size(), two.fluid.size());
+        double farthest = 0;
+        for (std::size_t k = 0; k < one.fluid.size(); ++k) {
+            farthest = std::max(farthest, (one.fluid[k] - two.fluid[k]).norm());
+        }
+        EXPECT_LT(farthest, 0.5 * spacing); // where it is moved off the one surface or the other
+        double nearest = infinity;
+        for (std::size_t a = 0; a < two.wall.size(); ++a) {
+            for (std::size_t b = 0; b < a; ++b) {
+                nearest = std::min(nearest, (two.wall[a] - two.wall[b]).norm());
+            }
+        }
+        EXPECT_GE(nearest, 0.6 * spacing); // below that they are thinned
+    }
+}
+
 } // namespace
 } // namespace hyoryu

@@ -158,6 +158,22 @@ class Overlaps(Folder):
             self.row(0, (at, UPRIGHT))
             self.expect_depth(depth, within=1e-6 if depth < 0.1 else 0.1)
 
+    def test_a_terrain_with_level_areas(self):
+        # A later area covers those before it, whichever way its corners run; beside them the ground is that of the grid.
+        rows = "\n".join(" ".join(["0.05"] * 31) for _ in range(31))
+        (self.dir / "flat.asc").write_text(f"ncols 31\nnrows 31\nxllcenter 7\nyllcenter 9\ncellsize 0.1\n{rows}\n")
+        areas = ((0.4, "[[1, -1, 0], [4, -1, 0], [4, 4, 0], [1, 4, 0]]"),
+                 (-0.2, "[[2, 1, 0], [2, 2, 0], [4, 2, 0], [4, 1, 0]]"))
+        self.wall("ground", f'shape = "terrain"\nfile = "{self.dir}/flat.asc"\norigin = [7, 9]\nazimuth_deg = 90\n'
+                  "datum = 0.1\nbottom = -3\nextent = [0, 0, 3, 3]\nresolution = 0.1\n"
+                  + "\n".join(f"[[wall.level]]\nz = {z}\ncorners = {ring}" for z, ring in areas))
+        self.body("ball", BALL)
+        for x, y, z in ((0.5, 1.5, 0.15), (0.6, 2.5, 0.15), (1.05, 0.5, 0.4), (1.9, 1.5, 0.4), (2.5, 1.5, -0.2), (2.5, 2.05, 0.4)):
+            for depth in (1e-4, -1e-4):
+                self.rows.clear()
+                self.row(0, ((x, y, z + 0.1 - depth), UPRIGHT))
+                self.expect_depth(max(depth, 0), within=1e-8)
+
     def test_bodies_of_meshes_stand_about_their_centroid(self):
         mesh = prism([(0, 0), (0.4, 0), (0.4, 0.2), (0, 0.2)], 0.0, 0.3, 1.0)
         mesh.write(self.dir / "box.stl")
@@ -356,6 +372,36 @@ open = ["+z"]
                 if count > 0:
                     self.judge("--inside", count - 1, code=1)
                 (self.dir / "out/case.toml").write_text(before)
+
+    def test_water_in_a_pit_of_a_terrain(self):
+        # The grid alone would bury the water of the pit, whose edges run through points of the surface or between them.
+        rows = "\n".join(" ".join(["0.45"] * 15) for _ in range(15))
+        (self.dir / "flat.asc").write_text(f"ncols 15\nnrows 15\nxllcenter 0\nyllcenter 0\ncellsize 0.1\n{rows}\n")
+        for low, high in ((0.2, 0.8), (0.23, 0.78)):
+            ring = f"[[{low}, {low}, 0], [{high}, {low}, 0], [{high}, {high}, 0], [{low}, {high}, 0]]"
+            self.run_case(f"""
+[time]
+end = 0.02
+[particles]
+spacing = 0.05
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.1, 0.1, -0.2]
+max = [0.9, 0.9, 0.3]
+[[wall]]
+shape = "terrain"
+file = "flat.asc"
+origin = [0.2, 0.2]
+azimuth_deg = 90
+extent = [0, 0, 1, 1]
+resolution = 0.1
+[[wall.level]]
+z = 0.0
+corners = {ring}
+""")
+            found = self.judge("--inside", 0, "--lost", 0, code=0)
+            self.assertEqual(found["in_solids_worst"], 0)
 
     def test_a_program_that_counts_none_inside_is_found_out(self):
         self.run_case(self.CASE.replace("end = 0.02", "end = 1e-4"))

@@ -115,6 +115,27 @@ void read_basin(const toml::table& table, const Scene& scene, Solid& solid)
     }
 }
 
+std::vector<Vec3> polygon_of(const toml::table& table)
+{
+    std::vector<Vec3> corners;
+    const toml::array* list = table["corners"].as_array();
+    for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
+        corners.push_back(vector_of(toml::node_view<const toml::node>((*list)[k]), Vec3::Zero()));
+    }
+    return corners;
+}
+
+std::vector<Level> levels_of(const toml::table& table)
+{
+    std::vector<Level> levels;
+    const toml::array* list = table["level"].as_array();
+    for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
+        const toml::table& level = *(*list)[k].as_table();
+        levels.push_back({polygon_of(level), level["z"].value_or(std::nan(""))});
+    }
+    return levels;
+}
+
 Placement placement_of(const toml::table& table)
 {
     const auto number = [&](const char* key, std::size_t k) {
@@ -130,17 +151,13 @@ Placement placement_of(const toml::table& table)
             .high_x = number("extent", 2),
             .high_y = number("extent", 3),
             .resolution = table["resolution"].value_or(std::nan("")),
-            .nodata = table["nodata"].value_or(0.0)};
+            .nodata = table["nodata"].value_or(0.0),
+            .levels = levels_of(table)};
 }
 
 Mesh read_prism(const toml::table& table)
 {
-    std::vector<Vec3> corners;
-    const toml::array* list = table["corners"].as_array();
-    for (std::size_t k = 0; list != nullptr && k < list->size(); ++k) {
-        corners.push_back(vector_of(toml::node_view<const toml::node>((*list)[k]), Vec3::Zero()));
-    }
-    return prism_of(corners, table["bottom"].value_or(std::nan("")),
+    return prism_of(polygon_of(table), table["bottom"].value_or(std::nan("")),
                     table["top"].value_or(std::nan("")));
 }
 

@@ -99,6 +99,35 @@ double height(const Raster& raster, const Placement& p, double x, double y, doub
     return p.datum + sum / (nx * ny);
 }
 
+// Times that a polygon goes round a place (Sunday 2001). Of an edge in line with the axes, the
+// lower and the left one belong to the area, the upper and the right one do not.
+int winding(const std::vector<Vec3>& corners, double x, double y)
+{
+    int times = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec3& a = corners[k];
+        const Vec3& b = corners[(k + 1) % corners.size()];
+        const double left = (b.x() - a.x()) * (y - a.y()) - (x - a.x()) * (b.y() - a.y());
+        if (a.y() <= y && y < b.y() && left > 0) {
+            ++times;
+        } else if (b.y() <= y && y < a.y() && left < 0) {
+            --times;
+        }
+    }
+    return times;
+}
+
+double height_with_levels(const Raster& raster, const Placement& p, double x, double y, double hx,
+                          double hy)
+{
+    for (auto level = p.levels.rbegin(); level != p.levels.rend(); ++level) {
+        if (winding(level->corners, x, y) != 0) {
+            return level->z;
+        }
+    }
+    return height(raster, p, x, y, hx, hy);
+}
+
 } // namespace
 
 Mesh ground_of(const std::filesystem::path& grid, const Placement& p)
@@ -117,7 +146,7 @@ Mesh ground_of(const std::filesystem::path& grid, const Placement& p)
         for (int i = 0; i <= nx; ++i) {
             const double x = p.low_x + hx * i;
             const double y = p.low_y + hy * j;
-            mesh.corners.emplace_back(x, y, height(raster, p, x, y, hx, hy));
+            mesh.corners.emplace_back(x, y, height_with_levels(raster, p, x, y, hx, hy));
             mesh.corners.emplace_back(x, y, p.bottom);
         }
     }
