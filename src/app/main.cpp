@@ -73,6 +73,8 @@ int main(int argc, char** argv)
         return code;
     } catch (const CaseError& error) {
         return fail(error.what(), exit_code::input);
+    } catch (const RoomError& error) {
+        return fail(fmt::format("error: {}", error.what()), exit_code::numbers);
     } catch (const NumericalError& error) {
         return fail(fmt::format("error: the simulation became unstable: {}", error.what()),
                     exit_code::numbers);

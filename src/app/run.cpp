@@ -188,6 +188,8 @@ bool step_or_recover(Job& job)
             watch_energy(job.sim, totals(job.sim));
         }
         return true;
+    } catch (const RoomError&) {
+        throw; // shorter steps make no room
     } catch (const NumericalError& error) {
         if (!job.sim.scene.time.recover || job.sim.clock.share <= least_share) {
             throw;
@@ -283,19 +285,27 @@ int finish(Job& job)
     return exit_code::done;
 }
 
+// The state of the last frame was good; a run can go on from it with other settings.
+void give_up(Job& job, const std::string& error, const std::string& exit_reason)
+{
+    job.progress.abandon("error: " + error);
+    if (job.last_good && job.good_step > job.saved_step) {
+        job.outputs->write_checkpoint(std::move(*job.last_good));
+    }
+    write_closing(job, exit_reason);
+}
+
 int carry_out(Job& job)
 {
     try {
         advance(job);
         return finish(job);
+    } catch (const RoomError& error) {
+        give_up(job, error.what(), "too many particles");
+        throw;
     } catch (const NumericalError& error) {
-        // The state of the last frame was good; a run can go on from it with other settings.
-        job.progress.abandon(
-            fmt::format("error: the simulation became unstable: {}", error.what()));
-        if (job.last_good && job.good_step > job.saved_step) {
-            job.outputs->write_checkpoint(std::move(*job.last_good));
-        }
-        write_closing(job, "numerical error");
+        give_up(job, fmt::format("the simulation became unstable: {}", error.what()),
+                "numerical error");
         throw;
     }
 }

@@ -97,9 +97,21 @@ CaseError::CaseError(std::string what, std::string hint)
 }
 
 NumericalError::NumericalError(const Where& w)
-    : std::runtime_error(fmt::format("step {}, t = {:.6g} s: {}: {}: {}", w.step, w.time, w.who,
-                                     w.field, w.cause)),
-      where(w)
+    : NumericalError(w, fmt::format("step {}, t = {:.6g} s: {}: {}: {}", w.step, w.time, w.who,
+                                    w.field, w.cause))
+{
+}
+
+NumericalError::NumericalError(const Where& w, const std::string& text)
+    : std::runtime_error(text), where(w)
+{
+}
+
+RoomError::RoomError(std::int64_t step, double time, std::int64_t held, std::int64_t most)
+    : NumericalError({.step = step, .time = time, .who = {}, .field = {}, .cause = {}},
+                     fmt::format("step {}, t = {:.6g} s: the run holds {} fluid particles, more "
+                                 "than the {} that `particles.most` allows",
+                                 step, time, held, most))
 {
 }
 

@@ -195,7 +195,8 @@ std::vector<KeyDifference> case_differences(const std::string& before, const std
 
 bool may_change_on_resume(std::string_view key)
 {
-    constexpr std::array<std::string_view, 3> keys{"title", "time.end", "time.recover"};
+    constexpr std::array<std::string_view, 4> keys{"title", "time.end", "time.recover",
+                                                   "particles.most"};
     return std::ranges::find(keys, key) != keys.end() || key.starts_with("output.") ||
            key == "gauge" || key.starts_with("gauge[");
 }

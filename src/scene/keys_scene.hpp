@@ -184,6 +184,13 @@ void general_keys(auto& keys, Is<Scene> auto& scene)
             "precision", scene.precision, {"single", "double"},
             "Floating-point type of the pair interactions; state and bodies are double in either "
             "case. \"double\" is for verification and takes about twice the time.");
+        constexpr double no_bound = 1e15;
+        particles.integer(
+            "most", scene.most_fluid, 0, no_bound, ">= 0",
+            "Fluid particles that a run with open sides may come to hold, with those behind the "
+            "windows; beyond, it ends with its last good state on disk. 0: as many as fit into "
+            "four "
+            "fifths of the memory of the machine.");
     });
     keys.table("domain",
                "Box outside of which particles are removed; without it the bounds of the scene.",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/memory.hpp"
 
+#include "hyoryu/scene/machine_memory.hpp"
+
 #include "disk_histories.hpp"
 #include "hyoryu/scene/moving_walls.hpp"
 
@@ -99,6 +101,20 @@ double memory_bytes(const Scene& scene, const Plan& plan, const Course& course)
         (good_state + on_its_way) * fluid + drawn_always * (drawn + (moving ? wall : 0));
     const double at_end = closing(histories(scene, plan, course));
     return lasting + std::max({at_start, between, at_end});
+}
+
+double fluid_in_memory(const Scene& scene, const Plan& plan)
+{
+    constexpr double share = 0.8;
+    constexpr Index many = 1000000;
+    Plan larger = plan;
+    larger.most_fluid = plan.counts.fluid;
+    const Course course{.steps = plan.expected_steps};
+    const double start = memory_bytes(scene, larger, course);
+    larger.most_fluid += many;
+    const double each = (memory_bytes(scene, larger, course) - start) / many;
+    return static_cast<double>(plan.counts.fluid) +
+           std::max(share * machine_memory() - start, 0.0) / each;
 }
 
 } // namespace hyoryu

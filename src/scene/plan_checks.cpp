@@ -219,6 +219,20 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
     }
 }
 
+void warn_about_room(const Scene& scene, Plan& plan)
+{
+    if (scene.most_fluid > 0 && scene.open.empty()) {
+        warn(scene, {}, "particles.most", "bounds runs with open sides, and this one has none",
+             "remove it", plan);
+    } else if (scene.most_fluid > 0 && plan.most_fluid > scene.most_fluid) {
+        warn(scene, {}, "particles.most",
+             fmt::format("{} fluid particles are allowed, but the open sides may bring the run to "
+                         "about {}: it would end early",
+                         scene.most_fluid, plan.most_fluid),
+             "allow more, or increase `particles.spacing`", plan);
+    }
+}
+
 void warn_about_sound(const Scene& scene, Plan& plan)
 {
     const double mach = plan.expected_speed / plan.fluid->eos.c0;
@@ -345,6 +359,7 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     warn_about_waves(scene, filling, plan);
     if (scene.fluid) {
         warn_about_sound(scene, plan);
+        warn_about_room(scene, plan);
         warn_about_leaks(scene, filling, plan);
         warn_about_gaps(scene, filling, plan);
     }

@@ -2,6 +2,7 @@
 #include "hyoryu/sim/open_flow.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/memory.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +58,19 @@ void set_flows(Simulation& sim, double time)
 
 } // namespace
 
+namespace {
+
+void expect_room(const Simulation& sim)
+{
+    const Index held = sim.fluid->particles.fluid.size();
+    if (static_cast<double>(held) > sim.open.most) {
+        throw RoomError(sim.clock.step, sim.clock.time, held,
+                        static_cast<std::int64_t>(sim.open.most));
+    }
+}
+
+} // namespace
+
 void extend_domain(const Scene& scene, Fluid& fluid)
 {
     for (const OpenSettings& open : scene.open) {
@@ -75,6 +89,8 @@ void start_open(Simulation& sim)
     for (const OpenSettings& settings : sim.scene.open) {
         open.carpets.push_back(make_carpet(sim.scene, settings));
     }
+    sim.open.most = sim.scene.most_fluid > 0 ? static_cast<double>(sim.scene.most_fluid)
+                                             : fluid_in_memory(sim.scene, sim.plan);
     open.next_id = sim.plan.counts.particles();
     find_rows(fluid, open);
     measure_start(fluid, open);
@@ -102,6 +118,7 @@ void renew_open(Simulation& sim)
     if (lists_are_due(fluid, carpets_due(fluid, open))) {
         let_bodies_leave(sim);
         renew_carpets(fluid, open);
+        expect_room(sim);
         make_lists(fluid);
         find_rows(fluid, open);
         mark_beside_bodies(fluid, open);

@@ -4,6 +4,7 @@ import json
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -418,6 +419,59 @@ position = [0.7, 0.0, 0.1]
         self.assertTrue((self.dir / "out" / "checkpoint.h5").exists())
         summary = json.loads((self.dir / "out" / "summary.json").read_text())
         self.assertEqual(summary["exit_reason"], "numerical error")
+
+    FILLING = """dimensions = 2
+[time]
+end = 1.2
+[particles]
+spacing = {spacing}
+{most}
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.8, 0.0, 0.2]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [0.8, 0.0, 1.0]
+open = ["-x", "+z"]
+[[open]]
+name = "in"
+min = [0.0, 0.0, 0.0]
+max = [0.0, 0.0, 1.0]
+into = "+x"
+kind = "inflow"
+discharge = 0.2
+[output]
+every = 0.1
+"""
+
+    def test_open_sides_bring_no_more_than_is_allowed(self):
+        for spacing, most in ((0.02, 700), (0.025, 500)):
+            shutil.rmtree(self.dir / "out", ignore_errors=True)
+            case = self.write(self.FILLING.format(spacing=spacing, most=f"most = {most}"))
+            self.assertIn("would end early", self.call("check", case).stderr)
+            done = self.call("run", case, "-o", "out")
+            self.assertEqual(done.returncode, 3, done.stderr)
+            told = re.search(r"the run holds (\d+) fluid particles, more than the (\d+) that `particles.most` allows",
+                             done.stderr)
+            self.assertTrue(told, done.stderr)
+            self.assertNotIn("unstable", done.stderr)
+            self.assertEqual(int(told[2]), most)
+            self.assertLess(int(told[1]), 1.2 * most)
+            summary = json.loads((self.dir / "out/summary.json").read_text())
+            self.assertEqual(summary["exit_reason"], "too many particles")
+            # The last good state goes on with more room, and ends as a run that had it from the start.
+            done = self.call("run", case, "-o", "out", "--resume", "--set", "particles.most=0")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            whole = self.write(self.FILLING.format(spacing=spacing, most=""), "whole.toml")
+            shutil.rmtree(self.dir / "whole", ignore_errors=True)
+            self.assertEqual(self.call("run", whole, "-o", "whole").returncode, 0)
+            self.assertEqual((self.dir / "out/open.csv").read_bytes(), (self.dir / "whole/open.csv").read_bytes())
+        closed = FLOOD.replace("spacing = 0.05", "spacing = 0.05\nmost = 5000")
+        self.assertIn("`particles.most`: bounds runs with open sides", self.call("check", self.write(closed)).stderr)
 
     def test_render_makes_pictures(self):
         self.run_flood("out")

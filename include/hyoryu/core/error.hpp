@@ -53,6 +53,15 @@ struct NumericalError : std::runtime_error {
     };
     explicit NumericalError(const Where& where);
     Where where;
+
+protected:
+    NumericalError(const Where& where, const std::string& text);
+};
+
+/// More fluid came in than a run may hold. The state on disk and the exit code are as of a
+/// NumericalError, but nothing is wrong with the numbers.
+struct RoomError : NumericalError {
+    RoomError(std::int64_t step, double time, std::int64_t held, std::int64_t most);
 };
 
 /// Reading or writing failed. Exit code 4.

@@ -11,4 +11,7 @@ namespace hyoryu {
 /// `plan.fields`. Measured on 70 shipped cases; see the constants.
 double memory_bytes(const Scene& scene, const Plan& plan, const Course& course);
 
+/// Fluid particles with which a run takes four fifths of the memory of the machine.
+double fluid_in_memory(const Scene& scene, const Plan& plan);
+
 } // namespace hyoryu

@@ -231,6 +231,7 @@ struct Scene {
     TimeSettings time;
     double spacing = 0; // [m], of fluid and walls
     Precision precision = Precision::single_precision;
+    std::int64_t most_fluid = 0; // particles that open sides may bring it to; 0: as memory allows
     std::optional<DomainSettings> domain;
     std::optional<FluidSettings> fluid;
     std::vector<Wall> walls;

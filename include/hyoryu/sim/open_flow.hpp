@@ -17,6 +17,7 @@ struct OpenFlow {
     OpenBoundary boundary;
     std::vector<std::vector<StillWater>> still; // of each carpet, by station
     std::vector<LeftBody> left;                 // in the order in which they left
+    double most = infinity;                     // rows of fluid that the run may hold
     bool runs() const { return !boundary.carpets.empty(); }
 };
 
@@ -27,7 +28,7 @@ void extend_domain(const Scene& scene, Fluid& fluid);
 void start_open(Simulation& sim);
 
 /// After the drift to the middle of a step: counts what crossed, and makes new lists where those
-/// are due, with new columns of the carpets.
+/// are due, with new columns of the carpets. Throws RoomError if the run holds too many then.
 void renew_open(Simulation& sim);
 
 /// After the kick of a step of dt: the flow at the end of the step, and the velocities of carpets.
