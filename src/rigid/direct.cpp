@@ -351,7 +351,9 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
         order_bodies(rows, bodies, work);
     }
     work.base.assign(rows.size(), Vec3::Zero());
-    start_from_base(rows, bodies, work);
+    if (!by_bodies) {
+        start_from_base(rows, bodies, work);
+    }
     bool changed = true;
     double best = infinity;
     int since_best = 0;
