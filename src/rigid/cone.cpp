@@ -55,27 +55,33 @@ Vec3 impulse_along(const Slip& slip, double mu, const Vec2& d)
     return {slip.p_n, -mu * slip.p_n * d.x(), -mu * slip.p_n * d.y()};
 }
 
-double cross(const Vec2& a, const Vec2& b)
-{
-    return a.x() * b.y() - a.y() * b.x();
-}
-
+// d x w with w = den(d) u_t(d), smooth everywhere; zero where u_t is parallel to d. For d = (c, s)
+// it is x c + y s + cc c^2 + cs c s + ss s^2.
 struct Crossed {
-    double value = 0;
-    double slope = 0; // by the angle of d
+    double x = 0, y = 0, cc = 0, cs = 0, ss = 0;
+
+    double at(const Vec2& d) const
+    {
+        return d.x() * (x + cc * d.x() + cs * d.y()) + d.y() * (y + ss * d.y());
+    }
+    /// The derivative by the angle of d.
+    double slope(const Vec2& d) const
+    {
+        return d.x() * (y + cs * d.x()) - d.y() * (x + cs * d.y()) + 2 * (ss - cc) * d.x() * d.y();
+    }
 };
 
-// d x w with w = den(d) u_t(d), smooth everywhere; zero where u_t is parallel to d.
-Crossed crossed(const Cone& cone, const Vec3& b, const Vec2& d)
+Crossed crossed(const Cone& cone, const Vec3& b)
 {
-    const Vec2 turned(-d.y(), d.x()); // derivative of d
-    const Vec2 k_nt = cone.K.block<1, 2>(0, 1).transpose();
-    const Vec2 k_tn = cone.K.block<2, 1>(1, 0);
-    const Eigen::Matrix2d k_tt = cone.mu * cone.K.block<2, 2>(1, 1);
-    const double den = cone.K(0, 0) - cone.mu * k_nt.dot(d);
-    const Vec2 w = den * b.tail<2>() - b[0] * (k_tn - k_tt * d);
-    const Vec2 w_slope = -cone.mu * k_nt.dot(turned) * b.tail<2>() + b[0] * (k_tt * turned);
-    return {cross(d, w), cross(turned, w) + cross(d, w_slope)};
+    const Mat3& K = cone.K;
+    const double mu = cone.mu;
+    Crossed f;
+    f.x = K(0, 0) * b[2] - b[0] * K(2, 0);
+    f.y = b[0] * K(1, 0) - K(0, 0) * b[1];
+    f.cc = mu * (b[0] * K(2, 1) - K(0, 1) * b[2]);
+    f.cs = mu * (b[0] * (K(2, 2) - K(1, 1)) - K(0, 2) * b[2] + K(0, 1) * b[1]);
+    f.ss = mu * (K(0, 2) * b[1] - b[0] * K(1, 2));
+    return f;
 }
 
 Vec2 at_angle(double angle)
@@ -94,12 +100,13 @@ std::optional<Vec3> accepted(const Cone& cone, const Vec3& b, const Vec2& d)
 
 std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d)
 {
+    const Crossed f = crossed(cone, b);
     for (int k = 0; k < newton_steps; ++k) {
-        const Crossed f = crossed(cone, b, d);
-        if (f.slope == 0) {
+        const double slope = f.slope(d);
+        if (slope == 0) {
             return std::nullopt;
         }
-        const double change = -f.value / f.slope;
+        const double change = -f.at(d) / slope;
         // the turn by `change` up to a length that the normalisation takes out
         d = Vec2(d.x() - change * d.y(), d.y() + change * d.x()).normalized();
         if (std::abs(change) < settled_turn) {
@@ -130,18 +137,19 @@ std::optional<Vec3> slide_by_fixed_point(const Cone& cone, const Vec3& b, Vec2 d
 std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
 {
     const double step = 2 * std::numbers::pi / scan_points;
+    const Crossed f = crossed(cone, b);
     for (int k = 0; k < scan_points; ++k) {
         double low = k * step;
         double high = low + step;
-        double f_low = crossed(cone, b, at_angle(low)).value;
-        if (f_low * crossed(cone, b, at_angle(high)).value > 0) {
+        double f_low = f.at(at_angle(low));
+        if (f_low * f.at(at_angle(high)) > 0) {
             continue;
         }
         for (int m = 0; m < bisections; ++m) {
             const double mid = 0.5 * (low + high);
-            const double f = crossed(cone, b, at_angle(mid)).value;
-            (f * f_low > 0 ? low : high) = mid;
-            f_low = f * f_low > 0 ? f : f_low;
+            const double f_mid = f.at(at_angle(mid));
+            (f_mid * f_low > 0 ? low : high) = mid;
+            f_low = f_mid * f_low > 0 ? f_mid : f_low;
         }
         if (const auto p = accepted(cone, b, at_angle(0.5 * (low + high)))) {
             return p;

@@ -100,6 +100,15 @@ void set_end_responses(const StepContext& context, const SubStep& sub)
     }
 }
 
+// Where a patch that sticks rubs: it turns with the pair, in which neither body turns on the other.
+void carry_rub(const ContactMemory& memory, Persistent& p)
+{
+    const int a = p.candidate.feature.a;
+    const Vec3 rub = memory.poses[a].R.transpose() * p.rub;
+    p.touches.push_rub = memory.middle[a].R * rub;
+    p.touches.see_rub = memory.end[a].R * rub;
+}
+
 // The touches of the contacts at the middle and the end, and where the patches rub there.
 void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
 {
@@ -112,7 +121,10 @@ void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
     }
     for (const FrictionPatch& patch : memory.patches) {
         if (memory.persistent[patch.contacts[0]].stuck > 0) {
-            continue; // rubs where it did
+            for (const int k : patch.contacts) {
+                carry_rub(memory, memory.persistent[k]);
+            }
+            continue;
         }
         const Vec3 push = centre_of(memory.persistent, patch,
                                     [](const Persistent& p) { return p.touches.push.point; });

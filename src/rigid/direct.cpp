@@ -17,8 +17,7 @@ namespace {
 enum State { open = 0, slides = 1, sticks = 2 };
 
 // Changes of the active set after which the iteration takes over.
-constexpr int rounds_of_guesses = 4;
-constexpr int rounds_of_a_pile = 12;
+constexpr int most_rounds = 12;
 // And rounds in a row that do not leave less than this part of the least so far.
 constexpr int patience = 3;
 constexpr double improvement = 0.7;
@@ -351,12 +350,13 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
         order_bodies(rows, bodies, work);
     }
     work.base.assign(rows.size(), Vec3::Zero());
-    start_from_base(rows, bodies, work);
+    if (!by_bodies) { // a pile starts from the impulses that it holds
+        start_from_base(rows, bodies, work);
+    }
     bool changed = true;
     double best = infinity;
     int since_best = 0;
-    const int rounds = by_bodies ? rounds_of_a_pile : rounds_of_guesses;
-    for (int round = 0; round < rounds && changed && since_best < patience; ++round) {
+    for (int round = 0; round < most_rounds && changed && since_best < patience; ++round) {
         if (by_bodies) {
             choose_base(rows, work);
             start_from_base(rows, bodies, work);

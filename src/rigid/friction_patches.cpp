@@ -208,6 +208,9 @@ void set_rubs(ContactMemory& memory)
             p.touches.see_rub = p.rub;
         }
     }
+    for (Persistent& p : memory.persistent) { // in no patch: at its contact point
+        p.rub = p.touches.push_rub;
+    }
 }
 
 void note_sticking(const StepContext& context)

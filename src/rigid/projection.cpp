@@ -192,11 +192,12 @@ double share_of_opening(const StepContext& context, double work, double given)
 {
     ContactMemory& memory = context.memory;
     const double unit = context.rigid.settings.unit;
-    const bool free = work <= memory.lost + given ||
-                      std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
-                          return c.touch.gap < -from_before * unit;
-                      });
-    const double share = free ? 1 : std::max(memory.lost + given, 0.0) / work;
+    const double paid = std::max(memory.lost + given, 0.0);
+    const bool free =
+        work <= paid || std::ranges::any_of(memory.candidates, [&](const Candidate& c) {
+            return c.touch.gap < -from_before * unit;
+        });
+    const double share = free ? 1 : paid / work;
     memory.lost -= share * work;
     return share;
 }

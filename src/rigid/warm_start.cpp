@@ -73,7 +73,7 @@ void remember(ContactMemory& memory, double h)
 {
     memory.recent.clear();
     for (const Persistent& p : memory.persistent) {
-        const Vec3 rub = memory.poses[p.candidate.feature.a].R.transpose() * p.touches.push_rub;
+        const Vec3 rub = memory.middle[p.candidate.feature.a].R.transpose() * p.touches.push_rub;
         memory.recent.push_back({p.candidate.feature, p.impulse / h, p.place, rub, p.stuck});
     }
     sort_by_feature(memory.recent);
