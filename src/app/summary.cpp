@@ -4,6 +4,7 @@
 #include "build_info.hpp"
 
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/sim/watch.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -38,8 +39,9 @@ ordered_json seconds_by_stage(const StageTimer& timer)
     return seconds;
 }
 
-ordered_json contact_counters(const RigidCounters& c, std::int64_t steps)
+ordered_json contact_counters(const Simulation& sim, std::int64_t steps)
 {
+    const RigidCounters& c = sim.rigid.counters;
     return {{"impacts", c.impacts},
             {"rounds", c.rounds},
             {"events", c.events},
@@ -47,7 +49,7 @@ ordered_json contact_counters(const RigidCounters& c, std::int64_t steps)
             {"capped_steps", c.capped_steps},
             {"steps_located", steps - c.capped_steps},
             {"worst_residual", c.worst_residual},
-            {"worst_penetration", c.worst_penetration}};
+            {"worst_penetration", worst_penetration(sim)}};
 }
 
 ordered_json bodies_left(const Simulation& sim)
@@ -182,7 +184,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                       {"end", energies(end)},
                       {"contact_loss", sim.conservation.contact_loss}};
     json["momentum"] = momenta(sim, end);
-    json["contact"] = contact_counters(sim.rigid.counters, sim.clock.step);
+    json["contact"] = contact_counters(sim, sim.clock.step);
     return json.dump(2) + "\n";
 }
 

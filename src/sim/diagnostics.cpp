@@ -73,14 +73,24 @@ std::string nearby_particles(const Simulation& sim, std::size_t row)
 Overlap deepest_overlap(const Simulation& sim)
 {
     Overlap deepest;
-    const auto bodies = static_cast<int>(sim.rigid.bodies.size());
+    const std::vector<Body>& all = sim.rigid.bodies;
+    const auto bodies = static_cast<int>(all.size());
     const auto walls = static_cast<int>(sim.rigid.boundaries.size());
-    const auto left = [&](int b) {
-        return b >= 0 && sim.rigid.bodies[static_cast<std::size_t>(b)].left;
+    std::vector<double> reach;
+    for (const Body& body : all) {
+        reach.push_back(bounding_radius(body, sim.scene.dimensions));
+    }
+    const auto is_fixed = [](const Body& body) {
+        return std::ranges::all_of(body.locks, [](bool locked) { return locked; });
+    };
+    const auto may_meet = [&](std::size_t a, std::size_t b) {
+        return !all[b].left && !(is_fixed(all[a]) && is_fixed(all[b])) &&
+               (all[a].position - all[b].position).norm() < reach[a] + reach[b];
     };
     for (int a = 0; a < bodies; ++a) {
-        for (int b = -walls; b < a; ++b) {
-            if (left(a) || left(b)) {
+        const auto row = static_cast<std::size_t>(a);
+        for (int b = all[row].left ? a : -walls; b < a; ++b) {
+            if (b < 0 ? is_fixed(all[row]) : !may_meet(row, static_cast<std::size_t>(b))) {
                 continue;
             }
             const double depth = overlap(sim.rigid, a, b, sim.clock.time);

@@ -17,7 +17,7 @@ std::string nearby_particles(const Simulation& sim, std::size_t row);
 /// body "name" or wall "name", of `b` as in Contact.
 std::string solid_name(const Simulation& sim, int b);
 
-/// The two solids that overlap most, and by how much [m].
+/// The two solids that overlap most, of which one at least may move, and by how much [m].
 struct Overlap {
     std::string pair;
     double depth = 0;

@@ -171,4 +171,10 @@ void watch_energy(const Simulation& sim, const Totals& now)
     }
 }
 
+double worst_penetration(const Simulation& sim)
+{
+    const double seen = sim.rigid.counters.worst_penetration;
+    return sim.rigid.penalty ? seen : std::max(seen, deepest_overlap(sim).depth);
+}
+
 } // namespace hyoryu

@@ -135,7 +135,7 @@ class Documentation(ProgramTest):
         self.assertEqual({call for turn in turns for call in turn},
                          {"test", "test --portable", "package --check", "valgrind", "sanitize --threads --quick",
                           *(f"sanitize --quick {part}" for part in ("bodies", "scenes", "files", "steps")),
-                          *(f"lint --part {k}/4" for k in range(4))})
+                          *(f"lint --part {k}/6" for k in range(6))})
         for one, next_one in zip(turns, turns[1:]): # memory is never left out twice in a row
             self.assertIn("sanitize --quick", " ".join(one + next_one))
 

@@ -19,4 +19,8 @@ void watch(Simulation& sim);
 /// more than a hundredth of the energy that everything could gain by falling through the scene.
 void watch_energy(const Simulation& sim, const Totals& now);
 
+/// The largest overlap of bodies with each other and with walls: of all steps so far, each as it
+/// began, and of the state that the last one left [m].
+double worst_penetration(const Simulation& sim);
+
 } // namespace hyoryu
