@@ -9,6 +9,10 @@ namespace hyoryu {
 
 namespace {
 
+// Over which a wave runs while a row beside a body returns to the velocity of its carpet
+// [spacings].
+constexpr real return_length = 16;
+
 std::size_t at(Index k)
 {
     return static_cast<std::size_t>(k);
@@ -162,14 +166,6 @@ void find_rows(const Fluid& fluid, OpenBoundary& open)
                 carpet.near.push_back(static_cast<std::int32_t>(row));
             }
         }
-        carpet.near_bodies.clear();
-        for (Index row = 0; row < fluid.particles.body.size(); ++row) {
-            const Vec3& place = fluid.particles.body[field::position][row];
-            if (in_reach(carpet.side, place, f.spacing, outer_reach(carpet.side, f.spacing),
-                         inward)) {
-                carpet.near_bodies.push_back(static_cast<std::int32_t>(row));
-            }
-        }
         carpet.behind.resize(carpet.near.size());
         for (std::size_t k = 0; k < carpet.near.size(); ++k) {
             carpet.behind[k] = carpet.side.distance(x[carpet.near[k]]) < 0 ? 1 : 0;
@@ -186,9 +182,14 @@ void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open)
     const auto solid = fluid.particles.body[field::position];
     for (Carpet& carpet : open.carpets) {
         carpet.beside_body.clear();
+        carpet.near_bodies.clear();
         real farthest = infinity; // of a body particle, along the way into the domain
-        for (const std::int32_t row : carpet.near_bodies) {
-            farthest = std::min(farthest, carpet.side.distance(solid[row]));
+        for (Index row = 0; row < fluid.particles.body.size(); ++row) {
+            if (in_reach(carpet.side, solid[row], dp, outer_reach(carpet.side, dp),
+                         2 * strip_half * dp + reach)) {
+                carpet.near_bodies.push_back(static_cast<std::int32_t>(row));
+                farthest = std::min(farthest, carpet.side.distance(solid[row]));
+            }
         }
         if (!(farthest < reach)) {
             continue;
@@ -269,28 +270,31 @@ real bed_of(const Carpet& carpet, int lane)
     return carpet.side.bed[at(std::clamp(lane, 0, carpet.side.lanes() - 1))];
 }
 
-// Calls f(row, lane) for the rows behind the plane whose state is given.
+// Calls f(k, row, lane) for the rows behind the plane, each the k-th of those near it.
 void for_carpet(const Fluid& fluid, const Carpet& carpet, const auto& f)
 {
     const auto x = fluid.particles.fluid[field::position];
     for (std::size_t k = 0; k < carpet.near.size(); ++k) {
-        if (carpet.behind[k] != 0 && !carpet.is_beside_body(k)) {
+        if (carpet.behind[k] != 0) {
             const auto row = at(carpet.near[k]);
-            f(row, carpet.side.lane(x[row], fluid.parameters.spacing));
+            f(k, row, carpet.side.lane(x[row], fluid.parameters.spacing));
         }
     }
 }
 
 } // namespace
 
-void set_densities(Fluid& fluid, const OpenBoundary& open)
+void set_densities(Fluid& fluid, const OpenBoundary& open, real time)
 {
+    const real share = -std::expm1(-time * fluid.parameters.eos.c0 / fluid.parameters.h);
     Store& store = fluid.particles.fluid;
     const auto x = store[field::position];
     const auto rho = store[field::density];
     for (const Carpet& carpet : open.carpets) {
-        for_carpet(fluid, carpet, [&](std::size_t row, int lane) {
-            rho[row] = density_at(fluid.parameters, station_of(carpet, lane).level, x[row].z());
+        for_carpet(fluid, carpet, [&](std::size_t k, std::size_t row, int lane) {
+            const real still =
+                density_at(fluid.parameters, station_of(carpet, lane).level, x[row].z());
+            rho[row] += (carpet.is_beside_body(k) ? share : 1) * (still - rho[row]);
             if (store.has(field::gap)) {
                 store[field::gap][row] = 0;
             }
@@ -306,7 +310,8 @@ void keep_velocities(const Fluid& fluid, OpenBoundary& open)
     const auto v = fluid.particles.fluid[field::velocity];
     for (Carpet& carpet : open.carpets) {
         carpet.kept.clear();
-        for_carpet(fluid, carpet, [&](std::size_t row, int) { carpet.kept.push_back(v[row]); });
+        for_carpet(fluid, carpet,
+                   [&](std::size_t, std::size_t row, int) { carpet.kept.push_back(v[row]); });
     }
 }
 
@@ -316,17 +321,21 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
     const auto x = store[field::position];
     const auto v = store[field::velocity];
     const real dp = fluid.parameters.spacing;
+    const real gravity = fluid.parameters.gravity.norm();
     Vec3 change = Vec3::Zero();
     for (Carpet& carpet : open.carpets) {
         const OpenSide& side = carpet.side;
         std::size_t next = 0;
         real fastest = 0;
-        for_carpet(fluid, carpet, [&](std::size_t row, int lane) {
+        for_carpet(fluid, carpet, [&](std::size_t k, std::size_t row, int lane) {
             const StationFlow& flow = station_of(carpet, lane);
             const Vec3& before = carpet.kept[next++];
             const real u = speed_at(carpet, flow, bed_of(carpet, lane), x[row].z());
-            const Vec3 set =
-                flow.passes ? Vec3(before.x(), before.y(), 0) : Vec3(u * side.normal());
+            Vec3 set = flow.passes ? Vec3(before.x(), before.y(), 0) : Vec3(u * side.normal());
+            if (carpet.is_beside_body(k)) {
+                const real wave = std::sqrt(gravity * std::max(flow.depth, dp));
+                set = v[row] - std::expm1(-dt * wave / (return_length * dp)) * (set - v[row]);
+            }
             change += set - v[row];
             v[row] = set;
             fastest = std::max(fastest, std::abs(set[side.axis]));

@@ -246,6 +246,13 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
         table.error("file", "is missing: a station needs a series", "give `file`, or `times`");
         return;
     }
+    if (keys.datum != 0 || keys.time_offset != 0 || keys.scale != 1 || !keys.columns.empty()) {
+        table.error(
+            "times",
+            "stands beside `datum`, `time_offset`, `scale` or `columns` of the window, which "
+            "tell how a file is read",
+            "give times and values as they are in the scene");
+    }
     for (const auto* values : {&series.levels, &series.velocities, &series.discharges}) {
         if (!values->empty() && values->size() != series.times.size()) {
             table.error(

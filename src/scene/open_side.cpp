@@ -35,25 +35,34 @@ double distance_to_walls(const std::vector<SolidSurface>& surfaces, const Vec3& 
 }
 
 // The lowest height from which on a vertical is free of walls, between two heights: by steps of
-// half a spacing from below, then by halving. Infinity if none is.
+// half a spacing from below, then by halving. Infinity if none is. A vertical that begins below the
+// underside of a wall rises to that wall first.
 double ground_at(const std::vector<SolidSurface>& surfaces, Vec3 point, double low, double high,
                  double spacing)
 {
     const double shallow = 1e-6 * spacing; // the surface itself is free
-    const auto is_free = [&](double z) {
+    const auto distance = [&](double z) {
         point.z() = z;
-        return distance_to_walls(surfaces, point) > -shallow;
+        return distance_to_walls(surfaces, point);
     };
+    const auto is_free = [&](double z) { return distance(z) > -shallow; };
     double free = low;
-    double solid = low;
+    if (distance(low) > spacing / 2) {
+        while (free <= high && is_free(free)) {
+            free += spacing / 2;
+        }
+    } else if (is_free(low) && !is_free(low + 1e-3 * spacing)) {
+        free += 1e-3 * spacing; // on an underside
+    }
+    double solid = free;
     while (free <= high && !is_free(free)) {
         solid = free;
         free += spacing / 2;
     }
     if (free > high) {
-        return infinity;
+        return is_free(low) && solid > high ? low : infinity;
     }
-    for (int k = 0; k < 40 && free > low; ++k) {
+    for (int k = 0; k < 40 && free > solid; ++k) {
         const double middle = (free + solid) / 2;
         (is_free(middle) ? free : solid) = middle;
     }

@@ -350,6 +350,13 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
             scene, {}, "fluid", "the blocks contain no fluid particle",
             "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
     }
+    if (scene.most_fluid > 0 && plan.counts.fluid > scene.most_fluid) {
+        errors.push_back(diagnostic_at(scene, {}, "particles.most",
+                                       fmt::format("the run starts with {} fluid particles, more "
+                                                   "than the {} that are allowed",
+                                                   plan.counts.fluid, scene.most_fluid),
+                                       "allow more, or increase `particles.spacing`"));
+    }
     if (!errors.empty()) {
         throw CaseError(errors);
     }

@@ -21,6 +21,7 @@ constexpr int samples = 400; // of a series over the run
 // The water before a window at the start: its level, and its depth above the mean ground.
 struct WaterAtStart {
     double level = -infinity, depth = 0;
+    double deepest = 0; // above the lowest ground [m]
 };
 
 double mean_bed(const OpenSide& side)
@@ -45,6 +46,7 @@ WaterAtStart water_before(const Scene& scene, const Filling& filling, const Open
         }
     }
     water.depth = std::max(water.level - mean_bed(side), 0.0);
+    water.deepest = std::max(water.level - std::ranges::min(side.bed), 0.0);
     return water;
 }
 
@@ -170,14 +172,14 @@ void check_water(const Scene& scene, const OpenSettings& open, const WaterAtStar
                        (open.series.empty() ? open.level.has_value()
                                             : !open.series.front().levels.empty() &&
                                                   open.series.front().velocities.empty());
-    if (alone && water.depth < scene.spacing) {
+    if (alone && water.deepest < scene.spacing) {
         errors.push_back(note_at(scene, open, "level",
                                  "a level alone is a wave into still water, but the window is dry "
                                  "at the start",
                                  "give the velocity too, or a discharge"));
     }
     if (open.kind == OpenKind::absorb && !open.level && open.series.empty() &&
-        water.depth < scene.spacing) {
+        water.deepest < scene.spacing) {
         errors.push_back(note_at(scene, open, "kind",
                                  "an absorbing side keeps the level of the start, but the window "
                                  "is dry then",
@@ -274,6 +276,15 @@ void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
             errors.push_back(note_at(scene, open, "name",
                                      fmt::format("a wall is named \"{}\", too: contacts with the "
                                                  "window could not be told from those with it",
+                                                 open.name),
+                                     "give the window another name"));
+        }
+    }
+    for (const BodySettings& body : scene.bodies) {
+        if (body.name == open.name) {
+            errors.push_back(note_at(scene, open, "name",
+                                     fmt::format("a body is named \"{}\", too: its contacts could "
+                                                 "not be told from those with the window",
                                                  open.name),
                                      "give the window another name"));
         }

@@ -93,6 +93,7 @@ void start_open(Simulation& sim)
                                              : fluid_in_memory(sim.scene, sim.plan);
     open.next_id = sim.plan.counts.particles();
     find_rows(fluid, open);
+    mark_beside_bodies(fluid, open);
     measure_start(fluid, open);
     for (const Carpet& carpet : open.carpets) {
         std::vector<StillWater>& still = sim.open.still.emplace_back();
@@ -123,7 +124,7 @@ void renew_open(Simulation& sim)
         find_rows(fluid, open);
         mark_beside_bodies(fluid, open);
     }
-    set_densities(fluid, open);
+    set_densities(fluid, open, sim.clock.dt / 2);
     keep_velocities(fluid, open);
 }
 
@@ -137,7 +138,7 @@ void drive_open(Simulation& sim, double dt)
 void close_open(Simulation& sim)
 {
     count_crossings(*sim.fluid, sim.open.boundary);
-    set_densities(*sim.fluid, sim.open.boundary);
+    set_densities(*sim.fluid, sim.open.boundary, sim.clock.dt / 2);
 }
 
 OpenReading reading_of(const Simulation& sim, std::size_t k)
@@ -146,8 +147,10 @@ OpenReading reading_of(const Simulation& sim, std::size_t k)
     const FluidParameters& f = sim.fluid->parameters;
     const double particle = f.mass / f.eos.rho0;
     OpenReading reading;
-    double width = 0;
+    double width = 0; // of the stations with water
     double area = 0;
+    double ground = 0;
+    double open = 0; // width of all stations
     for (int c = 0; c < carpet.side.stations(); ++c) {
         const int lanes = carpet.side.open_lanes(c);
         const double b = f.dimensions == 2 ? 1 : lanes * f.spacing;
@@ -156,12 +159,15 @@ OpenReading reading_of(const Simulation& sim, std::size_t k)
         }
         const StationFlow& flow = carpet.stations[at(c)];
         const double depth = std::max(flow.level - carpet.side.station_bed(c), 0.0);
-        width += b;
+        const double wet = depth > f.spacing / 4 ? b : 0;
+        open += b;
+        ground += b * carpet.side.station_bed(c);
+        width += wet;
         area += b * depth;
-        reading.level += b * flow.level;
+        reading.level += wet * flow.level;
         reading.discharge += b * depth * flow.velocity;
     }
-    reading.level /= width > 0 ? width : 1;
+    reading.level = width > 0 ? reading.level / width : ground / (open > 0 ? open : 1);
     reading.velocity = area > 0 ? reading.discharge / area : 0;
     reading.volume_in = particle * static_cast<double>(carpet.in);
     reading.volume_out = particle * static_cast<double>(carpet.out);

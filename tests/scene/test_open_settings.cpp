@@ -123,6 +123,51 @@ TEST(OpenSettings, BodiesStopWhereContactKnowsTheWindow)
     EXPECT_EQ(words_of(named_alike(leaves + body)), "");
 }
 
+TEST(OpenSettings, BodiesAndWindowsHaveDifferentNames)
+{
+    const std::string body = "[[body]]\nname = \"sea\"\nshape = \"box\"\nsize = [0.4, 0.4, 0.4]\n"
+                             "density = 500\nposition = [1, 0.5, 0.62]\n";
+    const auto all = refused(basin("kind = \"inflow\"\nlevel = 0.7\nvelocity = 0.2\n") + body);
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_NE(all.front().what.find("a body is named"), std::string::npos);
+}
+
+// Numbers of the case are those of the scene; `scale` and the others tell how a file is read.
+TEST(OpenSettings, StationsInTheCaseTakeNoKeysOfFiles)
+{
+    const std::string station = "[[open.station]]\nat = 0.5\ntimes = [0, 3]\nlevels = [0.6, 0.7]\n"
+                                "velocities = [0, 0]\n";
+    EXPECT_TRUE(refused(basin("kind = \"inflow\"\n" + station)).empty());
+    for (const char* key : {"scale = 2.0\n", "datum = 0.1\n", "time_offset = 100.0\n"}) {
+        const auto all = refused(basin(std::string("kind = \"inflow\"\n") + key + station));
+        ASSERT_EQ(all.size(), 1U) << key;
+        EXPECT_NE(all.front().what.find("tell how a file is read"), std::string::npos);
+    }
+}
+
+// A window may reach below the underside of its ground, and one end of it may be dry.
+TEST(OpenSettings, WindowsReachBelowTheirGroundAndAcrossItsShore)
+{
+    Dice dice(5);
+    for (int n = 0; n < 6; ++n) {
+        const double thick = dice.between(0.12, 0.5);
+        const double low = n == 0 ? -thick : -dice.between(0.05, 1);
+        const std::string text = fmt::format(
+            "[time]\nend = 2.0\n[particles]\nspacing = 0.1\n[domain]\nmin = [0, 0, -2]\n"
+            "max = [2, 2, 1]\n[fluid]\n[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
+            "max = [2, 2, 0.6]\n[[wall]]\nname = \"bed\"\nshape = \"box\"\nmin = [-1, -1, {}]\n"
+            "max = [3, 3, 0]\n[[wall]]\nname = \"shore\"\nshape = \"plane\"\npoint = [0, 0, 0]\n"
+            "normal = [0, {}, 1]\n[[open]]\nname = \"sea\"\nmin = [0, 0, {}]\nmax = [0, 2, 1]\n"
+            "into = \"+x\"\nkind = \"absorb\"\n",
+            -thick, n % 2 == 0 ? 0.0 : -dice.between(0.3, 0.45), low);
+        SCOPED_TRACE(text);
+        const Scene scene = parse_case(text, "case.toml");
+        EXPECT_NO_THROW(make_plan(scene, fill(scene)));
+        const OpenSide side = open_side(scene, scene.open.front());
+        EXPECT_NEAR(side.bed.front(), 0, 0.1);
+    }
+}
+
 // A window that bodies may drift to, a flow that ends, water too shallow to enter.
 TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
 {

@@ -195,8 +195,13 @@ TEST(OpenBodies, LeaveWithTheSameBitsForAnyThreadsAndOverARestart)
                                           reach, 600, 0, reach.velocity);
     set_threads(1);
     Simulation one = make(text);
+    std::int64_t reached = 0; // when the front of the box is within the support of the kernel
     while (one.open.left.empty()) {
         step_on(one);
+        const Body& box = one.rigid.bodies[0];
+        if (reached == 0 && box.position.x() + 3 * reach.spacing > to) {
+            reached = one.clock.step;
+        }
     }
     const std::int64_t at = one.clock.step;
     const Snapshot after = save(one);
@@ -207,7 +212,9 @@ TEST(OpenBodies, LeaveWithTheSameBitsForAnyThreadsAndOverARestart)
         advance(more, static_cast<int>(at) + 150);
         expect_same_bits(save(one), save(more));
     }
-    for (const std::int64_t before : {at / 2, at}) { // a checkpoint before and one after
+    ASSERT_GT(reached, 0);
+    const std::int64_t across = (reached + at) / 2;
+    for (const std::int64_t before : {at / 4, reached + 1, across, at - 1, at}) {
         Simulation first = make(text);
         advance(first, static_cast<int>(before));
         Simulation resumed = make(text);
@@ -216,6 +223,43 @@ TEST(OpenBodies, LeaveWithTheSameBitsForAnyThreadsAndOverARestart)
         expect_same_bits(save(one), save(resumed));
     }
     set_threads(0);
+}
+
+// A body that is held near a window, or stops there, blocks the water behind it; a heavy one comes
+// to rest on the ground across the plane. The water there stays what it is.
+TEST(OpenBodies, StayAtAWindowWithoutHarm)
+{
+    Dice dice(266);
+    for (int n = 0; n < 8; ++n) {
+        Reach reach = drawn_channel(dice, n < 6 ? 2 : 3);
+        const double dp = reach.spacing;
+        const double to = reach.from + reach.length;
+        const double size = dice.between(2, 5) * dp;
+        const bool held = n % 2 == 0;
+        reach.far += held || n % 4 == 1 ? "" : "bodies = \"stop\"\n";
+        const double gap = held ? dice.between(0, 2.5) * dp : 2 * dp;
+        const double density = held ? 500 : n % 4 == 1 ? dice.between(1300, 2500) : 600;
+        const double z = held || density < 1000 ? dice.between(0.4, 0.9) * reach.depth : size / 2;
+        const std::string text =
+            case_of(reach) +
+            fmt::format("[domain]\nmin = [{}, 0.0, -1.0]\nmax = [{}, {}, 1.0]\n[[wall]]\n"
+                        "name = \"apron\"\nshape = \"box\"\nmin = [{}, -1.0, -0.3]\n"
+                        "max = [{}, 2.0, 0.0]\n[[body]]\nname = \"box\"\nshape = \"box\"\n"
+                        "size = [{}, {}, {}]\ndensity = {}\nposition = [{}, {}, {}]\n{}",
+                        reach.from, to, reach.dimensions == 3 ? reach.width : 0.0, to, to + 3.0,
+                        size, 2 * dp, size, density, to - gap - size / 2,
+                        reach.dimensions == 3 ? reach.width / 2 : 0.0, std::max(z, size / 2),
+                        held ? std::string("fixed = true\n")
+                             : fmt::format("velocity = [{}, 0.0, 0.0]\n", reach.velocity));
+        SCOPED_TRACE(text);
+        Simulation sim = make(text);
+        const double end = std::min(3.0, 60 * dp / reach.velocity);
+        while (sim.clock.time < end) {
+            ASSERT_NO_THROW(step_on(sim));
+        }
+        EXPECT_LT(sim.conservation.worst_density_error, 0.15);
+        EXPECT_LT(sim.conservation.worst_closure, 6e-8);
+    }
 }
 
 // A box that is thrown against an inflow: no point of it passes the window by more than a hundredth

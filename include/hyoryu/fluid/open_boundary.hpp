@@ -84,9 +84,9 @@ struct Carpet {
 
     // Rows that may be behind the plane or in the strip until lists are made again.
     std::vector<std::int32_t> near;
-    std::vector<std::int32_t> near_bodies; // the same of bodies
-    std::vector<std::uint8_t> behind;      // of the rows of fluid, now
-    std::vector<std::uint8_t> beside_body; // the same: free to move, see below; or empty
+    std::vector<std::uint8_t> behind;      // of those, now
+    std::vector<std::int32_t> near_bodies; // rows of bodies about the plane, in this step
+    std::vector<std::uint8_t> beside_body; // of the rows of fluid, see below; empty: none
     std::vector<Vec3> kept;                // velocities of those that are set before the kick [m/s]
 
     bool is_beside_body(std::size_t k) const { return !beside_body.empty() && beside_body[k] != 0; }
@@ -104,9 +104,12 @@ struct OpenBoundary {
 /// Finds the rows about each plane; after lists were made or rows came back from a checkpoint.
 void find_rows(const Fluid& fluid, OpenBoundary& open);
 
-/// Marks the rows behind a plane that are beside a body. These move as water inside does: a body
-/// that turns or heaves pushes them aside, which a carpet of given velocity would not yield to. The
-/// outermost columns are never free, since nothing presses against them from outside.
+/// Finds the rows of bodies about each plane, and the rows of fluid behind it beside them. A body
+/// that turns, heaves or is held pushes these aside, which a lattice of given velocity would not
+/// yield to. So they move as water inside does, and return to the velocity of the carpet in the
+/// time in which a wave runs 16 spacings, and to its density in that of sound over a smoothing
+/// length. Entirely free they would not keep their volume. The outermost columns are never beside a
+/// body, since nothing presses against them from outside.
 void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open);
 
 /// Measures depth and velocity of the strip inside each plane, as they are now, without a filter.
@@ -126,7 +129,8 @@ bool carpets_due(const Fluid& fluid, const OpenBoundary& open);
 void renew_carpets(Fluid& fluid, OpenBoundary& open);
 
 /// Sets the density of the carpets to that of water at rest below their level; no gap, no cavity.
-void set_densities(Fluid& fluid, const OpenBoundary& open);
+/// Beside bodies it returns to that, by what is due in `time` [s].
+void set_densities(Fluid& fluid, const OpenBoundary& open, real time);
 
 /// Before and after the kick: sets the velocities of the carpets and books the impulse.
 void keep_velocities(const Fluid& fluid, OpenBoundary& open);

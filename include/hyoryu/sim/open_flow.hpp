@@ -39,7 +39,7 @@ void close_open(Simulation& sim);
 
 /// What an open side shows in open.csv.
 struct OpenReading {
-    double level = 0;                     // mean of the carpet [m]
+    double level = 0; // mean of the carpet where it is wet; of the ground where none is [m]
     double velocity = 0;                  // mean into the domain [m/s]
     double discharge = 0;                 // into the domain now [m3/s]; m2/s in two dimensions
     double volume_in = 0, volume_out = 0; // through the plane since the start [m3]
