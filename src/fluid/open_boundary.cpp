@@ -9,10 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-// Over which a wave runs while a row beside a body returns to the velocity of its carpet
-// [spacings].
-constexpr real return_length = 16;
-
 std::size_t at(Index k)
 {
     return static_cast<std::size_t>(k);
@@ -284,17 +280,14 @@ void for_carpet(const Fluid& fluid, const Carpet& carpet, const auto& f)
 
 } // namespace
 
-void set_densities(Fluid& fluid, const OpenBoundary& open, real time)
+void set_densities(Fluid& fluid, const OpenBoundary& open)
 {
-    const real share = -std::expm1(-time * fluid.parameters.eos.c0 / fluid.parameters.h);
     Store& store = fluid.particles.fluid;
     const auto x = store[field::position];
     const auto rho = store[field::density];
     for (const Carpet& carpet : open.carpets) {
-        for_carpet(fluid, carpet, [&](std::size_t k, std::size_t row, int lane) {
-            const real still =
-                density_at(fluid.parameters, station_of(carpet, lane).level, x[row].z());
-            rho[row] += (carpet.is_beside_body(k) ? share : 1) * (still - rho[row]);
+        for_carpet(fluid, carpet, [&](std::size_t, std::size_t row, int lane) {
+            rho[row] = density_at(fluid.parameters, station_of(carpet, lane).level, x[row].z());
             if (store.has(field::gap)) {
                 store[field::gap][row] = 0;
             }
@@ -334,7 +327,7 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
             Vec3 set = flow.passes ? Vec3(before.x(), before.y(), 0) : Vec3(u * side.normal());
             if (carpet.is_beside_body(k)) {
                 const real wave = std::sqrt(gravity * std::max(flow.depth, dp));
-                set = v[row] - std::expm1(-dt * wave / (return_length * dp)) * (set - v[row]);
+                set = v[row] - std::expm1(-dt * wave / (strip_half * dp)) * (set - v[row]);
             }
             change += set - v[row];
             v[row] = set;

@@ -124,7 +124,7 @@ void renew_open(Simulation& sim)
         find_rows(fluid, open);
         mark_beside_bodies(fluid, open);
     }
-    set_densities(fluid, open, sim.clock.dt / 2);
+    set_densities(fluid, open);
     keep_velocities(fluid, open);
 }
 
@@ -138,7 +138,7 @@ void drive_open(Simulation& sim, double dt)
 void close_open(Simulation& sim)
 {
     count_crossings(*sim.fluid, sim.open.boundary);
-    set_densities(*sim.fluid, sim.open.boundary, sim.clock.dt / 2);
+    set_densities(*sim.fluid, sim.open.boundary);
 }
 
 OpenReading reading_of(const Simulation& sim, std::size_t k)

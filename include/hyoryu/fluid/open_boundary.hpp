@@ -104,12 +104,12 @@ struct OpenBoundary {
 /// Finds the rows about each plane; after lists were made or rows came back from a checkpoint.
 void find_rows(const Fluid& fluid, OpenBoundary& open);
 
-/// Finds the rows of bodies about each plane, and the rows of fluid behind it beside them. A body
-/// that turns, heaves or is held pushes these aside, which a lattice of given velocity would not
-/// yield to. So they move as water inside does, and return to the velocity of the carpet in the
-/// time in which a wave runs 16 spacings, and to its density in that of sound over a smoothing
-/// length. Entirely free they would not keep their volume. The outermost columns are never beside a
-/// body, since nothing presses against them from outside.
+/// Finds the rows of bodies about each plane, and the rows of fluid behind it beside them. The
+/// velocity of these is not set, it returns to that of the carpet in the time in which a wave runs
+/// 4 spacings: a body that turns, heaves or is held pushes them aside, which a lattice of given
+/// velocity would not yield to. Their density is set, so that the pressure on the body is that of
+/// the level; with a density of their own they do not keep their volume, and runs became unstable.
+/// The outermost columns are never beside a body, since nothing presses against them from outside.
 void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open);
 
 /// Measures depth and velocity of the strip inside each plane, as they are now, without a filter.
@@ -129,8 +129,7 @@ bool carpets_due(const Fluid& fluid, const OpenBoundary& open);
 void renew_carpets(Fluid& fluid, OpenBoundary& open);
 
 /// Sets the density of the carpets to that of water at rest below their level; no gap, no cavity.
-/// Beside bodies it returns to that, by what is due in `time` [s].
-void set_densities(Fluid& fluid, const OpenBoundary& open, real time);
+void set_densities(Fluid& fluid, const OpenBoundary& open);
 
 /// Before and after the kick: sets the velocities of the carpets and books the impulse.
 void keep_velocities(const Fluid& fluid, OpenBoundary& open);
