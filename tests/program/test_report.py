@@ -231,7 +231,8 @@ history_every = 0.02
                     without = max(without, abs(rest))
             self.assertLess(worst, 1e-5 * scale)  # single precision of the pair loops
             self.assertGreater(without, 0.01 * scale, "nothing passed that the books could miss")
-            # Energy: what comes in, goes out and is lost to viscosity and mixing, against the sum in the domain.
+            # Energy: what comes in against the gain in the domain. Viscosity, mixing and the front of the water take
+            # 8 % of what there is at 0.04 m, 3 % at 0.02 m; without the column a third would be missing.
             def total(row):
                 return sum(row[n] for n in ("fluid_kinetic", "fluid_potential", "fluid_internal",
                                             "body_kinetic", "body_potential"))
