@@ -70,7 +70,7 @@ private:
         return (point(t[1]) - point(t[0])).cross(point(t[2]) - point(t[0]));
     }
 
-    // A table may be as large as the memory allows: what is no longer needed is given back.
+    // A table may be nearly as large as the memory: lists are freed after their last use.
     template <class T>
     static void release(std::vector<T>& list)
     {

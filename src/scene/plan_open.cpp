@@ -271,23 +271,20 @@ void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
                                  "\"penalty\", which knows walls by their particles alone",
                                  "set bodies = \"leave\", or contact.method = \"impulse\""));
     }
-    for (const Wall& wall : scene.walls) {
-        if (wall.name == open.name) {
+    const auto refuse_name = [&](std::string_view kind, const std::string& name) {
+        if (name == open.name) {
             errors.push_back(note_at(scene, open, "name",
-                                     fmt::format("a wall is named \"{}\", too: contacts with the "
+                                     fmt::format("a {} is named \"{}\", too: contacts with the "
                                                  "window could not be told from those with it",
-                                                 open.name),
+                                                 kind, name),
                                      "give the window another name"));
         }
+    };
+    for (const Wall& wall : scene.walls) {
+        refuse_name("wall", wall.name);
     }
     for (const BodySettings& body : scene.bodies) {
-        if (body.name == open.name) {
-            errors.push_back(note_at(scene, open, "name",
-                                     fmt::format("a body is named \"{}\", too: its contacts could "
-                                                 "not be told from those with the window",
-                                                 open.name),
-                                     "give the window another name"));
-        }
+        refuse_name("body", body.name);
     }
 }
 

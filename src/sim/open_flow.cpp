@@ -56,10 +56,6 @@ void set_flows(Simulation& sim, double time)
     }
 }
 
-} // namespace
-
-namespace {
-
 void expect_room(const Simulation& sim)
 {
     const Index held = sim.fluid->particles.fluid.size();

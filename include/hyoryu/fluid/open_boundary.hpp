@@ -108,8 +108,9 @@ void find_rows(const Fluid& fluid, OpenBoundary& open);
 /// velocity of these is not set, it returns to that of the carpet in the time in which a wave runs
 /// 4 spacings: a body that turns, heaves or is held pushes them aside, which a lattice of given
 /// velocity would not yield to. Their density is set, so that the pressure on the body is that of
-/// the level; with a density of their own they do not keep their volume, and runs became unstable.
-/// The outermost columns are never beside a body, since nothing presses against them from outside.
+/// the level; one that followed their motion would not hold their volume, which no water outside
+/// bounds. The outermost columns are never beside a body, since nothing presses against them from
+/// outside.
 void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open);
 
 /// Measures depth and velocity of the strip inside each plane, as they are now, without a filter.
