@@ -3,6 +3,7 @@
 #include "dice.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/geometry/height_grid.hpp"
+#include "own_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,8 +13,6 @@
 #include <cstring>
 #include <fstream>
 
-#include <unistd.h>
-
 namespace hyoryu {
 namespace {
 
@@ -21,13 +20,6 @@ namespace fs = std::filesystem;
 
 class GridFormats : public testing::Test {
 protected:
-    GridFormats()
-    {
-        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-        file_ = fs::temp_directory_path() / (name + std::to_string(::getpid()) + ".grid");
-    }
-    ~GridFormats() override { fs::remove(file_); }
-
     HeightGrid read(const std::string& bytes, std::optional<double> substitute = {})
     {
         std::ofstream(file_, std::ios::binary) << bytes;
@@ -43,7 +35,8 @@ protected:
         return "none";
     }
 
-    fs::path file_;
+    OwnFolder folder_;
+    fs::path file_ = folder_ / "heights.grid";
 };
 
 HeightGrid draw_grid(Dice& dice)

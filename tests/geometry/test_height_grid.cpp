@@ -4,6 +4,7 @@
 #include "dice.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/geometry/height_grid.hpp"
+#include "own_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +17,6 @@
 #include <iomanip>
 #include <numbers>
 #include <sstream>
-
-#include <unistd.h>
 
 namespace hyoryu {
 namespace {
@@ -78,13 +77,6 @@ std::string text_of(const HeightGrid& grid, bool by_corner, bool number_first, b
 
 class HeightGrids : public testing::Test {
 protected:
-    HeightGrids()
-    {
-        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-        file_ = fs::temp_directory_path() / (name + std::to_string(::getpid()) + ".asc");
-    }
-    ~HeightGrids() override { fs::remove(file_); }
-
     HeightGrid read(const std::string& text, std::optional<double> substitute = {})
     {
         std::ofstream(file_, std::ios::binary) << text;
@@ -100,7 +92,8 @@ protected:
         return "none";
     }
 
-    fs::path file_;
+    OwnFolder folder_;
+    fs::path file_ = folder_ / "heights.asc";
 };
 
 TEST_F(HeightGrids, AreReadInEveryDialect)

@@ -2,6 +2,8 @@
 // A folder of its own for each test, and small frames to fill it with.
 #pragma once
 
+#include "own_folder.hpp"
+
 #include "hyoryu/core/snapshot.hpp"
 
 #include <gtest/gtest.h>
@@ -43,14 +45,8 @@ inline std::vector<std::string> content_of(const std::filesystem::path& folder)
 
 class ResultsTest : public ::testing::Test {
 protected:
-    ResultsTest()
-    {
-        std::string pattern = (std::filesystem::temp_directory_path() / "hyoryu-XXXXXX").string();
-        folder = ::mkdtemp(pattern.data());
-    }
-    ~ResultsTest() override { std::filesystem::remove_all(folder); }
-
-    std::filesystem::path folder;
+    OwnFolder own;
+    std::filesystem::path folder = own.path();
 };
 
 /// `count` points with one column of every type; all values depend on the frame.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dice.hpp"
+#include "own_folder.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
 
@@ -10,10 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <complex>
-#include <fstream>
 #include <numbers>
-
-#include <unistd.h>
 
 namespace hyoryu {
 
@@ -23,18 +21,7 @@ using Complex = std::complex<double>;
 
 class BuildingFiles : public testing::Test {
 protected:
-    BuildingFiles()
-    {
-        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-        folder_ = fs::temp_directory_path() / (name + std::to_string(::getpid()));
-        fs::create_directories(folder_);
-    }
-    ~BuildingFiles() override { fs::remove_all(folder_); }
-
-    void write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-    }
+    void write(const std::string& name, const std::string& text) const { folder_.put(name, text); }
     Scene read(const std::string& text) const { return parse_case(text, folder_ / "case.toml"); }
     std::string fault(const std::string& text) const
     {
@@ -46,7 +33,7 @@ protected:
         return "none";
     }
 
-    fs::path folder_;
+    OwnFolder folder_;
 };
 
 // A ground that is a plane: its lowest place under a polygon is at a corner.

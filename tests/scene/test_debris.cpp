@@ -7,12 +7,11 @@
 #include "hyoryu/core/error.hpp"
 
 #include "dice.hpp"
+#include "own_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 namespace hyoryu {
@@ -207,9 +206,8 @@ TEST(Debris, MistakesAreToldWithTheirReason)
 std::string fault_beside(const std::string& file, const std::string& content,
                          const std::string& debris, const std::string& ground = {})
 {
-    const auto folder = std::filesystem::temp_directory_path() / "hyoryu-debris-files";
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / file) << content;
+    const OwnFolder folder;
+    folder.put(file, content);
     std::string what;
     try {
         parse_case("[time]\nend = 1\n[particles]\nspacing = 0.5\n[[wall]]\nshape = \"plane\"\n" +
@@ -218,7 +216,6 @@ std::string fault_beside(const std::string& file, const std::string& content,
     } catch (const CaseError& error) {
         what = error.what();
     }
-    std::filesystem::remove_all(folder);
     return what;
 }
 
@@ -269,14 +266,11 @@ TEST(Debris, YardsInDegreesAreRefused)
     for (int k = 0; k < 9; ++k) {
         heights += k % 3 == 2 ? "0\n" : "0 ";
     }
-    const auto folder = std::filesystem::temp_directory_path() / "hyoryu-debris-grid";
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "ground.asc") << heights;
+    const OwnFolder folder;
     const std::string terrain = fmt::format(
         "[[wall]]\nshape = \"terrain\"\nfile = \"{}\"\norigin = [378450.0, 4072310.0]\n",
-        (folder / "ground.asc").string());
+        folder.put("ground.asc", heights).string());
     const std::string told = fault_beside("yard.geojson", large, yard, terrain);
-    std::filesystem::remove_all(folder);
     EXPECT_NE(told.find("look like degrees"), std::string::npos) << told;
 }
 

@@ -7,6 +7,7 @@
 
 #include "../../src/scene/series.hpp"
 #include "dice.hpp"
+#include "own_folder.hpp"
 #include "test_case_file_support.hpp"
 
 #include <fmt/format.h>
@@ -239,23 +240,12 @@ TEST(OpenSettings, SeriesAreLinearInTimeAndAlongTheWindow)
 
 class SeriesFiles : public testing::Test {
 protected:
-    SeriesFiles() { std::filesystem::create_directories(folder_); }
-    ~SeriesFiles() override { std::filesystem::remove_all(folder_); }
-
     SeriesSource source(const std::string& text) const
     {
-        std::ofstream(folder_ / "series.txt") << text;
-        return {.file = folder_ / "series.txt"};
+        return {.file = folder_.put("series.txt", text)};
     }
 
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() /
-        fmt::format("hyoryu_series_{}",
-                    testing::UnitTest::GetInstance()->random_seed() +
-                        static_cast<int>(
-                            std::hash<std::string>{}(
-                                testing::UnitTest::GetInstance()->current_test_info()->name()) %
-                            100000));
+    OwnFolder folder_;
 };
 
 // hu and hv of a gauge, turned to the direction of the window: by the direction of the current and

@@ -2,6 +2,7 @@
 // Still water about a seed: in basins it is the block that fits them, and it stays on its side of
 // walls, however they are drawn.
 #include "dice.hpp"
+#include "own_folder.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/fill.hpp"
@@ -11,9 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-
-#include <unistd.h>
 
 namespace hyoryu {
 namespace {
@@ -143,9 +141,7 @@ TEST(StillWater, ACourtyardIsDryUnlessTheSeedIsInIt)
 TEST(StillWater, OnTerrainItFillsTheHollowOfTheSeed)
 {
     const auto ground = [](double x) { return 0.2 * std::cos(3.14159265358979 * x); };
-    const auto folder =
-        std::filesystem::temp_directory_path() / fmt::format("hyoryu-still-water-{}", ::getpid());
-    std::filesystem::create_directories(folder);
+    const OwnFolder folder;
     std::string grid = "ncols 121\nnrows 31\nxllcenter -1\nyllcenter -0.25\ncellsize 0.05\n";
     for (int j = 0; j < 31; ++j) {
         for (int i = 0; i < 121; ++i) {
@@ -153,7 +149,7 @@ TEST(StillWater, OnTerrainItFillsTheHollowOfTheSeed)
         }
         grid += '\n';
     }
-    std::ofstream(folder / "ground.asc") << grid;
+    folder.put("ground.asc", grid);
     const std::string walls =
         "[[wall]]\nname = \"ground\"\nshape = \"terrain\"\nfile = \"ground.asc\"\n"
         "origin = [0.0, 0.0]\nextent = [-0.2, -0.2, 4.2, 1.2]\nresolution = "
@@ -185,7 +181,6 @@ TEST(StillWater, OnTerrainItFillsTheHollowOfTheSeed)
             EXPECT_TRUE(scene.notices.empty());
         }
     }
-    std::filesystem::remove_all(folder);
 }
 
 TEST(StillWater, AResolvedCaseHasTheSameWater)

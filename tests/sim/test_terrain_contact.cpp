@@ -2,6 +2,7 @@
 // Bodies on the triangles of a terrain and against buildings: a plane of triangles, in any map, is
 // the plane, a fine parabola loses what its creases take, and a prism is the box.
 #include "dice.hpp"
+#include "own_folder.hpp"
 #include "runs.hpp"
 
 #include "hyoryu/scene/rigid_scene.hpp"
@@ -15,8 +16,6 @@
 #include <functional>
 #include <numbers>
 
-#include <unistd.h>
-
 namespace hyoryu {
 namespace {
 
@@ -28,14 +27,6 @@ constexpr double g = 9.81; // [m/s2]
 // A grid file about an origin in a map and the [[wall]] that takes it.
 class TerrainContact : public testing::Test {
 protected:
-    TerrainContact()
-    {
-        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-        folder_ = fs::temp_directory_path() / (name + std::to_string(::getpid()));
-        fs::create_directories(folder_);
-    }
-    ~TerrainContact() override { fs::remove_all(folder_); }
-
     // The map lies within kilometres of its zero: places there are exact to 1e-12 m, and so is the
     // plane that the heights are taken from.
     struct Map {
@@ -63,7 +54,7 @@ protected:
             }
             text += '\n';
         }
-        std::ofstream(folder_ / "ground.asc") << text;
+        folder_.put("ground.asc", text);
     }
 
     static std::string terrain(const Map& map, const std::array<double, 4>& extent)
@@ -102,7 +93,7 @@ protected:
         return make_simulation(scene, make_plan(scene, filling), filling);
     }
 
-    fs::path folder_;
+    OwnFolder folder_;
 };
 
 std::vector<Contact> run(Rigid& rigid, int steps, double dt,
