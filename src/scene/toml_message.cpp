@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <regex>
 
 namespace hyoryu {
@@ -34,6 +36,7 @@ std::optional<Words> slip_in(const std::string& line)
     static const std::regex comma(R"(^\s*([\w.-]+)\s*=\s*([-+]?\d+),(\d+)\s*(#.*)?$)");
     static const std::regex unit(
         R"(^\s*([\w.-]+)\s*=\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([A-Za-z][\w/^-]*(?: [\w/^-]+)*)\s*(#.*)?$)");
+    static const std::regex power(R"(^\s*([\w.-]+)\s*=\s*([-+]?\d[\d.]*[eE]\+?\d+)\s*(#.*)?$)");
     static const std::regex word(R"(^\s*([\w.-]+)\s*=\s*([A-Za-z_][\w .-]*?)\s*(#.*)?$)");
     static const std::regex point(
         R"(^\s*([\w.-]+)\s*=\s*([-+]?)(\d*)\.(\d*)([eE][-+]?\d+)?\s*(#.*)?$)");
@@ -41,6 +44,10 @@ std::optional<Words> slip_in(const std::string& line)
     if (std::regex_match(line, m, comma)) {
         return Words{"a number has a decimal point, not a comma",
                      fmt::format("write {} = {}.{}", m.str(1), m.str(2), m.str(3))};
+    }
+    if (std::regex_match(line, m, power) &&
+        !std::isfinite(std::strtod(m.str(2).c_str(), nullptr))) {
+        return Words{"the number " + m.str(2) + " is too large", "at most 1.8e308"};
     }
     if (std::regex_match(line, m, unit)) {
         return Words{"a number with a unit must be in quotes",

@@ -213,6 +213,8 @@ TEST(CaseFileEntry, E11SyntaxIsToldInPlainWordsAtItsLine)
         {"end = 0,25", "decimal point, not a comma", "write end = 0.25"},
         {"end = 1.0 s", "must be in quotes", "write end = \"1.0 s\""},
         {"end = 5min", "must be in quotes", "write end = \"5 min\""},
+        {"end = 1e400", "1e400 is too large", "1.8e308"},
+        {"end = -2.5E+999", "is too large", "1.8e308"},
         {"end = .5", "needs a digit", "write end = 0.5"},
         {"end = 5.", "needs a digit", "write end = 5.0"},
         {"end = soon", "a text must be in quotes", "write end = \"soon\""},
