@@ -38,6 +38,53 @@ TomlNode parse_document(const std::string& text, Reading& reading)
     return root;
 }
 
+// The document of a case that was read, or an empty one if its file has changed beyond reading.
+TomlNode document_again(const std::string& text, const std::vector<std::string>& overrides)
+{
+    try {
+        Reading reading{.lines = {}, .overrides = overrides};
+        return parse_document(text, reading);
+    } catch (const CaseError&) {
+        return {};
+    }
+}
+
+const TomlNode* table_at(const TomlNode& node, const Place& place)
+{
+    const auto is_there = [&](const TomlNode& inner) {
+        return inner.place.line == place.line && inner.place.column == place.column;
+    };
+    const TomlNode* found = nullptr;
+    if (const TomlArray* items = node.array()) {
+        for (std::size_t k = 0; k < items->size() && found == nullptr; ++k) {
+            found = table_at((*items)[k], place);
+        }
+    } else if (const TomlTable* entries = node.table()) {
+        for (std::size_t k = 0; k < entries->size() && found == nullptr; ++k) {
+            found = table_at((*entries)[k].node, place);
+        }
+    }
+    // The root has the place of what comes first in it.
+    return found == nullptr && node.table() != nullptr && is_there(node) ? &node : found;
+}
+
+// The value of a key in full: in the table at a place, where the last name of the key counts, or
+// from the root if there is no place. None if the document does not have it.
+const TomlNode* node_of(const TomlNode& root, const Place& place, std::string_view key)
+{
+    const TomlNode* node = place.line > 0 ? table_at(root, place) : &root;
+    std::string_view rest = place.line > 0 ? key.substr(key.rfind('.') + 1) : key;
+    while (node != nullptr && !rest.empty()) {
+        const std::size_t end = std::min(rest.find('.'), rest.size());
+        const TomlTable* table = node->table();
+        const TomlEntry* entry =
+            table != nullptr ? find_entry(*table, rest.substr(0, end)) : nullptr;
+        node = entry != nullptr ? &entry->node : nullptr;
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return node;
+}
+
 } // namespace
 
 Scene parse_case(const std::string& text, const std::filesystem::path& file,
@@ -48,6 +95,7 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
     TableReader root(reading, &document, "", "");
     Scene scene;
     scene.file = file;
+    scene.overrides = overrides;
     keys_of(root, scene);
     root.finish();
     throw_if_any(reading);
@@ -71,11 +119,18 @@ Scene read_case(const std::filesystem::path& file, const std::vector<std::string
 Diagnostic diagnostic_at(const Scene& scene, const Place& place, std::string key, std::string what,
                          std::string hint)
 {
-    Reading reading{.file = scene.file};
-    if (place.line > 0 && why_unreadable(scene.file, largest_text).empty()) {
-        reading.lines = lines_to_show(bytes_of_file(scene.file));
+    Reading reading{.file = scene.file, .overrides = scene.overrides};
+    TomlNode document;
+    if (why_unreadable(scene.file, largest_text).empty()) {
+        const std::string text = bytes_of_file(scene.file);
+        reading.lines = lines_to_show(text);
+        document = document_again(text, scene.overrides);
     }
-    reading.error(place, -1, std::move(key), std::move(what), std::move(hint));
+    if (const TomlNode* node = node_of(document, place, key)) {
+        reading.error(*node, std::move(key), std::move(what), std::move(hint));
+    } else {
+        reading.error(place, -1, std::move(key), std::move(what), std::move(hint));
+    }
     return reading.diagnostics.front();
 }
 

@@ -223,7 +223,8 @@ struct OutputSettings {
 };
 
 struct Scene {
-    std::filesystem::path file; // as the user named it
+    std::filesystem::path file;         // as the user named it
+    std::vector<std::string> overrides; // `--set` as the user gave them, for messages
     std::string title;
     int dimensions = 3;
     Vec3 gravity{0, 0, -9.81}; // [m/s2]
