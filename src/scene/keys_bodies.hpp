@@ -109,6 +109,9 @@ inline void check_velocities(TableReader& table, const BodySettings& body)
 inline void check_mass(TableReader& table, const BodySettings& body)
 {
     const int dimensions = table.reading().dimensions;
+    if (table.mistaken()) {
+        return;
+    }
     if (table.sound("center_of_mass")) {
         const std::string fault = centre_fault(body, dimensions);
         if (!fault.empty()) {

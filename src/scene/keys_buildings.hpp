@@ -51,6 +51,7 @@ inline void add_buildings(TableReader& table, const BuildingKeys& buildings, Sce
 {
     const std::vector<Footprint> footprints = load_footprints(table, buildings);
     if (footprints.empty() || !table.reading().diagnostics.empty()) {
+        table.reading().names_known = false;
         return; // walls or numbers are mistaken: no place follows from them
     }
     const std::size_t number = table.number_of_table();

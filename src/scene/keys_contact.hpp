@@ -55,9 +55,10 @@ inline void check_pair(TableReader& table, const MaterialPair& pair, const Conta
     if (!table.sound("materials")) {
         return;
     }
+    const bool known_all = table.reading().names_known;
     const std::vector<std::string_view> known(materials.begin(), materials.end());
     for (std::size_t k = 0; k < pair.materials.size(); ++k) {
-        if (materials.count(pair.materials[k]) == 0) {
+        if (known_all && materials.count(pair.materials[k]) == 0) {
             const std::string near = did_you_mean(pair.materials[k], known);
             table.error_at(
                 "materials", k,

@@ -24,7 +24,7 @@ inline void check_state(TableReader& table, const DebrisKeys& debris)
 {
     const DebrisKind& kind = debris_library()[debris.load.kind];
     const auto known = std::ranges::find(kind.masses, debris.load.state, &DebrisNumber::name);
-    if (table.has("state") && known == kind.masses.end()) {
+    if (table.sound("state") && known == kind.masses.end()) {
         std::vector<std::string_view> states;
         for (const DebrisNumber& mass : kind.masses) {
             states.push_back(mass.name);
@@ -117,7 +117,9 @@ inline void place(TableReader& table, DebrisKeys& debris, const std::optional<De
 {
     const bool arrayed = array.has_value();
     const bool scattered = scatter.has_value();
-    if (arrayed == scattered) {
+    table.reading().names_known =
+        table.reading().names_known && table.reading().diagnostics.empty();
+    if (arrayed == scattered && !table.mistaken({"array", "scatter"})) {
         table.error(arrayed ? "scatter" : "", arrayed ? "give either `array` or `scatter`, not both"
                                                       : "has no place: give `array` or `scatter`");
         return;

@@ -28,6 +28,9 @@ inline void check_place(TableReader& table, const Gauge& gauge)
 
 inline void find_target(TableReader& table, const Gauge& gauge, const Scene& scene)
 {
+    if (!table.reading().names_known) {
+        return;
+    }
     std::vector<std::string_view> names;
     for (const Wall& wall : scene.walls) {
         names.push_back(wall.name);

@@ -49,6 +49,10 @@ inline void number_name(TableReader& table, std::string_view kind, std::string& 
 
 inline void check_name(TableReader& table, std::string_view key, const std::string& name)
 {
+    if (table.mistaken({key})) {
+        table.reading().names_known = false;
+        return;
+    }
     const std::string fault = name_fault(name);
     if (!fault.empty()) {
         table.error(key, "is not a valid name: " + fault,
@@ -58,7 +62,7 @@ inline void check_name(TableReader& table, std::string_view key, const std::stri
 
 inline void check_material(TableReader& table, const std::string& material)
 {
-    if (!material.empty()) {
+    if (!material.empty() || table.mistaken({"material"})) {
         check_name(table, "material", material);
     }
 }

@@ -38,6 +38,9 @@ inline void check_window(TableReader& table, const OpenSettings& open, const Sce
 {
     const int axis = open.axis();
     const bool flat = scene.dimensions == 2;
+    if (table.mistaken({"into"}) || !table.reading().dimensions_known) {
+        return;
+    }
     if (!scene.fluid) {
         table.error("name", "an open side has no meaning in a case without fluid",
                     "add a [fluid], or remove [[open]]");
@@ -76,6 +79,9 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
 {
     const bool series = keys.file || !open.series.empty();
     const bool constant = open.level || open.velocity || open.discharge;
+    if (table.mistaken({"kind", "level", "velocity", "discharge", "series", "station"})) {
+        return;
+    }
     const auto refuse = [&](std::string_view key, std::string what, std::string hint) {
         table.error(key, std::move(what), std::move(hint));
     };
@@ -116,7 +122,10 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
 /// Keys that tell how a file is read, where none is.
 inline void check_file_keys(TableReader& table, const OpenSettings& open, const SeriesKeys& keys)
 {
-    const bool file = keys.file || table.has("station");
+    const bool file = table.has("series") || table.has("station");
+    if (table.mistaken({"format"})) {
+        return;
+    }
     for (const std::string_view key :
          {"format", "columns", "azimuth_deg", "datum", "time_offset", "scale"}) {
         if (!file && table.has(key)) {
@@ -201,7 +210,7 @@ inline void load_series(TableReader& table, std::string_view key, const SeriesKe
 /// A series in a file becomes one of the case.
 inline void take_series(TableReader& table, const SeriesKeys& keys, OpenSettings& open)
 {
-    if (!keys.file || !open.series.empty()) {
+    if (!keys.file || !open.series.empty() || table.mistaken()) {
         return;
     }
     OpenSeries series;

@@ -54,6 +54,7 @@ inline void check_title(TableReader& root, const std::string& title)
 inline void set_dimensions(TableReader& root, int dimensions)
 {
     root.reading().dimensions = dimensions;
+    root.reading().dimensions_known = !root.mistaken({"dimensions"});
 }
 
 /// Without a direction of gravity that is known, none is judged by it.

@@ -32,14 +32,14 @@ inline Vec3 box_size(const TableReader& table, Vec3 size)
 inline void check_size(TableReader& table, BoxShape& box)
 {
     box.size = box_size(table, box.size);
-    if (table.sound("size") && !(box.size.minCoeff() > 0)) {
+    if (table.sound("size") && table.reading().dimensions_known && !(box.size.minCoeff() > 0)) {
         table.error("size", "edge lengths must be > 0 m");
     }
 }
 
 inline void check_corners(TableReader& table, const Vec3& low, const Vec3& high)
 {
-    const bool given = table.sound("min") && table.sound("max");
+    const bool given = table.sound("min") && table.sound("max") && table.reading().dimensions_known;
     if (given && !(box_size(table, high - low).minCoeff() > 0)) {
         table.error("max", "must lie above `min` in every direction");
     }

@@ -98,7 +98,8 @@ inline void place_levels(TableReader& table, const std::vector<LevelKeys>& level
 inline void check_levels(TableReader& table, const TerrainPatch& patch)
 {
     for (std::size_t k = 0; k < patch.levels.size(); ++k) {
-        if (points_within(patch, patch.levels[k].corners) == 0) {
+        const Ring& corners = patch.levels[k].corners;
+        if (!corners.empty() && points_within(patch, corners) == 0) {
             table.error("level",
                         fmt::format("number {} holds no point of the surface, whose points are "
                                     "{:.4g} m apart",
@@ -179,7 +180,7 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given,
         table.error("shape", "terrain is supported in three dimensions only");
         return;
     }
-    if (!path) {
+    if (!path || table.mistaken()) {
         return;
     }
     try {

@@ -27,7 +27,7 @@ inline void find_wave(TableReader& table, const PistonWave& wave)
 {
     if (wave.solitary_height && wave.height) {
         table.error("height", "give either `solitary_height` or `height`, not both");
-    } else if (!table.has("solitary_height") && !table.has("height")) {
+    } else if (!table.mistaken() && !table.has("solitary_height") && !table.has("height")) {
         table.error("solitary_height",
                     "is missing: give `solitary_height`, or `height` and `period`",
                     "Height of a solitary wave; a paddle that only absorbs has `absorb`, `depth` "

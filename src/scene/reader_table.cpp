@@ -75,6 +75,13 @@ bool TableReader::sound(std::string_view key) const
     return std::ranges::find(sound_, key) != sound_.end();
 }
 
+bool TableReader::mistaken(std::initializer_list<std::string_view> keys) const
+{
+    return std::ranges::any_of(keys, [&](std::string_view key) {
+        return std::ranges::find(mistaken_, key) != mistaken_.end();
+    });
+}
+
 std::size_t TableReader::count(std::string_view key) const
 {
     return sound(key) ? find(key)->array()->size() : 0;
@@ -114,6 +121,9 @@ bool TableReader::pick(const Parameter& rule, std::size_t& index, Default fallba
         } else if (read(asked, value)) {
             sound_.push_back(rule.key);
         }
+        if (!sound(rule.key)) {
+            mistaken_.push_back(rule.key);
+        }
     }
     if (chosen_.empty()) {
         chosen_ = fmt::format("{} = \"{}\"", rule.key, value);
@@ -150,6 +160,7 @@ TableReader TableReader::inside(std::string_view key)
         const bool list = node->array() != nullptr;
         reading_.error(*node, path, fmt::format("expected a table, found {}", found(*node)),
                        list ? fmt::format("only one is allowed: write [{}]", schema) : "");
+        mistaken_.emplace_back(key);
         TableReader none(reading_, nullptr, path, schema);
         none.abandon();
         return none;
@@ -171,6 +182,7 @@ std::vector<TableReader> TableReader::each_inside(std::string_view key)
         reading_.error(*node, full(key),
                        fmt::format("expected a list of tables, found {}", found(*node)),
                        fmt::format("write [[{}]], once for each", joined(schema_, key)));
+        mistaken_.emplace_back(key);
         return readers;
     }
     for (std::size_t k = 0; k < items->size(); ++k) {
@@ -178,6 +190,7 @@ std::vector<TableReader> TableReader::each_inside(std::string_view key)
         const TomlNode& item = (*items)[k];
         if (item.table() == nullptr) {
             reading_.error(item, path, fmt::format("expected a table, found {}", found(item)));
+            mistaken_.emplace_back(key);
         } else {
             readers.emplace_back(reading_, &item, path, schema, k + 1);
         }

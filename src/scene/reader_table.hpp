@@ -22,9 +22,11 @@ struct Reading {
     std::vector<std::string> lines;
     std::vector<std::string> overrides;
     int dimensions = 3;
+    bool dimensions_known = true; // their number was not lost with a mistake
     std::vector<Diagnostic> diagnostics;
     std::vector<Diagnostic> notices;  // warnings
     std::map<std::string, int> names; // of walls and bodies, and the line where each stands
+    bool names_known = true;          // no name and no material was lost with a mistake
 
     /// Notes a mistake at a place of the file, or of that override. Without a hint the meaning of
     /// the key stands for one.
@@ -129,6 +131,10 @@ public:
     const TomlNode* find(std::string_view key) const;
     /// Whether a key is there and without mistake.
     bool sound(std::string_view key) const;
+    /// Whether the value of one of the keys, or of any key so far, was refused: what follows from
+    /// it is not known, and another message would mislead.
+    bool mistaken(std::initializer_list<std::string_view> keys) const;
+    bool mistaken() const { return abandoned_ || !mistaken_.empty(); }
     /// Number of elements of a list that is sound.
     std::size_t count(std::string_view key) const;
     Place place() const { return node_ != nullptr ? node_->place : Place{}; }
@@ -140,8 +146,9 @@ public:
     void key(const Parameter& rule, auto& member, Default fallback)
     {
         const TomlNode* node = ask(rule.key, fallback);
-        if (node != nullptr && read({reading_, *node, rule, full(rule.key)}, member)) {
-            sound_.push_back(rule.key);
+        if (node != nullptr) {
+            const bool is_sound = read({reading_, *node, rule, full(rule.key)}, member);
+            (is_sound ? sound_ : mistaken_).push_back(rule.key);
         }
     }
     template <class T>
@@ -222,6 +229,7 @@ private:
     std::size_t number_;
     std::vector<std::string> asked_;
     std::vector<std::string> sound_;
+    std::vector<std::string> mistaken_;
     std::string chosen_; // `shape = "box"`: why other keys have no meaning
     bool abandoned_ = false;
 };
