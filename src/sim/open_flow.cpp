@@ -115,7 +115,9 @@ void renew_open(Simulation& sim)
     if (lists_are_due(fluid, carpets_due(fluid, open))) {
         let_bodies_leave(sim);
         renew_carpets(fluid, open);
-        expect_room(sim);
+        if (sim.clock.step > 0) { // the start is a state to go on from with more room
+            expect_room(sim);
+        }
         make_lists(fluid);
         find_rows(fluid, open);
         mark_beside_bodies(fluid, open);
