@@ -240,6 +240,14 @@ void tell_doubts(Job& job)
             "body at one time, {} at the end",
             job.sim.conservation.worst_in_solids, particles_in_solids(job.sim)));
     }
+    if (const std::vector<int> outside = bodies_outside(job.sim); !outside.empty()) {
+        const Body& first = job.sim.rigid.bodies[static_cast<std::size_t>(outside.front())];
+        job.progress.line(fmt::format(
+            "note: {} outside the domain, where no ground holds them, "
+            "first \"{}\" at ({:.4g}, {:.4g}, {:.4g}) m",
+            outside.size() == 1 ? "one body is" : fmt::format("{} bodies are", outside.size()),
+            first.name, first.position.x(), first.position.y(), first.position.z()));
+    }
     if (job.sim.rigid.counters.capped_steps > 0) {
         job.progress.line(fmt::format(
             "note: impacts were resolved by time stepping, not located, in {} of {} steps",

@@ -65,6 +65,15 @@ ordered_json bodies_left(const Simulation& sim)
     return list;
 }
 
+ordered_json names_outside(const Simulation& sim)
+{
+    ordered_json names = ordered_json::array();
+    for (const int b : bodies_outside(sim)) {
+        names.push_back(sim.rigid.bodies[static_cast<std::size_t>(b)].name);
+    }
+    return names;
+}
+
 // Rows of fluid are a whole number: those of the start + made - dropped - lost.
 ordered_json open_sides(const Simulation& sim)
 {
@@ -178,6 +187,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
         const Index in_solids = particles_in_solids(sim);
         json["particles_in_solids"] = in_solids;
         json["worst_particles_in_solids"] = std::max(in_solids, sim.conservation.worst_in_solids);
+        json["bodies_outside"] = names_outside(sim);
     }
     json["worst_density_error"] = sim.conservation.worst_density_error;
     json["energy"] = {{"start", energies(sim.conservation.start)},

@@ -69,6 +69,11 @@ double kinetic_energy(const Body& body)
            0.5 * angular_velocity(body).dot(body.angular_momentum);
 }
 
+bool is_fixed(const Body& body)
+{
+    return std::ranges::all_of(body.locks, [](bool locked) { return locked; });
+}
+
 double reach_along(const Body& body, const Vec3& n)
 {
     const Vec3 local = body.orientation.conjugate() * n;

@@ -80,9 +80,6 @@ Overlap deepest_overlap(const Simulation& sim)
     for (const Body& body : all) {
         reach.push_back(bounding_radius(body, sim.scene.dimensions));
     }
-    const auto is_fixed = [](const Body& body) {
-        return std::ranges::all_of(body.locks, [](bool locked) { return locked; });
-    };
     const auto may_meet = [&](std::size_t a, std::size_t b) {
         return !all[b].left && !(is_fixed(all[a]) && is_fixed(all[b])) &&
                (all[a].position - all[b].position).norm() < reach[a] + reach[b];

@@ -15,11 +15,6 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-bool is_movable(const Body& body)
-{
-    return !std::ranges::all_of(body.locks, [](bool locked) { return locked; });
-}
-
 // Whether the body is through that window.
 bool has_passed(const Simulation& sim, const OpenSide& side, const Body& body, const Vec3& place)
 {
@@ -78,7 +73,7 @@ void let_bodies_leave(Simulation& sim)
         for (std::size_t b = 0; b < sim.rigid.bodies.size(); ++b) {
             const Body& body = sim.rigid.bodies[b];
             const OpenSide& side = sim.open.boundary.carpets[k].side;
-            if (body.left || !is_movable(body) ||
+            if (body.left || is_fixed(body) ||
                 !has_passed(sim, side, body, sim.poses[b].position)) {
                 continue;
             }

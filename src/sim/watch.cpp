@@ -177,4 +177,25 @@ double worst_penetration(const Simulation& sim)
     return sim.rigid.penalty ? seen : std::max(seen, deepest_overlap(sim).depth);
 }
 
+std::vector<int> bodies_outside(const Simulation& sim)
+{
+    std::vector<int> outside;
+    for (std::size_t b = 0; sim.fluid && b < sim.rigid.bodies.size(); ++b) {
+        const Body& body = sim.rigid.bodies[b];
+        bool is_out = false;
+        for (int axis = 0; axis < 3 && !body.left; ++axis) {
+            const Vec3 n = Vec3::Unit(axis);
+            const double low = sim.fluid->domain_min[axis];
+            const double high = sim.fluid->domain_max[axis];
+            const bool below = body.position[axis] + reach_along(body, n) < low;
+            const bool beyond = axis < 2 && body.position[axis] - reach_along(body, -n) > high;
+            is_out = is_out || (!(axis == 1 && sim.scene.dimensions == 2) && (below || beyond));
+        }
+        if (is_out) {
+            outside.push_back(static_cast<int>(b));
+        }
+    }
+    return outside;
+}
+
 } // namespace hyoryu

@@ -449,7 +449,8 @@ every = 0.1
 """
 
     def test_open_sides_bring_no_more_than_is_allowed(self):
-        for spacing, most in ((0.02, 700), (0.025, 500)):
+        # The first has room for the water of the start alone, not for that behind the window.
+        for spacing, most in ((0.025, 290), (0.02, 700), (0.025, 500)):
             shutil.rmtree(self.dir / "out", ignore_errors=True)
             case = self.write(self.FILLING.format(spacing=spacing, most=f"most = {most}"))
             self.assertIn("would end early", self.call("check", case).stderr)
@@ -472,6 +473,24 @@ every = 0.1
             self.assertEqual((self.dir / "out/open.csv").read_bytes(), (self.dir / "whole/open.csv").read_bytes())
         closed = FLOOD.replace("spacing = 0.05", "spacing = 0.05\nmost = 5000")
         self.assertIn("`particles.most`: bounds runs with open sides", self.call("check", self.write(closed)).stderr)
+
+    def test_bodies_outside_the_domain_are_named(self):
+        for spacing, beside in ((0.05, 2.0), (0.04, -0.7)):
+            case = self.write(FLOOD.replace("spacing = 0.05", f"spacing = {spacing}") +
+                              f"""
+[[body]]
+name = "missed"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 500
+position = [{beside}, 0.0, 0.3]
+""")
+            shutil.rmtree(self.dir / "out", ignore_errors=True)
+            done = self.call("run", case, "-o", "out")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            summary = json.loads((self.dir / "out/summary.json").read_text())
+            self.assertEqual(summary["bodies_outside"], ["missed"])
+            self.assertIn('one body is outside the domain, where no ground holds them, first "missed"', done.stderr)
 
     def test_render_makes_pictures(self):
         self.run_flood("out")

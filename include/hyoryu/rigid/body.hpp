@@ -84,6 +84,8 @@ Vec3 angular_velocity(const Body& body);
 Vec3 angular_momentum(const Body& body, const Vec3& omega);
 /// 1/2 M V^2 + 1/2 omega . L [J]
 double kinetic_energy(const Body& body);
+/// Whether nothing can move the body: all its axes are locked.
+bool is_fixed(const Body& body);
 /// How far the body reaches from its centre of mass along a unit vector: the largest n . (x - x_cg)
 /// of its points [m].
 double reach_along(const Body& body, const Vec3& n);

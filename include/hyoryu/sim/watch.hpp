@@ -4,6 +4,8 @@
 
 #include "hyoryu/sim/conservation.hpp"
 
+#include <vector>
+
 namespace hyoryu {
 
 struct Simulation;
@@ -22,5 +24,9 @@ void watch_energy(const Simulation& sim, const Totals& now);
 /// The largest overlap of bodies with each other and with walls: of all steps so far, each as it
 /// began, and of the state that the last one left [m].
 double worst_penetration(const Simulation& sim);
+
+/// Numbers of the bodies that are wholly below or beside the domain of the fluid, where no ground
+/// holds them: past the end of a ground, or past a window that they missed. None without fluid.
+std::vector<int> bodies_outside(const Simulation& sim);
 
 } // namespace hyoryu
