@@ -12,9 +12,9 @@ namespace hyoryu {
 /// Largest resident memory of this process so far [B].
 double peak_memory();
 
-/// `exit_reason`: "done", "interrupted", "until", "numerical error", "too many particles", "io error". `first_step`: step
-/// at which this process began; `output`: time of the
-/// solver thread by kind of output; `frames`: cost of the writer thread.
+/// `exit_reason`: "done", "interrupted", "until", "numerical error", "too many particles", "io
+/// error". `first_step`: step at which this process began; `output`: time of the solver thread by
+/// kind of output; `frames`: cost of the writer thread.
 std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
                          std::int64_t first_step, const StageTimer& output,
                          const FrameWriter::Cost& frames);

@@ -89,8 +89,8 @@ WallBarrier make_wall_barrier(const Scene& scene);
 void hold_at_solids(Simulation& sim, double time, double dt);
 
 /// Fluid particles that are deeper than a quarter of a spacing inside a wall or body, now. Looks at
-/// every particle and every solid near it, whatever the barrier has looked at; not at the carpets of
-/// open sides, whose ground is that of the window carried out.
+/// every particle and every solid near it, whatever the barrier has looked at; not at the carpets
+/// of open sides, whose ground is that of the window carried out.
 Index particles_in_solids(const Simulation& sim);
 
 /// Counts them for a frame, or for the end of a run, and records the maximum so far.
