@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 namespace hyoryu {
 
 namespace {
@@ -42,45 +45,41 @@ TomlNode parse_document(const std::string& text, Reading& reading)
 TomlNode document_again(const std::string& text, const std::vector<std::string>& overrides)
 {
     try {
-        Reading reading{.lines = {}, .overrides = overrides};
+        Reading reading{.overrides = overrides};
         return parse_document(text, reading);
     } catch (const CaseError&) {
         return {};
     }
 }
 
-const TomlNode* table_at(const TomlNode& node, const Place& place)
+// The tables of a document by line and column. The root has the place of its first entry, which
+// takes precedence.
+using TablesByPlace = std::map<std::pair<int, int>, const TomlNode*>;
+
+void list_tables(const TomlNode& node, TablesByPlace& tables)
 {
-    const auto is_there = [&](const TomlNode& inner) {
-        return inner.place.line == place.line && inner.place.column == place.column;
-    };
-    const TomlNode* found = nullptr;
     if (const TomlArray* items = node.array()) {
-        for (std::size_t k = 0; k < items->size() && found == nullptr; ++k) {
-            found = table_at((*items)[k], place);
+        for (const TomlNode& item : *items) {
+            list_tables(item, tables);
         }
     } else if (const TomlTable* entries = node.table()) {
-        for (std::size_t k = 0; k < entries->size() && found == nullptr; ++k) {
-            found = table_at((*entries)[k].node, place);
+        for (const TomlEntry& entry : *entries) {
+            list_tables(entry.node, tables);
         }
+        tables.emplace(std::pair{node.place.line, node.place.column}, &node);
     }
-    // The root has the place of what comes first in it.
-    return found == nullptr && node.table() != nullptr && is_there(node) ? &node : found;
 }
 
-// The value of a key in full: in the table at a place, where the last name of the key counts, or
-// from the root if there is no place. None if the document does not have it.
-const TomlNode* node_of(const TomlNode& root, const Place& place, std::string_view key)
+// The value of `key`, a name with dots, below a table; nullptr if there is none.
+const TomlNode* find_value(const TomlNode* node, std::string_view key)
 {
-    const TomlNode* node = place.line > 0 ? table_at(root, place) : &root;
-    std::string_view rest = place.line > 0 ? key.substr(key.rfind('.') + 1) : key;
-    while (node != nullptr && !rest.empty()) {
-        const std::size_t end = std::min(rest.find('.'), rest.size());
+    while (node != nullptr && !key.empty()) {
+        const std::size_t end = std::min(key.find('.'), key.size());
         const TomlTable* table = node->table();
         const TomlEntry* entry =
-            table != nullptr ? find_entry(*table, rest.substr(0, end)) : nullptr;
+            table != nullptr ? find_entry(*table, key.substr(0, end)) : nullptr;
         node = entry != nullptr ? &entry->node : nullptr;
-        rest.remove_prefix(std::min(end + 1, rest.size()));
+        key.remove_prefix(std::min(end + 1, key.size()));
     }
     return node;
 }
@@ -116,22 +115,55 @@ Scene read_case(const std::filesystem::path& file, const std::vector<std::string
     return parse_case(bytes_of_file(file), file, overrides);
 }
 
+Diagnostic diagnostic_without_line(const Scene& scene, const Place& place, std::string key,
+                                   std::string what, std::string hint)
+{
+    Reading reading{.file = scene.file};
+    reading.error(place, -1, std::move(key), std::move(what), std::move(hint));
+    return reading.diagnostics.front();
+}
+
+void show_places(const Scene& scene, std::vector<Diagnostic>& diagnostics)
+{
+    if (diagnostics.empty() || !why_unreadable(scene.file, largest_text).empty()) {
+        return;
+    }
+    const std::string text = bytes_of_file(scene.file);
+    Reading reading{.file = scene.file, .lines = lines_to_show(text), .overrides = scene.overrides};
+    const TomlNode document = document_again(text, scene.overrides);
+    TablesByPlace tables;
+    list_tables(document, tables);
+    for (Diagnostic& diagnostic : diagnostics) {
+        if (diagnostic.file != scene.file.string()) {
+            continue; // of an override, which it names already
+        }
+        const Place place{diagnostic.line, diagnostic.column, diagnostic.length};
+        const auto table = tables.find({place.line, place.column});
+        const std::string key = diagnostic.key;
+        const TomlNode* value = nullptr;
+        if (place.line == 0 && !key.empty()) {
+            value = find_value(&document, key);
+        } else if (table != tables.end()) {
+            value = find_value(table->second, key.substr(key.rfind('.') + 1));
+        }
+        if (value != nullptr) {
+            reading.error(*value, key, diagnostic.what, diagnostic.hint);
+        } else {
+            reading.error(place, -1, key, diagnostic.what, diagnostic.hint);
+        }
+        reading.diagnostics.back().severity = diagnostic.severity;
+        diagnostic = std::move(reading.diagnostics.back());
+        reading.diagnostics.pop_back();
+    }
+}
+
 Diagnostic diagnostic_at(const Scene& scene, const Place& place, std::string key, std::string what,
                          std::string hint)
 {
-    Reading reading{.file = scene.file, .overrides = scene.overrides};
-    TomlNode document;
-    if (why_unreadable(scene.file, largest_text).empty()) {
-        const std::string text = bytes_of_file(scene.file);
-        reading.lines = lines_to_show(text);
-        document = document_again(text, scene.overrides);
-    }
-    if (const TomlNode* node = node_of(document, place, key)) {
-        reading.error(*node, std::move(key), std::move(what), std::move(hint));
-    } else {
-        reading.error(place, -1, std::move(key), std::move(what), std::move(hint));
-    }
-    return reading.diagnostics.front();
+    std::vector<Diagnostic> one{
+        diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint))};
+    show_places(scene, one);
+    return one.front();
 }
 
 } // namespace hyoryu

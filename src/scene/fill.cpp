@@ -117,7 +117,7 @@ private:
 void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticles& particles,
                       Filling& filling)
 {
-    Diagnostic note = diagnostic_at(
+    Diagnostic note = diagnostic_without_line(
         scene, scene.fluid->blocks[block].place, fmt::format("fluid.block[{}]", block),
         fmt::format("{} of its {} particles are behind a wall and are omitted", particles.in_walls,
                     particles.all));

@@ -375,6 +375,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     check_plan(scene, filling, plan);
     list_floating(scene, plan);
     check_waves(scene, filling, plan);
+    show_places(scene, plan.warnings);
     return plan;
 }
 

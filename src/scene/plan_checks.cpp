@@ -115,7 +115,7 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
     const auto walls = static_cast<int>(scene.walls.size());
     const auto report = [&](int a, const std::string& other, double depth) {
         const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
-        errors.push_back(diagnostic_at(
+        errors.push_back(diagnostic_without_line(
             scene, body.place, body_key(static_cast<std::size_t>(a)),
             fmt::format("body \"{}\" overlaps {} by {:.3g} m", body.name, other, depth),
             "move it apart, or make it smaller; touching is allowed"));
@@ -151,7 +151,7 @@ void check_step(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& e
     }
     const double limit = stable_cfl * plan.fluid->h / plan.fluid->eos.c0;
     if (*scene.time.step > limit) {
-        errors.push_back(diagnostic_at(
+        errors.push_back(diagnostic_without_line(
             scene, {}, "time.step",
             fmt::format("{} s is longer than the stability limit of the fluid, {:.3g} s",
                         *scene.time.step, limit),
@@ -162,7 +162,8 @@ void check_step(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& e
 void warn(const Scene& scene, const Place& place, std::string key, std::string what,
           std::string hint, Plan& plan)
 {
-    Diagnostic note = diagnostic_at(scene, place, std::move(key), std::move(what), std::move(hint));
+    Diagnostic note =
+        diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint));
     note.severity = Diagnostic::Severity::warning;
     plan.warnings.push_back(std::move(note));
 }
@@ -301,7 +302,7 @@ void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>
     constexpr double most_frames = 1e7;
     constexpr double most_steps = 1e15; // beyond about 9e15 a double no longer counts them
     if (!(plan.frames <= most_frames)) {
-        errors.push_back(diagnostic_at(
+        errors.push_back(diagnostic_without_line(
             scene, {}, "output.every",
             fmt::format("gives about {:.2g} frames, at most {:.0g} are allowed", plan.frames,
                         most_frames),
@@ -309,7 +310,7 @@ void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>
     }
     if (!(plan.expected_steps <= most_steps)) {
         const auto least = std::ranges::min_element(plan.limits, {}, &TimeLimit::dt);
-        errors.push_back(diagnostic_at(
+        errors.push_back(diagnostic_without_line(
             scene, {}, "time.end",
             fmt::format("with steps of {:.2g} s the run would take about {:.2g} steps, at most "
                         "{:.0g} are allowed",
@@ -328,7 +329,7 @@ void check_periods(const Scene& scene, std::vector<Diagnostic>& errors)
         return;
     }
     if (!scene.bodies.empty()) {
-        errors.push_back(diagnostic_at(
+        errors.push_back(diagnostic_without_line(
             scene, {}, "domain.periodic", "bodies in periodic domains are not supported",
             "remove the bodies, or replace the periodic sides by walls"));
     }
@@ -346,18 +347,20 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     check_gauges(scene, filling, plan, errors);
     check_open(scene, filling, plan, errors);
     if (scene.fluid && filling.fluid.empty() && scene.open.empty()) {
-        errors.push_back(diagnostic_at(
+        errors.push_back(diagnostic_without_line(
             scene, {}, "fluid", "the blocks contain no fluid particle",
             "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
     }
     if (scene.most_fluid > 0 && plan.counts.fluid > scene.most_fluid) {
-        errors.push_back(diagnostic_at(scene, {}, "particles.most",
-                                       fmt::format("the run starts with {} fluid particles, more "
-                                                   "than the {} that are allowed",
-                                                   plan.counts.fluid, scene.most_fluid),
-                                       "allow more, or increase `particles.spacing`"));
+        errors.push_back(
+            diagnostic_without_line(scene, {}, "particles.most",
+                                    fmt::format("the run starts with {} fluid particles, more "
+                                                "than the {} that are allowed",
+                                                plan.counts.fluid, scene.most_fluid),
+                                    "allow more, or increase `particles.spacing`"));
     }
     if (!errors.empty()) {
+        show_places(scene, errors);
         throw CaseError(errors);
     }
     warn_about_slips(scene, plan);

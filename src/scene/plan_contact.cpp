@@ -113,12 +113,12 @@ void warn_about_sub_steps(const Scene& scene, const Filling& filling, Plan& plan
     }
     constexpr double part = 0.2;
     if (penalty.step > part * shortest) {
-        Diagnostic note =
-            diagnostic_at(scene, scene.bodies[lightest].place, "contact.penalty.step",
-                          fmt::format("sub-steps of {} s are too long for the springs of body "
-                                      "\"{}\": its restitution will depend on them",
-                                      penalty.step, scene.bodies[lightest].name),
-                          fmt::format("{:.2g} s or less is sufficient", part * shortest));
+        Diagnostic note = diagnostic_without_line(
+            scene, scene.bodies[lightest].place, "contact.penalty.step",
+            fmt::format("sub-steps of {} s are too long for the springs of body "
+                        "\"{}\": its restitution will depend on them",
+                        penalty.step, scene.bodies[lightest].name),
+            fmt::format("{:.2g} s or less is sufficient", part * shortest));
         note.severity = Diagnostic::Severity::warning;
         plan.warnings.push_back(std::move(note));
     }

@@ -71,7 +71,7 @@ double largest_slip(const Scene& scene, const SolidWall& solid)
 
 void warn(const Scene& scene, std::size_t wall, const Wall& other, double gap, Plan& plan)
 {
-    Diagnostic note = diagnostic_at(
+    Diagnostic note = diagnostic_without_line(
         scene, scene.walls[wall].place, fmt::format("wall[{}]", wall),
         fmt::format("\"{}\" moves and leaves a gap of {:.3g} m, {:.2g} spacings, to \"{}\": water "
                     "passes through it",

@@ -133,7 +133,7 @@ void check_gauges(const Scene& scene, const Filling& filling, Plan& plan,
             continue;
         }
         if (outside(scene, gauge, filling.domain)) {
-            errors.push_back(diagnostic_at(
+            errors.push_back(diagnostic_without_line(
                 scene, gauge.place, key,
                 fmt::format("the gauge \"{}\" is outside the domain, {} to {}", gauge.name,
                             text_of(filling.domain.min), text_of(filling.domain.max)),
@@ -147,11 +147,11 @@ void check_gauges(const Scene& scene, const Filling& filling, Plan& plan,
                                      ? 0
                                      : depth_behind(wall, gauge.at, scene.dimensions);
             if (depth > scene.spacing / 2) {
-                Diagnostic note =
-                    diagnostic_at(scene, gauge.place, key,
-                                  fmt::format("the gauge \"{}\" is {:.3g} m inside the wall \"{}\"",
-                                              gauge.name, depth, wall.name),
-                                  "move it to the surface or in front of it");
+                Diagnostic note = diagnostic_without_line(
+                    scene, gauge.place, key,
+                    fmt::format("the gauge \"{}\" is {:.3g} m inside the wall \"{}\"", gauge.name,
+                                depth, wall.name),
+                    "move it to the surface or in front of it");
                 note.severity = Diagnostic::Severity::warning;
                 plan.warnings.push_back(std::move(note));
             }

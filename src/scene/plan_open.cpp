@@ -124,8 +124,8 @@ double most_held(const Scene& scene, const Filling& filling)
 Diagnostic note_at(const Scene& scene, const OpenSettings& open, std::string_view key,
                    std::string what, std::string hint)
 {
-    return diagnostic_at(scene, open.place, fmt::format("open.{}.{}", open.name, key),
-                         std::move(what), std::move(hint));
+    return diagnostic_without_line(scene, open.place, fmt::format("open.{}.{}", open.name, key),
+                                   std::move(what), std::move(hint));
 }
 
 // Whether the plane is that of a side of the domain, the lower one for +x and +y.

@@ -28,7 +28,8 @@ constexpr std::size_t most_triangles = 20000;
 void warn(const Scene& scene, const Place& place, std::string key, std::string what,
           std::string hint, Plan& plan)
 {
-    Diagnostic note = diagnostic_at(scene, place, std::move(key), std::move(what), std::move(hint));
+    Diagnostic note =
+        diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint));
     note.severity = Diagnostic::Severity::warning;
     plan.warnings.push_back(std::move(note));
 }

@@ -17,8 +17,8 @@ public:
     /// `key` as a user writes it; `what` is wrong, and a hint.
     void add(const Place& place, std::string key, std::string what, std::string hint)
     {
-        Diagnostic note =
-            diagnostic_at(scene_, place, std::move(key), std::move(what), std::move(hint));
+        Diagnostic note = diagnostic_without_line(scene_, place, std::move(key), std::move(what),
+                                                  std::move(hint));
         note.severity = Diagnostic::Severity::warning;
         plan_.warnings.push_back(std::move(note));
     }

@@ -24,8 +24,16 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
 /// The case with every default written out. Reading it back gives an equal Scene, bit for bit.
 std::string to_toml(const Scene& scene);
 
-/// A diagnostic at the place of `place` in the case file of `scene`, with the source line if the
-/// file can still be read.
+/// A diagnostic at `place` in the case file of `scene`, as yet without its source line; an empty
+/// hint becomes the meaning of the key.
+Diagnostic diagnostic_without_line(const Scene& scene, const Place& place, std::string key,
+                                   std::string what, std::string hint = {});
+
+/// Points diagnostics at the value of their key, in the file or in an override, and adds the source
+/// lines. Reads the file once; changes nothing if it can no longer be read.
+void show_places(const Scene& scene, std::vector<Diagnostic>& diagnostics);
+
+/// One diagnostic with its source line. For many, `show_places` reads the file only once.
 Diagnostic diagnostic_at(const Scene& scene, const Place& place, std::string key, std::string what,
                          std::string hint = {});
 

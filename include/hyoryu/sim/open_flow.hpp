@@ -28,7 +28,8 @@ void extend_domain(const Scene& scene, Fluid& fluid);
 void start_open(Simulation& sim);
 
 /// After the drift to the middle of a step: counts what crossed, and makes new lists where those
-/// are due, with new columns of the carpets. Throws RoomError if the run holds too many then.
+/// are due, with new columns of the carpets. Throws RoomError if the run holds too
+/// many then, except at the start.
 void renew_open(Simulation& sim);
 
 /// After the kick of a step of dt: the flow at the end of the step, and the velocities of carpets.
@@ -39,9 +40,9 @@ void close_open(Simulation& sim);
 
 /// What an open side shows in open.csv.
 struct OpenReading {
-    double level = 0; // mean of the carpet where it is wet; of the ground where none is [m]
-    double velocity = 0;                  // mean into the domain [m/s]
-    double discharge = 0;                 // into the domain now [m3/s]; m2/s in two dimensions
+    double level = 0;     // mean of the carpet where it is wet; of the ground where none is [m]
+    double velocity = 0;  // mean into the domain [m/s]
+    double discharge = 0; // into the domain now [m3/s]; m2/s in two dimensions
     double volume_in = 0, volume_out = 0; // through the plane since the start [m3]
     double volume_asked = 0;              // net, of depth x velocity [m3]
 };
