@@ -243,7 +243,7 @@ void tell_doubts(Job& job)
     if (const std::vector<int> outside = bodies_outside(job.sim); !outside.empty()) {
         const Body& first = job.sim.rigid.bodies[static_cast<std::size_t>(outside.front())];
         job.progress.line(fmt::format(
-            "note: {} outside the domain, where no ground holds them, "
+            "note: {} wholly below or beside the domain of the fluid at the end, "
             "first \"{}\" at ({:.4g}, {:.4g}, {:.4g}) m",
             outside.size() == 1 ? "one body is" : fmt::format("{} bodies are", outside.size()),
             first.name, first.position.x(), first.position.y(), first.position.z()));

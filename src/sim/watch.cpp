@@ -183,7 +183,7 @@ std::vector<int> bodies_outside(const Simulation& sim)
     for (std::size_t b = 0; sim.fluid && b < sim.rigid.bodies.size(); ++b) {
         const Body& body = sim.rigid.bodies[b];
         bool is_out = false;
-        for (int axis = 0; axis < 3 && !body.left; ++axis) {
+        for (int axis = 0; axis < 3 && !body.left && !is_fixed(body); ++axis) {
             const Vec3 n = Vec3::Unit(axis);
             const double low = sim.fluid->domain_min[axis];
             const double high = sim.fluid->domain_max[axis];

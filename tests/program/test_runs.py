@@ -484,13 +484,21 @@ shape = "box"
 size = [0.2, 0.2, 0.2]
 density = 500
 position = [{beside}, 0.0, 0.3]
+[[body]]
+name = "post"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 500
+position = [{2 * beside}, 0.0, 0.3]
+fixed = true
 """)
             shutil.rmtree(self.dir / "out", ignore_errors=True)
             done = self.call("run", case, "-o", "out")
             self.assertEqual(done.returncode, 0, done.stderr)
             summary = json.loads((self.dir / "out/summary.json").read_text())
             self.assertEqual(summary["bodies_outside"], ["missed"])
-            self.assertIn('one body is outside the domain, where no ground holds them, first "missed"', done.stderr)
+            self.assertIn('one body is wholly below or beside the domain of the fluid at the end, first "missed"',
+                          done.stderr)
 
     def test_render_makes_pictures(self):
         self.run_flood("out")

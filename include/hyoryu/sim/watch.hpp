@@ -25,8 +25,9 @@ void watch_energy(const Simulation& sim, const Totals& now);
 /// began, and of the state that the last one left [m].
 double worst_penetration(const Simulation& sim);
 
-/// Numbers of the bodies that are wholly below or beside the domain of the fluid, for instance past
-/// the end of the ground or past a window that they missed. None without fluid.
+/// Numbers of the bodies, fixed ones excepted, that are wholly below or beside the domain of the
+/// fluid, for instance past the end of the ground or past a window that they missed. None without
+/// fluid.
 std::vector<int> bodies_outside(const Simulation& sim);
 
 } // namespace hyoryu
