@@ -15,11 +15,11 @@ namespace hyoryu {
 namespace {
 
 // In the order of `Measure`.
-constexpr std::array<std::string_view, 23> measures{
-    "at",     "first", "last",         "min",       "max",          "mean",
-    "sum",    "count", "range",        "drift",     "gain",         "growth",
-    "row",    "peak",  "peak_time",    "trough",    "crossing",     "integral",
-    "period", "decay", "share_within", "rms_error", "largest_error"};
+constexpr std::array<std::string_view, 24> measures{
+    "at",     "first", "last",       "min",          "max",       "mean",
+    "sum",    "count", "range",      "drift",        "gain",      "growth",
+    "row",    "peak",  "peak_time",  "trough",       "crossing",  "integral",
+    "period", "decay", "reflection", "share_within", "rms_error", "largest_error"};
 
 constexpr std::array<std::string_view, 5> against_names{"experiment", "analytic", "program",
                                                         "conservation", "itself"};
@@ -41,6 +41,9 @@ void read_expected(Section& section, Check& check)
     if (given != 1) {
         section.error("",
                       "give one of `expected`, `at_most`, `at_least`, `reference` and `same_as`");
+    }
+    if (check.quantity.waves && check.expected.reference) {
+        section.error("reference", "has no meaning for the measure \"reflection\"");
     }
     if (is_error_measure(check.quantity.measure) && check.comparison != Comparison::equal) {
         section.error("measure", "is the difference from `expected` or `reference`",
@@ -146,6 +149,35 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
 
 } // namespace
 
+namespace {
+
+// Gauges that see the waves half a wavelength apart see the same: three tell it.
+constexpr std::size_t fewest_gauges = 3;
+
+WaveGauges read_waves(Section& section)
+{
+    WaveGauges waves;
+    for (const char* key : {"beside", "distance", "period", "wavenumber"}) {
+        section.require(key);
+    }
+    for (const TomlNode* item : section.items("beside", "a list of expressions")) {
+        waves.beside.push_back(checked_expression(section.file(), *item, section.full("beside")));
+    }
+    waves.distance = section.numbers("distance");
+    waves.period = section.expression("period");
+    waves.wavenumber = section.expression("wavenumber");
+    if (section.has("beside") && waves.beside.size() + 1 < fewest_gauges) {
+        section.error("beside", "needs two gauges or more besides that of `value`");
+    } else if (section.has("distance") && waves.distance.size() != waves.beside.size()) {
+        section.error("distance", fmt::format("has {} numbers for {} gauges", waves.distance.size(),
+                                              waves.beside.size()));
+    }
+    section.finish();
+    return waves;
+}
+
+} // namespace
+
 Quantity read_quantity(Section& check)
 {
     Quantity quantity;
@@ -162,12 +194,18 @@ Quantity read_quantity(Section& check)
     if (quantity.band.has_value() != (quantity.measure == Measure::share_within)) {
         check.error("band", "belongs to the measure \"share_within\", and that measure to it");
     }
+    if (auto waves = check.table("waves")) {
+        quantity.waves = read_waves(*waves);
+    }
+    if (quantity.waves.has_value() != (quantity.measure == Measure::reflection)) {
+        check.error("waves", "belongs to the measure \"reflection\", and that measure to it");
+    }
     quantity.index = static_cast<int>(check.integer("index", 1));
     quantity.time = check.expression("time");
     quantity.level = check.expression("level");
     quantity.since = check.expression("since");
     if (!quantity.since.empty() &&
-        (quantity.band.has_value() || is_error_measure(quantity.measure))) {
+        (quantity.band || quantity.waves || is_error_measure(quantity.measure))) {
         check.error("since", "has no meaning for this measure",
                     "it subtracts the same measure of another expression, such as a peak_time");
     }

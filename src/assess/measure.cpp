@@ -3,6 +3,7 @@
 #include "hyoryu/assess/measure.hpp"
 
 #include "hyoryu/assess/fit.hpp"
+#include "hyoryu/assess/reflection.hpp"
 
 #include <fmt/format.h>
 
@@ -17,21 +18,6 @@ namespace hyoryu {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-Samples within(const Quantity& quantity, const Scope& scope, const Samples& all)
-{
-    const double infinite = std::numeric_limits<double>::infinity();
-    const double from = quantity.from.empty() ? -infinite : evaluate(quantity.from, scope);
-    const double until = quantity.until.empty() ? infinite : evaluate(quantity.until, scope);
-    Samples kept;
-    for (std::size_t k = 0; k < all.t.size(); ++k) {
-        if (all.t[k] >= from && all.t[k] <= until) {
-            kept.t.push_back(all.t[k]);
-            kept.values.push_back(all.values[k]);
-        }
-    }
-    return kept;
-}
 
 /// The value at a time between two rows; nothing outside of them.
 std::optional<double> interpolate(const Samples& s, double time)
@@ -250,6 +236,9 @@ Measured measured(const Quantity& quantity, MadeRun& made)
     if (quantity.band) {
         return share_within(quantity, made.scope, made.files);
     }
+    if (quantity.waves) {
+        return reflection(quantity, made.scope, made.files);
+    }
     const auto of = [&](const std::string& value) {
         Series series = quantity.series;
         series.value = value;
@@ -278,6 +267,21 @@ std::optional<Samples> reference_of(const Quantity& quantity, const Expectation&
 }
 
 } // namespace
+
+Samples within(const Quantity& quantity, const Scope& scope, const Samples& all)
+{
+    const double infinite = std::numeric_limits<double>::infinity();
+    const double from = quantity.from.empty() ? -infinite : evaluate(quantity.from, scope);
+    const double until = quantity.until.empty() ? infinite : evaluate(quantity.until, scope);
+    Samples kept;
+    for (std::size_t k = 0; k < all.t.size(); ++k) {
+        if (all.t[k] >= from && all.t[k] <= until) {
+            kept.t.push_back(all.t[k]);
+            kept.values.push_back(all.values[k]);
+        }
+    }
+    return kept;
+}
 
 Measured measure(const Quantity& quantity, const Scope& scope, const Samples& samples)
 {

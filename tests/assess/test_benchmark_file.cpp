@@ -157,6 +157,38 @@ TEST_F(BenchmarkFiles, AToleranceNeedsAReason)
               std::string::npos);
 }
 
+TEST_F(BenchmarkFiles, ReflectionNeedsThreeGaugesWithTheirPlaces)
+{
+    const auto with = [&](const std::string& waves, const std::string& measure = "reflection") {
+        return head + "[[check]]\nname = \"x\"\nvalue = \"a\"\nmeasure = \"" + measure +
+               "\"\nat_most = 0.1\nbecause = \"a test\"\n" + waves;
+    };
+    const std::string waves =
+        "waves = { beside = [\"b\", \"c - 1\"], distance = [0.5, 1], period = \"2*2\", "
+        "wavenumber = 1.4 }\n";
+    const Quantity quantity = read(with(waves)).checks.front().quantity;
+    ASSERT_TRUE(quantity.waves);
+    EXPECT_EQ(quantity.waves->beside, (std::vector<std::string>{"b", "c - 1"}));
+    EXPECT_EQ(quantity.waves->distance, (std::vector<double>{0.5, 1}));
+    EXPECT_EQ(quantity.waves->period, "2*2");
+    EXPECT_NE(mistake(with("")).find("belongs to the measure \"reflection\""), std::string::npos);
+    EXPECT_NE(mistake(with(waves, "last")).find("belongs to"), std::string::npos);
+    EXPECT_NE(mistake(with("waves = { beside = [\"b\"], distance = [1], period = 2, "
+                           "wavenumber = 1 }\n"))
+                  .find("two gauges or more"),
+              std::string::npos);
+    EXPECT_NE(mistake(with("waves = { beside = [\"b\", \"c\"], distance = [1], period = 2, "
+                           "wavenumber = 1 }\n"))
+                  .find("1 numbers for 2 gauges"),
+              std::string::npos);
+    EXPECT_NE(mistake(with("waves = { beside = [\"b +\", \"c\"], distance = [1, 2], period = 2, "
+                           "wavenumber = 1 }\n")),
+              "");
+    EXPECT_NE(mistake(with("waves = { beside = [\"b\", \"c\"], distance = [1, 2] }\n")), "");
+    const std::string since = "since = \"b\"\n";
+    EXPECT_NE(mistake(with(waves + since)).find("has no meaning"), std::string::npos);
+}
+
 TEST(Patterns, AStarStandsForAnyLetters)
 {
     EXPECT_TRUE(matches({"*"}, "anything"));

@@ -83,6 +83,7 @@ enum class Measure {
     integral,      // over time, by trapezoids
     period,        // [s] of an oscillation about `level`: mean time between passes
     decay,         // rate [1/s] at which its extrema fall, by least squares of their logarithms
+    reflection,    // height of the waves that go back over that of those that come
     share_within,  // of the rows of a band in which the run lies within the band
     rms_error,     // root mean square of the difference from a series
     largest_error, // largest absolute difference from a series
@@ -96,10 +97,19 @@ struct Band {
     std::string upper; // expression of the same rows
 };
 
+/// What the measure `reflection` needs besides the elevation at the first gauge.
+struct WaveGauges {
+    std::vector<std::string> beside; // elevation at the others: expressions of the same rows
+    std::vector<double> distance;    // of each from the first, the way the waves come [m]
+    std::string period;              // expression [s]
+    std::string wavenumber;          // expression [rad/m]
+};
+
 /// A measured number and how it is taken. Expressions are of constants and the run's parameters.
 struct Quantity {
     Series series;
-    std::optional<Band> band; // of share_within
+    std::optional<Band> band;        // of share_within
+    std::optional<WaveGauges> waves; // of reflection
     Measure measure = Measure::last;
     int index = 1;     // from 1
     std::string time;  // [s]

@@ -48,7 +48,10 @@ struct Measured {
     std::string why;  // empty if there is one
 };
 
-/// One number of the samples. Not for the error measures and bands.
+/// Those at the times that the quantity asks for. Throws FormulaError.
+Samples within(const Quantity& quantity, const Scope& scope, const Samples& all);
+
+/// One number of the samples. Not for the error measures, bands and reflection.
 Measured measure(const Quantity& quantity, const Scope& scope, const Samples& samples);
 
 /// Root mean square or largest absolute difference of the quantity from an expression of its rows,
