@@ -42,8 +42,8 @@ void read_expected(Section& section, Check& check)
         section.error("",
                       "give one of `expected`, `at_most`, `at_least`, `reference` and `same_as`");
     }
-    if (check.quantity.waves && check.expected.reference) {
-        section.error("reference", "has no meaning for the measure \"reflection\"");
+    if (check.quantity.waves && !check.same_as.empty()) {
+        section.error("same_as", "has no meaning for the measure \"reflection\"");
     }
     if (is_error_measure(check.quantity.measure) && check.comparison != Comparison::equal) {
         section.error("measure", "is the difference from `expected` or `reference`",
@@ -287,6 +287,9 @@ int read_expectation(Section& section, Expectation& expected)
         expected.reference = read_series(*reference, "value");
         reference->require("file");
         reference->finish();
+    }
+    if (expected.reference && section.has("waves")) {
+        section.error("reference", "has no meaning for the measure \"reflection\"");
     }
     return (expected.formula.empty() ? 0 : 1) + (expected.reference ? 1 : 0);
 }

@@ -185,8 +185,15 @@ TEST_F(BenchmarkFiles, ReflectionNeedsThreeGaugesWithTheirPlaces)
                            "wavenumber = 1 }\n")),
               "");
     EXPECT_NE(mistake(with("waves = { beside = [\"b\", \"c\"], distance = [1, 2] }\n")), "");
-    const std::string since = "since = \"b\"\n";
-    EXPECT_NE(mistake(with(waves + since)).find("has no meaning"), std::string::npos);
+    EXPECT_NE(mistake(with("since = \"b\"\n" + waves)).find("has no meaning"), std::string::npos);
+    for (const char* expected :
+         {"same_as = \"run\"\ntolerance = 1",
+          "reference = { file = \"gauges\", value = \"a\" }\ntolerance = 1"}) {
+        std::string text = with(waves);
+        text.replace(text.find("at_most = 0.1"), std::string("at_most = 0.1").size(), expected);
+        EXPECT_NE(mistake(text).find("has no meaning for the measure"), std::string::npos)
+            << expected;
+    }
 }
 
 TEST(Patterns, AStarStandsForAnyLetters)
