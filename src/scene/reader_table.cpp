@@ -223,6 +223,18 @@ void TableReader::warn(std::string_view key, std::string what, std::string hint)
                   std::move(hint));
 }
 
+void TableReader::flatten(std::string_view name, std::string_view unit, Vec3& vector)
+{
+    if (reading_.dimensions != 2) {
+        return;
+    }
+    if (vector.y() != 0 && unit.starts_with("m/s")) {
+        warn(name, "y has no effect: with `dimensions = 2` the case lies in the x-z plane",
+             "the numbers are x, y and z; z points up");
+    }
+    vector.y() = 0;
+}
+
 void TableReader::report_unknown(const TomlEntry& entry)
 {
     std::vector<std::string_view> names = keys_within(schema_);

@@ -157,9 +157,9 @@ public:
     {
         vector(name, member, unit, meaning, fallback, shortest);
         if constexpr (std::same_as<T, Vec3>) {
-            member.y() = reading_.dimensions == 2 ? 0.0 : member.y();
+            flatten(name, unit, member);
         } else if (member) {
-            member->y() = reading_.dimensions == 2 ? 0.0 : member->y();
+            flatten(name, unit, *member);
         }
     }
     void direction(std::string_view name, Vec3& member, std::string_view meaning,
@@ -204,6 +204,8 @@ public:
     void error_at(std::string_view key, std::size_t index, std::string what, std::string hint = {});
     /// Notes what is worth knowing, in the same place.
     void warn(std::string_view key, std::string what, std::string hint);
+    /// In two dimensions takes y away, and warns of a speed or an acceleration that had one.
+    void flatten(std::string_view name, std::string_view unit, Vec3& vector);
     /// A key that must be there in this case although not in every one.
     void require(std::string_view key);
     /// No key of this table is judged as meaningless any more; for after a mistake.

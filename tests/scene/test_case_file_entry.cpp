@@ -278,4 +278,33 @@ TEST(CaseFileEntry, E11AListOfTablesInSingleBracketsIsToldWithItsHint)
     }
 }
 
+// E11: who takes y for the vertical would see no gravity and no motion, without a word.
+TEST(CaseFileEntry, E11ASpeedAlongYInTwoDimensionsIsToldAtItsPlace)
+{
+    const auto text = [](int dimensions, const std::string& gravity, const std::string& others) {
+        return fmt::format("dimensions = {}\ngravity = {}\n[time]\nend = 1.0\n"
+                           "[particles]\nspacing = 0.1\n[fluid]\nacceleration = {}\n"
+                           "[[fluid.block]]\nshape = \"box\"\nmin = [0, -1, 0]\nmax = [1, 1, 1]\n"
+                           "velocity = {}\n[[wall]]\nname = \"floor\"\nshape = \"box\"\n"
+                           "min = [0, -1, -1]\nmax = [1, 1, -0.5]\n[wall.motion]\nvelocity = {}\n"
+                           "[[body]]\nname = \"ball\"\nshape = \"sphere\"\nradius = 0.2\n"
+                           "density = 500\nposition = [0, 0, 3]\nvelocity = {}\n",
+                           dimensions, gravity, others, others, others, others);
+    };
+    for (const char* across : {"[0, -9.81, 0]", "[1, 1e-9, 2]"}) {
+        const std::vector<Diagnostic> told = parse_case(text(2, across, across), "case").notices;
+        ASSERT_EQ(told.size(), 5u) << across;
+        for (std::size_t k = 0; k < told.size(); ++k) {
+            EXPECT_NE(told[k].what.find("x-z plane"), std::string::npos) << told[k].what;
+            EXPECT_EQ(told[k].severity, Diagnostic::Severity::warning);
+        }
+        std::vector<int> lines;
+        std::ranges::transform(told, std::back_inserter(lines), &Diagnostic::line);
+        std::ranges::sort(lines);
+        EXPECT_EQ(lines, (std::vector<int>{2, 8, 13, 20, 27}));
+        EXPECT_TRUE(parse_case(text(3, across, across), "case").notices.empty());
+    }
+    EXPECT_TRUE(parse_case(text(2, "[0, 0, -9.81]", "[1, 0, 2]"), "case").notices.empty());
+}
+
 } // namespace hyoryu
