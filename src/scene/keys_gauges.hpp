@@ -24,6 +24,9 @@ inline void check_place(TableReader& table, const Gauge& gauge)
     if (table.count("at") == 2 && gauge.type != GaugeType::elevation) {
         table.error("at", "expected 3 numbers, found 2");
     }
+    if (gauge.type == GaugeType::elevation && gauge.at.z() != 0) {
+        table.warn("at", "z has no effect: an elevation gauge is a vertical line", "write [x, y]");
+    }
 }
 
 inline void find_target(TableReader& table, const Gauge& gauge, const Scene& scene)

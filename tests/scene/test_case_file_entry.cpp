@@ -307,4 +307,21 @@ TEST(CaseFileEntry, E11ASpeedAlongYInTwoDimensionsIsToldAtItsPlace)
     EXPECT_TRUE(parse_case(text(2, "[0, 0, -9.81]", "[1, 0, 2]"), "case").notices.empty());
 }
 
+TEST(CaseFileEntry, E11AHeightOfAnElevationGaugeIsToldToHaveNoEffect)
+{
+    const auto notices = [](const std::string& type, const std::string& at) {
+        return parse_case("[time]\nend = 1.0\n[particles]\nspacing = 0.1\n[fluid]\n"
+                          "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n"
+                          "[[gauge]]\nname = \"g\"\ntype = \"" +
+                              type + "\"\nat = " + at + "\n",
+                          "case")
+            .notices;
+    };
+    ASSERT_EQ(notices("elevation", "[0.2, 0.1, -0.3]").size(), 1u);
+    EXPECT_EQ(notices("elevation", "[0.2, 0.1, -0.3]")[0].line, 13);
+    EXPECT_TRUE(notices("elevation", "[0.2, 0.1, 0]").empty());
+    EXPECT_TRUE(notices("elevation", "[0.2, 0.1]").empty());
+    EXPECT_TRUE(notices("pressure", "[0.2, 0.1, 0.3]").empty());
+}
+
 } // namespace hyoryu
