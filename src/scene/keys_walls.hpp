@@ -141,6 +141,9 @@ inline void check_absorption(TableReader& table, const AbsorbKeys& keys, MotionW
     Motion& motion = wall.motion;
     if (!keys.absorbs) {
         motion.absorption.reset();
+        if (table.mistaken({"absorb"})) {
+            table.abandon();
+        }
         return;
     }
     const auto* solid = std::get_if<SolidWall>(&wall.geometry);
