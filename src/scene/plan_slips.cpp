@@ -216,22 +216,47 @@ void look_for_thin_walls(const Scene& scene, PlanWarnings& slips)
     }
 }
 
-// Water below the underside of the ground has nothing to stand on.
-void look_below_terrain(const Scene& scene, PlanWarnings& slips)
+// Water below the underside of the ground, at `bottom` [m], has nothing to stand on.
+void look_for_water_below(const Wall& ground, double bottom, const Scene& scene,
+                          PlanWarnings& slips)
 {
     for (std::size_t b = 0; scene.fluid && b < scene.fluid->blocks.size(); ++b) {
         const FluidBlock& block = scene.fluid->blocks[b];
         const double lowest = box_of(scene, block).min.z();
-        for (const Wall& wall : scene.walls) {
-            const auto* solid = std::get_if<SolidWall>(&wall.geometry);
-            const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
-            if (mesh != nullptr && mesh->terrain && lowest < mesh->terrain->bottom) {
-                slips.add(block.place, fmt::format("fluid.block[{}]", b),
-                          fmt::format("the block reaches down to {:.4g} m, below the underside of "
-                                      "the ground \"{}\" at {:.4g} m: water fills in there, too",
-                                      lowest, wall.name, mesh->terrain->bottom),
-                          "raise the lower side of the block, or lower `wall.bottom`");
-            }
+        if (lowest < bottom) {
+            slips.add(block.place, fmt::format("fluid.block[{}]", b),
+                      fmt::format("the block reaches down to {:.4g} m, below the underside of "
+                                  "the ground \"{}\" at {:.4g} m: water fills in there, too",
+                                  lowest, ground.name, bottom),
+                      "raise the lower side of the block, or lower `wall.bottom`");
+        }
+    }
+}
+
+// And bodies, which do not even overlap the ground there.
+void look_for_bodies_below(const Wall& ground, double bottom, const Scene& scene,
+                           PlanWarnings& slips)
+{
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        if (box_of(scene, body).max.z() < bottom) {
+            slips.add(body.place, fmt::format("body[{}]", b),
+                      fmt::format("body \"{}\" lies below the underside of the ground \"{}\" at "
+                                  "{:.4g} m, which does not hold it",
+                                  body.name, ground.name, bottom),
+                      "raise it: z is up, and the `datum` of the ground moves its zero");
+        }
+    }
+}
+
+void look_below_terrain(const Scene& scene, PlanWarnings& slips)
+{
+    for (const Wall& wall : scene.walls) {
+        const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+        const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
+        if (mesh != nullptr && mesh->terrain) {
+            look_for_water_below(wall, mesh->terrain->bottom, scene, slips);
+            look_for_bodies_below(wall, mesh->terrain->bottom, scene, slips);
         }
     }
 }

@@ -214,6 +214,18 @@ series = "gauge.csv"
             done = self.call("check", "case.toml")
             self.assertEqual("below the underside" in done.stderr, warned, done.stderr)
 
+    def test_a_body_is_above_the_ground_or_told_to_be_in_it_or_below_it(self):
+        keys = self.grid((4e5, 4e6), 90.0, 0.05) + "bottom = -1.0"
+        for size in (0.04, 0.1, 0.3):
+            for z, said in ((-1.01 - size / 2, "below the underside"), (-0.99, "overlaps wall"), (-0.5, "overlaps wall"),
+                            (2.0 + size, None)):
+                body = f'[[body]]\nname = "crate"\nshape = "box"\nsize = [{size}, {size}, {size}]\ndensity = 500\n' \
+                       f"position = [0.5, 0.5, {z}]\n"
+                self.write(CASE.format(keys=keys, spacing=0.1, end=0.02) + body)
+                told = self.call("check", "case.toml").stderr
+                for words in ("below the underside", "overlaps wall"):
+                    self.assertEqual(f'body "crate" {words}' in told.replace("lies ", ""), words == said, (size, z, told))
+
     def test_missing_heights_are_replaced_only_on_request(self):
         self.grid((0.0, 0.0), 90.0, 0.1, lambda x, y: -9999 if x > 1.1 else 0.0)
         keys = "origin = [0.0, 0.0]\nextent = [-0.2, -0.2, 1.4, 1.2]\n"
