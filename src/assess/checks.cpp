@@ -147,10 +147,6 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
     return check;
 }
 
-} // namespace
-
-namespace {
-
 // Gauges that see the waves half a wavelength apart see the same: three tell it.
 constexpr std::size_t fewest_gauges = 3;
 

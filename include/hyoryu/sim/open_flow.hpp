@@ -28,8 +28,8 @@ void extend_domain(const Scene& scene, Fluid& fluid);
 void start_open(Simulation& sim);
 
 /// After the drift to the middle of a step: counts what crossed, and makes new lists where those
-/// are due, with new columns of the carpets. Throws RoomError if the run holds too
-/// many then, except at the start.
+/// are due, with new columns of the carpets. Throws RoomError if the run holds too many then,
+/// except at the start.
 void renew_open(Simulation& sim);
 
 /// After the kick of a step of dt: the flow at the end of the step, and the velocities of carpets.
