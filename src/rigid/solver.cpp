@@ -12,8 +12,7 @@ namespace {
 constexpr std::size_t few_contacts = 24;
 constexpr int few_sweeps = 60;
 constexpr int sweeps_at_once = 20;
-// Updates of rows worth doing between two direct solutions; but so many sweeps in any case.
-constexpr std::size_t updates_in_turn = 2000;
+// Sweeps of a turn in any case.
 constexpr std::size_t fewest_sweeps = 60;
 constexpr std::size_t fewest_between_tries = 20;
 // After so many turns all known impulses are dropped, as a pile of bodies drops them one by one.
@@ -153,7 +152,7 @@ void drop_bad_guess(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 Turns turns_for(std::span<const Row> rows, const Effort& effort, double enough)
 {
     const std::size_t fewest = effort.direct_tries > 0 ? fewest_between_tries : fewest_sweeps;
-    const std::size_t sweeps = std::max(fewest, updates_in_turn / rows.size());
+    const std::size_t sweeps = std::max(fewest, effort.updates / rows.size());
     return {effort.direct_tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
 }
 

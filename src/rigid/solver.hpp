@@ -78,6 +78,9 @@ struct Effort {
     double enough = 1e-6;
     int direct_tries = 2; // direct solutions of a small island, each before sweeps
     int sweeps = 300;     // in each turn
+    /// Updates of rows that a turn of sweeps is worth; fewer sweeps of many rows, down to a fixed
+    /// number.
+    std::size_t updates = 2000;
     /// Rows of an island without friction up to which it is solved by pivoting.
     std::size_t pivoted = 0;
 };
