@@ -75,15 +75,19 @@ protected:
         return make_rigid(parse_case(text, folder_ / "case.toml"));
     }
 
-    // A rectangle in the coordinates of the case.
-    void write_footprint(const Vec3& low, const Vec3& high) const
+    // Rectangles in the coordinates of the case, by two corners each: "b", "c" and so on.
+    void write_footprints(const std::vector<std::pair<Vec3, Vec3>>& rectangles) const
     {
+        std::vector<std::string> features;
+        for (const auto& [low, high] : rectangles) {
+            features.push_back(fmt::format(
+                "{{\"type\": \"Feature\", \"properties\": {{\"id\": \"{4}\"}}, \"geometry\": "
+                "{{\"type\": \"Polygon\", \"coordinates\": [[[{0}, {1}], [{2}, {1}], [{2}, {3}], "
+                "[{0}, {3}], [{0}, {1}]]]}}}}",
+                low.x(), low.y(), high.x(), high.y(), static_cast<char>('b' + features.size())));
+        }
         std::ofstream(folder_ / "b.geojson") << fmt::format(
-            "{{\"type\": \"FeatureCollection\", \"features\": [{{\"type\": \"Feature\", "
-            "\"properties\": {{\"id\": \"b\"}}, \"geometry\": {{\"type\": \"Polygon\", "
-            "\"coordinates\": [[[{0}, {1}], [{2}, {1}], [{2}, {3}], [{0}, {3}], [{0}, "
-            "{1}]]]}}}}]}}",
-            low.x(), low.y(), high.x(), high.y());
+            "{{\"type\": \"FeatureCollection\", \"features\": [{}]}}", fmt::join(features, ", "));
     }
 
     Simulation simulate(const std::string& text) const
@@ -226,7 +230,7 @@ TEST_F(TerrainContact, APrismIsTheBox)
         const Vec3 low(dice.between(0.5, 1), dice.between(-1, -0.5), 0);
         const Vec3 high =
             low + Vec3(dice.between(0.5, 1), dice.between(1, 2), dice.between(0.5, 1));
-        write_footprint(low, high);
+        write_footprints({{low, high}});
         const Vec3 spin(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
         const std::string body = fmt::format(
             "shape = \"box\"\nsize = [0.3, 0.2, 0.1]\ndensity = 600\nposition = {}\nvelocity = "
@@ -267,7 +271,7 @@ TEST_F(TerrainContact, WaterPushesThePrismAsTheBox)
     for (const double spacing : {0.05, 0.04}) {
         const Vec3 low(dice.between(0.65, 0.75), dice.between(0.05, 0.1), 0);
         const Vec3 high = low + spacing * Vec3(5 + dice.below(3), 4 + dice.below(2), 10);
-        write_footprint(low, high);
+        write_footprints({{low, high}});
         const auto text = [&](const std::string& wall) {
             return fmt::format(
                 "[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\nshape = "
@@ -290,6 +294,47 @@ TEST_F(TerrainContact, WaterPushesThePrismAsTheBox)
             EXPECT_LE((pushed - expected).norm(), 1e-6 * expected.norm()) << box.clock.time;
         }
         EXPECT_GT(box.gauges.forces[0].fluid_impulse.x(), 3); // [N s]
+    }
+}
+
+// Two buildings that overlap, and the one of their outline: the same particles, the same push.
+// Where they overlap each has rows of particles of its own, of which those inside the other are
+// left out.
+TEST_F(TerrainContact, BuildingsThatOverlapArePushedAsOne)
+{
+    Dice dice(75);
+    for (const double spacing : {0.05, 0.04}) {
+        const Vec3 low(dice.between(0.65, 0.75), dice.between(0.05, 0.1), 0);
+        const Vec3 high = low + spacing * Vec3(5, 5 + dice.below(2), 10);
+        const auto along = [&](double y) { return low.y() + y * (high.y() - low.y()); };
+        const Vec3 first(high.x(), along(dice.between(0.5, 0.7)), high.z());
+        const Vec3 second(low.x(), along(dice.between(0.3, 0.5)), low.z());
+        const auto text = [&](const std::string& names) {
+            return fmt::format(
+                "[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\nshape = "
+                "\"box\"\nmin = [0, 0, 0]\nmax = [0.4, 0.4, 0.4]\n[[wall]]\nshape = \"basin\"\n"
+                "min = [0, 0, 0]\nmax = [1.2, 0.4, 1]\nopen = [\"+z\"]\n[[buildings]]\nfile = "
+                "\"b.geojson\"\nheight = {}\nname = \"id\"\n{}",
+                spacing, high.z(), names);
+        };
+        const auto gauge = [](char name) {
+            return fmt::format("[[gauge]]\nname = \"on_{0}\"\ntype = \"force\"\non = \"{0}\"\n",
+                               name);
+        };
+        write_footprints({{low, high}});
+        Simulation one = simulate(text(gauge('b')));
+        write_footprints({{low, first}, {second, high}});
+        Simulation two = simulate(text(gauge('b') + gauge('c')));
+        while (one.clock.time < 0.4) {
+            step_on(one);
+            step_on(two);
+        }
+        const Vec3 whole = one.gauges.forces[0].fluid_impulse;
+        const Vec3 parts = two.gauges.forces[0].fluid_impulse + two.gauges.forces[1].fluid_impulse;
+        EXPECT_GT(whole.x(), 3); // [N s]
+        EXPECT_NEAR(parts.x(), whole.x(), 0.05 * whole.x()) << "paths of particles part at once";
+        EXPECT_GT(two.gauges.forces[0].fluid_impulse.x(), 0.2 * whole.x());
+        EXPECT_GT(two.gauges.forces[1].fluid_impulse.x(), 0.2 * whole.x());
     }
 }
 
