@@ -57,6 +57,9 @@ Complex amplitude(const Samples& samples, double omega)
 
 Measured reflection(const std::vector<WaveRecord>& records, double period, double wavenumber)
 {
+    if (!(period > 0 && wavenumber > 0)) {
+        return none("period and wavenumber must be above 0");
+    }
     const double omega = 2 * std::numbers::pi / period;
     Complex spread = 0; // of the gauges along the wave
     Complex coming = 0, going = 0;

@@ -94,6 +94,9 @@ TEST(Reflection, NeedsAPeriodAndAWave)
     EXPECT_NE(Flume({.coming = 0, .going = 0}).measured({0, 0.45, 1.13}).why, "");
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_NE(Flume{.level = nan}.measured({0, 0.45, 1.13}).why, "");
+    for (const auto& [period, wavenumber] : {std::pair(-2.0, 1.4), {2.0, -1.4}, {0, 1.4}}) {
+        EXPECT_NE(reflection({}, period, wavenumber).why.find("above 0"), std::string::npos);
+    }
 }
 
 class ReflectionOfAFile : public testing::ResultsTest {};
