@@ -12,9 +12,12 @@ namespace hyoryu {
 
 namespace {
 
-constexpr real least_distance = 0.6; // of a new particle from any other [spacings]
-constexpr real highest = 0.75;       // above the level, of a particle that stays [spacings]
-constexpr real step_back = 0.25;     // of a place that is taken [spacings]
+constexpr real least_distance = 0.6; // of a new particle from any other of the water [spacings]
+// From those of a body: its lattice is stretched to fit it, and has room in its cells for places
+// that are nearer [spacings].
+constexpr real least_from_body = 1;
+constexpr real highest = 0.75;   // above the level, of a particle that stays [spacings]
+constexpr real step_back = 0.25; // of a place that is taken [spacings]
 
 std::size_t at(Index k)
 {
@@ -30,11 +33,16 @@ struct NewParticle {
 // The rows of one lane: distances from the plane of the particles of each, negative.
 using LaneRows = std::vector<std::vector<real>>;
 
+// Places of the water and of bodies near a carpet.
+struct Taken {
+    Places water, bodies;
+};
+
 // Emits the particles of one lane after another.
 class Emitter {
 public:
-    Emitter(const Fluid& fluid, Carpet& carpet, Places& places, std::vector<NewParticle>& made)
-        : f_(fluid.parameters), carpet_(carpet), places_(places), made_(made),
+    Emitter(const Fluid& fluid, Carpet& carpet, Taken& taken, std::vector<NewParticle>& made)
+        : f_(fluid.parameters), carpet_(carpet), taken_(taken), made_(made),
           far_(-(carpet.side.columns - 0.5) * f_.spacing)
     {
     }
@@ -88,13 +96,13 @@ private:
     bool emit(real s, int row)
     {
         const Vec3 x = place(s, row);
-        if (!places_.is_free(x)) {
+        if (!taken_.water.is_free(x) || !taken_.bodies.is_free(x)) {
             return false;
         }
         const StationFlow& flow = station_of(carpet_, lane_);
         made_.push_back({x, speed_at(carpet_, flow, bed_, x.z()) * carpet_.side.normal(),
                          density_at(f_, flow.level, x.z())});
-        places_.add(x);
+        taken_.water.add(x);
         return true;
     }
     // Columns on the far edge of a row; returns the new ones.
@@ -143,7 +151,7 @@ private:
 
     const FluidParameters& f_;
     Carpet& carpet_;
-    Places& places_;
+    Taken& taken_;
     std::vector<NewParticle>& made_;
     real far_; // outermost place from which a column is missing behind [m]
     int lane_ = 0;
@@ -263,12 +271,13 @@ void renew_carpets(Fluid& fluid, OpenBoundary& open)
     std::vector<std::uint8_t> left(at(fluid.particles.fluid.size()), 0);
     std::vector<NewParticle> made;
     for (Carpet& carpet : open.carpets) {
-        Places places(least_distance * fluid.parameters.spacing);
+        const real dp = fluid.parameters.spacing;
+        Taken taken{Places(least_distance * dp), Places(least_from_body * dp)};
         const auto gone = std::ranges::count(left, 1);
-        const Lanes lanes = sort_into_lanes(fluid, carpet, places, left);
-        add_bodies(fluid, carpet, places);
+        const Lanes lanes = sort_into_lanes(fluid, carpet, taken.water, left);
+        add_bodies(fluid, carpet, taken.bodies);
         const std::size_t before = made.size();
-        Emitter emitter(fluid, carpet, places, made);
+        Emitter emitter(fluid, carpet, taken, made);
         for (int lane = 0; lane < carpet.side.lanes(); ++lane) {
             emitter.fill_lane(lane, lanes.own[at(lane)], lanes.inside[at(lane)]);
         }

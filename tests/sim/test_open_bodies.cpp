@@ -51,7 +51,7 @@ Reach drawn_channel(Dice& dice, int dimensions)
 // Two boxes drift out one after the other. Between the moment when its front reaches the window and
 // that when its rear is behind it by the support of the kernel a box has the speed of the water. To
 // be held are 5 % of that; a box that fills half of the depth of so small a channel turns and
-// heaves there, in water whose pressure is that of the level: 9 % at a moment and 15 % of the time
+// heaves there, in water whose pressure is that of the level: 10 % at a moment and 12 % of the time
 // are reached. The second box passes where the first one left and meets nothing. Momentum closes in
 // every step to the single precision of the pair forces.
 TEST(OpenBodies, DriftOutWithTheWaterAndAreGone)
@@ -95,7 +95,7 @@ TEST(OpenBodies, DriftOutWithTheWaterAndAreGone)
         EXPECT_GT(slowest, 0.88 * reach.velocity);
         EXPECT_LT(fastest, 1.12 * reach.velocity);
         const double due = (2 * half + sim.fluid->kernel.support) / reach.velocity;
-        EXPECT_NEAR(first.time - crossed, due, 0.17 * due);
+        EXPECT_NEAR(first.time - crossed, due, 0.13 * due);
         EXPECT_LT(sim.conservation.worst_closure, 6e-8);
         const Totals now = totals(sim);
         EXPECT_EQ(now.body_kinetic, 0);
@@ -104,6 +104,69 @@ TEST(OpenBodies, DriftOutWithTheWaterAndAreGone)
         EXPECT_EQ(sim.rigid.bodies[1].velocity, Vec3(0, 0, 0));
         EXPECT_EQ(sim.loads.bodies[1].force, Vec3(0, 0, 0));
         EXPECT_EQ(sim.rigid.counters.impacts, 0);
+        EXPECT_LT(sim.conservation.worst_closure, 6e-8);
+    }
+}
+
+// Deep against its spacing and its boxes, as rivers and floods are.
+Reach deep_channel(Dice& dice)
+{
+    Reach r;
+    r.dimensions = 2;
+    r.spacing = dice.chance(0.5) ? 0.025 : 0.02;
+    r.from = dice.between(-3, 3);
+    r.length = 60 * r.spacing;
+    r.depth = (16 + dice.below(5)) * r.spacing;
+    r.velocity = dice.between(0.3, 0.6) * std::sqrt(9.81 * r.depth);
+    r.near = inflow(r.depth, r.velocity);
+    r.far = fmt::format("kind = \"absorb\"\nlevel = {}\nvelocity = {}\n", r.depth, -r.velocity);
+    return r;
+}
+
+// A quarter to half as high as the water is deep, a box crosses the window at the speed of the
+// water. Of forty draws 38 change their speed by less than 5 % on the way and take within 5 % of
+// the time; the others 6.9 % and 5.4 %. No water is made inside a box: one that its lattice let in
+// threw the box back by a quarter of its speed.
+TEST(OpenBodies, DriftOutOfDeepWaterAtItsSpeed)
+{
+    Dice dice(262);
+    for (int n = 0; n < 4; ++n) {
+        const Reach reach = deep_channel(dice);
+        const double size = dice.between(4, 8) * reach.spacing;
+        const double to = reach.from + reach.length;
+        const double density = dice.between(300, 700);
+        const std::string text =
+            case_of(reach) +
+            fmt::format("[[body]]\nname = \"box\"\nshape = \"box\"\nsize = [{0}, {0}, {0}]\n"
+                        "density = {1}\nposition = [{2}, 0.0, {3}]\nvelocity = [{4}, 0.0, 0.0]\n"
+                        "rotation_deg = {{ axis = [0.0, 1.0, 0.0], angle = {5} }}\n",
+                        size, density, to - size - 24 * reach.spacing,
+                        reach.depth + size * (0.5 - density / 1000), reach.velocity,
+                        dice.chance(0.5) ? 0.0 : dice.between(0, 90));
+        SCOPED_TRACE(text);
+        Simulation sim = make(text);
+        double entered = 0; // the window, at the place `at`
+        double at = 0;
+        double speed = 0;
+        double slowest = infinity;
+        double fastest = 0;
+        while (sim.open.left.empty() && sim.clock.time < 80 * reach.spacing / reach.velocity) {
+            step_on(sim);
+            const Body& box = sim.rigid.bodies[0];
+            if (!box.left && box.position.x() + reach_along(box, Vec3::UnitX()) > to) {
+                at = entered == 0 ? box.position.x() : at;
+                speed = entered == 0 ? box.velocity.x() : speed;
+                entered = entered == 0 ? sim.clock.time : entered;
+                slowest = std::min(slowest, box.velocity.x());
+                fastest = std::max(fastest, box.velocity.x());
+            }
+        }
+        ASSERT_EQ(sim.open.left.size(), 1U);
+        EXPECT_GT(slowest, 0.925 * speed);
+        EXPECT_LT(fastest, 1.075 * speed);
+        const LeftBody& left = sim.open.left[0];
+        const double due = (left.position.x() - at) / reach.velocity;
+        EXPECT_NEAR(left.time - entered, due, 0.06 * due);
         EXPECT_LT(sim.conservation.worst_closure, 6e-8);
     }
 }
