@@ -220,6 +220,9 @@ ValuesAt values_at(const Samples& run, const Samples& rows, const char* of)
     if (run.values.empty() || rows.values.empty()) {
         return {{}, "no row fits"};
     }
+    if (std::ranges::adjacent_find(rows.t) != rows.t.end()) {
+        return {{}, fmt::format("two rows of the {} have one time: has it a column `time`?", of)};
+    }
     ValuesAt found;
     for (const double time : rows.t) {
         const auto value = interpolate(run, time);

@@ -116,6 +116,9 @@ TEST_F(Measures, ErrorsFromExpressionsAndFromReferences)
     // At 0.5 the run is 1.5, at 1.5 it is 3.5.
     EXPECT_DOUBLE_EQ(error_from(quantity, samples(reference, {}, files), {}, files).value,
                      std::sqrt(0.0625 / 2));
+    const Samples timeless{{0, 0}, {1, 2}}; // the times of a file that has no column of them
+    EXPECT_NE(error_from(quantity, timeless, {}, files).why.find("column `time`"),
+              std::string::npos);
 }
 
 TEST_F(Measures, IntegralIsThatOfTheTrapezoids)
