@@ -172,7 +172,9 @@ private:
         JointWay way{2 * conductance(edge), 0, 0};
         if (cell(c).probe[at(edge)] >= 0) {
             const std::size_t row = fluid_.first + at(cell(c).probe[at(edge)]);
-            const double wet = std::min(2 * fluid_.shepard[row] / fluid_.sums.rim, 1.0);
+            const LatticeSums& sums = fluid_.sums;
+            const double wet = std::clamp(
+                (fluid_.shepard[row] - sums.below) / (sums.rim / 2 - sums.below), 0.0, 1.0);
             way.pressure = wet * pressure_at(row, place);
             way.enters = wet;
         }
@@ -325,6 +327,9 @@ LatticeSums lattice_sums(const Fluid& fluid)
         sums.between[at(k)] = row_sum(fluid, -reach, (1 + width) / 2 * dp);
     }
     sums.rim = row_sum(fluid, 1, 0);
+    for (int row = 1; row <= reach; ++row) {
+        sums.below += row_sum(fluid, 1, (row + 0.5) * dp);
+    }
     return sums;
 }
 

@@ -12,6 +12,9 @@ struct LatticeSums {
     /// Of a row in the middle between faces 1, 1 + 1/8, ... 2 spacings apart.
     std::array<double, steps + 1> between{};
     double rim = 0; // of half a row that begins a spacing away, beside the particle
+    // Of the half rows there of water whose surface is a spacing below the particle. Water that is
+    // no nearer does not wet a rim: what an impact far below extrapolates is no pressure there.
+    double below = 0;
 
     /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1
     /// counts as 1.

@@ -310,6 +310,42 @@ TEST(Seepage, AStackFloatsUpTogether)
     EXPECT_LE(sim.conservation.worst_closure, 2e-7);
 }
 
+// Two boxes, one on the other, in the way of shallow water that hits the lower one and splashes up:
+// what it does to the lower box is no pressure in the joint above it while it stays farther below
+// than a spacing, however hard it hits. The witness is the highest water beside the boxes.
+TEST(Seepage, WaterFarBelowAJointDoesNotEnterIt)
+{
+    std::mt19937 dice(17);
+    std::uniform_real_distribution<double> part(0, 1);
+    for (const double dp : {0.8, 0.6, 0.05, 0.04}) {
+        const double height = dp * (3.1 + 0.3 * part(dice));
+        const double width = 7.5 * dp;
+        const double start = dp * (17 + part(dice));
+        Simulation sim = make(fmt::format(
+            "dimensions = 2\n[time]\nend = 10\n[particles]\nspacing = {0}\n[fluid]\n"
+            "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [{1}, 0, {2}]\n[[wall]]\n"
+            "shape = \"basin\"\nmin = [0, 0, 0]\nmax = [{3}, 0, {4}]\nopen = [\"+z\"]\n[[body]]\n"
+            "name = \"box\"\nshape = \"box\"\nsize = [{5}, 0, {6}]\ndensity = 60\nposition = "
+            "[{7}, 0, {8}]\n[body.copies]\ncount = [1, 1, 2]\npitch = [1, 1, {6}]\n",
+            dp, 12.5 * dp, 2 * dp, 37.5 * dp, 12 * dp, width, height, start + width / 2,
+            height / 2));
+        const double seam = height;
+        double highest = 0;
+        double most = 0; // force of the water on the upper box, upward [N]
+        while (sim.clock.time < 12 * std::sqrt(dp / 9.81) && highest < seam - dp) {
+            step_on(sim);
+            for (const Vec3& x : sim.fluid->particles.fluid[field::position]) {
+                highest = x.x() > start - 4 * dp ? std::max(highest, x.z() + dp / 2) : highest;
+            }
+            if (highest < seam - dp) {
+                most = std::max(most, sim.loads.bodies[1].force.z());
+            }
+        }
+        EXPECT_LT(most, 1e-3 * 60 * 9.81 * width * height) << "spacing " << dp;
+        EXPECT_GT(highest, dp) << "water has come";
+    }
+}
+
 TEST(Seepage, SameBitsForOneTwoAndThreeThreadsAndAcrossARestart)
 {
     const std::string text = stack_of_two("");
