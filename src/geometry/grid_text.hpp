@@ -15,6 +15,8 @@
 namespace hyoryu {
 
 inline constexpr double most_grid_cells = 2e8;
+/// Stands for no height where nothing else does: the default of ESRI's grids.
+inline constexpr double none_given = -9999;
 inline constexpr const char* grid_in_degrees =
     "the grid seems to be in degrees; reproject it to metres, for instance by `gdalwarp -t_srs "
     "EPSG:32654`";

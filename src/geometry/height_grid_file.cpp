@@ -154,11 +154,9 @@ void place_grid(const Header& header, const Words& words, HeightGrid& grid)
     }
 }
 
-void read_heights(const Header& header, std::optional<double> substitute, Words& words,
-                  HeightGrid& grid)
+void read_heights(const Header& header, double none, Words& words, HeightGrid& grid)
 {
     const auto missing = header.find("nodata_value");
-    const double none = substitute.value_or(std::nan(""));
     const auto columns = static_cast<std::size_t>(grid.columns);
     const auto rows = static_cast<std::size_t>(grid.rows);
     grid.height.resize(columns * rows);
@@ -183,23 +181,47 @@ void read_heights(const Header& header, std::optional<double> substitute, Words&
     }
 }
 
+HeightGrid read_ascii_grid(const std::filesystem::path& file, const std::string& text, double none)
+{
+    Words words(file, text);
+    const Header header = read_header(words);
+    HeightGrid grid;
+    place_grid(header, words, grid);
+    read_heights(header, none, words, grid);
+    return grid;
+}
+
+// What stands for no height though the file does not say so. A number beyond all heights of the
+// Earth is another such mark: it must not become a cliff.
+void forget_missing(const std::filesystem::path& file, double none, HeightGrid& grid)
+{
+    constexpr double farthest = 12000; // of the ground from the sea [m]
+    for (double& height : grid.height) {
+        height = height == none_given ? none : height;
+        if (std::abs(height) > farthest) {
+            throw IoError(fmt::format("{}: no ground has the height {:.6g} m; if it stands for "
+                                      "none, name it: `NODATA_value {:.6g}` in the header",
+                                      file.string(), height, height));
+        }
+    }
+}
+
 } // namespace
 
 HeightGrid read_height_grid(const std::filesystem::path& file, std::optional<double> substitute)
 {
     constexpr std::uintmax_t largest = std::uintmax_t(4) << 30;
     const std::string text = bytes_of_file(file, largest);
-    if (is_raster(text)) {
-        return read_raster(file, substitute.value_or(std::nan("")));
-    }
-    if (is_point_text(text)) {
-        return grid_of_points(file, text, substitute.value_or(std::nan("")));
-    }
-    Words words(file, text);
-    const Header header = read_header(words);
+    const double none = substitute.value_or(std::nan(""));
     HeightGrid grid;
-    place_grid(header, words, grid);
-    read_heights(header, substitute, words, grid);
+    if (is_raster(text)) {
+        grid = read_raster(file, none);
+    } else if (is_point_text(text)) {
+        grid = grid_of_points(file, text, none);
+    } else {
+        grid = read_ascii_grid(file, text, none);
+    }
+    forget_missing(file, none, grid);
     return grid;
 }
 

@@ -13,7 +13,6 @@ namespace {
 constexpr double off_grid = 0.05;
 // A grid of which less than this part is given is none: scattered points have lines of their own.
 constexpr double least_given = 0.1;
-constexpr double none_given = -9999;
 
 struct Point {
     double x = 0, y = 0, z = 0; // [m]

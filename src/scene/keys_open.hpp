@@ -3,6 +3,7 @@
 #pragma once
 
 #include "keys_names.hpp"
+#include "place_buildings.hpp"
 #include "series.hpp"
 
 #include "hyoryu/scene/reader_hint.hpp"
@@ -11,15 +12,41 @@
 
 namespace hyoryu {
 
+/// How a case lies in its map: as its terrain does, else x is east and heights are those of the
+/// map.
+struct MapAxes {
+    double azimuth_deg = 90; // of the x axis, clockwise from north
+    double datum = 0;        // z of height 0 [m]
+    bool of_terrain = false;
+};
+
+inline MapAxes map_of(const Scene& scene)
+{
+    const Wall* wall = terrain_of(scene);
+    if (wall == nullptr) {
+        return {};
+    }
+    const auto& mesh = std::get<MeshShape>(std::get<SolidWall>(wall->geometry).shape);
+    return {mesh.terrain->azimuth_deg, mesh.terrain->datum, true};
+}
+
 /// What a reader needs of the keys of a window and a writer does not write: they have become
 /// series.
 struct SeriesKeys {
+    MapAxes map;
     std::optional<std::string> file;
     SeriesFormat format = SeriesFormat::csv;
     std::vector<std::string> columns;
-    std::optional<double> azimuth_deg;
-    double datum = 0, time_offset = 0, scale = 1;
+    std::optional<double> azimuth_deg, datum;
+    double time_offset = 0, scale = 1;
 };
+
+/// The direction into the domain, clockwise from north.
+inline double azimuth_of(const OpenSettings& open, const MapAxes& map)
+{
+    constexpr std::array<double, 4> from_x{0, 180, -90, 90};
+    return map.azimuth_deg + from_x[static_cast<std::size_t>(open.into)];
+}
 
 inline void check_open_name(TableReader& table, const OpenSettings& open, const Scene& scene)
 {
@@ -135,6 +162,16 @@ inline void check_file_keys(TableReader& table, const OpenSettings& open, const 
     if (file && table.has("azimuth_deg") && keys.format == SeriesFormat::csv) {
         table.error("azimuth_deg", "has no meaning with format = \"csv\"",
                     "the velocities of a table are those into the domain");
+    } else if (keys.azimuth_deg && keys.map.of_terrain) {
+        constexpr double rounded = 0.5; // [deg]
+        const double by_terrain = azimuth_of(open, keys.map);
+        if (std::abs(std::remainder(*keys.azimuth_deg - by_terrain, 360)) > rounded) {
+            table.warn("azimuth_deg",
+                       fmt::format("is {:.6g} deg, but by the terrain `into` points {:.6g} deg "
+                                   "clockwise from north",
+                                   *keys.azimuth_deg, std::fmod(by_terrain + 360, 360)),
+                       "leave it out: it follows from `wall.azimuth_deg`");
+        }
     }
     if (file && table.has("columns") && keys.format == SeriesFormat::geoclaw) {
         table.error("columns", "has no meaning with format = \"geoclaw\"",
@@ -181,12 +218,14 @@ inline void load_series(TableReader& table, std::string_view key, const SeriesKe
     if (!path) {
         return;
     }
-    // East is +x and north is +y unless the case says otherwise.
-    constexpr std::array<double, 4> azimuths{90, 270, 0, 180};
-    const double azimuth = keys.azimuth_deg.value_or(azimuths[static_cast<std::size_t>(open.into)]);
-    const SeriesSource source{
-        *path,      keys.format,      keys.columns, azimuth * std::numbers::pi / 180,
-        keys.datum, keys.time_offset, keys.scale};
+    const double azimuth = keys.azimuth_deg.value_or(azimuth_of(open, keys.map));
+    const SeriesSource source{*path,
+                              keys.format,
+                              keys.columns,
+                              azimuth * std::numbers::pi / 180,
+                              keys.datum.value_or(keys.map.datum),
+                              keys.time_offset,
+                              keys.scale};
     std::vector<std::string> faults;
     const double at = series.at;
     const Place place = series.place;
@@ -255,7 +294,8 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
         table.error("file", "is missing: a station needs a series", "give `file`, or `times`");
         return;
     }
-    if (keys.datum != 0 || keys.time_offset != 0 || keys.scale != 1 || !keys.columns.empty()) {
+    if (keys.datum.value_or(0) != 0 || keys.time_offset != 0 || keys.scale != 1 ||
+        !keys.columns.empty()) {
         table.error(
             "times",
             "stands beside `datum`, `time_offset`, `scale` or `columns` of the window, which "
@@ -321,8 +361,9 @@ void series_keys(auto& keys, SeriesKeys& source)
                no_default);
     keys.number("azimuth_deg", source.azimuth_deg, "deg",
                 "Direction of `into`, clockwise from north, by which the velocities of a GeoClaw "
-                "gauge are turned; by default x is east and y is north.");
-    keys.number("datum", source.datum, "m", "z of the scene at level 0 of the file.");
+                "gauge are turned; by default as the terrain lies, without one x is east.");
+    keys.number("datum", source.datum, "m",
+                "z of the scene at level 0 of the file; by default the datum of the terrain.");
     keys.number("time_offset", source.time_offset, "s", "Time of the file at time 0 of the scene.");
     keys.number("scale", source.scale, "",
                 "Factor on the levels above the datum, the velocities "
@@ -338,7 +379,7 @@ inline void default_bodies(TableReader& /*table*/, OpenSettings& open)
 
 void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
 {
-    SeriesKeys source;
+    SeriesKeys source{.map = map_of(scene)};
     keys.rule(number_name, "open", open.name);
     keys.text("name", open.name, "Name in results; unique among open sides.", "open.1, open.2 ...");
     keys.rule(check_open_name, open, scene);

@@ -22,13 +22,13 @@ inline void find_box(Reading& reading, const std::string& key, const SeededCells
     size.y() = scene.dimensions == 2 ? 1 : size.y();
     block.centre = (box.min + box.max) / 2;
     block.shape = BoxShape{size};
-    if (cells.leak && scene.open.empty()) {
+    if (cells.leak) {
         reading.warn(block.place, key,
                      fmt::format("the water reaches the edge of the scene at ({:.4g}, {:.4g}, "
                                  "{:.4g}) m, where no wall holds it",
                                  cells.leak->x(), cells.leak->y(), cells.leak->z()),
                      "add a basin with open = [\"+z\", \"-z\"] about the scene, or an [[open]] "
-                     "window");
+                     "window; where the ground ends before the scene, let both end there");
     }
 }
 

@@ -130,8 +130,21 @@ std::vector<Crossing> crossings_from(const SeededCells& cells, const std::vector
     return found;
 }
 
+// Whether what leaves the box from a place goes out through a window.
+bool at_window(const Scene& scene, const Vec3& from, double edge)
+{
+    return std::ranges::any_of(scene.open, [&](const OpenSettings& open) {
+        const int axis = open.axis();
+        const int along = 1 - axis;
+        const bool beside = scene.dimensions == 2 || (from[along] > open.min[along] - edge &&
+                                                      from[along] < open.max[along] + edge);
+        return beside && std::abs(from[axis] - open.plane()) < edge &&
+               from.z() > open.min.z() - edge && from.z() < open.max.z() + edge;
+    });
+}
+
 // The cells beyond a front, which become wet; notes where water would leave the box.
-std::vector<Index> advance(SeededCells& cells, const FreeSpace& space,
+std::vector<Index> advance(const Scene& scene, SeededCells& cells, const FreeSpace& space,
                            const std::vector<Index>& front)
 {
     std::vector<Crossing> crossings = crossings_from(cells, front, space.dimensions());
@@ -148,7 +161,10 @@ std::vector<Index> advance(SeededCells& cells, const FreeSpace& space,
             continue;
         }
         if (!is_within(cells, c.to)) {
-            cells.leak = cells.leak.value_or(middle_of(cells, c.from));
+            const Vec3 from = middle_of(cells, c.from);
+            if (!cells.leak && !at_window(scene, from, cells.edge)) {
+                cells.leak = from;
+            }
             continue;
         }
         std::uint8_t& wet = cells.wet[static_cast<std::size_t>(number_of(cells, c.to))];
@@ -189,7 +205,7 @@ SeededCells seeded_cells(const Scene& scene, std::size_t block, const Bounds& wi
     cells.wet[static_cast<std::size_t>(front.front())] = 1;
     while (!front.empty()) {
         cells.reached += static_cast<Index>(front.size());
-        front = advance(cells, space, front);
+        front = advance(scene, cells, space, front);
     }
     return cells;
 }

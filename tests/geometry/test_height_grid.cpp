@@ -146,6 +146,21 @@ TEST_F(HeightGrids, MissingHeightsAreNotANumberUnlessReplaced)
     EXPECT_EQ(read(text, -2.5).height, (std::vector<double>{3, -2.5, 1, -2.5}));
 }
 
+// -9999 stands for no height where the header does not say so, and where it names another mark.
+TEST_F(HeightGrids, MarksThatTheHeaderDoesNotNameAreNoCliffs)
+{
+    const std::string head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (const char* line : {"", "nodata_value -32768\n"}) {
+        const std::string text = head + line + "1 -9999\n3 4\n";
+        EXPECT_TRUE(std::isnan(read(text).height[3]));
+        EXPECT_EQ(read(text, 0.5).height[3], 0.5);
+    }
+    for (const char* mark : {"-32768", "-99999", "1e30"}) {
+        EXPECT_NE(fault(head + "1 " + mark + "\n3 4\n").find("no ground has the height"),
+                  std::string::npos);
+    }
+}
+
 // The triangle surface at a place, by the triangle that is above it: shares nothing with the
 // lattice.
 double surface_at(const Mesh& mesh, double x, double y)

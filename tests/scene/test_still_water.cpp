@@ -232,5 +232,26 @@ TEST(StillWater, MistakesAreTold)
         << scene.notices[0].what;
 }
 
+// A window lets water pass; a gap beside it is told of all the same.
+TEST(StillWater, AGapBesideAWindowIsToldOf)
+{
+    const auto notices = [](const std::string& open, const std::string& wall) {
+        const std::string text =
+            basin_case(3, 0.1, still(1, "[1, 1]")) +
+            "[[open]]\nname = \"sea\"\nmin = [0, 0, 0]\nmax = [0, 2, 2]\ninto = \"+x\"\nkind = "
+            "\"absorb\"\n" +
+            wall;
+        const std::size_t at = text.find("[\"+z\"]");
+        return parse_case(text.substr(0, at) + open + text.substr(at + 6), "case.toml").notices;
+    };
+    EXPECT_TRUE(notices("[\"+z\", \"-x\"]", "").empty());
+    const auto told = notices("[\"+z\", \"-x\", \"+x\"]", "");
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_NE(told[0].what.find("reaches the edge of the scene at (3.95"), std::string::npos);
+    EXPECT_TRUE(notices("[\"+z\", \"-x\", \"+x\"]",
+                        "[[wall]]\nshape = \"box\"\nmin = [3.5, -1, -1]\nmax = [4, 3, 2]\n")
+                    .empty());
+}
+
 } // namespace
 } // namespace hyoryu

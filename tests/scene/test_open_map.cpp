@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Gauges of a map at the windows of a case: they lie in it as the terrain does, unless the case
+// says otherwise. Terrains, currents and windows are drawn at random.
+#include "building_files.hpp"
+
+namespace hyoryu {
+namespace {
+
+class GaugesInAMap : public BuildingFiles {
+protected:
+    // A window in one side of a tank over the terrain, that follows the gauge g.txt.
+    static std::string case_of_window(const Plane& plane, int into, const std::string& keys)
+    {
+        constexpr std::array<const char*, 4> names{"+x", "-x", "+y", "-y"};
+        constexpr std::array<const char*, 4> mins{"[-6, -6, -50]", "[6, -6, -50]", "[-6, -6, -50]",
+                                                  "[-6, 6, -50]"};
+        constexpr std::array<const char*, 4> maxs{"[-6, 6, 50]", "[6, 6, 50]", "[6, -6, 50]",
+                                                  "[6, 6, 50]"};
+        const auto k = static_cast<std::size_t>(into);
+        return fmt::format(
+            "[time]\nend = 1\n[particles]\nspacing = 1\n[domain]\nmin = [-6, -6, -50]\nmax = [6, "
+            "6, "
+            "50]\n[fluid]\n[[fluid.block]]\nshape = \"box\"\nmin = [-6, -6, 20]\nmax = [6, 6, "
+            "24]\n{}[[open]]\nname = \"sea\"\nmin = {}\nmax = {}\ninto = \"{}\"\nkind = "
+            "\"inflow\"\nseries = \"g.txt\"\nformat = \"geoclaw\"\n{}",
+            terrain_of(plane), mins[k], maxs[k], names[k], keys);
+    }
+};
+
+TEST_F(GaugesInAMap, LieInTheCaseAsTheTerrainDoes)
+{
+    Dice dice(31);
+    for (int n = 0; n < 24; ++n) {
+        const Plane plane = draw_plane(dice);
+        const Complex current(dice.between(-3, 3), dice.between(-3, 3)); // to the east, the north
+        const double eta = dice.between(-1, 1);
+        write("g.asc", grid_of(plane));
+        write("g.txt", fmt::format("1 0 2 {0} {1} {2}\n1 9 2 {0} {1} {2}\n", 2 * current.real(),
+                                   2 * current.imag(), eta));
+        const Complex along = plane.in_case(plane.origin + current); // x + i y of the case
+        const std::array<double, 4> expected{along.real(), -along.real(), along.imag(),
+                                             -along.imag()};
+        const Scene scene = read(case_of_window(plane, n % 4, ""));
+        EXPECT_NEAR(scene.open[0].series[0].velocities[0],
+                    expected[static_cast<std::size_t>(n % 4)], 1e-9);
+        EXPECT_NEAR(scene.open[0].series[0].levels[0], plane.datum + eta, 1e-12);
+        EXPECT_TRUE(scene.notices.empty());
+        const Scene other = read(case_of_window(plane, n % 4, "datum = 0.5\n"));
+        EXPECT_NEAR(other.open[0].series[0].levels[0], 0.5 + eta, 1e-12);
+    }
+}
+
+TEST_F(GaugesInAMap, ADirectionThatIsNotThatOfTheTerrainIsToldOf)
+{
+    Dice dice(32);
+    for (int n = 0; n < 12; ++n) {
+        const Plane plane = draw_plane(dice);
+        write("g.asc", grid_of(plane));
+        write("g.txt", "1 0 2 1 1 0\n1 9 2 1 1 0\n");
+        const std::array<double, 4> from_x{0, 180, -90, 90}; // clockwise, +y being left of +x
+        const double right = plane.azimuth_deg + from_x[static_cast<std::size_t>(n % 4)];
+        const auto notices = [&](double azimuth) {
+            return read(case_of_window(plane, n % 4, fmt::format("azimuth_deg = {}\n", azimuth)))
+                .notices;
+        };
+        EXPECT_TRUE(notices(right).empty());
+        EXPECT_TRUE(notices(right + 360).empty());
+        const auto told = notices(right + dice.between(5, 355));
+        ASSERT_EQ(told.size(), 1U);
+        EXPECT_NE(told[0].what.find("by the terrain `into` points"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace hyoryu
