@@ -264,7 +264,7 @@ void draw_legend(Pixels& pixels, const Extremes& ground, const Extremes& depth)
           ground.empty() ? "NO GROUND"
                          : fmt::format("GROUND {:.1f} TO {:.1f} M", ground.low, ground.high));
     entry(mixed(paper, water, 0.8),
-          depth.empty() ? "NO WATER" : fmt::format("WATER TO {:.1f} M", depth.high));
+          depth.empty() ? "NO WATER" : fmt::format("WATER UP TO {:.1f} M DEEP", depth.high));
     entry(building, "SOLID");
     entry(debris, "BODY");
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "place_debris.hpp"
 
+#include "place_buildings.hpp"
+
 #include "hyoryu/scene/shapes.hpp"
 
 #include <fmt/format.h>
@@ -101,6 +103,20 @@ std::string fault_of(const Rest& rest, double height, const Plan2& at)
     return {};
 }
 
+// Where the ground of a map lies; empty without one.
+std::string hint_of_ground(const Scene& scene)
+{
+    const Wall* wall = terrain_of(scene);
+    if (wall == nullptr) {
+        return {};
+    }
+    const auto& mesh = std::get<MeshShape>(std::get<SolidWall>(wall->geometry).shape);
+    const auto& [x_min, y_min, x_max, y_max] = mesh.terrain->extent;
+    return fmt::format("the terrain has x from {:.6g} to {:.6g} m and y from {:.6g} to {:.6g} m, "
+                       "+y to the left of +x; `check --plan` draws it",
+                       x_min, x_max, y_min, y_max);
+}
+
 class Placing {
 public:
     Placing(DebrisKeys& debris, Scene& scene)
@@ -189,7 +205,7 @@ std::vector<PlaceFault> place_array(DebrisKeys& debris, Scene& scene)
             const Rest rest = rest_on(ground, footprint(extent, at, turn, 0));
             const std::string fault = fault_of(rest, extent.z(), at);
             if (!fault.empty()) {
-                faults.push_back({"a piece " + fault});
+                faults.push_back({"a piece " + fault, hint_of_ground(scene)});
             }
             z = rest.height + clearance + extent.z() / 2;
         }

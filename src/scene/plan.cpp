@@ -374,6 +374,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     estimate_cost(scene, plan);
     check_plan(scene, filling, plan);
     list_floating(scene, plan);
+    check_submerged(scene, filling, plan);
     check_waves(scene, filling, plan);
     show_places(scene, plan.warnings);
     return plan;

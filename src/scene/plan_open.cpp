@@ -3,6 +3,7 @@
 
 #include "hyoryu/scene/case_file.hpp"
 #include "open_side.hpp"
+#include "place_buildings.hpp"
 
 #include <fmt/format.h>
 
@@ -159,9 +160,12 @@ void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& 
                                              "wall at the window")));
     }
     if (!stands_on_ground(scene, side)) {
-        errors.push_back(note_at(scene, open, "min",
-                                 "the lower edge of the window is above the ground",
-                                 "extend it down to the ground or below"));
+        errors.push_back(
+            note_at(scene, open, "min",
+                    fmt::format("the lower edge of the window, z = {:.4g} m, is above the "
+                                "ground, z = {:.4g} m",
+                                open.min.z(), std::ranges::min(side.bed)),
+                    "extend it down to the ground or below"));
     }
 }
 
@@ -259,6 +263,25 @@ void warn_about_ground(const Scene& scene, const OpenSide& side, const auto& war
     }
 }
 
+// The series of a map begins at the level of the water in it; a level of another zero does not.
+void warn_about_start(const Scene& scene, const OpenSettings& open, const WaterAtStart& water,
+                      double bed, const auto& warn)
+{
+    const bool by_level = !open.series.empty() && !open.series.front().levels.empty();
+    if (!by_level || terrain_of(scene) == nullptr || !(water.level > -infinity)) {
+        return;
+    }
+    const double asked = bed + inflow_at(scene, open, water, bed, 0).depth;
+    const double off = asked - water.level;
+    if (std::abs(off) > scene.spacing) {
+        warn("series",
+             fmt::format("asks for a level of {:.4g} m at the start, where the water before the "
+                         "window stands at {:.4g} m: the difference enters as a wave at once",
+                         asked, water.level),
+             "look at `datum` and `time_offset`, and at the level of the still water");
+    }
+}
+
 void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
                             std::vector<Diagnostic>& errors)
 {
@@ -313,6 +336,7 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
     warn_about_ground(scene, side, warn);
     double deepest = 0;
     const double bed = mean_bed(side);
+    warn_about_start(scene, open, water, bed, warn);
     for (int k = 0; k <= samples; ++k) {
         const double time = scene.time.end * k / samples;
         deepest = std::max(deepest, inflow_at(scene, open, water, bed, time).depth);

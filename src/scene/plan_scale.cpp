@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace hyoryu {
@@ -126,6 +128,45 @@ double top_of(const Filling& filling)
     return top;
 }
 
+// The highest particles of the water at the start, in columns of a spacing.
+class WaterTops {
+public:
+    WaterTops(const Filling& filling, double spacing) : spacing_(spacing)
+    {
+        for (const Vec3& p : filling.fluid) {
+            double& top = tops_.try_emplace(column(p), -infinity).first->second;
+            top = std::max(top, p.z());
+        }
+    }
+
+    /// -infinity if there is no water over the box [m].
+    double over(const Bounds& box) const
+    {
+        const Column low = column(box.min);
+        const Column high = column(box.max);
+        double top = -infinity;
+        for (Index i = low[0]; i <= high[0]; ++i) {
+            const auto end = tops_.upper_bound({i, high[1]});
+            for (auto at = tops_.lower_bound({i, low[1]}); at != end; ++at) {
+                top = std::max(top, at->second);
+            }
+        }
+        return top;
+    }
+
+private:
+    using Column = std::array<Index, 2>;
+
+    Column column(const Vec3& p) const
+    {
+        return {static_cast<Index>(std::floor(p.x() / spacing_)),
+                static_cast<Index>(std::floor(p.y() / spacing_))};
+    }
+
+    double spacing_;
+    std::map<Column, double> tops_;
+};
+
 // Time from its start until a gate has risen to the water level; 0 if it is none.
 double opening_time(const Motion& motion, double depth)
 {
@@ -183,6 +224,36 @@ void list_floating(const Scene& scene, Plan& plan)
             continue;
         }
         list_body(scene, b, plan);
+    }
+}
+
+void check_submerged(const Scene& scene, const Filling& filling, Plan& plan)
+{
+    const WaterTops water(filling, scene.spacing);
+    std::size_t count = 0;
+    std::size_t first = 0;
+    double deepest = 0; // of the water over the first one [m]
+    for (std::size_t b = 0; scene.fluid && b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        const Bounds box = bounds(placed(body, scene.dimensions));
+        const double over = water.over(box) + scene.spacing / 2 - box.max.z();
+        const bool held = body.fixed || body.locks[2];
+        if (!(over > scene.spacing / 2) || held || is_too_fine(body.shape) ||
+            !flotation(body, scene.fluid->density, scene.gravity, scene.dimensions)) {
+            continue;
+        }
+        first = count == 0 ? b : first;
+        deepest = count == 0 ? over : deepest;
+        ++count;
+    }
+    if (count > 0) {
+        const BodySettings& body = scene.bodies[first];
+        warn(scene, body.place, fmt::format("body[{}]", first),
+             fmt::format("body \"{}\"{} begins under {:.3g} m of water and is lighter than it: it "
+                         "will shoot up",
+                         body.name, count > 1 ? fmt::format(", as {} more,", count - 1) : "",
+                         deepest),
+             "place it at the surface or on dry ground, unless this is meant", plan);
     }
 }
 

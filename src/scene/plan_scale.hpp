@@ -10,6 +10,9 @@ namespace hyoryu {
 /// bodies that turn.
 void list_floating(const Scene& scene, Plan& plan);
 
+/// Warns of bodies that are lighter than the water and begin under it.
+void check_submerged(const Scene& scene, const Filling& filling, Plan& plan);
+
 /// Resolution, shortest load, viscosity of the scheme and effective Reynolds number; warns where
 /// the last is below 100.
 void list_scale(const Scene& scene, const Filling& filling, double viscosity, Plan& plan);

@@ -3,6 +3,11 @@
 // says otherwise. Terrains, currents and windows are drawn at random.
 #include "building_files.hpp"
 
+#include "hyoryu/scene/fill.hpp"
+#include "hyoryu/scene/plan.hpp"
+
+#include <algorithm>
+
 namespace hyoryu {
 namespace {
 
@@ -68,6 +73,35 @@ TEST_F(GaugesInAMap, ADirectionThatIsNotThatOfTheTerrainIsToldOf)
         const auto told = notices(right + dice.between(5, 355));
         ASSERT_EQ(told.size(), 1U);
         EXPECT_NE(told[0].what.find("by the terrain `into` points"), std::string::npos);
+    }
+}
+
+// A gauge of another zero is a step at the start. The ground is level, and the water 4 m deep.
+TEST_F(GaugesInAMap, AStepAtTheStartIsToldOf)
+{
+    Dice dice(33);
+    for (int n = 0; n < 4; ++n) {
+        Plane plane = draw_plane(dice);
+        plane.east = plane.north = 0;
+        write("g.asc", grid_of(plane));
+        const double off = dice.between(1.2, 3) * (dice.chance(0.5) ? 1 : -1); // spacing 1 m
+        const auto told = [&](double level) {
+            write("g.txt", fmt::format("1 0 4 0 0 {0}\n1 9 4 0 0 {0}\n", level - plane.datum));
+            std::string text = case_of_window(plane, 0, "") +
+                               "[[wall]]\nname = \"sides\"\nshape = \"basin\"\nmin = [-6, -6, "
+                               "-50]\nmax = [6, 6, 50]\nopen = [\"-x\", \"+z\", \"-z\"]\n";
+            const std::string water = "min = [-6, -6, 20]\nmax = [6, 6, 24]";
+            text.replace(
+                text.find(water), water.size(),
+                fmt::format("min = [-6, -6, {}]\nmax = [6, 6, {}]", plane.datum, plane.datum + 4));
+            const Scene scene = read(text);
+            const Plan plan = make_plan(scene, fill(scene));
+            return std::ranges::any_of(plan.warnings, [](const Diagnostic& note) {
+                return note.what.find("enters as a wave at once") != std::string::npos;
+            });
+        };
+        EXPECT_FALSE(told(plane.datum + 4));
+        EXPECT_TRUE(told(plane.datum + 4 + off)) << off;
     }
 }
 

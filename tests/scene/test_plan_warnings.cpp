@@ -135,5 +135,26 @@ TEST(PlanWarnings, OfLeaksAreOfWaterWithoutABedAndOfNoneOverABedAskew)
     }
 }
 
+// A box in a tank of water 1 m deep, its middle at a height.
+std::string box_in_water(double z, double density, const std::string& keys)
+{
+    return fmt::format("[time]\nend = 1.0\n[particles]\nspacing = 0.1\n[fluid]\n[[fluid.block]]\n"
+                       "shape = \"box\"\nmin = [0, 0, 0]\nmax = [2, 2, 1]\n[[wall]]\n"
+                       "shape = \"basin\"\nmin = [0, 0, 0]\nmax = [2, 2, 3]\nopen = [\"+z\"]\n"
+                       "[[body]]\nname = \"box\"\nshape = \"box\"\nsize = [0.4, 0.4, 0.4]\n"
+                       "density = {}\nposition = [1, 1, {}]\n{}",
+                       density, z, keys);
+}
+
+TEST(PlanWarnings, OfLightBodiesUnderWater)
+{
+    EXPECT_TRUE(warns(box_in_water(0.2, 300, ""), "begins under 0.6 m of water"));
+    EXPECT_TRUE(warns(box_in_water(0.6, 900, ""), "begins under 0.2 m of water"));
+    EXPECT_FALSE(warns(box_in_water(0.95, 500, ""), "begins under")) << "it floats";
+    EXPECT_FALSE(warns(box_in_water(1.6, 500, ""), "begins under")) << "it falls in";
+    EXPECT_FALSE(warns(box_in_water(0.2, 1200, ""), "begins under")) << "it lies";
+    EXPECT_FALSE(warns(box_in_water(0.2, 300, "fixed = true\n"), "begins under"));
+}
+
 } // namespace
 } // namespace hyoryu
