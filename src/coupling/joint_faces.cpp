@@ -248,10 +248,25 @@ private:
         }
     }
 
+    // Particles belong to the nearer of two opposite faces, those in the middle to both: the films
+    // of a thin body on one side are nothing to the joint on the other.
+    double half_depth(const auto& depth) const
+    {
+        double least = infinity;
+        double most = 0;
+        for (int k = 0; k < static_cast<int>(points_.size()); ++k) {
+            least = std::min(least, depth(k));
+            most = std::max(most, depth(k));
+        }
+        const double rounded = 1e-6 * scale_.spacing;
+        return std::min((least + most) / 2 + rounded, scale_.support);
+    }
+
     void add_particles(const std::vector<int>& grid, const Extent& e, int nu, int nv)
     {
         const double offset = e.face.normal.dot(e.face.centre);
         const auto depth = [&](int k) { return offset - e.face.normal.dot(points_[at(k)]); };
+        const double deepest = half_depth(depth);
         std::vector<std::vector<int>> below(body_.cells.size() - at(e.face.first));
         std::vector<int> outermost;
         double top = infinity;
@@ -259,7 +274,7 @@ private:
             const double u = (e.face.u.dot(points_[at(k)]) - e.u) / e.face.du;
             const double v =
                 scale_.dimensions == 2 ? 0 : (e.face.v.dot(points_[at(k)]) - e.v) / e.face.dv;
-            if (depth(k) < 0 || depth(k) > scale_.support || u < 0 || u >= nu || v < 0 || v >= nv) {
+            if (depth(k) < 0 || depth(k) > deepest || u < 0 || u >= nu || v < 0 || v >= nv) {
                 continue;
             }
             top = std::min(top, depth(k));

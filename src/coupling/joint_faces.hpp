@@ -18,8 +18,8 @@ struct JointCell {
     std::array<int, 4> next{-1, -1, -1, -1}; // cell across each edge; -1: the rim of the face
     std::array<Vec3, 4> rim{};               // middle of each edge [m]
     std::array<int, 4> probe{};              // body particle that is nearest to each edge
-    // Particles below the cell within the support of the kernel, in `BodyFaces::particles`: those
-    // of the outermost layer [first, inner), all [first, last).
+    // Particles below the cell within the support of the kernel and no nearer to the opposite face,
+    // in `BodyFaces::particles`: those of the outermost layer [first, inner), all [first, last).
     int first = 0, inner = 0, last = 0;
 };
 

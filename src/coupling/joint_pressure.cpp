@@ -72,15 +72,17 @@ public:
                 open = find_ways(c) || open;
             }
         }
-        if (!open) { // dry, or closed all around: left to the films
+        if (!open && !has_rim()) { // closed all around: left to the films
             for (int c = face_.first; c < face_.last; ++c) {
                 node(c).other = JointNode::none;
             }
             return;
         }
-        start();
-        relax();
-        const double drop = inflow_drop();
+        if (open) { // else dry: it bears nothing, and there is no film in it
+            start();
+            relax();
+        }
+        const double drop = open ? inflow_drop() : 0;
         for (int c = face_.first; c < face_.last; ++c) {
             if (joined(c)) {
                 hand_over(c, drop);
@@ -116,6 +118,19 @@ private:
             }
         }
         return open;
+    }
+
+    // Whether a cell ends at a place that no other solid closes.
+    bool has_rim()
+    {
+        for (int c = face_.first; c < face_.last; ++c) {
+            for (int edge = 0; edge < edges_; ++edge) {
+                if (way(c, edge).conductance > 0 && way(c, edge).next < 0) {
+                    return true;
+                }
+            }
+        }
+        return false;
     }
 
     // Particles of the fluid between the faces, for which there is room from half a spacing on.

@@ -161,6 +161,24 @@ void book_loads(const BodyJoints& body, std::vector<JointLoad>& loads)
     }
 }
 
+// What is in the middle of a thin body between two joints leaves its films once, to each by its
+// pressure, and not to each: what stands on a body feels nothing of the film below that.
+void share_between_opposite_faces(std::span<FilmCut> cuts)
+{
+    constexpr double opposite = -0.9; // cosine
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+        for (std::size_t m = k + 1; m < cuts.size() && cuts[m].row == cuts[k].row; ++m) {
+            FilmCut& a = cuts[k];
+            FilmCut& b = cuts[m];
+            if (a.normal.dot(b.normal) < opposite && a.part + b.part > 1) {
+                const real sum = a.pressure + b.pressure;
+                a.part *= sum > 0 ? a.pressure / sum : 0;
+                b.part *= sum > 0 ? b.pressure / sum : 0;
+            }
+        }
+    }
+}
+
 // The particles under a cell leave their films to it.
 void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t> id,
                std::vector<FilmCut>& cuts)
@@ -174,6 +192,7 @@ void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t
                             .face = cell.face,
                             .other = node.other,
                             .part = 1 - node.film,
+                            .pressure = node.pressure,
                             .normal = node.normal});
         }
     }
@@ -188,6 +207,7 @@ void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t
     };
     std::stable_sort(cuts.begin() + begin, cuts.end(), by_particle);
     cuts.erase(std::unique(cuts.begin() + begin, cuts.end(), same), cuts.end());
+    share_between_opposite_faces(std::span(cuts).subspan(static_cast<std::size_t>(begin)));
 }
 
 } // namespace

@@ -57,6 +57,7 @@ struct FilmCut {
     int face = 0;         // of the body
     int other = 0;        // opposite: a body, or -1 - (index of the boundary)
     real part = 0;        // [1]
+    real pressure = 0;    // in the joint [Pa]
     Vec3 normal{0, 0, 1}; // of the face, outward
     Vec3 removed{0, 0,
                  0}; // force that the particle did not get, and that the other side gives back [N]
