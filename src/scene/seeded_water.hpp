@@ -17,7 +17,7 @@ struct SeededCells {
     std::array<Index, 3> count{0, 0, 0};
     std::vector<std::uint8_t> wet; // x fastest, then y
     Index reached = 0;             // cells that are wet
-    std::optional<Vec3> leak;      // a cell at the rim of the box that is open outwards, beside windows [m]
+    std::optional<Vec3> leak;      // a cell at the rim that is open outwards, beside windows [m]
     std::string fault;             // why none is wet; empty if some are
 };
 
