@@ -88,7 +88,9 @@ SeededCells lattice_of(const Scene& scene, const SeededWater& water, const Bound
     cells.first.y() = scene.dimensions == 2 ? -cells.edge / 2 : cells.first.y();
     cells.first.z() = water.level - static_cast<double>(cells.count[2]) * cells.edge;
     if (!(all > 0)) {
-        cells.fault = fmt::format("the level of {:.6g} m is below all walls", water.level);
+        cells.fault =
+            fmt::format("the level, z = {:.6g} m, is below all walls, which begin at z = {:.6g} m",
+                        water.level, within.min.z());
     } else if (!(all <= most_cells)) {
         cells.fault =
             fmt::format("the scene below the level has {:.2g} cells of a spacing, at most "
@@ -191,14 +193,17 @@ SeededCells seeded_cells(const Scene& scene, std::size_t block, const Bounds& wi
                     scene.dimensions == 2 ? 0 : static_cast<Index>(std::floor(from_corner.y())),
                     cells.count[2] - 1};
     if (!is_within(cells, seed)) {
-        cells.fault = "the seed lies outside of the scene";
+        cells.fault = fmt::format("the seed lies outside of the scene, which has x from {:.6g} to "
+                                  "{:.6g} m and y from {:.6g} to {:.6g} m",
+                                  within.min.x(), within.max.x(), within.min.y(), within.max.y());
         return cells;
     }
     if (!(space.clearance(middle_of(cells, seed)) > 0)) {
         cells.fault =
-            fmt::format("half a spacing below the level there is a wall, or another block, "
-                        "at the seed: no water of {:.6g} m depth",
-                        cells.edge / 2);
+            fmt::format("half a spacing below the level there is a wall, as the ground where it is "
+                        "dry, or another block, at the seed ({:.6g}, {:.6g}) m: no water of {:.6g} "
+                        "m depth",
+                        water.seed.x(), water.seed.y(), cells.edge / 2);
         return cells;
     }
     std::vector<Index> front{number_of(cells, seed)};
