@@ -183,6 +183,15 @@ std::string fault_of_map(const std::vector<Footprint>& footprints, const Terrain
     return degrees && tiny ? "the coordinates look like degrees" : "";
 }
 
+// Whether a ring is partly beside the terrain, if there is one.
+bool reaches_beyond(const TerrainPatch* patch, const Ring& ring)
+{
+    const Frame2 frame = frame_of(ring);
+    return patch != nullptr &&
+           (frame.low[0] < patch->extent[0] || frame.low[1] < patch->extent[1] ||
+            frame.high[0] > patch->extent[2] || frame.high[1] > patch->extent[3]);
+}
+
 } // namespace
 
 const Wall* terrain_of(const Scene& scene)
@@ -212,6 +221,7 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
     constexpr double far = 1e6; // planes reach there [m]
     const Ground ground(scene.walls, terrain != nullptr ? terrain->name : "", far, 3);
     std::size_t beside = 0;
+    std::string partly; // the first footprint that reaches beyond the terrain
     for (std::size_t k = 0; k < footprints.size() && buildings.faults.size() < most_told; ++k) {
         Footprint footprint = footprints[k];
         for (Ring& ring : footprint.rings) {
@@ -233,7 +243,13 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
         }
         const std::string name =
             footprint.name.empty() ? fmt::format("{}.{}", prefix, k + 1) : footprint.name;
+        partly = partly.empty() && reaches_beyond(patch, footprint.rings.front()) ? name : partly;
         build(footprint, name, ground, scene, buildings);
+    }
+    if (!partly.empty()) {
+        buildings.warnings.push_back(
+            {fmt::format("\"{}\" stands only in part on the terrain", partly),
+             "enlarge `wall.extent`, or cut the footprint there"});
     }
     if (beside == footprints.size()) {
         buildings.faults.push_back(

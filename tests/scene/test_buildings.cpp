@@ -128,6 +128,28 @@ TEST_F(BuildingFiles, WhatIsLeftOutOrOverlapsIsTold)
     EXPECT_GE(plan.warnings.size(), 2u);
 }
 
+// The terrain ends 60 m from the origin.
+TEST_F(BuildingFiles, ThoseAcrossTheEdgeOfTheTerrainAreToldOf)
+{
+    Dice dice(29);
+    for (int k = 0; k < 8; ++k) {
+        const Plane plane = draw_plane(dice);
+        const auto building = [&](double x) { // of a radius of 4 m
+            const double turn = (90 - plane.azimuth_deg) * std::numbers::pi / 180;
+            const Complex middle =
+                plane.origin + Complex(x, dice.between(-20, 20)) * std::polar(1.0, turn);
+            return feature("{}", listed(text_of({middle + 4.0, middle + Complex(0, 4), middle - 4.0,
+                                                 middle - Complex(0, 4)})));
+        };
+        write("g.asc", grid_of(plane));
+        write("b.geojson", collection({building(dice.between(-50, 50)), building(60)}));
+        const Scene scene = read(case_of(terrain_of(plane), "height = 5"));
+        ASSERT_EQ(scene.notices.size(), 1u);
+        EXPECT_NE(scene.notices[0].what.find("\"building.2\" stands only in part on the terrain"),
+                  std::string::npos);
+    }
+}
+
 TEST_F(BuildingFiles, MistakesAreToldWithTheirPlace)
 {
     const auto told = [&](const std::string& file, const std::string& keys) {
