@@ -22,12 +22,8 @@ struct MapAxes {
 
 inline MapAxes map_of(const Scene& scene)
 {
-    const Wall* wall = terrain_of(scene);
-    if (wall == nullptr) {
-        return {};
-    }
-    const auto& mesh = std::get<MeshShape>(std::get<SolidWall>(wall->geometry).shape);
-    return {mesh.terrain->azimuth_deg, mesh.terrain->datum, true};
+    const TerrainPatch* terrain = terrain_patch_of(scene);
+    return terrain != nullptr ? MapAxes{terrain->azimuth_deg, terrain->datum, true} : MapAxes{};
 }
 
 /// What a reader needs of the keys of a window and a writer does not write: they have become

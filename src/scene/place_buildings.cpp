@@ -206,12 +206,18 @@ const Wall* terrain_of(const Scene& scene)
     return nullptr;
 }
 
+const TerrainPatch* terrain_patch_of(const Scene& scene)
+{
+    const Wall* wall = terrain_of(scene);
+    return wall != nullptr ? &*mesh_of(*wall).terrain : nullptr;
+}
+
 Buildings place_buildings(const std::vector<Footprint>& footprints, const std::string& prefix,
                           const Scene& scene)
 {
     Buildings buildings;
     const Wall* terrain = terrain_of(scene);
-    const TerrainPatch* patch = terrain != nullptr ? &*mesh_of(*terrain).terrain : nullptr;
+    const TerrainPatch* patch = terrain_patch_of(scene);
     if (const std::string fault = fault_of_map(footprints, patch); !fault.empty()) {
         buildings.faults.push_back(
             {fault, "project them to the map of the terrain, for instance by `ogr2ogr -t_srs "

@@ -106,12 +106,11 @@ std::string fault_of(const Rest& rest, double height, const Plan2& at)
 // Where the ground of a map lies; empty without one.
 std::string hint_of_ground(const Scene& scene)
 {
-    const Wall* wall = terrain_of(scene);
-    if (wall == nullptr) {
+    const TerrainPatch* terrain = terrain_patch_of(scene);
+    if (terrain == nullptr) {
         return {};
     }
-    const auto& mesh = std::get<MeshShape>(std::get<SolidWall>(wall->geometry).shape);
-    const auto& [x_min, y_min, x_max, y_max] = mesh.terrain->extent;
+    const auto& [x_min, y_min, x_max, y_max] = terrain->extent;
     return fmt::format("the terrain has x from {:.6g} to {:.6g} m and y from {:.6g} to {:.6g} m, "
                        "+y to the left of +x; `check --plan` draws it",
                        x_min, x_max, y_min, y_max);

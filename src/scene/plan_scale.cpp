@@ -139,7 +139,7 @@ public:
         }
     }
 
-    /// -infinity if there is no water over the box [m].
+    /// The highest particle in the columns that a box covers, -infinity without one [m].
     double over(const Bounds& box) const
     {
         const Column low = column(box.min);
@@ -229,11 +229,14 @@ void list_floating(const Scene& scene, Plan& plan)
 
 void check_submerged(const Scene& scene, const Filling& filling, Plan& plan)
 {
+    if (!scene.fluid || scene.bodies.empty()) {
+        return;
+    }
     const WaterTops water(filling, scene.spacing);
     std::size_t count = 0;
     std::size_t first = 0;
     double deepest = 0; // of the water over the first one [m]
-    for (std::size_t b = 0; scene.fluid && b < scene.bodies.size(); ++b) {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const Bounds box = bounds(placed(body, scene.dimensions));
         const double over = water.over(box) + scene.spacing / 2 - box.max.z();
