@@ -72,13 +72,13 @@ public:
                 open = find_ways(c) || open;
             }
         }
-        if (!open && !has_rim()) { // closed all around: left to the films
+        if (!open && !has_rim()) { // closed on all sides: its film forces act unchanged
             for (int c = face_.first; c < face_.last; ++c) {
                 node(c).other = JointNode::none;
             }
             return;
         }
-        if (open) { // else dry: it bears nothing, and there is no film in it
+        if (open) { // a dry joint keeps the pressure 0, and its film forces are removed
             start();
             relax();
         }

@@ -12,8 +12,8 @@ struct LatticeSums {
     /// Of a row in the middle between faces 1, 1 + 1/8, ... 2 spacings apart.
     std::array<double, steps + 1> between{};
     double rim = 0; // of half a row that begins a spacing away, beside the particle
-    // Of the half rows there of water whose surface is a spacing below the particle. Water that is
-    // no nearer does not wet a rim: what an impact far below extrapolates is no pressure there.
+    // Of all half rows of water beside the particle whose surface is a spacing below it. A rim with
+    // this sum or less is dry: the extrapolated pressure of an impact below does not act there.
     double below = 0;
 
     /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1

@@ -262,6 +262,16 @@ TEST_F(TerrainContact, APrismIsTheBox)
     }
 }
 
+// A column of water 0.4 m high in a tank 1.2 m long, with more in its way.
+std::string dam_break(double spacing, const std::string& more)
+{
+    return fmt::format(
+        "[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\nshape "
+        "= \"box\"\nmin = [0, 0, 0]\nmax = [0.4, 0.4, 0.4]\n[[wall]]\nshape = "
+        "\"basin\"\nmin = [0, 0, 0]\nmax = [1.2, 0.4, 1]\nopen = [\"+z\"]\n{}",
+        spacing, more);
+}
+
 // Water that runs against the building and against the box: the same push, until round-off grows.
 // The sides are multiples of the spacing: else the rows of a box are evenly stretched or pressed,
 // those of a mesh begin half a spacing below the surface, and the forces differ by up to 0.8 %.
@@ -273,12 +283,8 @@ TEST_F(TerrainContact, WaterPushesThePrismAsTheBox)
         const Vec3 high = low + spacing * Vec3(5 + dice.below(3), 4 + dice.below(2), 10);
         write_footprints({{low, high}});
         const auto text = [&](const std::string& wall) {
-            return fmt::format(
-                "[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\nshape = "
-                "\"box\"\nmin = [0, 0, 0]\nmax = [0.4, 0.4, 0.4]\n[[wall]]\nshape = \"basin\"\n"
-                "min = [0, 0, 0]\nmax = [1.2, 0.4, 1]\nopen = [\"+z\"]\n{}[[gauge]]\nname = "
-                "\"push\"\ntype = \"force\"\non = \"b\"\n",
-                spacing, wall);
+            return dam_break(spacing, wall + "[[gauge]]\nname = \"push\"\ntype = \"force\"\non = "
+                                             "\"b\"\n");
         };
         Simulation prism = simulate(text("[[buildings]]\nfile = \"b.geojson\"\nheight = " +
                                          fmt::format("{}", high.z()) + "\nname = \"id\"\n"));
@@ -309,13 +315,11 @@ TEST_F(TerrainContact, BuildingsThatOverlapArePushedAsOne)
         const auto along = [&](double y) { return low.y() + y * (high.y() - low.y()); };
         const Vec3 first(high.x(), along(dice.between(0.5, 0.7)), high.z());
         const Vec3 second(low.x(), along(dice.between(0.3, 0.5)), low.z());
-        const auto text = [&](const std::string& names) {
-            return fmt::format(
-                "[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\nshape = "
-                "\"box\"\nmin = [0, 0, 0]\nmax = [0.4, 0.4, 0.4]\n[[wall]]\nshape = \"basin\"\n"
-                "min = [0, 0, 0]\nmax = [1.2, 0.4, 1]\nopen = [\"+z\"]\n[[buildings]]\nfile = "
-                "\"b.geojson\"\nheight = {}\nname = \"id\"\n{}",
-                spacing, high.z(), names);
+        const auto text = [&](const std::string& gauges) {
+            return dam_break(spacing,
+                             fmt::format("[[buildings]]\nfile = \"b.geojson\"\nheight = {}\nname "
+                                         "= \"id\"\n{}",
+                                         high.z(), gauges));
         };
         const auto gauge = [](char name) {
             return fmt::format("[[gauge]]\nname = \"on_{0}\"\ntype = \"force\"\non = \"{0}\"\n",
