@@ -98,10 +98,10 @@ std::optional<Vec3> accepted(const Cone& cone, const Vec3& b, const Vec2& d)
     return std::nullopt;
 }
 
-std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d)
+std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d, int steps)
 {
     const Crossed f = crossed(cone, b);
-    for (int k = 0; k < newton_steps; ++k) {
+    for (int k = 0; k < steps; ++k) {
         const double slope = f.slope(d);
         if (slope == 0) {
             return std::nullopt;
@@ -131,7 +131,7 @@ std::optional<Vec3> slide_by_fixed_point(const Cone& cone, const Vec3& b, Vec2 d
         }
         d = next.normalized();
     }
-    return slide_by_newton(cone, b, d);
+    return slide_by_newton(cone, b, d, newton_steps);
 }
 
 std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
@@ -160,12 +160,12 @@ std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
 
 // The earlier direction mostly needs a correction only.
 std::optional<Vec3> slide_in_space(const Cone& cone, const Vec3& b, const Vec3& stick,
-                                   const Vec3& guess)
+                                   const Vec3& guess, int steps)
 {
     const bool known = guess.tail<2>().squaredNorm() > 0;
     const Vec2 d =
         known ? Vec2(-guess.tail<2>().normalized()) : Vec2(-stick.tail<2>().normalized());
-    std::optional<Vec3> slide = known ? slide_by_newton(cone, b, d) : std::nullopt;
+    std::optional<Vec3> slide = known ? slide_by_newton(cone, b, d, steps) : std::nullopt;
     if (!slide) {
         slide = slide_by_fixed_point(cone, b, d);
     }
@@ -240,7 +240,9 @@ Vec3 onto_cone(Vec3 p, double mu, int size)
     return p;
 }
 
-ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
+namespace {
+
+ConeImpulse impulse_by(const Cone& cone, const Vec3& b, const Vec3& guess, int steps)
 {
     if (b[0] >= 0) {
         return {};
@@ -256,12 +258,24 @@ ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
     if (cone.size == 2) {
         slide = slide_in_plane(cone, b);
     } else {
-        slide = slide_in_space(cone, b, stick, guess);
+        slide = slide_in_space(cone, b, stick, guess, steps);
     }
     if (slide) {
         return {*slide};
     }
     return {stick[0] > 0 ? stick : Vec3(-b[0] / cone.K(0, 0), 0, 0), true};
+}
+
+} // namespace
+
+ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
+{
+    return impulse_by(cone, b, guess, newton_steps);
+}
+
+ConeImpulse nearer_impulse(const Cone& cone, const Vec3& b, const Vec3& guess)
+{
+    return impulse_by(cone, b, guess, 1);
 }
 
 } // namespace hyoryu

@@ -13,6 +13,8 @@ namespace {
 // Passes of a patch that slides, and the change of where it rubs that needs no other [units].
 constexpr int most_passes = 4;
 constexpr double settled_rub = 1e-8;
+// The first pass only tells the next where the paths lead.
+constexpr Effort first_effort{.enough = 1e-3, .direct_tries = 1, .updates = 200};
 // An end of a path that is guessed as well as this is known: the noise of positions [units].
 constexpr double settled_end = 1e-12;
 // In a pile both are a hundredth of what its solution leaves open.
@@ -219,15 +221,16 @@ bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
 }
 
 // Solves for the impulses with the arms at the middle and the end of the paths as planned so far,
-// up to `ahead`, and plans the paths with them. Plans nothing and returns false where one of the
-// contacts does not go on till there.
-bool solve_pass(const StepContext& context, const SubStep& sub, double ahead)
+// up to `ahead`, and plans the paths with them. Returns what is left [m/s]; plans nothing and
+// returns infinity where one of the contacts does not go on till there.
+double solve_pass(const StepContext& context, const SubStep& sub, double ahead,
+                  const Effort& effort)
 {
     ContactMemory& memory = context.memory;
     predict(memory, sub, ahead);
     set_end_responses(context, sub);
     if (!build_rows(context, sub, ahead) && ahead > 0) {
-        return false;
+        return infinity;
     }
     for (Row& row : memory.rows) {
         const Vec3& P = memory.persistent[row.contact].impulse;
@@ -236,9 +239,7 @@ bool solve_pass(const StepContext& context, const SubStep& sub, double ahead)
         p[2] = row.cone.size > 2 ? p[2] : 0;
         push(row, p, memory.responses);
     }
-    const double left = solve_islands(memory.rows, memory, sub.contact_effort);
-    double& worst = context.rigid.counters.worst_residual;
-    worst = std::max(worst, left);
+    const double left = solve_islands(memory.rows, memory, effort);
     if (ahead <= 0) {
         make_passive(memory);
     }
@@ -251,7 +252,7 @@ bool solve_pass(const StepContext& context, const SubStep& sub, double ahead)
         }
     }
     note_sticking(context);
-    return true;
+    return left;
 }
 
 // The known forces act on the first prediction with the arms of the start.
@@ -369,24 +370,25 @@ bool ends_as_guessed(const ContactMemory& memory, const SubStep& sub)
 }
 
 // Passes with the arms at the middle and the end of the paths, each with the impulses of the one
-// before; false where a contact does not go on till there.
-bool solve_ahead(const StepContext& context, const SubStep& sub)
+// before: the first tells the others where the paths lead, and is the last where they lead to what
+// was guessed. Returns what is left [m/s]; infinity where a contact does not go on till there.
+double solve_ahead(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
     const auto slides = [](const Row& row) { return !row.slip.isZero(0); };
     add_known_impulses(memory);
     guess_ends(memory, sub);
-    bool planned = solve_pass(context, sub, sub.h);
-    if (planned && ends_as_guessed(memory, sub) && !rubs_elsewhere(memory)) {
-        return true;
+    double left = solve_pass(context, sub, sub.h, first_effort);
+    const bool solved = left <= solved_speed * std::sqrt(memory.geometry.unit);
+    if (solved && ends_as_guessed(memory, sub) && !rubs_elsewhere(memory)) {
+        return left;
     }
-    planned = planned && solve_pass(context, sub, sub.h);
-    for (int pass = 2; planned && pass < most_passes && std::ranges::any_of(memory.rows, slides) &&
-                       rubs_elsewhere(memory);
-         ++pass) {
-        planned = solve_pass(context, sub, sub.h);
+    bool again = true;
+    for (int pass = 1; again && left < infinity && pass < most_passes; ++pass) {
+        left = solve_pass(context, sub, sub.h, sub.contact_effort);
+        again = std::ranges::any_of(memory.rows, slides) && rubs_elsewhere(memory);
     }
-    return planned;
+    return left;
 }
 
 } // namespace
@@ -405,9 +407,12 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     memory.rows.clear();
     if (!memory.persistent.empty()) {
         set_velocities_before(memory, sub);
-        if (sub.arms == Arms::now || !solve_ahead(context, sub)) {
-            solve_pass(context, sub, 0); // with the arms as they are
+        double left = sub.arms == Arms::ahead ? solve_ahead(context, sub) : infinity;
+        if (left == infinity) { // with the arms as they are
+            left = solve_pass(context, sub, 0, sub.contact_effort);
         }
+        double& worst = context.rigid.counters.worst_residual;
+        worst = std::max(worst, left);
         book_dissipation(context);
     }
     for (const int k : sub.cluster.bodies) {

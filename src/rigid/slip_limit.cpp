@@ -20,6 +20,9 @@ constexpr int most_tries = 8;
 constexpr double at_once = 1.0 / 256;
 // A rest of sliding of this part of the sub-step is left to the next one.
 constexpr double settled = 1e-4;
+// Events of a body in this step beyond which it rattles: what slides between two of its impacts
+// does so for a moment, and the impacts matter more than where in it that stops.
+constexpr int rattling_events = 3;
 // Round-off of a slip that has stopped, as a part of what it was.
 constexpr double stopped = 1e-9;
 
@@ -50,6 +53,13 @@ bool stops(const std::vector<Persistent>& contacts, double slow)
     });
 }
 
+bool rattles(const StepContext& context, const SubStep& sub)
+{
+    return std::ranges::any_of(sub.cluster.bodies, [&](int k) {
+        return context.memory.events[k] > rattling_events;
+    });
+}
+
 // What stops at once stops by an impulse: there is no time before it.
 void plan_to_the_end(const StepContext& context, SubStep& sub, double whole)
 {
@@ -64,7 +74,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
 {
     std::vector<Persistent>& contacts = context.memory.persistent;
     const double slow = no_slip * std::sqrt(context.rigid.settings.unit);
-    if (contacts.size() > contacts_of_a_pile || !stops(contacts, slow)) {
+    if (contacts.size() > contacts_of_a_pile || rattles(context, sub) || !stops(contacts, slow)) {
         return;
     }
     const double whole = sub.h;

@@ -10,11 +10,13 @@ namespace hyoryu {
 
 namespace {
 
-double change_of(Row& row, std::vector<Response>& bodies)
+using LocalSolution = ConeImpulse (*)(const Cone&, const Vec3&, const Vec3&);
+
+double change_of(Row& row, std::vector<Response>& bodies, LocalSolution solution)
 {
     Vec3 b = velocity(row, bodies) - row.cone.K * row.p;
     b[0] -= row.target;
-    const ConeImpulse best = cone_impulse(row.cone, b, row.p);
+    const ConeImpulse best = solution(row.cone, b, row.p);
     row.tangential = best.tangential;
     const Vec3 dp = best.p - row.p;
     push(row, dp, bodies);
@@ -103,7 +105,7 @@ double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sw
         change = 0;
         for (std::size_t k = 0; k < n; ++k) { // to and fro, so that no end is favoured
             Row& row = rows[sweep % 2 == 0 ? k : n - 1 - k];
-            change = std::max(change, change_of(row, bodies));
+            change = std::max(change, change_of(row, bodies, cone_impulse));
         }
     }
     return change;
@@ -119,7 +121,7 @@ double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, So
     for (int sweep = 1; sweep <= sweeps.most && change > sweeps.settled; ++sweep) {
         work.updates += static_cast<double>(rows.size());
         for_each_row(work.colours,
-                     [&](std::size_t k) { work.changes[k] = change_of(rows[k], bodies); });
+                     [&](std::size_t k) { work.changes[k] = change_of(rows[k], bodies, nearer_impulse); });
         const double last = std::exchange(change, *std::ranges::max_element(work.changes));
         // Friction is no gradient: momentum that carries past the solution, or away from it, ends.
         const bool astray = change > last || leads_uphill(rows, work);
