@@ -15,6 +15,25 @@ namespace {
 // Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
 constexpr double no_direction = 1e-9;
 
+// A solid in the world, without a copy of its turn.
+struct Frame {
+    const Solid& solid;
+    Vec3 x;
+    const Mat3& R;
+};
+
+Frame frame_of(const Configuration& at, int index)
+{
+    if (index >= 0) {
+        const Solid& solid = at.geometry.solids[index];
+        const SolidPose& pose = at.poses[index];
+        const bool off = !solid.middle.isZero(0);
+        return {solid, off ? Vec3(pose.x + pose.R * solid.middle) : pose.x, pose.R};
+    }
+    const ContactWall& wall = at.geometry.walls[-1 - index];
+    return {wall.solid, wall.pose.x + displacement(wall.motion, at.time), wall.pose.R};
+}
+
 // The plane of a boundary or of a patch of its mesh, at time 0.
 Plane plane_of(const ContactWall& wall, int side)
 {
@@ -68,43 +87,43 @@ Touch round_touch(const Feature& feature, const Configuration& at)
 Touch face_touch(const Feature& feature, const Configuration& at)
 {
     const bool owner_is_a = feature.owner == 0;
-    const PlacedSolid owner = placed(at, owner_is_a ? feature.a : feature.b);
-    const PlacedSolid other = placed(at, owner_is_a ? feature.b : feature.a);
+    const Frame owner = frame_of(at, owner_is_a ? feature.a : feature.b);
+    const Frame other = frame_of(at, owner_is_a ? feature.b : feature.a);
     const Face& face = other.solid.faces[feature.f];
     Vec3 c = owner.solid.corners[feature.i];
     if (feature.kind == FeatureKind::crossing) {
         // where the edge passes the side k-l of the face, both seen along the normal of the face
-        const Vec3 n = other.pose.R * face.normal;
-        const Vec3 k = other.pose.x + other.pose.R * other.solid.corners[feature.k];
-        const Vec3 l = other.pose.x + other.pose.R * other.solid.corners[feature.l];
+        const Vec3 n = other.R * face.normal;
+        const Vec3 k = other.x + other.R * other.solid.corners[feature.k];
+        const Vec3 l = other.x + other.R * other.solid.corners[feature.l];
         const Vec3 side = (l - k).cross(n);
         const Vec3 d = owner.solid.corners[feature.j] - c;
-        const double along = side.dot(owner.pose.R * d);
-        const double from = side.dot(k - owner.pose.x - owner.pose.R * c);
+        const double along = side.dot(owner.R * d);
+        const double from = side.dot(k - owner.x - owner.R * c);
         const double t = std::abs(along) > 0 ? std::clamp(from / along, 0.0, 1.0) : 0.5;
         c += t * d;
     }
-    const Vec3 point = owner.pose.x + owner.pose.R * c;
-    const Vec3 n = other.pose.R * face.normal;
-    const double gap = n.dot(point - other.pose.x) - face.offset;
+    const Vec3 point = owner.x + owner.R * c;
+    const Vec3 n = other.R * face.normal;
+    const double gap = n.dot(point - other.x) - face.offset;
     return {point, owner_is_a ? n : Vec3(-n), gap};
 }
 
 // The middle of the part that has a corner.
-Vec3 middle_at(const PlacedSolid& body, int corner)
+Vec3 middle_at(const Frame& body, int corner)
 {
-    return body.pose.x + body.pose.R * part_of_corner(body.solid, corner).inside;
+    return body.x + body.R * part_of_corner(body.solid, corner).inside;
 }
 
 // Nearest points of two lines, kept on the edges.
 Touch edge_touch(const Feature& feature, const Configuration& at)
 {
-    const PlacedSolid a = placed(at, feature.a);
-    const PlacedSolid b = placed(at, feature.b);
-    const Vec3 p = a.pose.x + a.pose.R * a.solid.corners[feature.i];
-    const Vec3 q = b.pose.x + b.pose.R * b.solid.corners[feature.k];
-    const Vec3 u = a.pose.R * (a.solid.corners[feature.j] - a.solid.corners[feature.i]);
-    const Vec3 w = b.pose.R * (b.solid.corners[feature.l] - b.solid.corners[feature.k]);
+    const Frame a = frame_of(at, feature.a);
+    const Frame b = frame_of(at, feature.b);
+    const Vec3 p = a.x + a.R * a.solid.corners[feature.i];
+    const Vec3 q = b.x + b.R * b.solid.corners[feature.k];
+    const Vec3 u = a.R * (a.solid.corners[feature.j] - a.solid.corners[feature.i]);
+    const Vec3 w = b.R * (b.solid.corners[feature.l] - b.solid.corners[feature.k]);
     const Vec3 cross = u.cross(w);
     const double length = cross.norm();
     if (length <= no_direction * u.norm() * w.norm()) {
