@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hyoryu {
 
@@ -47,12 +48,12 @@ void leave_out_lowest(const ContactMemory& memory, std::vector<int>& contacts)
     }
 }
 
-// The contacts that bound the patch, in the order in which they stood.
-std::vector<int> bounding(const ContactMemory& memory, std::vector<int> contacts)
+// The patch of the contacts that bound those given, in the order in which they stood.
+FrictionPatch bounding(const ContactMemory& memory, std::vector<int> contacts)
 {
     leave_out_lowest(memory, contacts);
     if (contacts.size() < 3) {
-        return contacts;
+        return {.contacts = contacts};
     }
     std::vector<Vec3> points;
     for (const int k : contacts) {
@@ -65,12 +66,17 @@ std::vector<int> bounding(const ContactMemory& memory, std::vector<int> contacts
     const Mat3& R = memory.poses[a_moves ? c.feature.a : c.feature.b].R;
     int across = 0;
     (R.transpose() * n).cwiseAbs().minCoeff(&across);
-    std::vector<int> kept;
-    for (const int corner : outermost(points, n, R.col(across), most_contacts)) {
-        kept.push_back(contacts[corner]);
+    FrictionPatch patch{.hull = outermost(points, n, R.col(across), most_contacts)};
+    for (int& corner : patch.hull) {
+        corner = contacts[corner];
+        patch.contacts.push_back(corner);
     }
-    std::ranges::sort(kept);
-    return kept;
+    std::ranges::sort(patch.contacts);
+    for (int& corner : patch.hull) {
+        const auto place = std::ranges::lower_bound(patch.contacts, corner);
+        corner = static_cast<int>(place - patch.contacts.begin());
+    }
+    return patch;
 }
 
 // A rod stands on the disc on whose rim its contacts lie, if they lie all around.
@@ -93,7 +99,7 @@ PatchRule rule_of(const ContactMemory& memory, const FrictionPatch& patch)
         points.push_back(memory.persistent[k].candidate.touch.point);
     }
     const Vec3& n = memory.persistent[patch.contacts[0]].candidate.touch.normal;
-    return patch_rule(points, n, form_of(memory, patch.contacts));
+    return patch_rule(points, patch.hull, n, form_of(memory, patch.contacts));
 }
 
 // The largest distance of a contact from the first [m].
@@ -176,12 +182,12 @@ void find_patches(const StepContext& context, const SubStep& sub)
         const bool rubs = context.rigid.settings.dimensions == 3 && sub.arms == Arms::ahead &&
                           law_of(context.rigid, f.a, f.b).friction > 0;
         while (!left.empty()) {
-            const std::vector<int> patch = bounding(memory, take_plane(memory, left));
-            for (const int m : patch) {
+            FrictionPatch patch = bounding(memory, take_plane(memory, left));
+            for (const int m : patch.contacts) {
                 kept[m] = 1;
             }
-            if (rubs && patch.size() > 1) {
-                memory.patches.push_back({patch, {}, 0});
+            if (rubs && patch.contacts.size() > 1) {
+                memory.patches.push_back(std::move(patch));
             }
         }
     }

@@ -76,6 +76,7 @@ struct Persistent {
 /// Persistent contacts of one pair in one plane, by their indices.
 struct FrictionPatch {
     std::vector<int> contacts;
+    std::vector<int> hull; // of the contacts, by their place in `contacts`, counter-clockwise
     PatchRule rule;
     double size = 0; // [m]
 };

@@ -91,7 +91,7 @@ double moment_of_triangle(const Vec3& from, const Vec3& to, const Vec3& n)
 }
 
 // The weights of the points whose sum is the centroid of the hull, and its area.
-double add_centroid(std::span<const Vec3> p, const std::vector<int>& hull, const Vec3& n,
+double add_centroid(std::span<const Vec3> p, std::span<const int> hull, const Vec3& n,
                     std::vector<double>& weights)
 {
     double area = 0;
@@ -146,18 +146,22 @@ std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Ve
         kept.push_back(*std::ranges::max_element(
             hull, {}, [&](int k) { return (points[k] - points[hull[0]]).dot(out); }));
     }
-    std::ranges::sort(kept);
-    kept.erase(std::ranges::unique(kept).begin(), kept.end());
-    return kept;
+    std::erase_if(hull, [&](int k) { return std::ranges::find(kept, k) == kept.end(); });
+    return hull;
 }
 
 PatchRule patch_rule(std::span<const Vec3> points, const Vec3& n, PatchForm form)
+{
+    return patch_rule(points, hull_of(points, n), n, form);
+}
+
+PatchRule patch_rule(std::span<const Vec3> points, std::span<const int> hull, const Vec3& n,
+                     PatchForm form)
 {
     if (points.size() < 2) {
         return {.scale = 1, .weights = std::vector<double>(points.size(), 1)};
     }
     PatchRule rule{.scale = 1, .weights = std::vector<double>(points.size(), 0)};
-    const std::vector<int> hull = hull_of(points, n);
     const double area = add_centroid(points, hull, n, rule.weights);
     if (area <= no_area * square_of_length(points)) {
         return line_rule(points);

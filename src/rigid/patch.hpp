@@ -29,8 +29,8 @@ struct PatchRule {
 };
 
 /// The points at the corners of the hull of points in one plane with the unit normal `n`, by their
-/// indices; those on its sides are left out. More than `most`: those outermost in eight directions,
-/// the first of which is that of `along`, square to n.
+/// indices, counter-clockwise; those on its sides are left out. More than `most`: those outermost
+/// in eight directions, the first of which is that of `along`, square to n.
 std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Vec3& along,
                            std::size_t most);
 
@@ -40,5 +40,8 @@ enum class PatchForm { hull, disc };
 /// The rule of a patch of contacts at these points [m], in one plane with the unit normal `n`.
 /// Points on one line are a line of uniform pressure; a single point rubs where it is.
 PatchRule patch_rule(std::span<const Vec3> points, const Vec3& n, PatchForm form);
+/// The same with the corners of the hull known, by their indices, counter-clockwise about `n`.
+PatchRule patch_rule(std::span<const Vec3> points, std::span<const int> hull, const Vec3& n,
+                     PatchForm form);
 
 } // namespace hyoryu
