@@ -120,9 +120,13 @@ void keep(const std::vector<char>& kept, ContactMemory& memory)
     int next = 0;
     for (std::size_t k = 0; k < kept.size(); ++k) {
         number[k] = next;
-        if (kept[k] != 0) {
-            memory.persistent[next++] = memory.persistent[k];
+        if (kept[k] == 0) {
+            continue;
         }
+        if (next != static_cast<int>(k)) {
+            memory.persistent[next] = memory.persistent[k];
+        }
+        ++next;
     }
     memory.persistent.resize(next);
     for (FrictionPatch& patch : memory.patches) {

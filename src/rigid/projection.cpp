@@ -38,6 +38,13 @@ struct Goal {
     Feature feature;
     double wanted = 0; // gap [m]
     double play = 0;   // by which it may be wider [m]
+    double gap = 0;    // at the start [m]
+
+    bool is_met(double now, double no_gap) const
+    {
+        const double off = now - wanted;
+        return std::abs(off) <= no_gap || (off > 0 && off <= play);
+    }
 };
 
 // Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one;
@@ -47,10 +54,10 @@ double close_gap(const StepContext& context, const Goal& goal, double no_gap, do
     ContactMemory& memory = context.memory;
     const Feature& f = goal.feature;
     const Touch touch = touch_of(f, configuration(memory, memory.poses, time));
-    const double off = touch.gap - goal.wanted;
-    if (std::abs(off) <= no_gap || (off > 0 && off <= goal.play)) {
+    if (goal.is_met(touch.gap, no_gap)) {
         return 0;
     }
+    const double off = touch.gap - goal.wanted;
     const Vec3& n = touch.normal;
     const auto arm = [&](int k) { return Vec3((touch.point - memory.poses[k].x).cross(n)); };
     const auto answer = [&](int k) {
@@ -98,7 +105,7 @@ std::vector<Goal> goals(const StepContext& context, double time)
     for (const Persistent& p : memory.persistent) {
         const Touch touch = touch_of(p.candidate.feature, now);
         if (p.impulse.dot(p.touches.push.normal) > 0 && std::abs(touch.gap) < at_once * unit) {
-            list.push_back({.feature = p.candidate.feature, .play = play});
+            list.push_back({.feature = p.candidate.feature, .play = play, .gap = touch.gap});
         }
     }
     std::vector<Feature>& pressed = memory.pressed;
@@ -110,8 +117,10 @@ std::vector<Goal> goals(const StepContext& context, double time)
     for (const Candidate& c : memory.candidates) {
         if (c.touch.gap < overlapping * unit &&
             !std::binary_search(pressed.begin(), pressed.end(), c.feature)) {
-            list.push_back(
-                {.feature = c.feature, .wanted = aim(c.touch.gap, unit), .play = infinity});
+            list.push_back({.feature = c.feature,
+                            .wanted = aim(c.touch.gap, unit),
+                            .play = infinity,
+                            .gap = c.touch.gap});
         }
     }
     return list;
@@ -325,14 +334,14 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
     std::vector<Goal> list = goals(context, time);
-    if (list.empty()) {
+    const double no_gap = sub.no_gap * context.rigid.settings.unit;
+    if (std::ranges::all_of(list, [&](const Goal& goal) { return goal.is_met(goal.gap, no_gap); })) {
         return;
     }
     set_responses(context, sub.cluster);
     for (const int k : sub.cluster.bodies) {
         memory.trial[k] = memory.poses[k];
     }
-    const double no_gap = sub.no_gap * context.rigid.settings.unit;
     const auto sweep = [&] {
         double off = infinity;
         for (int k = 0; k < most_sweeps && off > no_gap; ++k) {
