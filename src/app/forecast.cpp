@@ -186,6 +186,12 @@ double gauge_seconds(const Plan& plan)
     return plan.gauge_rows * plan.gauge_looks / gauge_rate;
 }
 
+double mean_fluid(const Plan& plan)
+{
+    const auto start = static_cast<double>(plan.counts.fluid);
+    return std::max(start, (start + static_cast<double>(plan.most_fluid)) / 2);
+}
+
 double untimed_step(const Plan& plan)
 {
     const double bodies = static_cast<double>(plan.counts.bodies) * body_seconds;
@@ -193,15 +199,19 @@ double untimed_step(const Plan& plan)
         return bodies;
     }
     const double of_fluid = plan.fluid->dimensions == 2 ? fluid_seconds_2d : fluid_seconds_3d;
-    const double particles = of_fluid * static_cast<double>(plan.counts.fluid) +
-                             wall_seconds * static_cast<double>(plan.counts.wall);
+    const double particles =
+        of_fluid * mean_fluid(plan) + wall_seconds * static_cast<double>(plan.counts.wall);
     const double set = widest_instruction_set() == InstructionSet::avx512 ? 1.0 : without_avx512;
     return step_seconds + set * particles / thread_count() + bodies;
 }
 
 double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed)
 {
-    const double step = timed ? seconds_of_run(*timed) : untimed_step(plan);
+    double step = timed ? seconds_of_run(*timed) : untimed_step(plan);
+    if (timed && plan.fluid && !timed->development) { // which would hold what enters
+        const auto wall = static_cast<double>(plan.counts.wall);
+        step *= (mean_fluid(plan) + wall) / (static_cast<double>(plan.counts.fluid) + wall);
+    }
     return expected_steps(plan, timed) * step + gauge_seconds(plan);
 }
 

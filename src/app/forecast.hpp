@@ -39,6 +39,9 @@ Course expected_course(const Plan& plan, const std::optional<StepCost>& timed);
 /// Wall time of gauges, over the whole run [s].
 double gauge_seconds(const Plan& plan);
 
+/// Particles of fluid in the middle between the start and the most that open sides may bring.
+double mean_fluid(const Plan& plan);
+
 /// Wall time of a step where nothing was timed, from fixed rates [s]: an order of magnitude.
 double untimed_step(const Plan& plan);
 

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace hyoryu {
 
@@ -25,6 +27,7 @@ constexpr Colour ink{40, 40, 40};
 constexpr Colour building{150, 146, 148};
 constexpr Colour debris{214, 96, 40};
 constexpr Colour water{30, 100, 190};
+constexpr Colour north_red{190, 20, 30};
 
 enum class Shown : std::uint8_t { nothing, ground, solid, body };
 
@@ -269,6 +272,47 @@ void draw_legend(Pixels& pixels, const Extremes& ground, const Extremes& depth)
     entry(debris, "BODY");
 }
 
+// Direction of north in the picture, whose rows go down; none without terrain.
+std::optional<std::array<double, 2>> north_of(const Scene& scene)
+{
+    for (const Wall& wall : scene.walls) {
+        const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+        const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
+        if (mesh != nullptr && mesh->terrain) {
+            const double x_axis = mesh->terrain->azimuth_deg * std::numbers::pi / 180;
+            return std::array{std::cos(x_axis), -std::sin(x_axis)};
+        }
+    }
+    return std::nullopt;
+}
+
+// An arrow with its letter on a disc, in the upper right corner of the map.
+void draw_north(Pixels& pixels, const Map& map, const std::array<double, 2>& north)
+{
+    constexpr double largest = 34; // radius of the disc [pixels]
+    constexpr double smallest = 20;
+    const double radius = std::clamp(std::min(map.width, map.height) / 2.0 - 2, smallest, largest);
+    const double centre_i = left_margin + map.width - radius - 4;
+    const double centre_j = other_margin + radius + 4;
+    const auto reach = static_cast<int>(std::ceil(radius));
+    for (int dj = -reach; dj <= reach; ++dj) {
+        for (int di = -reach; di <= reach; ++di) {
+            const double along = (di * north[0] + dj * north[1]) / radius;
+            const double across = std::abs(di * north[1] - dj * north[0]) / radius;
+            const bool arrow = along > -0.7 && along < 0.3 && across < 0.35 * (0.3 - along);
+            if (std::hypot(along, across) <= 1) {
+                const int i = static_cast<int>(centre_i) + di;
+                const int j = static_cast<int>(centre_j) + dj;
+                fill_box(pixels, {i, j}, {i + 1, j + 1}, arrow ? north_red : paper);
+            }
+        }
+    }
+    constexpr double letter = 0.65; // place of its middle [radii]
+    write_letters(
+        pixels, static_cast<int>(centre_i + letter * radius * north[0]) - letter_width / 2 + 1,
+        static_cast<int>(centre_j + letter * radius * north[1]) - letter_height / 2, "N", ink);
+}
+
 Map map_of(const Scene& scene, const Filling& filling)
 {
     Map map = empty_map(filling.domain);
@@ -313,6 +357,9 @@ Pixels plan_picture(const Scene& scene, const Filling& filling)
     }
     draw_axes(pixels, map);
     draw_legend(pixels, ground, depth);
+    if (const auto north = north_of(scene)) {
+        draw_north(pixels, map, *north);
+    }
     return pixels;
 }
 

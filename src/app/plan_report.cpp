@@ -200,6 +200,17 @@ std::string busy_lines(const Plan& plan, const StepCost& timed)
                        readable_seconds(wall_forecast(plan, free)));
 }
 
+// What enters by open sides makes the steps longer.
+std::string entering_line(const Plan& plan, const std::optional<StepCost>& timed)
+{
+    if (plan.most_fluid <= plan.counts.fluid) {
+        return "";
+    }
+    return fmt::format("      open sides           from {} to at most {} fluid particles; {}\n",
+                       plan.counts.fluid, plan.most_fluid,
+                       timed && timed->development ? "timed as they enter" : "their mean is timed");
+}
+
 std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)
 {
     const std::string about = readable_seconds(wall_forecast(plan, timed));
@@ -217,7 +228,8 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
     if (!timed) {
         return fmt::format("    run time               about {} on {} threads (order of magnitude; "
                            "--time measures it)\n",
-                           about, thread_count());
+                           about, thread_count()) +
+               entering_line(plan, timed);
     }
     std::string text = fmt::format(
         "    run time               about {} on {} threads, at {:.3g} s per step, measured now\n",
@@ -233,6 +245,7 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
                         "many\n      {:<20} (the same at {} times the spacing, {:.1f} s)\n",
                         "development of flow", d.step, d.steps, "", d.coarsening, d.seconds);
     }
+    text += entering_line(plan, timed);
     return text;
 }
 

@@ -35,14 +35,49 @@ public:
     void return_to(std::size_t place) { place_ = place; }
 
     /// Throws with the line of the last word.
-    [[noreturn]] void refuse(const std::string& fault) const
+    [[noreturn]] void refuse(const std::string& fault) const { refuse_at(start_, fault); }
+
+    /// Throws with the first line from a place on that does not hold `columns` words, where most
+    /// lines do: that is the one to mend. Heights may also be wrapped; then with the last word.
+    [[noreturn]] void refuse_rows(std::size_t from, std::size_t columns, const std::string& fault)
     {
-        const auto begin = text_.begin();
-        const auto line = 1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(start_), '\n');
-        throw IoError(fmt::format("{}:{}: {}", file_.string(), line, fault));
+        const std::size_t last = start_;
+        std::size_t odd = std::string::npos;
+        std::size_t held = 0;
+        std::ptrdiff_t whole = 0; // lines of `columns` words less the others
+        for (std::size_t end = 0; from < text_.size(); from = end + 1) {
+            end = std::min(text_.find('\n', from), text_.size());
+            const std::size_t words = words_between(from, end);
+            whole += words == columns ? 1 : words > 0 ? -1 : 0;
+            if (words > 0 && words != columns && odd == std::string::npos) {
+                odd = from;
+                held = words;
+            }
+        }
+        if (odd == std::string::npos || whole <= 0) {
+            refuse_at(last, fault);
+        }
+        refuse_at(odd, fmt::format("this row holds {} heights, and `ncols` is {}; {}", held,
+                                   columns, fault));
     }
 
 private:
+    [[noreturn]] void refuse_at(std::size_t place, const std::string& fault) const
+    {
+        const auto begin = text_.begin();
+        const auto line = 1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(place), '\n');
+        throw IoError(fmt::format("{}:{}: {}", file_.string(), line, fault));
+    }
+    // Words that start between two places.
+    std::size_t words_between(std::size_t from, std::size_t to)
+    {
+        std::size_t count = 0;
+        for (return_to(from); !next().empty() && start_ < to;) {
+            ++count;
+        }
+        return count;
+    }
+
     const std::filesystem::path& file_;
     const std::string& text_;
     std::size_t place_ = 0;
@@ -160,16 +195,21 @@ void read_heights(const Header& header, double none, Words& words, HeightGrid& g
     const auto columns = static_cast<std::size_t>(grid.columns);
     const auto rows = static_cast<std::size_t>(grid.rows);
     grid.height.resize(columns * rows);
+    words.next();
+    const std::size_t begin = words.start();
+    words.return_to(begin);
     for (std::size_t line = 0; line < rows; ++line) { // from north to south
         double* const row = &grid.height[(rows - 1 - line) * columns];
         for (std::size_t k = 0; k < columns; ++k) {
             const std::string_view word = words.next();
             const std::optional<double> value = number_of(word);
+            if (word.empty()) {
+                words.refuse_rows(begin, columns,
+                                  fmt::format("the file ends after {} of {} heights",
+                                              line * columns + k, grid.height.size()));
+            }
             if (!value || std::isinf(*value)) {
-                words.refuse(word.empty() ? fmt::format("the file ends after {} of {} heights",
-                                                        line * columns + k, grid.height.size())
-                                          : fmt::format("expected a height, found \"{}\"",
-                                                        word.substr(0, 40)));
+                words.refuse(fmt::format("expected a height, found \"{}\"", word.substr(0, 40)));
             }
             const bool is_missing =
                 std::isnan(*value) || (missing != header.end() && *value == missing->second);
@@ -177,7 +217,8 @@ void read_heights(const Header& header, double none, Words& words, HeightGrid& g
         }
     }
     if (!words.next().empty()) {
-        words.refuse(fmt::format("there are more than {} heights", grid.height.size()));
+        words.refuse_rows(begin, columns,
+                          fmt::format("there are more than {} heights", grid.height.size()));
     }
 }
 

@@ -120,7 +120,8 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
     Diagnostic note = diagnostic_without_line(
         scene, scene.fluid->blocks[block].place, fmt::format("fluid.block[{}]", block),
         fmt::format("{} of its {} particles are behind a wall and are omitted", particles.in_walls,
-                    particles.all));
+                    particles.all),
+        "nothing to do if the walls are to cut the block off; else make it smaller");
     note.severity = Diagnostic::Severity::warning;
     filling.warnings.push_back(note);
 }

@@ -102,7 +102,7 @@ inline void check_velocities(TableReader& table, const BodySettings& body)
     }
     if (body.fixed && (body.velocity.norm() > 0 || w.norm() > 0)) {
         table.error(body.velocity.norm() > 0 ? "velocity" : "angular_velocity",
-                    "has no meaning for a fixed body");
+                    "has no meaning for a fixed body", "remove it, or `fixed = true`");
     }
 }
 
@@ -146,7 +146,8 @@ inline void append_copies(TableReader& table, const BodyCopies& copies, BodySett
     }
     for (Index k = 0; k < 3; ++k) {
         if (count[static_cast<std::size_t>(k)] > 1 && !(std::abs(copies.pitch[k]) > 0)) {
-            table.error("pitch", fmt::format("copies along {} would coincide", "xyz"[k]));
+            table.error("pitch", fmt::format("copies along {} would coincide", "xyz"[k]),
+                        "make it at least as long as the body");
         }
     }
     const BodySettings first = body;

@@ -21,7 +21,8 @@ inline std::vector<Footprint> load_footprints(TableReader& table, const Building
 {
     const auto path = path_of_file(table, "file", buildings.file);
     if (table.reading().dimensions == 2) {
-        table.error("file", "buildings are supported in three dimensions only");
+        table.error("file", "buildings are supported in three dimensions only",
+                    "set `dimensions = 3`");
         return {};
     }
     if (!path || !table.sound("height")) {
@@ -43,7 +44,8 @@ inline std::vector<Footprint> load_footprints(TableReader& table, const Building
 inline void check_height_of_all(TableReader& table, const BuildingKeys& buildings)
 {
     if (buildings.height.number && !(*buildings.height.number > 0)) {
-        table.error("height", "must be above 0 m");
+        table.error("height", "must be above 0 m",
+                    "give a height in metres, or the name of a property of the footprints");
     }
 }
 

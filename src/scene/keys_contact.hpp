@@ -69,7 +69,7 @@ inline void check_pair(TableReader& table, const MaterialPair& pair, const Conta
     const bool again = std::ranges::any_of(
         contact.pairs, [&](const MaterialPair& other) { return same_pair(pair, other); });
     if (again && !pair.materials[0].empty()) {
-        table.error("materials", "this pair is already defined");
+        table.error("materials", "this pair is already defined", "remove one of the two");
     }
 }
 

@@ -12,7 +12,8 @@ inline void make_prism(TableReader& table, const std::vector<Vec3>& corners, Mes
 {
     PrismOutline& outline = *shape.prism;
     if (table.reading().dimensions == 2) {
-        table.error("shape", "prisms are supported in three dimensions only");
+        table.error("shape", "prisms are supported in three dimensions only",
+                    "set `dimensions = 3`");
         return;
     }
     if (!table.sound("corners") || !table.sound("bottom") || !table.sound("top")) {
@@ -22,7 +23,7 @@ inline void make_prism(TableReader& table, const std::vector<Vec3>& corners, Mes
         outline.corners.push_back({corner.x(), corner.y()});
     }
     if (!(outline.top > outline.bottom)) {
-        table.error("top", "must be above `bottom`");
+        table.error("top", "must be above `bottom`", "z points up: exchange the two");
         return;
     }
     if (outline.corners.size() > most_corners) {

@@ -73,7 +73,8 @@ inline void check_time(TableReader& table, const TimeSettings& time)
     }
     if (time.step && time.end > 0 && *time.step > time.end) {
         table.error("step",
-                    fmt::format("{} s is longer than the run of {} s", *time.step, time.end));
+                    fmt::format("{} s is longer than the run of {} s", *time.step, time.end),
+                    "leave it out: the program finds the step");
     }
 }
 

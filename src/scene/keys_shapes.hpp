@@ -41,7 +41,8 @@ inline void check_corners(TableReader& table, const Vec3& low, const Vec3& high)
 {
     const bool given = table.sound("min") && table.sound("max") && table.reading().dimensions_known;
     if (given && !(box_size(table, high - low).minCoeff() > 0)) {
-        table.error("max", "must lie above `min` in every direction");
+        table.error("max", "must lie above `min` in every direction",
+                    "`min` is the corner of the smallest x, y and z");
     }
 }
 
@@ -64,7 +65,8 @@ inline void load_mesh(TableReader& table, MeshShape& shape)
 {
     const auto path = path_of_file(table, "file", shape.file);
     if (table.reading().dimensions == 2) {
-        table.error("shape", "meshes are supported in three dimensions only");
+        table.error("shape", "meshes are supported in three dimensions only",
+                    "set `dimensions = 3`");
         return;
     }
     if (!path) {
@@ -114,7 +116,8 @@ inline void load_particles(TableReader& table, ParticleShape& shape)
 {
     const auto path = path_of_file(table, "file", shape.file);
     if (table.reading().dimensions == 2) {
-        table.error("shape", "bodies of particles are supported in three dimensions only");
+        table.error("shape", "bodies of particles are supported in three dimensions only",
+                    "set `dimensions = 3`");
         return;
     }
     if (!path) {
@@ -168,7 +171,8 @@ inline void turn_by_axis(TableReader& table, const AxisAngle& turn, Quat& rotati
 inline void check_one_rotation(TableReader& table, bool by_axis)
 {
     if (by_axis && table.has("rotation")) {
-        table.error("rotation", "give either `rotation` or `rotation_deg`");
+        table.error("rotation", "give either `rotation` or `rotation_deg`",
+                    "remove one of the two");
     }
 }
 

@@ -14,7 +14,10 @@ inline void find_box(Reading& reading, const std::string& key, const SeededCells
                      FluidBlock& block, const Scene& scene)
 {
     if (!cells.fault.empty()) {
-        reading.error(block.place, -1, key + ".seed", cells.fault);
+        reading.error(block.place, -1, key + ".seed", cells.fault,
+                      "move the seed to ground that lies deeper below the level; both are in the "
+                      "axes of the scene, which `origin`, `azimuth_deg` and `datum` of the ground "
+                      "set");
         return;
     }
     const Bounds box = box_about(cells);
@@ -48,8 +51,8 @@ inline void find_still_water(TableReader& root, Scene& scene)
         const std::string key = fmt::format("fluid.block[{}]", b);
         const SeededWater& water = *blocks[b].seeded;
         if (!(scene.gravity.z() < 0) || scene.gravity.head<2>().norm() > 0) {
-            reading.error(blocks[b].place, -1, key + ".shape",
-                          "still water needs gravity along -z");
+            reading.error(blocks[b].place, -1, key + ".shape", "still water needs gravity along -z",
+                          "leave `gravity` out: the default is [0, 0, -9.81]");
             continue;
         }
         blocks[b].centre = {water.seed.x(), water.seed.y(), water.level};

@@ -116,14 +116,16 @@ inline void find_extent(TableReader& table, const HeightGrid& grid, const Terrai
     if (given.extent) {
         patch.extent = *given.extent;
         if (!(patch.extent[2] > patch.extent[0]) || !(patch.extent[3] > patch.extent[1])) {
-            table.error("extent", "expected [x_min, y_min, x_max, y_max] with each minimum below "
-                                  "its maximum");
+            table.error("extent",
+                        "expected [x_min, y_min, x_max, y_max] with each minimum below "
+                        "its maximum",
+                        "the axes are those of the scene, whose zero is `origin`");
         }
     } else if (covered) {
         patch.extent = *covered;
     } else {
-        table.error("extent",
-                    "is missing: it is required unless `azimuth_deg` is a multiple of 90");
+        table.error("extent", "is missing: it is required unless `azimuth_deg` is a multiple of 90",
+                    "give [x_min, y_min, x_max, y_max] in the axes of the scene");
     }
 }
 
@@ -165,8 +167,9 @@ inline void find_bottom(TableReader& table, const TerrainKeys& given, double low
         std::max(patch.extent[2] - patch.extent[0], patch.extent[3] - patch.extent[1]);
     patch.bottom = given.bottom.value_or(lowest - share * width);
     if (!(patch.bottom < lowest)) {
-        table.error("bottom",
-                    fmt::format("must be below the lowest ground, which is at {:.6g} m", lowest));
+        table.error(
+            "bottom", fmt::format("must be below the lowest ground, which is at {:.6g} m", lowest),
+            "lower it, or leave it out; it is in the axes of the scene, as `datum` moves it");
     }
 }
 
@@ -177,7 +180,8 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given,
 {
     const auto path = path_of_file(table, "file", name);
     if (table.reading().dimensions == 2) {
-        table.error("shape", "terrain is supported in three dimensions only");
+        table.error("shape", "terrain is supported in three dimensions only",
+                    "set `dimensions = 3`");
         return;
     }
     if (!path || table.mistaken()) {
@@ -198,9 +202,11 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given,
         const double points = (patch.extent[2] - patch.extent[0]) / patch.resolution *
                               (patch.extent[3] - patch.extent[1]) / patch.resolution;
         if (!(points < most_points)) {
-            table.error("resolution", fmt::format("gives about {:.2g} points of the surface, at "
-                                                  "most {:.0g} are supported",
-                                                  points, most_points));
+            table.error("resolution",
+                        fmt::format("gives about {:.2g} points of the surface, at "
+                                    "most {:.0g} are supported",
+                                    points, most_points),
+                        "increase it, or cut out less with `extent`");
             return;
         }
         place_levels(table, levels, patch);

@@ -155,7 +155,7 @@ inline void check_absorption(TableReader& table, const AbsorbKeys& keys, MotionW
     }
     if (way == MotionWay::piston) {
         if (keys.depth) {
-            table.error("depth", "has no meaning here, the piston has a depth");
+            table.error("depth", "has no meaning here, the piston has a depth", "remove it");
         }
         return;
     }
@@ -386,7 +386,7 @@ inline void check_manning(TableReader& table, const Wall& wall, const Scene& sce
                                            wall.manning, roughest));
     }
     if (!scene.fluid) {
-        table.error("manning", "has no meaning without a fluid");
+        table.error("manning", "has no meaning without a fluid", "remove it, or add [fluid]");
     } else if (scene.fluid->walls.sticks) {
         table.error(
             "manning", "needs fluid that slips along walls",

@@ -76,7 +76,8 @@ AskedFlow asked_at(const OpenSettings& open, double along, double time, const St
     return asked;
 }
 
-double fastest_asked(const OpenSettings& open, double bed, double gravity, int dimensions)
+double fastest_asked(const OpenSettings& open, double bed, double still, double gravity,
+                     int dimensions)
 {
     double fastest = 0;
     const auto look = [&](std::optional<double> level, std::optional<double> velocity,
@@ -88,7 +89,7 @@ double fastest_asked(const OpenSettings& open, double bed, double gravity, int d
             h = std::cbrt(q * q / gravity);
             u = h > 0 ? q / h : 0;
         } else if (level && !velocity) {
-            u = 2 * std::sqrt(gravity * h);
+            u = 2 * std::sqrt(gravity * h) - 2 * std::sqrt(gravity * std::max(still - bed, 0.0));
         }
         fastest = std::max(fastest, std::sqrt(u * u + 2 * gravity * h));
     };

@@ -47,7 +47,8 @@ double ground_at(const std::vector<SolidSurface>& surfaces, Vec3 point, double l
     };
     const auto is_free = [&](double z) { return distance(z) > -shallow; };
     double free = low;
-    if (distance(low) > spacing / 2) {
+    const bool hangs = is_free(low) && is_free(low - spacing / 2); // above no ground
+    if (hangs || distance(low) > spacing / 2) {
         while (free <= high && is_free(free)) {
             free += spacing / 2;
         }

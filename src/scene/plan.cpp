@@ -77,8 +77,9 @@ double expected_speed(const Scene& scene, const Filling& filling)
     }
     for (const OpenSettings& open : scene.open) {
         const double low = lowest(scene, filling);
-        speed = std::max(speed, fastest_asked(open, std::isfinite(low) ? low : open.min.z(), g,
-                                              scene.dimensions));
+        speed =
+            std::max(speed, fastest_asked(open, std::isfinite(low) ? low : open.min.z(),
+                                          level_before(scene, filling, open), g, scene.dimensions));
     }
     return speed;
 }

@@ -163,9 +163,9 @@ void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& 
         errors.push_back(
             note_at(scene, open, "min",
                     fmt::format("the lower edge of the window, z = {:.4g} m, is above the "
-                                "ground, z = {:.4g} m",
-                                open.min.z(), std::ranges::min(side.bed)),
-                    "extend it down to the ground or below"));
+                                "ground",
+                                open.min.z()),
+                    "extend it down to the ground or below; `datum` moves the ground"));
     }
 }
 
@@ -361,6 +361,11 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
 }
 
 } // namespace
+
+double level_before(const Scene& scene, const Filling& filling, const OpenSettings& open)
+{
+    return water_before(scene, filling, open_side(scene, open)).level;
+}
 
 void list_open(const Scene& scene, const Filling& filling, Plan& plan)
 {

@@ -159,7 +159,7 @@ TableReader TableReader::inside(std::string_view key)
     if (node != nullptr && node->table() == nullptr) {
         const bool list = node->array() != nullptr;
         reading_.error(*node, path, fmt::format("expected a table, found {}", found(*node)),
-                       list ? fmt::format("only one is allowed: write [{}]", schema) : "");
+                       fmt::format("{}write [{}]", list ? "only one is allowed: " : "", schema));
         mistaken_.emplace_back(key);
         TableReader none(reading_, nullptr, path, schema);
         none.abandon();
@@ -189,7 +189,8 @@ std::vector<TableReader> TableReader::each_inside(std::string_view key)
         const std::string path = fmt::format("{}[{}]", full(key), k);
         const TomlNode& item = (*items)[k];
         if (item.table() == nullptr) {
-            reading_.error(item, path, fmt::format("expected a table, found {}", found(item)));
+            reading_.error(item, path, fmt::format("expected a table, found {}", found(item)),
+                           fmt::format("write [[{}]], once for each", joined(schema_, key)));
             mistaken_.emplace_back(key);
         } else {
             readers.emplace_back(reading_, &item, path, schema, k + 1);

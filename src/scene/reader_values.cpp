@@ -96,7 +96,9 @@ std::string meaning_of(const std::string& path)
         rule = find_parameter(key);
     }
     const std::size_t name = key.find_last_of('.') + 1; // 0 if there is no dot
-    return rule == nullptr ? std::string() : fmt::format("{}: {}", key.substr(name), rule->meaning);
+    const bool told = rule != nullptr && rule->kind != ValueKind::table &&
+                      rule->kind != ValueKind::tables; // what a table is mends nothing
+    return told ? fmt::format("`{}` is: {}", key.substr(name), rule->meaning) : std::string();
 }
 
 } // namespace

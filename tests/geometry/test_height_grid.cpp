@@ -6,6 +6,8 @@
 #include "hyoryu/geometry/height_grid.hpp"
 #include "own_folder.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -110,6 +112,37 @@ TEST_F(HeightGrids, AreReadInEveryDialect)
             EXPECT_NEAR(found.first[axis], grid.first[axis], 1e-9 * grid.first[axis]);
             EXPECT_EQ(found.cell[axis], grid.cell[axis]);
         }
+    }
+}
+
+// A row with one height too few or too many, among rows of the right length. Where the heights are
+// wrapped after any number of words, no line is odd.
+TEST_F(HeightGrids, TheOddRowIsNamed)
+{
+    Dice dice(7);
+    for (int k = 0; k < 40; ++k) {
+        HeightGrid grid = draw_grid(dice, [&](double, double) { return dice.between(-9, 9); });
+        if (grid.rows < 4) {
+            continue;
+        }
+        std::istringstream lines(text_of(grid, false, false, false));
+        const int odd = 7 + dice.below(static_cast<int>(grid.rows)); // after 7 lines of header
+        const bool short_row = dice.chance(0.5);
+        std::string text, wrapped, line;
+        for (int n = 0; std::getline(lines, line); ++n) {
+            if (n == odd) {
+                line = short_row ? line.substr(line.find(' ') + 1) : "1.5 " + line;
+            }
+            text += line + "\n";
+            wrapped += line + (n < 7 || n % 2 == 0 ? "\n" : " ");
+        }
+        const Index held = grid.columns + (short_row ? -1 : 1);
+        EXPECT_THAT(fault(text),
+                    testing::StartsWith(fmt::format(":{}: this row holds {} heights, and `ncols` "
+                                                    "is {}; ",
+                                                    odd + 1, held, grid.columns)));
+        EXPECT_THAT(fault(wrapped), testing::HasSubstr(short_row ? ": the file ends after "
+                                                                 : ": there are more than "));
     }
 }
 

@@ -336,6 +336,27 @@ every = 0.05
         self.assertNotEqual(self.call("check", "flat.toml", "--plan", "flat.png").returncode, 0)
         self.assertFalse((self.dir / "flat.png").exists())
 
+    def test_the_plan_points_north(self):
+        seed = int(os.environ.get("HYORYU_SEED", "1"))
+        dice = random.Random(seed)
+        for azimuth in (90.0, dice.uniform(0, 360), dice.uniform(0, 360)):
+            self.write(CASE.format(keys=self.grid((3e5, 4e6), azimuth, 0.1), spacing=0.1, end=0.1))
+            self.assertEqual(self.call("check", "case.toml", "--plan", "plan.png").returncode, 0)
+            red = [(i, -j) for j, row in enumerate(self.rows_of("plan.png")) for i in range(len(row) // 3)
+                   if tuple(row[3 * i:3 * i + 3]) == (190, 20, 30)]
+            self.assertGreater(len(red), 100, (seed, azimuth))
+            middle = [sum(p[k] for p in red) / len(red) for k in (0, 1)]
+            # The arrow is longer before its middle than behind it.
+            tip = max(red, key=lambda p: math.dist(p, middle))
+            found = math.degrees(math.atan2(tip[1] - middle[1], tip[0] - middle[0]))
+            off = (found - azimuth + 180) % 360 - 180  # north is so far counter-clockwise from +x
+            self.assertLess(abs(off), 6, (seed, azimuth, found))  # a pixel at 20 pixels is 3 degrees
+        self.write(CASE.format(keys="", spacing=0.1, end=0.1).replace('shape = "terrain"', 'shape = "plane"')
+                   .replace('file = "ground.asc"', "point = [0, 0, 0]\nnormal = [0, 0, 1]"), "plane.toml")
+        done = self.call("check", "plane.toml", "--plan", "plan.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn(b"\xbe\x14\x1e", b"".join(self.rows_of("plan.png")))
+
     def test_a_body_below_the_ground_is_refused_with_its_depth(self):
         self.town()  # whose quay lies at 0.4 m: the crate of 0.3 m stands on it at 0.55 m
         for z, depth in (0.54, "0.01 m"), (0.4, "0.15 m"), (0.2, "0.35 m"), (0.0, ""):
@@ -343,8 +364,8 @@ every = 0.05
             self.assertEqual(done.returncode, 2, (z, done.stderr))
             self.assertIn(f'body "crate" overlaps wall "ground" by {depth}', done.stderr)
 
-    def colours_of(self, name):
-        """Pixels of a PNG by what they are, decoded here."""
+    def rows_of(self, name):
+        """Rows of a PNG, three bytes a pixel, decoded here."""
         data = (self.dir / name).read_bytes()
         self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
         place, packed = 8, b""
@@ -358,10 +379,13 @@ every = 0.05
             place += 12 + size
         rows = zlib.decompress(packed)
         self.assertEqual(len(rows), height * (3 * width + 1))
+        return [rows[j * (3 * width + 1) + 1:(j + 1) * (3 * width + 1)] for j in range(height)]
+
+    def colours_of(self, name):
+        """Pixels of a PNG by what they are."""
         found = {"solid": 0, "body": 0, "blue": 0}
-        for j in range(height):
-            row = rows[j * (3 * width + 1) + 1:(j + 1) * (3 * width + 1)]
-            for i in range(0, 3 * width, 3):
+        for row in self.rows_of(name):
+            for i in range(0, len(row), 3):
                 red, green, blue = row[i:i + 3]
                 found["solid"] += (red, green, blue) == (150, 146, 148)
                 found["body"] += (red, green, blue) == (214, 96, 40)

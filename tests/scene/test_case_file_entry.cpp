@@ -202,6 +202,36 @@ TEST(CaseFileEntry, E11EveryMistakeOfAValueHasAHint)
     EXPECT_GT(told, 100);
 }
 
+// A hint says how to mend: what a key means is no hint where its value is right in itself.
+TEST(CaseFileEntry, HintsSayWhatToDo)
+{
+    const std::string block = "[particles]\nspacing = 0.1\n[fluid]\n[[fluid.block]]\n";
+    const std::string wall = "[[wall]]\nshape = \"basin\"\nmin = [0, 0, 0]\nmax = [2, 1, 1]\n";
+    const std::string water = "shape = \"still_water\"\nlevel = 0.5\nseed = [9, 0.5]\n";
+    const std::string box = "shape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 0.5]\n";
+    const std::vector<std::array<std::string, 2>> all = {
+        {block + water + wall, "move the seed"},
+        {"gravity = [0, -9.81, 0]\n" + block + water + wall, "leave `gravity` out"},
+        {block + "shape = \"box\"\nmin = [0, 0, 0.5]\nmax = [1, 1, 0]\n" + wall,
+         "corner of the smallest"},
+        {block + box + wall + "manning = 0.03\n[time.x]\n", "unknown"},
+        {wall + "manning = 0.03\n", "remove it"},
+        {"dimensions = 2\n" + wall +
+             "[[wall]]\nname = \"t\"\nshape = \"terrain\"\nfile = \"t.asc\"\n",
+         "`dimensions = 3`"},
+        {"fluid = 3\n" + wall, "write [fluid]"},
+        {"body = [1]\n" + wall, "write [[body]]"}};
+    for (const auto& [text, hint] : all) {
+        SCOPED_TRACE(text);
+        const auto found = mistakes("time.end = 1.0\n" + text);
+        ASSERT_FALSE(found.empty());
+        const bool told = std::ranges::any_of(found, [&](const Diagnostic& d) {
+            return (d.what + d.hint).find(hint) != std::string::npos;
+        });
+        EXPECT_TRUE(told) << hint << " in " << to_string(found.front());
+    }
+}
+
 // E11: mistakes of syntax in words of ours, at the line, with what to write.
 TEST(CaseFileEntry, E11SyntaxIsToldInPlainWordsAtItsLine)
 {

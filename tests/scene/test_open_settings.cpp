@@ -170,6 +170,53 @@ TEST(OpenSettings, WindowsReachBelowTheirGroundAndAcrossItsShore)
 }
 
 // A window that bodies may drift to, a flow that ends, water too shallow to enter.
+// Ground that is lifted, so that the window begins below its underside: by less than a spacing, or
+// by more. What hangs there is no wall behind the window.
+TEST(OpenSettings, AWindowMayBeginBelowTheUndersideOfItsGround)
+{
+    Dice dice(9);
+    for (int n = 0; n < 30; ++n) {
+        const double spacing = dice.between(0.05, 0.1);
+        const double under = spacing * dice.between(0.02, 3); // above the edge of the window
+        const double top = under + spacing * dice.between(4, 8);
+        const std::string text = fmt::format(
+            "dimensions = 2\n[time]\nend = 2.0\n[particles]\nspacing = {0}\n[fluid]\n"
+            "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, {1}]\nmax = [2, 0, {2}]\n"
+            "[[wall]]\nname = \"ground\"\nshape = \"box\"\nmin = [-1, 0, {3}]\n"
+            "max = [3, 0, {1}]\n[[wall]]\nname = \"sides\"\nshape = \"basin\"\n"
+            "min = [0, 0, 0]\nmax = [2, 0, 3]\nopen = [\"-x\", \"-z\", \"+z\"]\n[[open]]\n"
+            "name = \"sea\"\nmin = [0, 0, 0]\nmax = [0, 0, 3]\ninto = \"+x\"\n"
+            "kind = \"inflow\"\nlevel = {2}\nvelocity = 0.1\n",
+            spacing, top, top + 0.6, under);
+        SCOPED_TRACE(text);
+        const auto all = refused(text);
+        EXPECT_TRUE(all.empty()) << to_string(all.front());
+        const Scene scene = parse_case(text, "case.toml");
+        EXPECT_NEAR(open_side(scene, scene.open.front()).bed.front(), top, 1e-6 * spacing);
+    }
+}
+
+// A level alone asks for the velocity of a simple wave, u = 2 sqrt(g h) - 2 sqrt(g h0): with that
+// velocity beside it the same speed is expected.
+TEST(OpenSettings, ALevelAloneIsExpectedToBeAsFastAsItsWave)
+{
+    constexpr double g = 9.81;
+    Dice dice(10);
+    for (int n = 0; n < 100; ++n) {
+        const double bed = dice.between(-5, 5);
+        const double still = bed + dice.between(0, 2);
+        OpenSettings alone;
+        alone.level = bed + dice.between(0.1, 3);
+        OpenSettings both = alone;
+        both.velocity = 2 * (std::sqrt(g * (*alone.level - bed)) - std::sqrt(g * (still - bed)));
+        const double u = fastest_asked(alone, bed, still, g, 3);
+        EXPECT_NEAR(u, fastest_asked(both, bed, -infinity, g, 3), 1e-12 * u);
+        EXPECT_NEAR(fastest_asked(alone, bed, -infinity, g, 3),
+                    std::sqrt(6 * g * (*alone.level - bed)), 1e-12 * u)
+            << "onto a dry bed: u = 2 sqrt(g h)";
+    }
+}
+
 TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
 {
     const auto warns = [](const std::string& text, const std::string& words) {

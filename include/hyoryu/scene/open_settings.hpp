@@ -61,8 +61,10 @@ struct StillWater {
 AskedFlow asked_at(const OpenSettings& open, double along, double time, const StillWater& still,
                    int dimensions);
 
-/// Largest sqrt(u^2 + 2 g h) that is asked for above a ground at `bed` [m/s].
-double fastest_asked(const OpenSettings& open, double bed, double gravity, int dimensions);
+/// Largest sqrt(u^2 + 2 g h) that is asked for above a ground at `bed` [m/s]. `still`: level of the
+/// water before the window at the start, into which a level alone sends a wave; -infinity: dry [m].
+double fastest_asked(const OpenSettings& open, double bed, double still, double gravity,
+                     int dimensions);
 /// Highest level that is asked for; none where no level is [m].
 std::optional<double> highest_asked(const OpenSettings& open);
 
