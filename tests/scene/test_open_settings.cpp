@@ -180,7 +180,8 @@ TEST(OpenSettings, AWindowMayBeginBelowTheUndersideOfItsGround)
         const double under = spacing * dice.between(0.02, 3); // above the edge of the window
         const double top = under + spacing * dice.between(4, 8);
         const std::string text = fmt::format(
-            "dimensions = 2\n[time]\nend = 2.0\n[particles]\nspacing = {0}\n[fluid]\n"
+            "dimensions = 2\n[domain]\nmin = [0, 0, 0]\nmax = [2, 0, 3]\n[time]\nend = 2.0\n"
+            "[particles]\nspacing = {0}\n[fluid]\n"
             "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, {1}]\nmax = [2, 0, {2}]\n"
             "[[wall]]\nname = \"ground\"\nshape = \"box\"\nmin = [-1, 0, {3}]\n"
             "max = [3, 0, {1}]\n[[wall]]\nname = \"sides\"\nshape = \"basin\"\n"
