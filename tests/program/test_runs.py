@@ -474,6 +474,21 @@ every = 0.1
         closed = FLOOD.replace("spacing = 0.05", "spacing = 0.05\nmost = 5000")
         self.assertIn("`particles.most`: bounds runs with open sides", self.call("check", self.write(closed)).stderr)
 
+    def test_the_forecast_holds_what_enters(self):
+        for spacing in (0.025, 0.02):
+            case = self.write(self.FILLING.format(spacing=spacing, most=""))
+            for options in ((), ("--time",)):
+                shown = self.call("check", case, *options).stdout
+                told = re.search(r"open sides +from (\d+) to at most (\d+) fluid particles; "
+                                 r"(their mean is taken|timed as they enter)", shown)
+                self.assertTrue(told, shown)
+                # The water of the start fills 0.8 x 0.2 m2, and 0.2 m2/s enter for 1.2 s.
+                self.assertEqual(int(told[1]), round(0.16 / spacing**2))
+                self.assertGreater(int(told[2]), 0.9 * (0.16 + 0.24) / spacing**2)
+            closed = self.write(self.FILLING.format(spacing=spacing, most="").split("[[open]]")[0]
+                                .replace('"-x", ', ""), "closed.toml")
+            self.assertNotIn("open sides  ", self.call("check", closed).stdout)
+
     def test_bodies_outside_the_domain_are_named(self):
         for spacing, beside in ((0.05, 2.0), (0.04, -0.7)):
             case = self.write(FLOOD.replace("spacing = 0.05", f"spacing = {spacing}") +
