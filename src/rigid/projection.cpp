@@ -335,7 +335,8 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
     ContactMemory& memory = context.memory;
     std::vector<Goal> list = goals(context, time);
     const double no_gap = sub.no_gap * context.rigid.settings.unit;
-    if (std::ranges::all_of(list, [&](const Goal& goal) { return goal.is_met(goal.gap, no_gap); })) {
+    if (std::ranges::all_of(list,
+                            [&](const Goal& goal) { return goal.is_met(goal.gap, no_gap); })) {
         return;
     }
     set_responses(context, sub.cluster);

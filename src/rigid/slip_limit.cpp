@@ -55,9 +55,8 @@ bool stops(const std::vector<Persistent>& contacts, double slow)
 
 bool rattles(const StepContext& context, const SubStep& sub)
 {
-    return std::ranges::any_of(sub.cluster.bodies, [&](int k) {
-        return context.memory.events[k] > rattling_events;
-    });
+    return std::ranges::any_of(sub.cluster.bodies,
+                               [&](int k) { return context.memory.events[k] > rattling_events; });
 }
 
 // What stops at once stops by an impulse: there is no time before it.
