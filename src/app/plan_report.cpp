@@ -208,7 +208,7 @@ std::string entering_line(const Plan& plan, const std::optional<StepCost>& timed
     }
     return fmt::format("      open sides           from {} to at most {} fluid particles; {}\n",
                        plan.counts.fluid, plan.most_fluid,
-                       timed && timed->development ? "timed as they enter" : "their mean is timed");
+                       timed && timed->development ? "timed as they enter" : "their mean is taken");
 }
 
 std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)

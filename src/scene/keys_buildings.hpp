@@ -32,7 +32,7 @@ inline std::vector<Footprint> load_footprints(TableReader& table, const Building
         Footprints found = read_footprints(
             *path, {buildings.height.name, buildings.height.number, buildings.name});
         for (const std::string& fault : found.faults) {
-            table.error("file", fault);
+            table.error("file", fault, "mend the file there, or leave that feature out");
         }
         return found.faults.empty() ? std::move(found.list) : std::vector<Footprint>{};
     } catch (const IoError& error) {
