@@ -49,19 +49,28 @@ void recall_forces(ContactMemory& memory, double h)
         memory.taken[static_cast<std::size_t>(k)] = 1;
         p.recalled = true;
     };
+    const Feature* last = nullptr;
+    std::span<const Remembered> forces; // of the pair of `last`
+    const auto find_forces = [&](const Feature& f) {
+        if (last == nullptr || last->a != f.a || last->b != f.b) {
+            forces = of_pair(memory.known, f);
+        }
+        last = &f;
+    };
     for (Persistent& p : memory.persistent) {
         const Feature& f = p.candidate.feature;
         p.place = place_on_first(memory, p.candidate);
-        const auto known = std::ranges::lower_bound(memory.known, f, {}, &Remembered::feature);
-        if (known != memory.known.end() && known->feature == f) {
-            take(p, known - memory.known.begin());
+        find_forces(f);
+        const auto known = std::ranges::find(forces, f, &Remembered::feature);
+        if (known != forces.end()) {
+            take(p, &*known - memory.known.data());
             p.rub = memory.poses[f.a].R * known->rub;
             p.stuck = known->stuck;
         }
     }
     for (Persistent& p : memory.persistent) {
         if (!p.recalled) {
-            const auto forces = of_pair(memory.known, p.candidate.feature);
+            find_forces(p.candidate.feature);
             if (const std::ptrdiff_t k = nearest_untaken(memory, p, forces); k >= 0) {
                 take(p, k);
             }
