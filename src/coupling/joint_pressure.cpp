@@ -185,11 +185,15 @@ private:
             return {};
         }
         JointWay way{2 * conductance(edge), 0, 0};
-        if (cell(c).probe[at(edge)] >= 0) {
-            const std::size_t row = fluid_.first + at(cell(c).probe[at(edge)]);
+        // Where the face goes on beyond what it rests on, its water lies below the next cell.
+        const int next = cell(c).next[at(edge)];
+        const int probe = cell(next >= 0 ? next : c).probe[at(edge)];
+        if (probe >= 0) {
+            const std::size_t row = fluid_.first + at(probe);
             const LatticeSums& sums = fluid_.sums;
-            const double wet = std::clamp(
-                (fluid_.shepard[row] - sums.below) / (sums.rim / 2 - sums.below), 0.0, 1.0);
+            const double dry = next >= 0 ? sums.under : sums.below;
+            const double enough = next >= 0 ? dry + sums.first / 4 : sums.rim / 2;
+            const double wet = std::clamp((fluid_.shepard[row] - dry) / (enough - dry), 0.0, 1.0);
             way.pressure = wet * pressure_at(row, place);
             way.enters = wet;
         }
@@ -344,7 +348,9 @@ LatticeSums lattice_sums(const Fluid& fluid)
     sums.rim = row_sum(fluid, 1, 0);
     for (int row = 1; row <= reach; ++row) {
         sums.below += row_sum(fluid, 1, (row + 0.5) * dp);
+        sums.under += row > 1 ? row_sum(fluid, -reach, row * dp) : 0;
     }
+    sums.first = row_sum(fluid, -reach, dp);
     return sums;
 }
 

@@ -15,6 +15,10 @@ struct LatticeSums {
     // Of all half rows of water beside the particle whose surface is a spacing below it. A rim with
     // this sum or less is dry: the extrapolated pressure of an impact below does not act there.
     double below = 0;
+    // Where the face goes on beyond the rim: of the first row of water below the particle, and of
+    // all rows of water whose surface is a spacing below the face.
+    double first = 0;
+    double under = 0;
 
     /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1
     /// counts as 1.
