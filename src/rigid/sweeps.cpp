@@ -120,8 +120,9 @@ double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, So
     double change = infinity;
     for (int sweep = 1; sweep <= sweeps.most && change > sweeps.settled; ++sweep) {
         work.updates += static_cast<double>(rows.size());
-        for_each_row(work.colours,
-                     [&](std::size_t k) { work.changes[k] = change_of(rows[k], bodies, nearer_impulse); });
+        for_each_row(work.colours, [&](std::size_t k) {
+            work.changes[k] = change_of(rows[k], bodies, nearer_impulse);
+        });
         const double last = std::exchange(change, *std::ranges::max_element(work.changes));
         // Friction is no gradient: momentum that carries past the solution, or away from it, ends.
         const bool astray = change > last || leads_uphill(rows, work);
