@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <random>
 
 namespace hyoryu {
@@ -309,65 +308,6 @@ TEST(Seepage, AStackFloatsUpTogether)
     EXPECT_GT(rise, 0.01); // draft of both: 0.16 m
     EXPECT_NEAR(sim.rigid.bodies[1].position.z() - 0.6, rise, 1e-3);
     EXPECT_LE(sim.conservation.worst_closure, 2e-7);
-}
-
-// Height of the water between two places: the median over the columns of the highest particle and
-// half a spacing.
-double surface_between(const Simulation& sim, double from, double to)
-{
-    const double dp = sim.scene.spacing;
-    std::vector<double> tops(static_cast<std::size_t>((to - from) / dp), 0);
-    for (const Vec3& x : sim.fluid->particles.fluid[field::position]) {
-        const double column = (x.x() - from) / dp;
-        if (column >= 0 && column < static_cast<double>(tops.size())) {
-            double& top = tops[static_cast<std::size_t>(column)];
-            top = std::max(top, x.z() + dp / 2);
-        }
-    }
-    const auto middle = tops.begin() + static_cast<std::ptrdiff_t>(tops.size() / 2);
-    std::nth_element(tops.begin(), middle, tops.end());
-    return *middle;
-}
-
-// A crate over the edge of a ledge, in water deeper than the ledge is high: all of its lower face
-// feels the water at its depth, wherever the edge falls between the particles of the crate. Half a
-// spacing of depth is allowed.
-TEST(Seepage, ACrateOverAnEdgeFeelsTheWaterOnBothSidesOfIt)
-{
-    std::mt19937 dice(23);
-    std::uniform_real_distribution<double> part(0, 1);
-    for (const double dp : {0.0625, 0.05, 0.04}) {
-        for (int k = 0; k < 6; ++k) {
-            const double width = 0.7 + 0.3 * part(dice);
-            const double over = width * (0.1 + 0.35 * part(dice));
-            const double ledge = 0.3;
-            const double depth = 0.35 + 0.1 * part(dice);
-            const double edge = 1.2 + dp * part(dice);
-            Simulation sim = make(fmt::format(
-                "dimensions = 2\n[time]\nend = 10\n[particles]\nspacing = {0}\n[fluid]\n"
-                "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [2.4, 0, {1}]\n"
-                "[[wall]]\nshape = \"basin\"\nmin = [0, 0, 0]\nmax = [2.4, 0, 1.5]\n"
-                "open = [\"+z\"]\n[[wall]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
-                "max = [{2}, 0, {3}]\n[[body]]\nname = \"crate\"\nshape = \"box\"\n"
-                "size = [{4}, 0, 0.6]\ndensity = 900\nposition = [{5}, 0, {6}]\n"
-                "fixed = true\nstands = \"open\"\n",
-                dp, ledge + depth, edge, ledge, width, edge + over - width / 2, ledge + 0.3));
-            double sum = 0;
-            double depths = 0; // of the ledge under the surface, by the highest particles
-            int count = 0;
-            while (sim.clock.time < 0.25) {
-                step_on(sim);
-                if (sim.clock.time > 0.1) {
-                    depths += surface_between(sim, edge + over + 2 * dp, 2.4 - dp) - ledge;
-                    sum += sim.loads.bodies[0].force.z();
-                    ++count;
-                }
-            }
-            const double expected = 9810 * width * depths / count;
-            EXPECT_NEAR(sum / count, expected, 9810 * width * dp / 2)
-                << "spacing " << dp << ", overhang of " << over / dp << " spacings";
-        }
-    }
 }
 
 // Two boxes, one on the other, in the way of shallow water that hits the lower one and splashes up:
