@@ -186,6 +186,8 @@ private:
         }
         JointWay way{2 * conductance(edge), 0, 0};
         // Where the face goes on beyond what it rests on, its water lies below the next cell.
+        // Beside what the face rests on half of a row is missing there, and to a gap of the lattice
+        // more: a quarter of it is water.
         const int next = cell(c).next[at(edge)];
         const int probe = cell(next >= 0 ? next : c).probe[at(edge)];
         if (probe >= 0) {

@@ -15,6 +15,12 @@ namespace {
 // Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
 constexpr double no_direction = 1e-9;
 
+// Where the middle of a shape is whose centre of mass is there.
+Vec3 middle_of(const Solid& solid, const SolidPose& body)
+{
+    return solid.middle.isZero(0) ? body.x : Vec3(body.x + body.R * solid.middle);
+}
+
 // A solid in the world, without a copy of its turn.
 struct Frame {
     const Solid& solid;
@@ -27,8 +33,7 @@ Frame frame_of(const Configuration& at, int index)
     if (index >= 0) {
         const Solid& solid = at.geometry.solids[index];
         const SolidPose& pose = at.poses[index];
-        const bool off = !solid.middle.isZero(0);
-        return {solid, off ? Vec3(pose.x + pose.R * solid.middle) : pose.x, pose.R};
+        return {solid, middle_of(solid, pose), pose.R};
     }
     const ContactWall& wall = at.geometry.walls[-1 - index];
     return {wall.solid, wall.pose.x + displacement(wall.motion, at.time), wall.pose.R};
@@ -152,22 +157,16 @@ SolidPose pose_of(const Vec3& x, const Quat& q)
 SolidPose pose_of_shape(const Solid& solid, const SolidPose& body)
 {
     SolidPose pose = body;
-    if (!solid.middle.isZero(0)) {
-        pose.x += body.R * solid.middle;
-    }
+    pose.x = middle_of(solid, body);
     return pose;
 }
 
 PlacedSolid placed(const Configuration& at, int index)
 {
-    if (index >= 0) {
-        const Solid& solid = at.geometry.solids[index];
-        return {solid, pose_of_shape(solid, at.poses[index])};
-    }
-    const ContactWall& wall = at.geometry.walls[-1 - index];
-    SolidPose pose = wall.pose;
-    pose.x += displacement(wall.motion, at.time);
-    return {wall.solid, pose};
+    const Frame frame = frame_of(at, index);
+    SolidPose pose = index >= 0 ? at.poses[index] : at.geometry.walls[-1 - index].pose;
+    pose.x = frame.x;
+    return {frame.solid, pose};
 }
 
 Touch touch_of(const Feature& feature, const Configuration& at)

@@ -76,7 +76,7 @@ struct Persistent {
 /// Persistent contacts of one pair in one plane, by their indices.
 struct FrictionPatch {
     std::vector<int> contacts;
-    std::vector<int> hull; // of the contacts, by their place in `contacts`, counter-clockwise
+    std::vector<int> hull; // of three contacts or more, by their place there, counter-clockwise
     PatchRule rule;
     double size = 0; // [m]
 };

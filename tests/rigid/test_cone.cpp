@@ -48,6 +48,7 @@ double violated(const Drawn& d, const Vec3& p)
     return most;
 }
 
+// To the round-off of numbers of this size, a thousand times over.
 TEST(Cone, ImpulsesObeyCoulombsLaw)
 {
     int slides = 0;
