@@ -179,6 +179,9 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
                       {"body", n.body},
                       {"bodies", n.bodies},
                       {"walls", n.walls}};
+    if (sim.fluid) {
+        json["fluid_particle_mass"] = sim.fluid->parameters.mass; // [kg], [kg/m] in two dimensions
+    }
     json["particles_lost"] = sim.fluid ? sim.fluid->lost.count : 0;
     if (sim.open.runs()) {
         json["open"] = open_sides(sim);

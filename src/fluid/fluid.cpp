@@ -27,7 +27,7 @@ bool sticks_to_solids(const Fluid& fluid)
 
 real stand_in_mass(const Fluid& fluid, std::int32_t owner)
 {
-    return owner >= 0 ? fluid.body_particle_mass[at(owner)] : fluid.parameters.mass;
+    return owner >= 0 ? fluid.body_particle_mass[at(owner)] : mass_of_cube(fluid.parameters);
 }
 
 namespace {

@@ -42,27 +42,43 @@ double distance_to(const Cluster& cluster, const Vec3& p)
     return distance;
 }
 
+// The share of a sub-cell inside the shapes of a cluster by the distance of its middle from each:
+// exact for surfaces along its faces, also between shapes that touch there.
+double share_inside(const Cluster& cluster, const Vec3& middle, double edge)
+{
+    double inside = 0;
+    for (std::size_t k = 0; k < cluster.shapes.size(); ++k) {
+        if (holds(cluster.boxes[k], middle)) {
+            const double depth = -signed_distance(cluster.shapes[k], middle);
+            inside += std::clamp(0.5 + depth / edge, 0.0, 1.0);
+        }
+    }
+    return std::min(inside, 1.0);
+}
+
 // That of the cell about p, by sub-cells.
-Cover covered(const Cluster& cluster, const Vec3& p, double spacing)
+Cover covered(const Cluster& cluster, const Vec3& p, double edge)
 {
     constexpr int n = 4;
     const int ny = cluster.shapes[0].dimensions == 2 ? 1 : n;
-    int inside = 0;
+    double inside = 0;
     Vec3 rest = Vec3::Zero();
     for (int k = 0; k < n; ++k) {
         for (int j = 0; j < ny; ++j) {
             for (int i = 0; i < n; ++i) {
                 const Vec3 offset{(i + 0.5) / n - 0.5, ny == 1 ? 0.0 : (j + 0.5) / n - 0.5,
                                   (k + 0.5) / n - 0.5};
-                const Vec3 point = p + spacing * offset;
-                const bool in = distance_to(cluster, point) < 0;
-                inside += in ? 1 : 0;
-                rest += in ? Vec3(Vec3::Zero()) : point;
+                const Vec3 point = p + edge * offset;
+                const double part = share_inside(cluster, point, edge / n);
+                inside += part;
+                rest += (1 - part) * point;
             }
         }
     }
-    const int all = n * n * ny;
-    return {static_cast<double>(inside) / all, inside < all ? Vec3(rest / (all - inside)) : p};
+    constexpr double round_off = 1e-9;
+    const double all = n * n * ny;
+    inside = inside > (1 - round_off) * all ? all : (inside < round_off * all ? 0 : inside);
+    return {inside / all, inside < all ? Vec3(rest / (all - inside)) : p};
 }
 
 // A particle whose cell the surface of a shape cuts.
@@ -110,7 +126,8 @@ void choose(std::vector<CutCell>& cut, std::vector<bool>& gone)
         for (auto cell = begin; cell != end; ++cell) {
             displaced += cell->covered.part;
         }
-        const auto wanted = static_cast<std::size_t>(std::llround(displaced));
+        constexpr double round_off = 1e-9; // a half goes up, whatever rounding has done to it
+        const auto wanted = static_cast<std::size_t>(std::llround(displaced + round_off));
         for (auto cell = begin; cell != end && taken < wanted; ++cell) {
             gone[cell->row] = true;
             taken += 1;
@@ -361,6 +378,8 @@ Bounds cells_of(const Filling& filling, double spacing)
 void take_out(const Scene& scene, const Bounds& box, const Cluster& cluster, Filling& filling)
 {
     const double spacing = scene.spacing;
+    const double cell_volume = particle_volume(scene, filling);
+    const double edge = std::pow(cell_volume, 1.0 / scene.dimensions);
     std::vector<bool> gone(filling.fluid.size(), false);
     std::vector<CutCell> cut;
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
@@ -371,7 +390,8 @@ void take_out(const Scene& scene, const Bounds& box, const Cluster& cluster, Fil
         }
         const Bounds cell{p - Vec3::Constant(spacing), p + Vec3::Constant(spacing)};
         const Cover cover =
-            distance < -spacing ? Cover{1, p} : covered(within(cluster, cell), p, spacing);
+            distance < -spacing ? Cover{1, p} : covered(within(cluster, cell), p, edge);
+        filling.fluid_volume -= cover.part * cell_volume;
         gone[k] = cover.part == 1;
         if (cover.part > 0 && cover.part < 1) {
             cut.push_back({k, distance, cover, room_at(scene, p), morton((p - box.min) / spacing)});

@@ -153,19 +153,21 @@ void fill_fluid(const Scene& scene, Filling& filling)
         blocks.push_back(points_of(scene, b));
     }
     for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const BlockParticles& particles = blocks[b].particles;
+        filling.fluid_volume += static_cast<double>(particles.points.size()) * particles.cell;
         const StartField start(scene.fluid->blocks[b], scene.dimensions);
-        for (const Vec3& p : blocks[b].particles.points) {
+        for (const Vec3& p : particles.points) {
             const double surface = surface_above(scene, blocks, b, p);
             filling.fluid.push_back(p);
-            filling.fluid_cut.push_back(blocks[b].particles.cut ? 1 : 0);
+            filling.fluid_cut.push_back(particles.cut ? 1 : 0);
             filling.fluid_velocity.push_back(start.velocity(p));
             filling.fluid_pressure.push_back(start.pressure(p));
             check_start(scene, b, filling);
             filling.fluid_depth.push_back(scene.gravity.norm() > 0 ? surface - height(scene, p)
                                                                    : 0);
         }
-        if (blocks[b].particles.in_walls > 0) {
-            warn_about_walls(scene, b, blocks[b].particles, filling);
+        if (particles.in_walls > 0) {
+            warn_about_walls(scene, b, particles, filling);
         }
     }
 }
@@ -236,6 +238,27 @@ Bounds domain_of(const Scene& scene)
     return box;
 }
 
+namespace {
+
+// Carpets of open sides are made of cubes of the spacing, and so is the water that they meet. A
+// volume that is theirs but for rounding is theirs.
+void settle_volume(const Scene& scene, Filling& filling)
+{
+    constexpr double round_off = 1e-9;
+    const double cubes =
+        static_cast<double>(filling.fluid.size()) * std::pow(scene.spacing, scene.dimensions);
+    const bool same = std::abs(filling.fluid_volume - cubes) <= round_off * cubes;
+    filling.fluid_volume = same || !scene.open.empty() ? cubes : filling.fluid_volume;
+}
+
+} // namespace
+
+double particle_volume(const Scene& scene, const Filling& filling)
+{
+    return filling.fluid.empty() ? std::pow(scene.spacing, scene.dimensions)
+                                 : filling.fluid_volume / static_cast<double>(filling.fluid.size());
+}
+
 Filling fill(const Scene& scene)
 {
     check_size(scene);
@@ -262,6 +285,7 @@ Filling fill(const Scene& scene)
         stand_off_bodies(scene, filling);
     }
     if (scene.fluid) {
+        settle_volume(scene, filling);
         relax_packing(scene, filling);
     }
     return filling;

@@ -79,9 +79,9 @@ void make_lists(std::span<const Vec3> points, Index moving, double reach, Packin
 }
 
 Vec3 pressure_sum(const PackingLists& lists, std::span<const Vec3> points,
-                  std::span<const double> depth, const Kernel& kernel, const Vec3& down,
-                  std::size_t i)
+                  const PackingPressure& pressure, std::size_t i)
 {
+    const std::span depth = pressure.depth;
     const PackingLists::Block& block = lists.blocks[i / block_rows];
     const PackingLists::Head& head = block.heads[i % block_rows];
     const Vec3& x = points[i];
@@ -90,6 +90,7 @@ Vec3 pressure_sum(const PackingLists& lists, std::span<const Vec3> points,
     for (std::size_t k = head.first; k < head.last; k += Lanes::lanes) {
         Vec<Lanes> r;
         Lanes its;
+        Lanes volume;
         for (int lane = 0; lane < Lanes::lanes; ++lane) {
             const auto j =
                 static_cast<std::size_t>(block.entries[k + static_cast<std::size_t>(lane)]);
@@ -97,9 +98,11 @@ Vec3 pressure_sum(const PackingLists& lists, std::span<const Vec3> points,
             r.x.value[lane] = way.x();
             r.y.value[lane] = way.y();
             r.z.value[lane] = way.z();
-            its.value[lane] = j < depth.size() ? depth[j] : depth[i] - down.dot(way);
+            const bool fluid = j < depth.size();
+            its.value[lane] = fluid ? depth[j] : depth[i] - pressure.down.dot(way);
+            volume.value[lane] = fluid ? 1 : pressure.solid;
         }
-        sum += (own + positive(its)) * kernel(r).f * r;
+        sum += volume * (own + positive(its)) * pressure.kernel(r).f * r;
     }
     return {lane_sum(sum.x), lane_sum(sum.y), lane_sum(sum.z)};
 }

@@ -25,11 +25,18 @@ struct PackingLists {
 /// The points within `reach` [m] of each of the first `moving` ones, the row itself included.
 void make_lists(std::span<const Vec3> points, Index moving, double reach, PackingLists& lists);
 
-/// sum (d_i + d_j) F r of a row i over its neighbours, in a fixed order whatever the machine.
-/// `depth`: of the fluid, which are the first points [m]; a solid has the one that i sees there,
-/// d_i - r . down, r = x_i - x_j. Depths below zero count as zero.
+/// The pressure that particles see.
+struct PackingPressure {
+    std::span<const double> depth; // of the fluid, which are the first points [m]
+    Kernel kernel;
+    Vec3 down{0, 0, -1};
+    double solid = 1; // volume of a particle of solids, as a part of that of the fluid
+};
+
+/// sum V_j (d_i + d_j) F r of a row i over its neighbours, V_j as a part of the volume of a
+/// particle of the fluid, in a fixed order whatever the machine. A solid has the depth that i sees
+/// there, d_i - r . down, r = x_i - x_j. Depths below zero count as zero.
 Vec3 pressure_sum(const PackingLists& lists, std::span<const Vec3> points,
-                  std::span<const double> depth, const Kernel& kernel, const Vec3& down,
-                  std::size_t i);
+                  const PackingPressure& pressure, std::size_t i);
 
 } // namespace hyoryu

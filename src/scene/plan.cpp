@@ -84,7 +84,7 @@ double expected_speed(const Scene& scene, const Filling& filling)
     return speed;
 }
 
-FluidParameters fluid_parameters(const Scene& scene, double speed)
+FluidParameters fluid_parameters(const Scene& scene, const Filling& filling, double speed)
 {
     const FluidSettings& settings = *scene.fluid;
     FluidParameters f;
@@ -92,7 +92,7 @@ FluidParameters fluid_parameters(const Scene& scene, double speed)
     f.formulation = settings.formulation;
     f.spacing = scene.spacing;
     f.h = settings.smoothing_ratio * scene.spacing;
-    f.mass = settings.density * std::pow(scene.spacing, scene.dimensions);
+    f.mass = settings.density * particle_volume(scene, filling);
     f.gravity = scene.gravity;
     f.drive = settings.acceleration;
     f.cfl = scene.time.cfl;
@@ -347,7 +347,7 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     if (scene.fluid) {
         plan.counts.body = plan.counts.drawn;
         plan.expected_speed = expected_speed(scene, filling);
-        plan.fluid = fluid_parameters(scene, plan.expected_speed);
+        plan.fluid = fluid_parameters(scene, filling, plan.expected_speed);
         plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->gradient,
                                       scene.fluid->walls, *plan.fluid);
         Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};

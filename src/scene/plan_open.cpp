@@ -77,7 +77,7 @@ Inflow inflow_at(const Scene& scene, const OpenSettings& open, const WaterAtStar
     return flow;
 }
 
-double particle_volume(const Scene& scene)
+double cube_of(const Scene& scene)
 {
     return std::pow(scene.spacing, scene.dimensions);
 }
@@ -119,7 +119,7 @@ double most_held(const Scene& scene, const Filling& filling)
     }
     const Vec3 size = filling.domain.max - filling.domain.min;
     const double area = size.x() * (scene.dimensions == 2 ? 1 : size.y());
-    return area * std::max(top - low, 0.0) / particle_volume(scene);
+    return area * std::max(top - low, 0.0) / cube_of(scene);
 }
 
 Diagnostic note_at(const Scene& scene, const OpenSettings& open, std::string_view key,
@@ -393,7 +393,7 @@ void list_open(const Scene& scene, const Filling& filling, Plan& plan)
             std::ceil(deepest / scene.spacing + 1) * side.lanes() * (side.columns + 1);
         plan.open.push_back({open.name, what_of(scene, open), static_cast<Index>(carpet)});
         carpets += carpet;
-        entering += volume / particle_volume(scene);
+        entering += volume / cube_of(scene);
     }
     const auto start = static_cast<double>(filling.fluid.size());
     const double held = std::max(start, std::min(start + entering, most_held(scene, filling)));

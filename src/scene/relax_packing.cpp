@@ -23,7 +23,11 @@ constexpr double beside = 2;      // farther from a surface than that none comes
 constexpr double looked = 1;      // distance to which surfaces are looked for
 constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
 
-constexpr int rounds = 100;
+// A want of water spreads by a layer in about ten rounds; what deeper water than this keeps of it,
+// the run evens out.
+constexpr int rounds_of_layer = 10;
+constexpr int least_rounds = 100;
+constexpr int most_rounds = 1000;
 constexpr double gain = 0.1;     // of the descent, at twice of which it is unstable
 constexpr double momentum = 0.9; // share of a way that the next round goes on with
 // Places are rounded to so much, from the middle of the fluid on, after every round, which would
@@ -231,17 +235,24 @@ Vec3 off_surfaces(const FreeSpace& space, double dp, std::span<const int> solids
     return p;
 }
 
-// Where one round takes the particles that move.
-void descend(Packing& packing, const FreeSpace& space, const Kernel& kernel, const Scene& scene,
-             const Vec3& origin, std::vector<Vec3>& moved)
+int rounds_for(const Packing& packing, double dp)
 {
-    const double dp = scene.spacing;
-    const double volume = std::pow(dp, scene.dimensions);
-    const Vec3 down = scene.gravity.normalized();
+    double deepest = 0;
+    for (Index k = 0; k < packing.moving; ++k) {
+        deepest = std::max(deepest, packing.depth[at(k)]);
+    }
+    return static_cast<int>(
+        std::clamp<double>(rounds_of_layer * deepest / dp, least_rounds, most_rounds));
+}
+
+// Where one round takes the particles that move, with the fluid in cells of this volume.
+void descend(Packing& packing, const FreeSpace& space, const PackingPressure& pressure, double dp,
+             double volume, const Vec3& origin, std::vector<Vec3>& moved)
+{
     parallel_for(0, packing.moving, [&](Index i) {
         const Vec3& from = packing.points[at(i)];
-        const Vec3 force = down - volume * pressure_sum(packing.lists, packing.points,
-                                                        packing.depth, kernel, down, at(i));
+        const Vec3 force =
+            pressure.down - volume * pressure_sum(packing.lists, packing.points, pressure, at(i));
         const double stiffness = (2 * std::max(packing.depth[at(i)], 0.0) + dp) / sq(dp);
         Vec3 way = momentum * packing.way[at(i)] + gain / stiffness * force;
         const double length = way.norm();
@@ -270,8 +281,12 @@ void relax_packing(const Scene& scene, Filling& filling)
     find_surfaces(scene, space, packing);
     const Vec3 down = scene.gravity.normalized();
     const Vec3 middle = middle_of_blocks(scene);
+    const double volume = particle_volume(scene, filling);
+    const PackingPressure pressure{packing.depth, kernel, down,
+                                   std::pow(dp, scene.dimensions) / volume};
     std::vector<Vec3> moved(at(packing.moving));
     std::vector<Vec3> listed;
+    const int rounds = rounds_for(packing, dp);
     for (int round = 0; round < rounds; ++round) {
         double since = listed.empty() ? infinity : 0; // since the lists were made
         for (std::size_t k = 0; k < listed.size(); ++k) {
@@ -281,7 +296,7 @@ void relax_packing(const Scene& scene, Filling& filling)
             make_lists(packing.points, packing.moving, kernel.support + skin * dp, packing.lists);
             listed.assign(packing.points.begin(), packing.points.begin() + packing.moving);
         }
-        descend(packing, space, kernel, scene, middle, moved);
+        descend(packing, space, pressure, dp, volume, middle, moved);
         for (std::size_t k = 0; k < moved.size(); ++k) {
             packing.way[k] = moved[k] - packing.points[k];
             packing.depth[k] += down.dot(packing.way[k]);

@@ -103,7 +103,7 @@ double dry_value(const Fluid& fluid, const std::string& column)
 {
     const real rho0 = fluid.parameters.eos.rho0;
     return column == field::density.info.name  ? rho0
-           : column == field::volume.info.name ? fluid.parameters.mass / rho0
+           : column == field::volume.info.name ? mass_of_cube(fluid.parameters) / rho0
            : column == "Kind"                  ? static_cast<double>(Kind::wall)
            : column == "Body"                  ? -1
                                                : 0;

@@ -59,20 +59,21 @@ double unbalanced(const Scene& scene, const Filling& filling, std::size_t i)
 {
     const Kernel kernel =
         make_kernel(scene.fluid->smoothing_ratio * scene.spacing, scene.spacing, scene.dimensions);
-    const double volume = std::pow(scene.spacing, scene.dimensions);
+    const double cube = std::pow(scene.spacing, scene.dimensions);
+    const double cell = particle_volume(scene, filling);
     const double own = std::max(filling.fluid_depth[i], 0.0);
     Vec3 force(0, 0, -1);
-    const auto add = [&](const Vec3& r, double its) {
+    const auto add = [&](double volume, const Vec3& r, double its) {
         const double q = r.norm() / kernel.h;
         const double f = q < 2 ? kernel.f_scale * std::pow(1 - q / 2, 3) : 0;
         force -= volume * (own + std::max(its, 0.0)) * f * r;
     };
     for (std::size_t j = 0; j < filling.fluid.size(); ++j) {
-        add(filling.fluid[i] - filling.fluid[j], filling.fluid_depth[j]);
+        add(cell, filling.fluid[i] - filling.fluid[j], filling.fluid_depth[j]);
     }
     for (const Vec3& w : filling.wall) {
         const Vec3 r = filling.fluid[i] - w;
-        add(r, filling.fluid_depth[i] + r.z());
+        add(cube, r, filling.fluid_depth[i] + r.z());
     }
     return force.norm();
 }

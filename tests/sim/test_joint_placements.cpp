@@ -148,7 +148,7 @@ double level_of(const Standing& s, const Fluid& fluid)
     const int ny = s.dimensions == 3 ? 100 : 1;
     const int nz = 400;
     const double wanted =
-        static_cast<double>(fluid.particles.fluid.size()) * std::pow(s.spacing, s.dimensions);
+        static_cast<double>(fluid.particles.fluid.size()) * fluid.parameters.mass / water_density;
     const double from = std::min(s.ground_at(s.high.x()), s.ground_at(s.low.x()));
     const double to = s.level + 0.2;
     const Vec3 cell((s.high.x() - s.low.x()) / nx, (s.high.y() - s.low.y()) / ny, (to - from) / nz);

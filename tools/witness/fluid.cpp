@@ -76,7 +76,7 @@ double cubes_distance(const Solid& body, const Vec3& p)
 
 Vec3 momentum_of(const Frame& frame, const Scene& scene, double& scale)
 {
-    const double same = scene.rest_density * std::pow(scene.spacing, scene.dimensions);
+    const double same = scene.particle_mass;
     Vec3 sum = Vec3::Zero();
     for (std::size_t k = 0; k < frame.points.size(); ++k) {
         const double m = !frame.masses.empty()    ? frame.masses[k]

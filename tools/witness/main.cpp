@@ -197,12 +197,14 @@ int finish(const Request& request, ordered_json& json, const std::vector<std::st
 
 int judge(const Request& request)
 {
-    const Scene scene = read_scene(request.folder / "case.toml");
+    Scene scene = read_scene(request.folder / "case.toml");
     const std::vector<Row> rows = read_rows(request.folder, scene);
     ordered_json summary = ordered_json::object();
     if (std::ifstream stream(request.folder / "summary.json"); stream) {
         summary = ordered_json::parse(stream);
     }
+    const double cube = scene.rest_density * std::pow(scene.spacing, scene.dimensions);
+    scene.particle_mass = summary.value("fluid_particle_mass", cube);
     ordered_json json;
     Verdict verdict(request);
     json["results"] = request.folder.string();

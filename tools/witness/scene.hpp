@@ -68,6 +68,7 @@ struct Scene {
     double spacing = 0;    // of the fluid and of the walls [m]
     bool fluid = false;
     double rest_density = 0;      // [kg/m3]
+    double particle_mass = 0;     // of the fluid; kg/m in two dimensions [kg]
     double smoothing_ratio = 1.5; // smoothing length over spacing
     bool penalty = false;         // the penalty method, whose contact lets bodies overlap
     std::vector<Solid> walls;

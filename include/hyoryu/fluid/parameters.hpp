@@ -49,11 +49,17 @@ struct FluidParameters {
     EquationOfState eos;
     real spacing = 0;          // dp [m]
     real h = 0;                // smoothing length [m]
-    real mass = 0;             // of a particle, rho0 dp^d [kg]
+    real mass = 0;             // of a particle, rho0 times the volume of its cell [kg]
     Vec3 gravity{0, 0, -9.81}; // g [m/s2]
     Vec3 drive{0, 0, 0};       // acceleration besides gravity, not part of hydrostatics [m/s2]
     real cfl = 0.6;            // scales the acoustic, force and viscous limits
     Precision precision = Precision::single_precision;
 };
+
+/// Mass of a cube of the spacing at rest, which a particle of a wall stands in for [kg].
+inline real mass_of_cube(const FluidParameters& f)
+{
+    return f.eos.rho0 * f.spacing * f.spacing * (f.dimensions == 3 ? f.spacing : 1);
+}
 
 } // namespace hyoryu

@@ -30,6 +30,7 @@ struct Filling {
     std::vector<Vec3> fluid_velocity;     // [m/s]
     std::vector<double> fluid_depth;      // below the free surface above it, along gravity [m]
     std::vector<double> fluid_pressure;   // above the hydrostatic one [Pa]
+    double fluid_volume = 0;              // that the fluid particles stand for [m^d]
     std::vector<std::uint8_t> fluid_cut;  // 1 about cells that surfaces cut or the block stretches
     std::vector<Vec3> wall;               // [m]; empty without fluid
     std::vector<std::int32_t> wall_owner; // index of the wall
@@ -54,6 +55,12 @@ Aggregate aggregate(const Shape& shape, double spacing, int dimensions);
 /// Throws CaseError, naming the estimate, if more particles were asked for than can be numbered or
 /// than the memory of this process can hold.
 Filling fill(const Scene& scene);
+
+/// The volume that a fluid particle stands for at rest [m3], [m2] in two dimensions: cells that
+/// fill the blocks are seldom cubes of the spacing. The pressure of water whose particles stood for
+/// anything but their cells would rise with depth by too much or too little, in this proportion.
+/// With open sides that of a cube, since their carpets are made of cubes.
+double particle_volume(const Scene& scene, const Filling& filling);
 
 /// The region of the run: as given by the user, or the bounds of everything in the scene with
 /// headroom of its height above it for splashes.

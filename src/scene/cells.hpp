@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// A box cut into equal cells along the axes of the scene.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+#include <array>
+
+namespace hyoryu {
+
+/// A box of cells; in two dimensions y does not count.
+struct Cells {
+    Vec3 centre{0, 0, 0}; // of the box [m]
+    Vec3 length{0, 0, 0}; // of its edges [m]
+    std::array<Index, 3> count{1, 1, 1};
+
+    double edge(int axis) const
+    {
+        return length[axis] / static_cast<double>(count[static_cast<std::size_t>(axis)]);
+    }
+    Vec3 middle(const std::array<Index, 3>& cell) const
+    {
+        Vec3 p = centre;
+        for (int a = 0; a < 3; ++a) {
+            const auto k = static_cast<std::size_t>(a);
+            const double part =
+                (static_cast<double>(cell[k]) + 0.5) / static_cast<double>(count[k]) - 0.5;
+            p[a] += part * length[a];
+        }
+        return p;
+    }
+};
+
+/// Whether there is a coordinate axis; in two dimensions there is none along y.
+inline bool has_axis(int dimensions, int axis)
+{
+    return dimensions == 3 || axis != 1;
+}
+
+/// Of one cell; in two dimensions its area.
+inline double volume_of(const Cells& cells, int dimensions)
+{
+    return cells.edge(0) * cells.edge(2) * (dimensions == 3 ? cells.edge(1) : 1);
+}
+
+/// Calls f(cell) for every cell, by its numbers along the axes.
+inline void over_cells(const std::array<Index, 3>& count, const auto& f)
+{
+    for (Index k = 0; k < count[2]; ++k) {
+        for (Index j = 0; j < count[1]; ++j) {
+            for (Index i = 0; i < count[0]; ++i) {
+                f(std::array<Index, 3>{i, j, k});
+            }
+        }
+    }
+}
+
+} // namespace hyoryu
