@@ -135,10 +135,12 @@ bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const
         const OtherHit found = first_other(tables, poses, b, {node.place, node.normal}, part);
         const double gap = found.hit.enter;
         if (found.other != JointNode::none && gap >= part.from && gap < part.to &&
-            found.hit.normal.dot(node.normal) < facing && joins(b, found.other, node.normal)) {
-            node.other = found.other;
+            found.hit.normal.dot(node.normal) < facing) {
+            const JointKind kind = joins(b, found.other, node.normal);
+            node.other = kind == JointKind::none ? JointNode::none : found.other;
+            node.sealed = kind == JointKind::sealed;
             node.gap = gap;
-            any = true;
+            any = any || kind != JointKind::none;
         }
     }
     return any;

@@ -14,6 +14,7 @@ namespace hyoryu {
 struct JointNode {
     static constexpr int none = std::numeric_limits<int>::max();
     int other = none;     // opposite: a body, -1 - (index of the boundary), or none
+    bool sealed = false;  // no water gets in
     double gap = 0;       // [m]
     double opening = 0;   // speed at which the two faces part [m/s]
     double mass = 0;      // that parts from the other side: reduced of two bodies [kg]
@@ -64,9 +65,12 @@ struct OtherHit {
 OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, int b,
                      const Ray& ray, const RayPart& part);
 
-/// Whether the joint of body b and another solid is open to water and belongs to the cells of b;
-/// `normal` is that of the face, outward.
-using Joins = std::function<bool(int b, int other, const Vec3& normal)>;
+/// What water does in the gap between two faces.
+enum class JointKind { none, sealed, open };
+
+/// The joint of body b and another solid, if it belongs to the cells of b; `normal` is that of the
+/// face, outward.
+using Joins = std::function<JointKind(int b, int other, const Vec3& normal)>;
 
 /// Finds the surface opposite each cell of body b; true if there is any.
 bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const Joins& joins);

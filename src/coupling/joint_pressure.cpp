@@ -109,7 +109,9 @@ private:
         bool open = false;
         for (int edge = 0; edge < edges_; ++edge) {
             const int next = cell(c).next[at(edge)];
-            if (joined(next)) {
+            if (joined(next) && node(next).sealed != node(c).sealed) {
+                way(c, edge) = {};
+            } else if (joined(next)) {
                 const double rise = fluid_.weight.dot(node(c).place - node(next).place);
                 way(c, edge) = {conductance(edge), 0, 0, next - face_.first, rise};
             } else {
@@ -171,7 +173,8 @@ private:
         return true;
     }
 
-    // Water or air beyond the rim, or a solid nearer than a spacing that closes it.
+    // Water or air beyond the rim, or a solid nearer than a spacing that closes it. What is sealed
+    // is dry at its rims.
     JointWay rim(int c, int edge)
     {
         const Pose& pose = poses_[at(b_)];
@@ -185,6 +188,9 @@ private:
             return {};
         }
         JointWay way{2 * conductance(edge), 0, 0};
+        if (node(c).sealed) {
+            return way;
+        }
         // Where the face goes on beyond what it rests on, its water lies below the next cell.
         // Beside what the face rests on half of a row is missing there, and to a gap of the lattice
         // more: a quarter of it is water.

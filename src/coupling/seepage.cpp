@@ -21,38 +21,45 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// Which joints are open, and whose cells carry them.
-class OpenJoints {
+// What joints there are, and whose cells carry them. Under what is sealed no water gets; beside it
+// there is no joint.
+class KindOfJoint {
 public:
-    OpenJoints(const Seepage& seepage, const JointTables& tables, const Vec3& gravity)
+    KindOfJoint(const Seepage& seepage, const JointTables& tables, const Vec3& gravity)
         : open_(seepage.open), solids_(tables.solids),
           down_(gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(Vec3::Zero()))
     {
     }
 
-    bool operator()(int b, int other, const Vec3& normal) const
+    JointKind operator()(int b, int other, const Vec3& normal) const
     {
+        constexpr double steep = 0.3; // cosine below which neither is the support of the other
+        const double downward = normal.dot(down_);
         if (other < 0) {
-            return open_[at(b)] != 0;
+            return downward > steep ? under(b) : beside(b, b);
         }
         // The smaller body has the finer cells, and its face more likely lies within the other's.
         const double own = solids_[at(b)].reach;
         const double its = solids_[at(other)].reach;
         if (std::pair{own, b} > std::pair{its, other}) {
-            return false;
+            return JointKind::none;
         }
-        constexpr double steep = 0.3; // cosine below which neither is the support of the other
-        const double downward = normal.dot(down_);
-        if (downward > steep) {
-            return open_[at(b)] != 0;
+        if (std::abs(downward) > steep) {
+            return under(downward > 0 ? b : other);
         }
-        if (downward < -steep) {
-            return open_[at(other)] != 0;
-        }
-        return open_[at(b)] != 0 && open_[at(other)] != 0;
+        return beside(b, other);
     }
 
 private:
+    JointKind under(int upper) const
+    {
+        return open_[at(upper)] != 0 ? JointKind::open : JointKind::sealed;
+    }
+    JointKind beside(int a, int b) const
+    {
+        return open_[at(a)] != 0 && open_[at(b)] != 0 ? JointKind::open : JointKind::none;
+    }
+
     const std::vector<std::uint8_t>& open_;
     const std::vector<RaySolid>& solids_;
     Vec3 down_;
@@ -241,7 +248,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     find_near(tables, rigid, poses, step.time);
     ParticlePressure pressure = pressure_of(fluid);
     pressure.dt = step.dt;
-    const OpenJoints joins(seepage, tables, fluid.parameters.gravity);
+    const KindOfJoint joins(seepage, tables, fluid.parameters.gravity);
     parallel_blocks(
         0, static_cast<Index>(poses.size()),
         [&](Index b) {

@@ -207,15 +207,12 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                fluid ? "the scene has no bodies" : none);
     census.add("film_pressure", when(coupled, "thin films of fluid between solids carry pressure"),
                fluid ? "the scene has no bodies" : none);
-    const auto open = std::ranges::count(scene.bodies, false, &BodySettings::sealed);
+    const auto sealed = std::ranges::count(scene.bodies, true, &BodySettings::sealed);
     census.add("seepage",
-               when(coupled && open > 0,
-                    fmt::format("water seeps under {} bodies where they stand: `body.stands` is "
-                                "\"open\"",
-                                open)),
-               !fluid    ? none
-               : coupled ? "`body.stands` of every body is \"sealed\""
-                         : "the scene has no bodies");
+               when(coupled, fmt::format("water seeps under {} bodies where they stand; {} with "
+                                         "`body.stands` \"sealed\" keep it out",
+                                         plan.counts.bodies - sealed, sealed)),
+               fluid ? "the scene has no bodies" : none);
 }
 
 void list_effects(const Scene& scene, Plan& plan)

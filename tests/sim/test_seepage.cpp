@@ -396,15 +396,12 @@ TEST(Seepage, CostsNothingWhereNoFaceRests)
     Simulation open = make(text);
     Simulation sealed = make(text + "\nstands = \"sealed\"\n");
     EXPECT_TRUE(open.plan.runs("seepage"));
-    EXPECT_FALSE(sealed.plan.runs("seepage"));
     advance(open, 40);
     advance(sealed, 40);
     EXPECT_TRUE(open.fluid->film_cuts.capacity() == 0);
     EXPECT_TRUE(open.seepage.loads[0].capacity() == 0);
-    EXPECT_FALSE(sealed.seepage.tables);
-    Snapshot of_open = save(open);
-    of_open.arrays.erase("joints"); // that there is none
-    expect_same_bits(of_open, save(sealed));
+    EXPECT_TRUE(sealed.seepage.loads[0].capacity() == 0);
+    expect_same_bits(save(open), save(sealed));
     const Simulation dry = make(text.substr(0, text.find("[[body]]")));
     EXPECT_FALSE(dry.plan.runs("seepage"));
     EXPECT_TRUE(dry.seepage.open.empty());
