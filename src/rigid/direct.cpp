@@ -379,4 +379,44 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     return !changed;
 }
 
+bool solve_sticking(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                    double enough)
+{
+    work.states.assign(rows.size(), static_cast<int>(sticks));
+    work.held.assign(rows.size(), 1);
+    work.directions.assign(rows.size(), Vec3::Zero());
+    work.base.assign(rows.size(), Vec3::Zero());
+    order_bodies(rows, bodies, work);
+    work.velocities.clear();
+    for (const int body : work.blocks.members) {
+        work.velocities.push_back({bodies[body].v, bodies[body].omega});
+    }
+    const auto take_back = [&] { // to the last bit
+        for (std::size_t k = 0; k < work.velocities.size(); ++k) {
+            Response& body = bodies[work.blocks.members[k]];
+            body.v = work.velocities[k].v;
+            body.omega = work.velocities[k].omega;
+        }
+        for (Row& row : rows) {
+            row.p.setZero();
+        }
+        return false;
+    };
+    constexpr int passes = 2; // the second takes the round-off of the first out
+    for (int pass = 0; pass < passes; ++pass) {
+        choose_base(rows, work);
+        start_from_base(rows, bodies, work);
+        lay_out(rows, bodies, work);
+        set_right_side(rows, work);
+        if (!solve_by_bodies(rows, work) || !work.solution.allFinite()) {
+            return pass > 0 || take_back();
+        }
+        apply(rows, bodies, work);
+        if (residual(rows, bodies) > enough) {
+            return take_back();
+        }
+    }
+    return true;
+}
+
 } // namespace hyoryu

@@ -113,6 +113,11 @@ void load_all_that_slide(std::span<const Row> rows, const std::vector<Response>&
                          SolverWork& work);
 /// From the states in `work`; false if they did not settle.
 bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
+/// Solves rows without impulses as if all of them stuck: the smallest impulses that hold them.
+/// False, and still no impulses, if those would leave more than `enough` [m/s], as where rows had
+/// to pull or to hold more than friction does.
+bool solve_sticking(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
+                    double enough);
 /// Prepares `solve_by_bodies` for the rows, whatever their states.
 void order_bodies(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
 /// Solves rows without friction exactly, blind to mass ratios, by block principal pivoting

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Accuracy must not depend on how many other bodies are near: families of rows, stacks and wet
 // piles, drawn around the numbers at which the method once changed.
+#include "dice.hpp"
 #include "rigid/block_matrix.hpp"
 #include "scenes.hpp"
 
@@ -116,6 +117,29 @@ TEST(Crowds, TowersThatGrowHeavierUpwardsStand)
             EXPECT_LE(way_of_top(rigid, dt, std::min(5.0, 500 * dt)), 1e-6) << r << ", " << dt;
             EXPECT_EQ(rigid.counters.capped_steps, 0);
         }
+    }
+}
+
+// Boxes of any size on one another, none more than a sixth off the middle of the one below, their
+// densities a thousand to one in any order. HYORYU_STACKS=60 is the nightly number.
+TEST(Crowds, TowersOfMixedDensitiesStand)
+{
+    for (int seed = 1; seed <= number_from("HYORYU_STACKS", 8); ++seed) {
+        Draw draw(seed);
+        const int n = static_cast<int>(draw.between(10, 35));
+        const double dt = std::array{1e-3, 5e-3, 1e-2}[static_cast<std::size_t>(seed % 3)];
+        Rigid rigid = on_floor(0.3, 0.5);
+        double height = 0;
+        for (int k = 0; k < n; ++k) {
+            const Vec3 size(draw.between(0.8, 1.2), draw.between(0.8, 1.2), draw.between(0.2, 0.5));
+            const Vec3 foot(draw.between(-0.05, 0.05), draw.between(-0.05, 0.05), height);
+            const double density = std::pow(10, draw.between(1, 4));
+            rigid.bodies.push_back(box(size, density, foot + size.z() / 2 * Vec3::UnitZ()));
+            height += size.z();
+        }
+        EXPECT_LE(way_of_top(rigid, dt, std::min(1.0, 200 * dt)), 1e-9)
+            << seed << ": " << n << " boxes, steps of " << dt;
+        EXPECT_EQ(rigid.counters.capped_steps, 0) << seed;
     }
 }
 

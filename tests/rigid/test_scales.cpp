@@ -55,9 +55,10 @@ MeshSurface scaled(MeshSurface mesh, double L)
     return mesh;
 }
 
-// Round-off, 1e-16 of a metre, grows by 1e4 in some ten impacts. With tolerances in metres the
+// Round-off, 1e-16 of a metre, grows by 1e4 to 3e5 in some ten impacts, as the processor rounds
+// (3e-11 at most on the two that were tried). With tolerances in metres the
 // places differ by 1e-6 and more.
-constexpr double round_off = 1e-11;
+constexpr double round_off = 1e-10;
 
 TEST(Scales, MillimetresAndKilometresTumbleAsMetresDo)
 {
