@@ -14,7 +14,8 @@ namespace {
 constexpr int most_passes = 4;
 constexpr double settled_rub = 1e-8;
 // The first pass only tells the next where the paths lead.
-constexpr Effort first_effort{.enough = 1e-3, .direct_tries = 1, .updates = 200};
+constexpr Effort first_effort{
+    .enough = 1e-3, .direct_tries = 1, .updates = 200, .stuck = contacts_of_a_pile + 1};
 // An end of a path that is guessed as well as this is known: the noise of positions [units].
 constexpr double settled_end = 1e-12;
 // In a pile both are a hundredth of what its solution leaves open.

@@ -166,8 +166,8 @@ double solve_rows(std::span<Row> rows, std::vector<Response>& bodies, SolverWork
     // A pile at rest first, with the load shared by the least impulses. Sweeps that begin without
     // impulses leave forces between the contacts of a face that are nothing to the load, and beyond
     // friction, which no direct solution gets rid of where heavy bodies stand on light ones.
-    const bool is_pile = rows.size() > contacts_of_a_pile && effort.direct_tries > 0;
-    if (cold(rows) && !(is_pile && solve_sticking(rows, bodies, work, enough))) {
+    if (cold(rows) &&
+        !(rows.size() >= effort.stuck && solve_sticking(rows, bodies, work, enough))) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
     }
     return solve_in_turns(rows, bodies, work, turns_for(rows, effort, enough));

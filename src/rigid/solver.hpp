@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include <limits>
 #include <span>
 
 namespace hyoryu {
@@ -83,6 +84,9 @@ struct Effort {
     std::size_t updates = 2000;
     /// Rows of an island without friction up to which it is solved by pivoting.
     std::size_t pivoted = 0;
+    /// Rows of an island without impulses from which on it is first solved for as if all of them
+    /// stuck: a pile at rest. Blows seldom leave one.
+    std::size_t stuck = std::numeric_limits<std::size_t>::max();
 };
 
 /// Solves normal velocity >= target, impulse >= 0, Coulomb friction for all rows together, from the

@@ -40,7 +40,7 @@ struct SubStep {
     double slow = 0;     // normal speed below which a contact rests and does not bounce [m/s]
     int most_rounds = 0; // of impacts, before the one that closes the event
     Effort impact_effort{};
-    Effort contact_effort{};
+    Effort contact_effort{.stuck = contacts_of_a_pile + 1};
     Arms arms = Arms::ahead;
     double no_gap = 1e-12; // left alone by the projection: the noise of positions [units]
     Slip slip = Slip::mean;
