@@ -18,8 +18,7 @@ struct ColumnParticles {
 /// volume of its cells, rounded to whole ones, each in the middle of its share from the bottom up.
 /// The share is the same in all columns: nearly a cube of the spacing, so much more or less that
 /// the water of all columns is that of the block; with open sides, whose carpets are made of cubes,
-/// a cube. What is nearer to a surface than half a spacing
-/// goes there.
+/// exactly a cube. Particles nearer to a surface than half a spacing move to that distance.
 ColumnParticles in_columns(const Scene& scene, const FreeSpace& space, const Placed& block,
                            const Cells& cells);
 
