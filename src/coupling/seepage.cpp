@@ -21,8 +21,8 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// The kind of each joint, and the body whose cells carry it. Water does not get under a sealed body;
-// the sides of a sealed body have no joints.
+// The kind of each joint, and the body whose cells carry it. Water does not get under a sealed
+// body; the sides of a sealed body have no joints.
 class KindOfJoint {
 public:
     KindOfJoint(const Seepage& seepage, const JointTables& tables, const Vec3& gravity)

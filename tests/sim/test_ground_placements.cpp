@@ -233,7 +233,8 @@ TEST(GroundPlacements, FillingKeepsItsDistanceAndItsVolume)
             excess += (filled - p.volume) / layer;
             count += 1;
             EXPECT_NEAR(filled / layer, p.volume / layer, 0.55) << "half a layer, or of a column";
-            EXPECT_NEAR(filling.fluid_volume / layer, p.volume / layer, 0.05);
+            EXPECT_NEAR(filling.fluid_volume / layer, p.volume / layer, 0.05)
+                << "the rays through a column are a quarter of a spacing apart";
             EXPECT_GT(least_clearance(scene, filling), 0.45) << "half of a rounded cell";
             EXPECT_LT(most_crowded(scene, filling), presses_through);
         });

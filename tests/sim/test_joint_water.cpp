@@ -108,6 +108,21 @@ TEST(Seepage, JointsBesideABodyLeaveTheWaterBelowItAlone)
     }
 }
 
+// Mean upward force of the water on the first body between two times [N].
+double mean_lift(Simulation& sim, double from, double to)
+{
+    double sum = 0;
+    int count = 0;
+    while (sim.clock.time < to) {
+        step_on(sim);
+        if (sim.clock.time > from) {
+            sum += sim.loads.bodies[0].force.z();
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
 // A crate over the edge of a ledge, in water deeper than the ledge is high: all of its lower face
 // feels the water at its depth, wherever the edge falls between the particles of the crate. Half a
 // spacing of depth is allowed.
@@ -131,17 +146,9 @@ TEST(Seepage, ACrateOverAnEdgeFeelsTheWaterOnBothSidesOfIt)
                 "size = [{4}, 0, 0.6]\ndensity = 900\nposition = [{5}, 0, {6}]\n"
                 "fixed = true\nstands = \"open\"\n",
                 dp, ledge + depth, edge, ledge, width, edge + over - width / 2, ledge + 0.3));
-            double sum = 0;
-            int count = 0;
-            while (sim.clock.time < 0.25) {
-                step_on(sim);
-                if (sim.clock.time > 0.1) {
-                    sum += sim.loads.bodies[0].force.z();
-                    ++count;
-                }
-            }
+            const double lift = mean_lift(sim, 0.1, 0.25);
             const double expected = 9810 * width * depth;
-            EXPECT_NEAR(sum / count, expected, 9810 * width * dp / 2)
+            EXPECT_NEAR(lift, expected, 9810 * width * dp / 2)
                 << "spacing " << dp << ", overhang of " << over / dp << " spacings";
         }
     }
@@ -175,16 +182,8 @@ TEST(Seepage, UpliftIsThatOfTheLevelInShallowAndDeepWater)
             const double depth = 0.3 + 0.12 * part(dice);
             Simulation sim = make(in_tank(2, dp, Vec3(width, 0, 0.6), 0.15 + 0.15 * part(dice),
                                           depth, "density = 3000"));
-            double sum = 0;
-            int count = 0;
-            while (sim.clock.time < 0.5) {
-                step_on(sim);
-                if (sim.clock.time > 0.25) {
-                    sum += sim.loads.bodies[0].force.z();
-                    ++count;
-                }
-            }
-            EXPECT_NEAR(sum / count / (9810 * width * dp), depth / dp, 0.5) << "spacing " << dp;
+            const double lift = mean_lift(sim, 0.25, 0.5);
+            EXPECT_NEAR(lift / (9810 * width * dp), depth / dp, 0.5) << "spacing " << dp;
         }
     }
 }
