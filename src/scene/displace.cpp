@@ -88,6 +88,7 @@ struct CutCell {
     double distance = 0;     // of its centre from the surface, negative inside [m]
     Cover covered;           // part of the cell that the shape displaces
     double room = 0;         // to the nearest wall, at most a spacing [m]
+    bool shut_in = false;    // the remaining part is a sliver between the shape and a wall
     std::uint64_t place = 0; // along a curve on which neighbours are near (Morton 1966)
 };
 
@@ -105,34 +106,53 @@ std::uint64_t morton(const Vec3& cells)
     return place;
 }
 
+// Where the group that begins at `first` ends: after eight cells, or where the curve jumps, since
+// what is on two sides of a shape, or beside it and in a gap, cannot make up for each other.
+std::size_t end_of_group(const std::vector<CutCell>& cut, std::size_t first,
+                         const std::vector<Vec3>& points, double spacing)
+{
+    constexpr std::size_t most = 8;
+    constexpr double jump = 3; // spacings
+    std::size_t end = first + 1;
+    while (end < cut.size() && end - first < most &&
+           (points[cut[end].row] - points[cut[end - 1].row]).norm() < jump * spacing) {
+        ++end;
+    }
+    return end;
+}
+
 // Marks as many cut cells as the shape displaces, group by group of neighbours, the deepest cells
 // of each first and, among equals, those at a wall, since particles left there could not move away.
-// The fraction of a particle by which a group is over or short is carried to the next group. One
-// count for all of them could take its last particles from one side, which sets the body turning.
-void choose(std::vector<CutCell>& cut, std::vector<bool>& gone)
+// The fraction of a particle by which a group is over or short is carried to the next group. What
+// is shut in has no place to stand, whatever the count: its particle goes, and another one stays.
+// One count for all of them could take its last particles from one side, which sets the body
+// turning.
+void choose(std::vector<CutCell>& cut, const std::vector<Vec3>& points, double spacing,
+            std::vector<bool>& gone)
 {
-    constexpr std::size_t group = 8;
     std::sort(cut.begin(), cut.end(), [](const CutCell& a, const CutCell& b) {
         return std::pair(a.place, a.row) < std::pair(b.place, b.row);
     });
     double displaced = 0;
     std::size_t taken = 0;
-    for (std::size_t first = 0; first < cut.size(); first += group) {
+    for (std::size_t first = 0; first < cut.size();) {
+        const std::size_t last = end_of_group(cut, first, points, spacing);
         const auto begin = cut.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto end =
-            cut.begin() + static_cast<std::ptrdiff_t>(std::min(first + group, cut.size()));
+        const auto end = cut.begin() + static_cast<std::ptrdiff_t>(last);
         std::sort(begin, end, [](const CutCell& a, const CutCell& b) {
-            return std::tuple(a.distance, a.room, a.row) < std::tuple(b.distance, b.room, b.row);
+            return std::tuple(!a.shut_in, a.distance, a.room, a.row) <
+                   std::tuple(!b.shut_in, b.distance, b.room, b.row);
         });
         for (auto cell = begin; cell != end; ++cell) {
             displaced += cell->covered.part;
         }
         constexpr double round_off = 1e-9; // a half goes up, whatever rounding has done to it
         const auto wanted = static_cast<std::size_t>(std::llround(displaced + round_off));
-        for (auto cell = begin; cell != end && taken < wanted; ++cell) {
+        for (auto cell = begin; cell != end && (cell->shut_in || taken < wanted); ++cell) {
             gone[cell->row] = true;
             taken += 1;
         }
+        first = last;
     }
 }
 
@@ -395,10 +415,15 @@ void take_out(const Scene& scene, const Bounds& box, const Cluster& cluster, Fil
         filling.fluid_volume -= cover.part * cell_volume;
         gone[k] = cover.part == 1;
         if (cover.part > 0 && cover.part < 1) {
-            cut.push_back({k, distance, cover, room_at(scene, p), morton((p - box.min) / spacing)});
+            cut.push_back({.row = k,
+                           .distance = distance,
+                           .covered = cover,
+                           .room = room_at(scene, p),
+                           .shut_in = distance < 0 && room_at(scene, cover.rest) < spacing / 4,
+                           .place = morton((p - box.min) / spacing)});
         }
     }
-    choose(cut, gone);
+    choose(cut, filling.fluid, spacing, gone);
     mark(cut, spacing, filling);
     move_out(scene, cut, gone, filling);
     drop(gone, filling);

@@ -3,10 +3,12 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace hyoryu {
 namespace {
@@ -125,6 +127,43 @@ position = [0.0, 0.0, 0.0]
     }
     EXPECT_GT(in_layers, 100);
     EXPECT_GT(nearest, 0.5 * dp);
+}
+
+// Crates on the floor of a tank that fits no lattice, two by two. A particle below one is pressed
+// against it by the floor: it lifted the crate with the pressure of a whole cell.
+TEST(FillLayers, NoParticleIsLeftUnderWhatStandsOnTheGround)
+{
+    std::mt19937 dice(17);
+    std::uniform_real_distribution<double> part(0, 1);
+    for (int k = 0; k < 200; ++k) {
+        const double spacing = k % 2 == 0 ? 0.05 : 0.03;
+        const double a = 0.3 + 0.2 * part(dice);
+        const double b = 0.3 + 0.2 * part(dice);
+        const double gap = spacing * (1 + 2 * part(dice));
+        const double beside = 0.2 + 0.1 * part(dice);
+        const double level = 0.2 + 0.2 * part(dice);
+        const double end = 2 * beside + a + gap + b;
+        const double left = beside + a / 2;
+        const double right = beside + a + gap + b / 2;
+        const auto crate = [](double width, double x) {
+            return fmt::format("[[body]]\nshape = \"box\"\nsize = [{}, 0, 0.6]\n"
+                               "density = 500\nposition = [{}, 0, 0.3]\n",
+                               width, x);
+        };
+        const Filling filling =
+            fill(parse_case(fmt::format("dimensions = 2\n[time]\nend = 1\n[particles]\n"
+                                        "spacing = {}\n[fluid]\n[[fluid.block]]\nshape = \"box\"\n"
+                                        "min = [0, 0, 0]\nmax = [{}, 0, {}]\n[[wall]]\n"
+                                        "shape = \"basin\"\nmin = [0, 0, 0]\nmax = [{}, 0, 1]\n"
+                                        "open = [\"+z\"]\n{}{}",
+                                        spacing, end, level, end, crate(a, left), crate(b, right)),
+                            "test.toml"));
+        for (const Vec3& p : filling.fluid) {
+            const double outside =
+                std::min(std::abs(p.x() - left) - a / 2, std::abs(p.x() - right) - b / 2);
+            EXPECT_GT(outside, 0) << k << ": " << p.transpose();
+        }
+    }
 }
 
 } // namespace

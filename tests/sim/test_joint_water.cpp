@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 namespace hyoryu {
@@ -108,19 +109,25 @@ TEST(Seepage, JointsBesideABodyLeaveTheWaterBelowItAlone)
     }
 }
 
-// Mean upward force of the water on the first body between two times [N].
-double mean_lift(Simulation& sim, double from, double to)
+// Mean upward forces of the water on the first and the last body between two times [N].
+std::array<double, 2> mean_lifts(Simulation& sim, double from, double to)
 {
-    double sum = 0;
+    std::array<double, 2> sums{};
     int count = 0;
     while (sim.clock.time < to) {
         step_on(sim);
         if (sim.clock.time > from) {
-            sum += sim.loads.bodies[0].force.z();
+            sums[0] += sim.loads.bodies.front().force.z();
+            sums[1] += sim.loads.bodies.back().force.z();
             ++count;
         }
     }
-    return sum / count;
+    return {sums[0] / count, sums[1] / count};
+}
+
+double mean_lift(Simulation& sim, double from, double to)
+{
+    return mean_lifts(sim, from, to)[0];
 }
 
 // A crate over the edge of a ledge, in water deeper than the ledge is high: all of its lower face
@@ -184,6 +191,48 @@ TEST(Seepage, UpliftIsThatOfTheLevelInShallowAndDeepWater)
                                           depth, "density = 3000"));
             const double lift = mean_lift(sim, 0.25, 0.5);
             EXPECT_NEAR(lift / (9810 * width * dp), depth / dp, 0.5) << "spacing " << dp;
+        }
+    }
+}
+
+// Two crates a narrow gap apart, on both sides of x = 0, in a tank that no lattice fits.
+std::string two_crates(double dp, double gap, const std::array<double, 2>& widths, double beside,
+                       double depth)
+{
+    const double left = -gap / 2 - widths[0] - beside;
+    const double right = gap / 2 + widths[1] + beside;
+    const auto crate = [](double width, double x) {
+        return fmt::format("[[body]]\nshape = \"box\"\nsize = [{}, 0, 0.6]\ndensity = 3000\n"
+                           "position = [{}, 0, 0.3]\n",
+                           width, x);
+    };
+    return fmt::format("dimensions = 2\n[time]\nend = 10\n[particles]\nspacing = {}\n[fluid]\n"
+                       "[[fluid.block]]\nshape = \"box\"\nmin = [{}, 0, 0]\nmax = [{}, 0, {}]\n"
+                       "[[wall]]\nshape = \"basin\"\nmin = [{}, 0, 0]\nmax = [{}, 0, 2]\n"
+                       "open = [\"+z\"]\n{}{}",
+                       dp, left, right, depth, left, right,
+                       crate(widths[0], -(gap + widths[0]) / 2),
+                       crate(widths[1], (gap + widths[1]) / 2));
+}
+
+// A gap of one or two columns of particles has no true pressure at its bottom, three spacings of
+// water too much at worst: the open water on the other side of each crate decides. Uplift by
+// Archimedes within half a spacing.
+TEST(Seepage, ANarrowGapBesideACrateDoesNotChangeItsUplift)
+{
+    std::mt19937 dice(43);
+    std::uniform_real_distribution<double> part(0, 1);
+    for (const double dp : {0.05, 0.025, 0.0125}) {
+        for (int k = 0; k < (dp < 0.02 ? 3 : 10); ++k) {
+            const double gap = 1 + 1.6 * part(dice); // spacings
+            const std::array widths{0.3 + 0.2 * part(dice), 0.3 + 0.2 * part(dice)};
+            const double depth = 0.25 + 0.15 * part(dice);
+            Simulation sim = make(two_crates(dp, gap * dp, widths, 0.2 + 0.1 * part(dice), depth));
+            const std::array<double, 2> lifts = mean_lifts(sim, 0.25, 0.5);
+            for (std::size_t b = 0; b < 2; ++b) {
+                EXPECT_NEAR(lifts[b] / (9810 * widths[b] * dp), depth / dp, 0.5)
+                    << "crate " << b << ", gap of " << gap << " spacings of " << dp;
+            }
         }
     }
 }
