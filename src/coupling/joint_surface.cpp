@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hyoryu {
 
@@ -93,7 +94,22 @@ void add_polytope(RaySolid& solid, const Polytope& shape, int dimensions)
     solid.pieces.push_back(piece_of(shape, dimensions));
     for (const Vec3& corner : shape.corners) {
         solid.reach = std::max(solid.reach, corner.norm());
+        solid.corners.push_back(corner);
     }
+}
+
+// Eight points on the rim of each cap.
+std::vector<Vec3> rims_of(const Rod& rod)
+{
+    constexpr int n = 8;
+    std::vector<Vec3> points;
+    for (int k = 0; k < n; ++k) {
+        const double angle = 2 * std::numbers::pi * k / n;
+        const Vec3 across(0, rod.radius * std::cos(angle), rod.radius * std::sin(angle));
+        points.push_back(rod.middle + rod.length / 2 * Vec3::UnitX() + across);
+        points.push_back(rod.middle - rod.length / 2 * Vec3::UnitX() + across);
+    }
+    return points;
 }
 
 RayWall walls_of(const Basin& basin)
@@ -218,7 +234,8 @@ RaySolid ray_solid(const ContactShape& shape, int dimensions)
     RaySolid solid;
     if (const auto* ball = std::get_if<Ball>(&shape)) {
         solid = {{{{}, ConvexPiece::Round::ball, ball->radius, ball->middle}},
-                 ball->radius + ball->middle.norm()};
+                 ball->radius + ball->middle.norm(),
+                 {}};
     } else if (const auto* rod = std::get_if<Rod>(&shape)) {
         if (dimensions == 2) {
             const Vec3 section(rod->length, 0, 2 * rod->radius);
@@ -230,7 +247,8 @@ RaySolid ray_solid(const ContactShape& shape, int dimensions)
                    ConvexPiece::Round::cylinder,
                    rod->radius,
                    rod->middle}},
-                 std::hypot(half, rod->radius) + rod->middle.norm()};
+                 std::hypot(half, rod->radius) + rod->middle.norm(),
+                 rims_of(*rod)};
     } else if (const auto* polytope = std::get_if<Polytope>(&shape)) {
         add_polytope(solid, *polytope, dimensions);
     } else {
@@ -239,6 +257,15 @@ RaySolid ray_solid(const ContactShape& shape, int dimensions)
         }
     }
     return solid;
+}
+
+double reach_across(const RaySolid& solid, const Vec3& along)
+{
+    double reach = solid.corners.empty() ? solid.reach : 0;
+    for (const Vec3& corner : solid.corners) {
+        reach = std::max(reach, corner.cross(along).norm());
+    }
+    return reach;
 }
 
 bool holds(const ConvexPiece& piece, const Vec3& point, double margin)

@@ -48,9 +48,14 @@ struct ConvexPiece {
 /// A body or obstacle in its own axes.
 struct RaySolid {
     std::vector<ConvexPiece> pieces;
-    double reach = 0; // largest distance of a point from the origin [m]
+    double reach = 0;          // largest distance of a point from the origin [m]
+    std::vector<Vec3> corners; // of polytopes; on the rims of a rod; none of a ball
 };
 RaySolid ray_solid(const ContactShape& shape, int dimensions);
+
+/// The largest distance of a corner from the line through the origin along a unit vector in the
+/// axes of the solid [m]; of a ball its reach.
+double reach_across(const RaySolid& solid, const Vec3& along);
 
 /// The faces of a polytope by their corners; in two dimensions the edges of the polygon.
 std::vector<std::vector<int>> faces_of(const Polytope& shape, int dimensions);

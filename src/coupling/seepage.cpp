@@ -25,8 +25,9 @@ std::size_t at(Index k)
 // body; the sides of a sealed body have no joints.
 class KindOfJoint {
 public:
-    KindOfJoint(const Seepage& seepage, const JointTables& tables, const Vec3& gravity)
-        : open_(seepage.open), solids_(tables.solids),
+    KindOfJoint(const Seepage& seepage, const JointTables& tables, const std::vector<Pose>& poses,
+                const Vec3& gravity)
+        : open_(seepage.open), solids_(tables.solids), poses_(poses),
           down_(gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(Vec3::Zero()))
     {
     }
@@ -38,19 +39,36 @@ public:
         if (other < 0) {
             return downward > steep ? under(b) : beside(b, b);
         }
-        // The smaller body has the finer cells, and its face more likely lies within the other's.
-        const double own = solids_[at(b)].reach;
-        const double its = solids_[at(other)].reach;
-        if (std::pair{own, b} > std::pair{its, other}) {
+        const bool stacked = std::abs(downward) > steep;
+        if (!carries(b, other, stacked)) {
             return JointKind::none;
         }
-        if (std::abs(downward) > steep) {
+        if (stacked) {
             return under(downward > 0 ? b : other);
         }
         return beside(b, other);
     }
 
 private:
+    // The smaller body carries the cells: its face more likely lies within the other's, and all
+    // particles behind it leave their films to the joint. In a stack that is the narrower one: a
+    // wide base of low height pushed with the films of its ledge. Equal but for rounding, any.
+    bool carries(int b, int other, bool stacked) const
+    {
+        constexpr double equal = 1.01;
+        if (stacked) {
+            const double own = width(b);
+            const double its = width(other);
+            if (std::max(own, its) > equal * std::min(own, its)) {
+                return own < its;
+            }
+        }
+        return std::pair{solids_[at(b)].reach, b} <= std::pair{solids_[at(other)].reach, other};
+    }
+    double width(int b) const
+    {
+        return reach_across(solids_[at(b)], poses_[at(b)].orientation.conjugate() * down_);
+    }
     JointKind under(int upper) const
     {
         return open_[at(upper)] != 0 ? JointKind::open : JointKind::sealed;
@@ -62,6 +80,7 @@ private:
 
     const std::vector<std::uint8_t>& open_;
     const std::vector<RaySolid>& solids_;
+    const std::vector<Pose>& poses_;
     Vec3 down_;
 };
 
@@ -248,7 +267,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     find_near(tables, rigid, poses, step.time);
     ParticlePressure pressure = pressure_of(fluid);
     pressure.dt = step.dt;
-    const KindOfJoint joins(seepage, tables, fluid.parameters.gravity);
+    const KindOfJoint joins(seepage, tables, poses, fluid.parameters.gravity);
     parallel_blocks(
         0, static_cast<Index>(poses.size()),
         [&](Index b) {
