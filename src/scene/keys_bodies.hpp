@@ -112,6 +112,9 @@ inline void check_mass(TableReader& table, const BodySettings& body)
     if (table.mistaken()) {
         return;
     }
+    if (const std::string fault = extent_fault(body, dimensions); !fault.empty()) {
+        table.error("shape", fault, "sizes are in metres");
+    }
     if (table.sound("center_of_mass")) {
         const std::string fault = centre_fault(body, dimensions);
         if (!fault.empty()) {

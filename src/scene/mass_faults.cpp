@@ -115,4 +115,18 @@ std::string inertia_fault(const BodySettings& body, int dimensions)
     return {};
 }
 
+std::string extent_fault(const BodySettings& body, int dimensions)
+{
+    constexpr double least = 1e-6; // [m]
+    const Bounds box = bounds({.shape = &body.shape, .dimensions = dimensions});
+    Vec3 size = box.max - box.min;
+    if (dimensions == 2) {
+        size.y() = infinity;
+    }
+    if (box.empty() || size.minCoeff() >= least) {
+        return {};
+    }
+    return fmt::format("is {:.3g} m thick, expected at least {:g} m", size.minCoeff(), least);
+}
+
 } // namespace hyoryu

@@ -299,6 +299,20 @@ TEST(CaseFileErrors, RotationsInTwoDimensionsAreAboutY)
     EXPECT_EQ(mistakes(text + "rotation = [0.8,0.6,0,0]\n").size(), 1u);
 }
 
+// Their moments of inertia drown in rounding, and the first step gave no numbers.
+TEST(CaseFileErrors, BodiesThinnerThanAMicrometreAreRefused)
+{
+    for (const char* thin :
+         {"shape = \"sphere\"\nradius = 1e-308\n", "shape = \"box\"\nsize = [1, 1e-12, 1]\n",
+          "shape = \"cylinder\"\nradius = 1e-9\nlength = 1\n"}) {
+        const auto all = mistakes(short_case + "[[body]]\nposition = [0, 0, 5]\nmass = 1\n" + thin);
+        ASSERT_EQ(all.size(), 1u) << thin;
+        EXPECT_NE(mistake_at(all, "body[0].shape").what.find("thick, expected at least 1e-06 m"),
+                  std::string::npos);
+    }
+    EXPECT_TRUE(mistakes(short_case + sphere + "radius = 1e-6\nmass = 1\n").empty());
+}
+
 TEST(CaseFileErrors, FrictionNeedsViscosity)
 {
     EXPECT_TRUE(mistakes(short_case, {"fluid.walls=no_slip"}).empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which centres of mass and moments of inertia a body can have.
+// Which shapes, centres of mass and moments of inertia a body can have.
 #pragma once
 
 #include "hyoryu/scene/scene.hpp"
@@ -15,5 +15,9 @@ std::string centre_fault(const BodySettings& body, int dimensions);
 /// Why `body.inertia` cannot be: a moment that is not above zero, that exceeds the sum of the other
 /// two, or that exceeds m r^2 with all mass at the farthest point r of the shape. Empty if it can.
 std::string inertia_fault(const BodySettings& body, int dimensions);
+
+/// Why the shape of a body cannot be: it is thinner than a micrometre, so that its moments of
+/// inertia drown in rounding. Empty if it can. Ours.
+std::string extent_fault(const BodySettings& body, int dimensions);
 
 } // namespace hyoryu
