@@ -41,7 +41,8 @@ double through_gap(double gap)
 
 // Fluid particles between the two faces.
 struct Filled {
-    double taken = 0;    // share of the pressure that they transmit, 0 to 1
+    double taken = 0;    // share of the film forces that is kept beside them, 0 to 1
+    double pushes = 0;   // share of their pressure that acts on the faces by them and these films
     double pressure = 0; // theirs, at the centre of the cell [Pa]
     double trapped = 0;  // share of a gap too narrow for a row of them that they fill, 0 to 1
 };
@@ -58,6 +59,28 @@ double row_sum(const Fluid& fluid, int first_x, double z)
             const Vec<real> r{x * dp, y * dp, z};
             total += fluid.parameters.formulation == FormulationKind::mps ? fluid.mps_kernel(r).w
                                                                           : fluid.kernel(r).w;
+        }
+    }
+    return total;
+}
+
+// Sums -F z of a row of fluid at a distance from a face, in spacings, over the rows of solid
+// behind.
+double push_on_face(const Fluid& fluid, double distance)
+{
+    const double dp = fluid.parameters.spacing;
+    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
+    const int across = fluid.parameters.dimensions == 3 ? reach : 0;
+    double total = 0;
+    for (int row = 0; row <= reach; ++row) {
+        const double z = (distance + row + 0.5) * dp;
+        for (int x = -reach; x <= reach; ++x) {
+            for (int y = -across; y <= across; ++y) {
+                const Vec<real> r{x * dp, y * dp, z};
+                total -= z * (fluid.parameters.formulation == FormulationKind::mps
+                                  ? fluid.mps_kernel(r).f
+                                  : fluid.kernel(r).f);
+            }
         }
     }
     return total;
@@ -162,6 +185,7 @@ private:
         const int outer = std::max(cell(c).inner - cell(c).first, 1);
         const double rows = wet / (outer * fluid_.sums.row(width));
         inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
+                     std::min(rows, 1.0) * fluid_.sums.transmitted(width),
                      wet > 0 ? pressure / wet : 0,
                      width < 1 ? std::min(rows / std::max(width, 1e-3), 1.0) : 0};
     }
@@ -298,9 +322,10 @@ private:
         const Filled& in = inside(c);
         const bool trapped = in.trapped * in.pressure > n.pressure && sheltered(c);
         const double taken = trapped ? std::max(in.taken, in.trapped) : in.taken;
+        const double pushes = trapped ? std::max(in.pushes, in.trapped) : in.pushes;
         const double joint = std::clamp(4 - 2 * n.gap / fluid_.spacing, 0.0, 1.0);
         n.film = 1 - joint * (1 - taken);
-        n.carried = joint * std::max(n.pressure - taken * in.pressure, 0.0);
+        n.carried = joint * std::max(n.pressure - pushes * in.pressure, 0.0);
     }
 
     void relax()
@@ -357,6 +382,15 @@ double LatticeSums::row(double width) const
     return between[at(k)] + (place - k) * (between[at(k + 1)] - between[at(k)]);
 }
 
+double LatticeSums::transmitted(double width) const
+{
+    const double place = steps * std::clamp(2 * width - 1, 0.0, 1.0);
+    const auto k = std::min(static_cast<int>(place), steps - 1);
+    const double row = pushes[at(k)] + (place - k) * (pushes[at(k + 1)] - pushes[at(k)]);
+    const double films = (1 - pushes.back()) * std::clamp(2 * width - 1, 0.0, 1.0);
+    return row * std::clamp(4 * width - 1, 0.0, 1.0) + films;
+}
+
 LatticeSums lattice_sums(const Fluid& fluid)
 {
     const double dp = fluid.parameters.spacing;
@@ -366,6 +400,14 @@ LatticeSums lattice_sums(const Fluid& fluid)
         // Solid particles are half a spacing behind their face.
         const double width = 1 + static_cast<double>(k) / LatticeSums::steps;
         sums.between[at(k)] = row_sum(fluid, -reach, (1 + width) / 2 * dp);
+    }
+    double all = 0; // rows of fluid before a face, a spacing apart
+    for (int row = 0; row <= reach; ++row) {
+        all += push_on_face(fluid, row + 0.5);
+    }
+    for (int k = 0; k <= LatticeSums::steps; ++k) {
+        const double width = 0.5 + 0.5 * k / LatticeSums::steps;
+        sums.pushes[at(k)] = push_on_face(fluid, width / 2) / all;
     }
     sums.rim = row_sum(fluid, 1, 0);
     for (int row = 1; row <= reach; ++row) {

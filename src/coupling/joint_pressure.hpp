@@ -20,9 +20,16 @@ struct LatticeSums {
     double first = 0;
     double under = 0;
 
+    // Force of one row of fluid at the pressure p in the middle of gaps of 1/2, ... 1 spacings on
+    // one of the faces, over p times its area.
+    std::array<double, steps + 1> pushes{};
+
     /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1
     /// counts as 1.
     double row(double width) const;
+    /// Share of its pressure that a row in the middle between faces transmits to them, with the
+    /// films that are kept there: all of it from a width of 1 on, none below 1/4.
+    double transmitted(double width) const;
 };
 LatticeSums lattice_sums(const Fluid& fluid);
 
