@@ -4,6 +4,7 @@
 
 #include "joint_faces.hpp"
 #include "joint_surface.hpp"
+#include "lattice_sums.hpp"
 
 #include <functional>
 #include <limits>
@@ -42,6 +43,7 @@ struct JointTables {
     std::vector<BodyJoints> bodies;
     std::vector<std::pair<double, int>> along_x; // bodies by the lower end of their spheres
     double largest_reach = 0;
+    LatticeSums sums; // of the fluid
     double reach = 0; // widest gap that may belong to a joint [m]
 };
 

@@ -47,45 +47,6 @@ struct Filled {
     double trapped = 0;  // share of a gap too narrow for a row of them that they fill, 0 to 1
 };
 
-// Sums W over a row of the lattice at a distance z, from the point first_x on.
-double row_sum(const Fluid& fluid, int first_x, double z)
-{
-    const double dp = fluid.parameters.spacing;
-    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
-    const int across = fluid.parameters.dimensions == 3 ? reach : 0;
-    double total = 0;
-    for (int x = first_x; x <= reach; ++x) {
-        for (int y = -across; y <= across; ++y) {
-            const Vec<real> r{x * dp, y * dp, z};
-            total += fluid.parameters.formulation == FormulationKind::mps ? fluid.mps_kernel(r).w
-                                                                          : fluid.kernel(r).w;
-        }
-    }
-    return total;
-}
-
-// Sums -F z of a row of fluid at a distance from a face, in spacings, over the rows of solid
-// behind.
-double push_on_face(const Fluid& fluid, double distance)
-{
-    const double dp = fluid.parameters.spacing;
-    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
-    const int across = fluid.parameters.dimensions == 3 ? reach : 0;
-    double total = 0;
-    for (int row = 0; row <= reach; ++row) {
-        const double z = (distance + row + 0.5) * dp;
-        for (int x = -reach; x <= reach; ++x) {
-            for (int y = -across; y <= across; ++y) {
-                const Vec<real> r{x * dp, y * dp, z};
-                total -= z * (fluid.parameters.formulation == FormulationKind::mps
-                                  ? fluid.mps_kernel(r).f
-                                  : fluid.kernel(r).f);
-            }
-        }
-    }
-    return total;
-}
-
 // The joint of one face.
 class FaceJoint {
 public:
@@ -183,9 +144,9 @@ private:
         }
         const double width = node(c).gap / fluid_.spacing;
         const int outer = std::max(cell(c).inner - cell(c).first, 1);
-        const double rows = wet / (outer * fluid_.sums.row(width));
+        const double rows = wet / (outer * tables_.sums.row(width));
         inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
-                     std::min(rows, 1.0) * fluid_.sums.transmitted(width),
+                     std::min(rows, 1.0) * tables_.sums.transmitted(width),
                      wet > 0 ? pressure / wet : 0,
                      width < 1 ? std::min(rows / std::max(width, 1e-3), 1.0) : 0};
     }
@@ -236,7 +197,7 @@ private:
         const int probe = cell(next >= 0 ? next : c).probe[at(edge)];
         if (probe >= 0) {
             const std::size_t row = fluid_.first + at(probe);
-            const LatticeSums& sums = fluid_.sums;
+            const LatticeSums& sums = tables_.sums;
             const double dry = next >= 0 ? sums.under : sums.below;
             const double enough = next >= 0 ? dry + sums.first / 4 : sums.rim / 2;
             const double wet = std::clamp((fluid_.shepard[row] - dry) / (enough - dry), 0.0, 1.0);
@@ -374,49 +335,6 @@ private:
 };
 
 } // namespace
-
-double LatticeSums::row(double width) const
-{
-    const double place = steps * std::clamp(width - 1, 0.0, 1.0);
-    const auto k = std::min(static_cast<int>(place), steps - 1);
-    return between[at(k)] + (place - k) * (between[at(k + 1)] - between[at(k)]);
-}
-
-double LatticeSums::transmitted(double width) const
-{
-    const double place = steps * std::clamp(2 * width - 1, 0.0, 1.0);
-    const auto k = std::min(static_cast<int>(place), steps - 1);
-    const double row = pushes[at(k)] + (place - k) * (pushes[at(k + 1)] - pushes[at(k)]);
-    const double films = (1 - pushes.back()) * std::clamp(2 * width - 1, 0.0, 1.0);
-    return row * std::clamp(4 * width - 1, 0.0, 1.0) + films;
-}
-
-LatticeSums lattice_sums(const Fluid& fluid)
-{
-    const double dp = fluid.parameters.spacing;
-    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
-    LatticeSums sums;
-    for (int k = 0; k <= LatticeSums::steps; ++k) {
-        // Solid particles are half a spacing behind their face.
-        const double width = 1 + static_cast<double>(k) / LatticeSums::steps;
-        sums.between[at(k)] = row_sum(fluid, -reach, (1 + width) / 2 * dp);
-    }
-    double all = 0; // rows of fluid before a face, a spacing apart
-    for (int row = 0; row <= reach; ++row) {
-        all += push_on_face(fluid, row + 0.5);
-    }
-    for (int k = 0; k <= LatticeSums::steps; ++k) {
-        const double width = 0.5 + 0.5 * k / LatticeSums::steps;
-        sums.pushes[at(k)] = push_on_face(fluid, width / 2) / all;
-    }
-    sums.rim = row_sum(fluid, 1, 0);
-    for (int row = 1; row <= reach; ++row) {
-        sums.below += row_sum(fluid, 1, (row + 0.5) * dp);
-        sums.under += row > 1 ? row_sum(fluid, -reach, row * dp) : 0;
-    }
-    sums.first = row_sum(fluid, -reach, dp);
-    return sums;
-}
 
 void solve_pressure(JointTables& tables, const std::vector<Pose>& poses, int b,
                     const ParticlePressure& fluid)

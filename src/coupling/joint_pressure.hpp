@@ -6,33 +6,6 @@
 
 namespace hyoryu {
 
-/// Sums W over rows of the lattice of fluid particles as a solid particle sees them [1/m^d].
-struct LatticeSums {
-    static constexpr int steps = 8;
-    /// Of a row in the middle between faces 1, 1 + 1/8, ... 2 spacings apart.
-    std::array<double, steps + 1> between{};
-    double rim = 0; // of half a row that begins a spacing away, beside the particle
-    // Of all half rows of water beside the particle whose surface is a spacing below it. A rim with
-    // this sum or less is dry: the extrapolated pressure of an impact below does not act there.
-    double below = 0;
-    // Where the face goes on beyond the rim: of the first row of water below the particle, and of
-    // all rows of water whose surface is a spacing below the face.
-    double first = 0;
-    double under = 0;
-
-    // Force of one row of fluid at the pressure p in the middle of gaps of 1/2, ... 1 spacings on
-    // one of the faces, over p times its area.
-    std::array<double, steps + 1> pushes{};
-
-    /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1
-    /// counts as 1.
-    double row(double width) const;
-    /// Share of its pressure that a row in the middle between faces transmits to them, with the
-    /// films that are kept there: all of it from a width of 1 on, none below 1/4.
-    double transmitted(double width) const;
-};
-LatticeSums lattice_sums(const Fluid& fluid);
-
 /// The particle state that the joints read.
 struct ParticlePressure {
     std::span<const Vec3> x;       // of all rows [m]
@@ -42,9 +15,8 @@ struct ParticlePressure {
     double spacing = 0;            // of the fluid [m]
     double support = 0;            // radius of its kernel [m]
     Vec3 weight{0, 0, 0};          // rho0 g [N/m3]
-    LatticeSums sums;
-    double density = 0; // rho0 [kg/m3]
-    double dt = 0;      // of the step [s]
+    double density = 0;            // rho0 [kg/m3]
+    double dt = 0;                 // of the step [s]
 };
 
 /// Pressures of all nodes of body b whose gaps are known.

@@ -52,7 +52,8 @@ public:
 private:
     // The smaller body carries the cells: its face more likely lies within the other's, and all
     // particles behind it leave their films to the joint. In a stack that is the narrower one: a
-    // wide base of low height pushed with the films of its ledge. Equal but for rounding, any.
+    // wide base of low height pushed with the films of its ledge. Widths within 1 % count as
+    // equal, so that rounding does not move a joint from one body to the other.
     bool carries(int b, int other, bool stacked) const
     {
         constexpr double equal = 1.01;
@@ -93,7 +94,6 @@ ParticlePressure pressure_of(const Fluid& fluid)
             .spacing = fluid.parameters.spacing,
             .support = fluid.kernel.support,
             .weight = fluid.parameters.eos.rho0 * fluid.parameters.gravity,
-            .sums = lattice_sums(fluid),
             .density = fluid.parameters.eos.rho0};
 }
 
@@ -261,6 +261,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     if (!seepage.tables) {
         seepage.tables =
             std::make_unique<JointTables>(joint_tables(rigid, widest * fluid.parameters.spacing));
+        seepage.tables->sums = lattice_sums(fluid);
         seepage.loads.resize(rigid.bodies.size());
     }
     JointTables& tables = *seepage.tables;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What a regular lattice of fluid particles gives before a flat face: with it the joints tell how
+// much water there is at a rim or in a gap.
+#pragma once
+
+#include "hyoryu/fluid/fluid.hpp"
+
+#include <array>
+
+namespace hyoryu {
+
+/// Sums W over rows of the lattice of fluid particles as a solid particle sees them [1/m^d].
+struct LatticeSums {
+    static constexpr int steps = 8;
+    /// Of a row in the middle between faces 1, 1 + 1/8, ... 2 spacings apart.
+    std::array<double, steps + 1> between{};
+    double rim = 0; // of half a row that begins a spacing away, beside the particle
+    // Of all half rows of water beside the particle whose surface is a spacing below it. A rim with
+    // this sum or less is dry: the extrapolated pressure of an impact below does not act there.
+    double below = 0;
+    // Where the face goes on beyond the rim: of the first row of water below the particle, and of
+    // all rows of water whose surface is a spacing below the face.
+    double first = 0;
+    double under = 0;
+
+    // Force of one row of fluid at the pressure p in the middle of gaps of 1/2, ... 1 spacings on
+    // one of the faces, over p times its area.
+    std::array<double, steps + 1> pushes{};
+
+    /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1
+    /// counts as 1.
+    double row(double width) const;
+    /// Share of its pressure that a row in the middle between faces transmits to them, with the
+    /// films that are kept there: all of it from a width of 1 on, none below 1/4.
+    double transmitted(double width) const;
+};
+/// Those of the kernel, spacing and dimensions of a fluid, which do not change during a run.
+LatticeSums lattice_sums(const Fluid& fluid);
+
+} // namespace hyoryu
