@@ -61,6 +61,18 @@ TEST(Terms, ViscosityByHand)
     EXPECT_DOUBLE_EQ(sum[field::viscous_force].x, 24000);
 }
 
+TEST(Terms, QuadraticViscosityActsOnApproachAlone)
+{
+    const Viscosity viscosity{1000, 0, 0, 3};
+    Record<Fields<ViscousForce>, real> closing;
+    viscosity(hand, particle(0.5, -4, 2, 0), particle(0, 0, 3, 0), closing);
+    // V V rho0 beta (-v.r)(v.r)/r^2 F r = 6 * 1000 * 3 * 2 * (-2/0.25) * (-2) * 0.5
+    EXPECT_DOUBLE_EQ(closing[field::viscous_force].x, 288000);
+    Record<Fields<ViscousForce>, real> parting;
+    viscosity(hand, particle(0.5, 4, 2, 0), particle(0, 0, 3, 0), parting);
+    EXPECT_EQ(parting[field::viscous_force].x, 0);
+}
+
 TEST(Terms, MorrisViscosityByHand)
 {
     Record<Fields<ViscousForce>, real> sum;
@@ -224,6 +236,7 @@ TEST(Terms, ForcesAreAntisymmetricBitForBit)
     expect_pairwise(WallPressureForce{}, field::force);
     expect_pairwise(SolidBackstop{0.6, 2.0}, field::force);
     expect_pairwise(Viscosity{1000, 0.1, 0.9}, field::viscous_force);
+    expect_pairwise(Viscosity{1000, 0.1, 0.9, 3}, field::viscous_force);
     expect_pairwise(MorrisViscosity{0.7}, field::viscous_force);
     expect_pairwise(EddyViscosity{1000, 0.1, 0.9, 5, 0.1}, field::viscous_force);
 }

@@ -10,11 +10,14 @@
 
 namespace hyoryu {
 
-/// F_i = sum_j V_i V_j rho0 kappa (v_i - v_j).r / (r^2 + 0.01 h^2) F(r) r,
-/// kappa = alpha h c0 + 2 (d + 2) nu [m2/s]: acts along the line of centres, so it conserves
-/// angular momentum, and it is consistent at a free surface, where the Morris form loses half the
-/// dissipation (Colagrossi, Antuono, Souto-Iglesias & Le Touze 2011). Source: Monaghan & Gingold
-/// (1983); equivalence nu = alpha h c0 / (2 (d + 2)): Monaghan (2005), sec. 8.
+/// F_i = sum_j V_i V_j rho0 (kappa - beta min(v.r, 0)) v.r / (r^2 + 0.01 h^2) F(r) r,
+/// v = v_i - v_j, kappa = alpha h c0 + 2 (d + 2) nu [m2/s]: acts along the line of centres, so it
+/// conserves angular momentum, and it is consistent at a free surface, where the Morris form loses
+/// half the dissipation (Colagrossi, Antuono, Souto-Iglesias & Le Touze 2011). The part of beta
+/// acts between particles that approach: it takes the energy of impacts and leaves smooth flow
+/// alone. Source: Monaghan & Gingold (1983); equivalence nu = alpha h c0 / (2 (d + 2)): Monaghan
+/// (2005), sec. 8; beta = 3 is the limiter of Zhang, Hu & Adams (2017), J. Comput. Phys. 335,
+/// eq. 18.
 struct Viscosity {
     static constexpr std::string_view name = "viscosity";
     using Stage = stage::Rates;
@@ -23,6 +26,7 @@ struct Viscosity {
     real rho0 = 1000; // [kg/m3]
     real kappa = 0;   // [m2/s]
     real h = 1;       // [m]
+    real beta = 0;    // [1]
 
     Viscosity at_wall() const { return *this; }
 
@@ -30,7 +34,9 @@ struct Viscosity {
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
     {
         const N approach = dot(i[field::velocity] - j[field::velocity], ij.r);
-        const N mu = rho0 * kappa * approach / (ij.distance_squared + 0.01 * sq(h));
+        const N closing = positive(N(-approach));
+        const N mu = (rho0 * kappa + rho0 * beta * closing) * approach /
+                     (ij.distance_squared + 0.01 * sq(h));
         sum[field::viscous_force] += (i[field::volume] * j[field::volume]) * mu * ij.f * ij.r;
     }
 };
@@ -74,12 +80,16 @@ struct ArtificialViscosity {
     static constexpr std::string_view model = "artificial";
     static constexpr std::string_view says = "damps with `alpha`";
     double alpha = 0.02; // [1]
+    double beta = 0;     // [1]
 
     static void keys(auto& keys, auto& chosen)
     {
         keys.not_negative(
             "alpha", chosen.alpha, "",
             "Coefficient of the artificial viscosity; 0.01 to 0.1 for dam breaks and bores.");
+        keys.not_negative("beta", chosen.beta, "",
+                          "Coefficient of the quadratic part, between particles that approach; 3 "
+                          "takes the energy of impacts and leaves smooth flow alone.");
     }
     std::string why() const
     {
@@ -88,7 +98,7 @@ struct ArtificialViscosity {
     void fill(auto& slot, const FluidParameters& f) const
     {
         if (const real kappa = artificial_kappa(alpha, f.h, f.eos.c0); kappa > 0) {
-            slot = Viscosity{f.eos.rho0, kappa, f.h};
+            slot = Viscosity{f.eos.rho0, kappa, f.h, beta};
         }
     }
 };
