@@ -22,8 +22,7 @@ double row_sum(const Fluid& fluid, int first_x, double z)
     for (int x = first_x; x <= reach; ++x) {
         for (int y = -across; y <= across; ++y) {
             const Vec<real> r{x * dp, y * dp, z};
-            total += fluid.parameters.formulation == FormulationKind::mps ? fluid.mps_kernel(r).w
-                                                                          : fluid.kernel(r).w;
+            total += fluid.kernel(r).w;
         }
     }
     return total;
@@ -42,9 +41,7 @@ double push_on_face(const Fluid& fluid, double distance)
         for (int x = -reach; x <= reach; ++x) {
             for (int y = -across; y <= across; ++y) {
                 const Vec<real> r{x * dp, y * dp, z};
-                total -= z * (fluid.parameters.formulation == FormulationKind::mps
-                                  ? fluid.mps_kernel(r).f
-                                  : fluid.kernel(r).f);
+                total -= z * fluid.kernel(r).f;
             }
         }
     }

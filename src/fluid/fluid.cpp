@@ -96,9 +96,6 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
         add_columns(fluid.particles,
                     Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
     }
-    if (fluid.parameters.formulation == FormulationKind::mps) {
-        add_columns(fluid.particles, MpsGradient::Writes{});
-    }
 }
 
 namespace {
@@ -146,11 +143,35 @@ void drift(Fluid& fluid, real dt)
     }
 }
 
+namespace {
+
+// The pressure before solids and the density and volume that belong to it.
+void extrapolate_pressure(Fluid& fluid)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    load_solids(fluid, Stored{});
+    clear_wet_solids(fluid, Fields<ShepardSum, Pressure>{});
+    const FluidTerms terms = terms_of(fluid, 0);
+    run<pass::Extrapolation>(fluid, n.wall_fluid, to_walls(fluid), terms);
+    run<pass::Extrapolation>(fluid, n.body_fluid, to_bodies(fluid), terms);
+    for_wet_solids(fluid, [&](Store& solids) {
+        return [&fluid, eos = fluid.parameters.eos, p_w = solids[field::pressure],
+                rho_w = solids[field::density], V_w = solids[field::volume],
+                shepard = solids[field::shepard_sum], owner = solids.owner()](Index i) {
+            p_w[i] = shepard[i] > 0 ? positive(p_w[i] / shepard[i]) : 0;
+            rho_w[i] = eos.density(p_w[i]);
+            V_w[i] = stand_in_mass(fluid, owner[i]) / rho_w[i];
+        };
+    });
+    load_solids(fluid, Fields<Volume, Pressure>{});
+}
+
+} // namespace
+
 void update_pressure(Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;
     const FluidParameters& f = fluid.parameters;
-    const FluidNeighbours& n = fluid.neighbours;
     const auto rho = store[field::density];
     const auto p = store[field::pressure];
     const auto V = store[field::volume];
@@ -159,24 +180,9 @@ void update_pressure(Fluid& fluid)
         V[i] = f.mass / rho[i];
     });
     load_fluid(fluid, Stored{});
-    if (!has_solids(fluid)) {
-        return;
+    if (has_solids(fluid)) {
+        extrapolate_pressure(fluid);
     }
-    load_solids(fluid, Stored{});
-    clear_wet_solids(fluid, Fields<ShepardSum, Pressure>{});
-    const FluidTerms terms = terms_of(fluid, 0);
-    run<pass::Extrapolation>(fluid, n.wall_fluid, to_walls(fluid), terms);
-    run<pass::Extrapolation>(fluid, n.body_fluid, to_bodies(fluid), terms);
-    for_wet_solids(fluid, [&](Store& solids) {
-        return [&fluid, eos = f.eos, p_w = solids[field::pressure], rho_w = solids[field::density],
-                V_w = solids[field::volume], shepard = solids[field::shepard_sum],
-                owner = solids.owner()](Index i) {
-            p_w[i] = shepard[i] > 0 ? positive(p_w[i] / shepard[i]) : 0;
-            rho_w[i] = eos.density(p_w[i]);
-            V_w[i] = stand_in_mass(fluid, owner[i]) / rho_w[i];
-        };
-    });
-    load_solids(fluid, Fields<Volume, Pressure>{});
 }
 
 namespace {
@@ -216,9 +222,11 @@ void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
                                 [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
         },
         fluid.pair_data);
-    run<pass::SolidForces>(fluid, n.fluid_solid, to_fluid(fluid), terms);
-    run<pass::SolidLoads>(fluid, n.wall_fluid, to_walls(fluid), terms);
-    run<pass::SolidLoads>(fluid, n.body_fluid, to_bodies(fluid), terms);
+    run<pass::SolidForces>(fluid,
+                           {{n.fluid_solid, to_fluid(fluid)},
+                            {n.wall_fluid, to_walls(fluid)},
+                            {n.body_fluid, to_bodies(fluid)}},
+                           terms);
     load_fluid(fluid, Fields<Pressure>{});
     add_film_forces(fluid, terms);
 }
@@ -230,21 +238,14 @@ void update_forces(Fluid& fluid, real dt)
     Store& store = fluid.particles.fluid;
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, dt);
-    const bool mps = fluid.parameters.formulation == FormulationKind::mps;
     clear(store, Union<Fields<Force>, StageWrites<stage::Forces>>{});
     clear_wet_solids(fluid, Fields<Force>{});
-    if (mps) {
-        clear(store, MpsGradient::Writes{});
-    }
     run<pass::FluidForces>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     if (has_solids(fluid)) {
         add_solid_forces(fluid, terms);
     }
     if (held<ParticleCollision>(fluid.effects) != nullptr) {
         run<ParticleCollision::Sum>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
-    }
-    if (mps) {
-        add_corrected_pressure(fluid.parameters, store);
     }
     if (held<RenormalisedDiffusion>(fluid.effects) != nullptr) {
         add_renormalised_diffusion(fluid);

@@ -5,20 +5,22 @@
 
 namespace hyoryu {
 
-Mat3 correction(const Mat3& M)
+Mat3 correction(const Mat3& M, const CorrectionRange& range)
 {
-    const real share = corrected_part * inner_share(M);
+    const real share = range.part * share_between(M, range.surface, range.inside);
     return share > 0 ? Mat3(share * (M.inverse() - Mat3::Identity())) : Mat3(Mat3::Zero());
 }
 
 void update_corrections(const FluidParameters& fluid, Store& store)
 {
+    const CorrectionRange& range =
+        fluid.formulation == FormulationKind::mps ? mps_correction : sph_correction;
     const auto moments = store[field::moments];
     const auto mixed = store[field::mixed_moments];
     const auto diagonal = store[field::gradient_correction];
     const auto off = store[field::mixed_correction];
     parallel_for(0, store.size(), [&](Index i) {
-        const Mat3 C = correction(moment_matrix(moments[i], mixed[i], fluid.dimensions));
+        const Mat3 C = correction(moment_matrix(moments[i], mixed[i], fluid.dimensions), range);
         diagonal[i] = C.diagonal();
         off[i] = Vec3(C(1, 2), C(0, 2), C(0, 1));
     });

@@ -23,12 +23,23 @@ inline Mat3 moment_matrix(const Vec3& moments, const Vec3& mixed, int dimensions
     return M;
 }
 
-/// How far inside the fluid a particle of these moments is, 0 to 1: by their least eigenvalue,
-/// which is 1 inside and about one half on a flat surface.
-inline real inner_share(const Mat3& M)
+/// Whether all eigenvalues of a symmetric matrix are above a bound: Sylvester's criterion.
+inline bool is_above(const Mat3& M, real bound)
 {
-    constexpr real surface = 0.8;
-    constexpr real inside = 0.95;
+    const Mat3 A = M - bound * Mat3::Identity();
+    return A(0, 0) > 0 && A(0, 0) * A(1, 1) > A(0, 1) * A(0, 1) && A.determinant() > 0;
+}
+
+/// Where the least eigenvalue of M lies from `surface`, 0, to `inside`, 1: inside the fluid it is
+/// 1, on a flat surface about one half. It is computed for the few particles between alone.
+inline real share_between(const Mat3& M, real surface, real inside)
+{
+    if (!is_above(M, surface)) {
+        return 0;
+    }
+    if (is_above(M, inside)) {
+        return 1;
+    }
     Eigen::SelfAdjointEigenSolver<Mat3> solver;
     solver.computeDirect(M, Eigen::EigenvaluesOnly);
     const real least = solver.eigenvalues().minCoeff();

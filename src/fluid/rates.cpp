@@ -31,8 +31,21 @@ enum class SolidVelocity { own, mirrored };
 
 void show_velocities(Fluid& fluid, SolidVelocity which)
 {
-    fluid.mirrors_velocities = which == SolidVelocity::mirrored;
     load_solids(fluid, Fields<Velocity>{});
+    if (which == SolidVelocity::own) {
+        return;
+    }
+    std::visit(
+        [&](auto& data) {
+            const auto show = [&](const Store& store, const Tiles& tiles) {
+                const auto shown = store[field::velocity_sum];
+                data.records().show(tiles, field::velocity,
+                                    [&](std::size_t row) { return shown[row]; });
+            };
+            show(fluid.particles.wall, fluid.neighbours.wall);
+            show(fluid.particles.body, fluid.neighbours.body);
+        },
+        fluid.pair_data);
 }
 
 // Calls f while the records of solids hold the mirrored velocities; then they hold their own again.
@@ -89,9 +102,7 @@ void update_solid_rates(Fluid& fluid)
     const FluidParameters& f = fluid.parameters;
     clear(store, SolidContinuity::Writes{});
     run<pass::SolidRates>(fluid, n.fluid_solid, to_fluid(fluid), terms_of(fluid, 0));
-    const real touching = with_formulation(fluid, [&](auto, const auto& kernel) {
-        return sum_beside_plane(kernel, f.spacing, f.dimensions);
-    });
+    const real touching = sum_beside_plane(fluid.kernel, f.spacing, f.dimensions);
     const auto rho = store[field::density];
     const auto rate = store[field::solid_rate];
     const auto sum = store[field::shepard_sum];

@@ -4,6 +4,9 @@
 
 #include "hyoryu/fluid/fluid.hpp"
 
+#include <algorithm>
+#include <initializer_list>
+
 namespace hyoryu {
 
 inline std::size_t at(Index row)
@@ -27,40 +30,16 @@ void load_fluid(Fluid& fluid, const auto& fields)
         fluid.pair_data);
 }
 
-/// The same for the particles of bodies.
-void load_bodies(Fluid& fluid, const auto& fields)
-{
-    std::visit(
-        [&](auto& data) {
-            data.records().load(fluid.particles.body, fluid.neighbours.body, fields);
-        },
-        fluid.pair_data);
-}
-
-/// Copies fields of the solid particles that fluid or a body may be near to some records; of their
-/// velocities those that they show.
-template <class List, class Real>
-void load_solids(const Fluid& fluid, Records<List, Real> records, const auto& fields)
-{
-    const FluidNeighbours& n = fluid.neighbours;
-    records.load(fluid.particles.wall, n.wall, n.wet_walls, fields);
-    records.load(fluid.particles.body, n.body, fields);
-    if constexpr (contains<Velocity, std::remove_cvref_t<decltype(fields)>>) {
-        if (fluid.mirrors_velocities) {
-            const auto show = [&](const Store& store, const Tiles& tiles) {
-                const auto shown = store[field::velocity_sum];
-                records.show(tiles, field::velocity, [&](std::size_t row) { return shown[row]; });
-            };
-            show(fluid.particles.wall, n.wall);
-            show(fluid.particles.body, n.body);
-        }
-    }
-}
-
-/// The same for the common records.
+/// The same for the solid particles that fluid or a body may be near.
 void load_solids(Fluid& fluid, const auto& fields)
 {
-    std::visit([&](auto& data) { load_solids(fluid, data.records(), fields); }, fluid.pair_data);
+    const FluidNeighbours& n = fluid.neighbours;
+    std::visit(
+        [&](auto& data) {
+            data.records().load(fluid.particles.wall, n.wall, n.wet_walls, fields);
+            data.records().load(fluid.particles.body, n.body, fields);
+        },
+        fluid.pair_data);
 }
 
 /// For the walls that fluid or a body may be near and for the bodies: `of_store(store)` is called
@@ -96,13 +75,6 @@ void clear_wet_solids(Fluid& fluid, List fields)
     });
 }
 
-/// f(formulation, kernel of its pairs).
-auto with_formulation(const Fluid& fluid, const auto& f)
-{
-    return fluid.parameters.formulation == FormulationKind::mps ? f(Mps{}, fluid.mps_kernel)
-                                                                : f(Sph{}, fluid.kernel);
-}
-
 /// The particles that a loop writes: their store and their places.
 struct Destination {
     Store& store;
@@ -121,24 +93,34 @@ inline Destination to_bodies(Fluid& fluid)
     return {fluid.particles.body, fluid.neighbours.body};
 }
 
+/// The pairs of a list, whose first particles a loop writes.
+struct Sweep {
+    const PairList& pairs;
+    Destination to;
+};
+
 /// The records that the terms of a pass read, and the bytes of one: the common ones, or wide ones
-/// that are filled from the columns first.
+/// that are filled from those and from columns first.
 struct PassRecords {
     const void* first = nullptr;
     std::size_t bytes = 0;
 };
-template <class Pass, class Real, class Formulation>
-PassRecords records_of(const Fluid& fluid, PairData<Real>& data, Formulation formulation,
-                       const PairList& pairs, const FluidTerms& terms)
+enum class Among { fluid, all };
+template <class Pass, class Real>
+PassRecords records_of(const Fluid& fluid, PairData<Real>& data, Among which,
+                       const FluidTerms& terms)
 {
     PassRecords found;
-    Pass::call(formulation, terms, [&]<class... Terms>(const Terms&...) {
+    Pass::call(terms, [&]<class... Terms>(const Terms&...) {
         using List = RecordList<Stored, Terms...>;
         Records<List, Real> records = data.template records<List>();
         if constexpr (!std::is_same_v<List, Stored>) {
-            records.load(fluid.particles.fluid, fluid.neighbours.fluid);
-            if (&pairs != &fluid.neighbours.fluid_fluid) {
-                load_solids(fluid, records, List{});
+            const FluidNeighbours& n = fluid.neighbours;
+            const Records<Stored, Real> common = data.records();
+            records.complete(common, fluid.particles.fluid, n.fluid);
+            if (which == Among::all) {
+                records.complete(common, fluid.particles.wall, n.wall, n.wet_walls);
+                records.complete(common, fluid.particles.body, n.body);
             }
         }
         found = {records.data(), sizeof(RecordRow<List, Real>)};
@@ -146,36 +128,56 @@ PassRecords records_of(const Fluid& fluid, PairData<Real>& data, Formulation for
     return found;
 }
 
-/// Runs the loop of a pass over all blocks of a list. The pass must be part of this build: passes
-/// of effects that are left out have no loop, and nothing that holds such an effect can be made.
+/// Runs the loop of a pass over all blocks of some lists: with the kernel of the formulation if
+/// they are of fluid alone, else with that of SPH. Solids act on the fluid of MPS by the smooth
+/// kernel, as its weight makes their rows bumps over which fluid does not slide. The pass must be
+/// part of this build: passes of effects that are left out have no loop, and nothing that holds
+/// such an effect can be made.
+template <class Pass>
+void run(Fluid& fluid, std::initializer_list<Sweep> sweeps, const FluidTerms& terms)
+{
+    const bool alone = std::ranges::all_of(
+        sweeps, [&](const Sweep& sweep) { return &sweep.pairs == &fluid.neighbours.fluid_fluid; });
+    const auto run_all = [&]<class Real, class PairKernel>(PairData<Real>& data,
+                                                           const PairKernel& kernel) {
+        using Loops = PairLoops<Real, PairKernel>;
+        constexpr auto pass = static_cast<std::size_t>(pass_index<Pass, AllPasses>);
+        const auto loop = std::get<Loops>(fluid_loops(fluid.instruction_set)).loop[pass];
+        const PassRecords records =
+            records_of<Pass>(fluid, data, alone ? Among::fluid : Among::all, terms);
+        data.local.resize(std::max(data.local.size(), at(thread_count())));
+        for (const auto& [pairs, to] : sweeps) {
+            for (RecordMemory& local : data.local) {
+                local.at_least(at(chunk_slots * pairs.most_chunks()) * records.bytes);
+            }
+            const typename Loops::View view{pairs.blocks().data(),
+                                            records.first,
+                                            to.store.pointers(),
+                                            to.tiles.row.data(),
+                                            to.tiles.first_slot,
+                                            to.tiles.lattice.edge,
+                                            kernel};
+            parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
+                loop(view, block, data.local[at(worker())].data(), terms);
+            });
+        }
+    };
+    std::visit(
+        [&](auto& data) {
+            if (alone && fluid.parameters.formulation == FormulationKind::mps) {
+                run_all(data, fluid.mps_kernel);
+            } else {
+                run_all(data, fluid.kernel);
+            }
+        },
+        fluid.pair_data);
+}
+
+/// The same over one list.
 template <class Pass>
 void run(Fluid& fluid, const PairList& pairs, const Destination& to, const FluidTerms& terms)
 {
-    const auto sweep = [&]<class Real, class Formulation>(
-                           PairData<Real>& data, Formulation formulation, const auto& kernel) {
-        using Loops = PairLoops<Real, Formulation>;
-        constexpr auto pass = static_cast<std::size_t>(pass_index<Pass, AllPasses>);
-        const auto loop = std::get<Loops>(fluid_loops(fluid.instruction_set)).loop[pass];
-        const PassRecords records = records_of<Pass>(fluid, data, formulation, pairs, terms);
-        const std::size_t bytes = at(chunk_slots * pairs.most_chunks()) * records.bytes;
-        data.local.resize(std::max(data.local.size(), at(thread_count())));
-        for (RecordMemory& local : data.local) {
-            local.at_least(bytes);
-        }
-        const typename Loops::View view{pairs.blocks().data(),
-                                        records.first,
-                                        to.store.pointers(),
-                                        to.tiles.row.data(),
-                                        to.tiles.first_slot,
-                                        to.tiles.lattice.edge,
-                                        kernel};
-        parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
-            loop(view, block, data.local[at(worker())].data(), terms);
-        });
-    };
-    with_formulation(fluid, [&](auto formulation, const auto& kernel) {
-        std::visit([&](auto& data) { sweep(data, formulation, kernel); }, fluid.pair_data);
-    });
+    run<Pass>(fluid, {{pairs, to}}, terms);
 }
 
 } // namespace hyoryu

@@ -35,8 +35,9 @@ inline void check_slip(TableReader& table, const FluidSettings& fluid)
 inline void check_gradient(TableReader& table, const FluidSettings& fluid)
 {
     if (fluid.gradient.corrected && fluid.formulation == FormulationKind::mps) {
-        table.error("gradient", "is available for SPH only",
-                    "leave gradient out with formulation = \"mps\", which corrects its own");
+        table.error(
+            "gradient", "is available for SPH only",
+            "leave gradient out with formulation = \"mps\", which has the corrected gradient");
     }
 }
 

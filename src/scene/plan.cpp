@@ -171,15 +171,12 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
     const std::string none = "the scene has no fluid";
     const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
     const bool mps = fluid && plan.fluid->formulation == FormulationKind::mps;
-    census.add("pressure",
-               when(fluid, mps ? "the scene has a fluid; `fluid.formulation` is \"mps\": corrected "
-                                 "differences, symmetric near the surface"
-                               : "the scene has a fluid"),
-               none);
+    census.add("pressure", when(fluid, "the scene has a fluid"), none);
     census.add("continuity", when(fluid, "the scene has a fluid"), none);
     census.add("corrected_gradient",
                when(fluid && !std::holds_alternative<Off>(plan.effects[slot::gradient]),
-                    "`fluid.gradient` is \"corrected\": reverse kernel gradient correction"),
+                    fmt::format("`fluid.{}`: reverse kernel gradient correction",
+                                mps ? "formulation` is \"mps\"" : "gradient` is \"corrected\"")),
                fluid ? "`fluid.gradient` is \"plain\"" : none);
     census.add("wall_extrapolation", when(solids, "the fluid meets walls or bodies"),
                fluid ? "the fluid meets no wall and no body" : none);

@@ -62,6 +62,9 @@ inline Fluid make_mixture(const Choice& choice)
         fluid.effects[slot::diffusion] =
             DensityDiffusion{0.2 * f.h * 30, f.eos, Vec3(f.eos.rho0 / sq(f.eos.c0) * f.gravity)};
     }
+    if (choice.formulation == FormulationKind::mps) {
+        fluid.effects[slot::gradient] = CorrectedGradient{};
+    }
     if (choice.viscosity) {
         fluid.effects[slot::viscosity] = Viscosity{1000, artificial_kappa(0.1, f.h, 30), f.h};
     }

@@ -22,6 +22,7 @@ struct Cloud {
     real jitter = 0.2; // of a spacing
     Precision precision = Precision::double_precision;
     bool corrected = true;
+    FormulationKind formulation = FormulationKind::sph;
 };
 
 // Fluid alone, on a jittered lattice, its density drawn at random.
@@ -33,7 +34,9 @@ Fluid make_fluid(const Cloud& cloud, Dice& dice)
     f = {.dimensions = cloud.dimensions, .eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp};
     f.mass = 1000 * std::pow(dp, cloud.dimensions);
     f.precision = cloud.precision;
+    f.formulation = cloud.formulation;
     fluid.kernel = make_kernel(f.h, dp, cloud.dimensions);
+    fluid.mps_kernel = make_mps_kernel(2 * f.h, dp, cloud.dimensions);
     if (cloud.corrected) {
         fluid.effects[slot::gradient] = CorrectedGradient{};
     }
@@ -70,9 +73,12 @@ void evaluate(Fluid& fluid)
 TEST(CorrectedGradient, WorkOfThePressureIsTheChangeOfTheCompression)
 {
     Dice dice(static_cast<std::uint64_t>(number_from("HYORYU_SEED", 11)));
-    for (const int dimensions : {2, 3}) {
-        for (const real spacing : {0.1, 0.013}) {
-            Fluid fluid = make_fluid({dimensions, spacing, dimensions == 2 ? 25 : 9}, dice);
+    for (const auto formulation : {FormulationKind::sph, FormulationKind::mps}) {
+        for (const auto& [dimensions, spacing] :
+             {std::pair{2, 0.1}, {2, 0.013}, {3, 0.1}, {3, 0.013}}) {
+            Cloud cloud{dimensions, spacing, dimensions == 2 ? 25 : 9};
+            cloud.formulation = formulation;
+            Fluid fluid = make_fluid(cloud, dice);
             evaluate(fluid);
             const Store forces = fluid.particles.fluid;
             update_rates(fluid);
@@ -121,17 +127,21 @@ bool is_inside(const Store& store, Index i)
     return Eigen::SelfAdjointEigenSolver<Mat3>(M).eigenvalues().minCoeff() > 0.95;
 }
 
-// About a particle without pressure p_i B_j is nothing, and M_i^-1 would make a linear pressure
-// exact: a tenth of the error of the plain gradient stays, as a tenth of that is kept.
-TEST(CorrectedGradient, LeavesATenthOfTheErrorForALinearPressureAboutAParticle)
+// About a particle without pressure p_i B_j is nothing, and M_i^-1 makes a linear pressure exact:
+// of the error of the plain gradient stays what is not corrected, a tenth in SPH and nothing in
+// MPS.
+TEST(CorrectedGradient, LeavesItsShareOfTheErrorForALinearPressureAboutAParticle)
 {
     const auto seed = static_cast<std::uint64_t>(number_from("HYORYU_SEED", 12));
-    for (const int dimensions : {2, 3}) {
-        for (const real spacing : {0.1, 0.025}) {
+    for (const auto formulation : {FormulationKind::sph, FormulationKind::mps}) {
+        const real stays = formulation == FormulationKind::sph ? 0.1 : 0;
+        for (const auto& [dimensions, spacing] :
+             {std::pair{2, 0.1}, {2, 0.025}, {3, 0.1}, {3, 0.025}}) {
             const Cloud cloud{.dimensions = dimensions,
                               .spacing = spacing,
                               .edge = dimensions == 2 ? 14 : 10,
-                              .jitter = 0.06};
+                              .jitter = 0.06,
+                              .formulation = formulation};
             Dice dice(seed);
             Dice same(seed);
             Fluid fluid = make_fluid(cloud, dice);
@@ -146,7 +156,7 @@ TEST(CorrectedGradient, LeavesATenthOfTheErrorForALinearPressureAboutAParticle)
                     ++inside;
                     const Vec3 of_plain = error_at(i, plain);
                     EXPECT_GT(of_plain.norm(), 1e-4) << dimensions << " " << spacing;
-                    EXPECT_LT((error_at(i, fluid) - 0.1 * of_plain).norm(), 1e-9)
+                    EXPECT_LT((error_at(i, fluid) - stays * of_plain).norm(), 1e-9)
                         << dimensions << " " << spacing;
                 }
             }
@@ -305,15 +315,23 @@ TEST(CorrectedGradient, PressesOnASolidByTheOppositeAndNeverPulls)
     EXPECT_GT(pressed, 100);
 }
 
-TEST(CorrectedGradient, IsPlainAtASurfaceAndNineTenthsInside)
+TEST(CorrectedGradient, IsPlainAtASurfaceAndMadeInside)
 {
-    EXPECT_EQ(correction(Mat3::Identity()).norm(), 0);
-    const Mat3 flat_surface = Vec3(1, 1, 0.5).asDiagonal();
-    EXPECT_EQ(correction(flat_surface).norm(), 0);
-    Mat3 inside = Vec3(1.1, 0.98, 1.05).asDiagonal();
-    inside(0, 1) = inside(1, 0) = 0.01;
-    const Mat3 whole = correction(inside) / 0.9 + Mat3::Identity();
-    EXPECT_LT((whole * inside - Mat3::Identity()).norm(), 1e-14);
+    for (const CorrectionRange& range : {sph_correction, mps_correction}) {
+        EXPECT_EQ(correction(Mat3::Identity(), range).norm(), 0);
+        const Mat3 flat_surface = Vec3(1, 1, 0.499).asDiagonal();
+        EXPECT_EQ(correction(flat_surface, range).norm(), 0);
+        Mat3 inside = Vec3(1.1, 0.98, 1.05).asDiagonal();
+        inside(0, 1) = inside(1, 0) = 0.01;
+        const Mat3 whole = correction(inside, range) / range.part + Mat3::Identity();
+        EXPECT_LT((whole * inside - Mat3::Identity()).norm(), 1e-14);
+        // half of it halfway, by the least eigenvalue, wherever that points
+        const real least = (range.surface + range.inside) / 2;
+        const Mat3 turn = Eigen::AngleAxis<real>(0.7, Vec3(1, 2, 3).normalized()).matrix();
+        const Mat3 between = turn * Vec3(1, least, 1.02).asDiagonal() * turn.transpose();
+        const Mat3 half = correction(between, range) * (2 / range.part) + Mat3::Identity();
+        EXPECT_LT((half * between - Mat3::Identity()).norm(), 1e-13);
+    }
 }
 
 TEST(CorrectedGradient, AbsentHasNoColumnAndNoRecords)

@@ -1,51 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Lattices of particles whose forces are known: linear pressures, domains that repeat themselves,
-// crowds.
+// Lattices of particles whose forces are known: domains that repeat themselves, crowds.
 #include "mixtures.hpp"
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 namespace hyoryu {
 namespace {
-
-// A linear pressure on a cube of slightly jittered places: inside, the corrected gradient of MPS is
-// exact. The pressure is negative, so that no push between particles is part of it.
-TEST(Mps, GradientOfALinearPressureIsExactInside)
-{
-    Fluid fluid = make_mixture({Precision::double_precision, widest_instruction_set(), false, false,
-                                FormulationKind::mps});
-    constexpr int n = 12;
-    allocate(fluid, n * n * n, 0, 0);
-    std::mt19937 random(7);
-    std::uniform_real_distribution<real> off(-0.03, 0.03);
-    const Vec3 slope(300, -200, 500);
-    for (int k = 0; k < n * n * n; ++k) {
-        const real jx = off(random);
-        const real jy = off(random);
-        const Vec3 place = dp * (Vec3(k % n, k / n % n, k / n / n) + Vec3(jx, jy, off(random)));
-        fluid.particles.fluid[field::position][at(k)] = place;
-        fluid.particles.fluid[field::density][at(k)] =
-            fluid.parameters.eos.density(slope.dot(place) - 2000);
-    }
-    update_neighbours(fluid);
-    update_pressure(fluid);
-    update_forces(fluid, 1e-4);
-    int inside = 0;
-    for (Index k = 0; k < n * n * n; ++k) {
-        const Vec3 place = fluid.particles.fluid[field::position][at(k)] / dp;
-        if (place.minCoeff() < 3.1 || place.maxCoeff() > n - 4.1) {
-            continue;
-        }
-        ++inside;
-        const Vec3 gradient = -fluid.particles.fluid[field::force][at(k)] /
-                              fluid.particles.fluid[field::volume][at(k)];
-        // 50 digits of a place in a tile, and p to 1e-16 of rho0 c0^2: 1e-10 Pa over a spacing.
-        EXPECT_LT((gradient - slope).norm(), 1e-8 * slope.norm()) << k;
-    }
-    EXPECT_GT(inside, 20);
-}
 
 // A cube that repeats itself in every direction is everywhere inside: on its lattice nothing pulls,
 // and a shift of all places by any way changes no sum beyond the rounding of places.

@@ -12,6 +12,11 @@
 namespace hyoryu {
 namespace {
 
+bool is_mps(const Fluid& fluid)
+{
+    return fluid.parameters.formulation == FormulationKind::mps;
+}
+
 // Adds up what the terms of a stage write, over one list.
 void sweep_clearly(Particles& particles, const Fluid& fluid, const PairList& pairs,
                    const auto&... terms)
@@ -26,7 +31,7 @@ void sweep_clearly(Particles& particles, const Fluid& fluid, const PairList& pai
                                           : row_of(particles.body, n.body);
     };
     using List = RecordList<Stored, std::remove_cvref_t<decltype(terms)>...>;
-    if (fluid.parameters.formulation == FormulationKind::mps) {
+    if (is_mps(fluid) && &pairs == &n.fluid_fluid) {
         sweep_reference<List>(pairs, place, fluid.mps_kernel, terms...);
     } else {
         sweep_reference<List>(pairs, place, fluid.kernel, terms...);
@@ -89,9 +94,7 @@ void expect_room_for_gaps(const Fluid& fluid, std::span<const real> of_solids,
                           std::span<const real> before)
 {
     const FluidParameters& f = fluid.parameters;
-    const real plane = f.formulation == FormulationKind::mps
-                           ? sum_beside_plane(fluid.mps_kernel, dp, 3)
-                           : sum_beside_plane(fluid.kernel, dp, 3);
+    const real plane = sum_beside_plane(fluid.kernel, dp, 3);
     int narrowed = 0;
     for (Index k = 0; k < fluid.particles.fluid.size(); ++k) {
         const real room = f.mass * std::max(real(0), plane - of_solids[at(k)]);
@@ -133,6 +136,7 @@ TEST_P(Loops, EveryStageEqualsItsReference)
         });
         expect_same_solids(p, clearly, field::pressure, tolerance(), "pressure of solids");
     }
+    update_rates(fluid); // of which the corrections of MPS come
     const real dt = 1e-4;
     update_forces(fluid, dt);
     Particles clearly = p;
@@ -144,23 +148,17 @@ TEST_P(Loops, EveryStageEqualsItsReference)
         real& pressure = shown.fluid[field::pressure][k];
         pressure = p.fluid[field::gap][k] > 0 ? 0 : pressure;
     }
-    if (GetParam().formulation == FormulationKind::mps) {
-        clear(clearly.fluid, MpsGradient::Writes{});
-        sweep_clearly(clearly, fluid, n.fluid_fluid, MpsGradient{});
-        clear(shown.fluid, MpsGradient::Writes{});
-        sweep_clearly(shown, fluid, n.fluid_solid, MpsWallGradient{}, stop);
-        for_each(MpsGradient::Writes{}, [&](auto column) {
-            for (Index k = 0; k < p.fluid.size(); ++k) {
-                clearly.fluid[column][k] += shown.fluid[column][k];
-            }
-        });
-        add_corrected_pressure(fluid.parameters, clearly.fluid);
+    if (is_mps(fluid)) {
+        sweep_clearly(clearly, fluid, n.fluid_fluid, CorrectedGradient{});
     } else {
         sweep_clearly(clearly, fluid, n.fluid_fluid, PressureForce{});
-        sweep_clearly(shown, fluid, n.fluid_solid, WallPressureForce{}, stop);
     }
-    for (const PairList* list : {&n.wall_fluid, &n.body_fluid}) {
-        sweep_clearly(shown, fluid, *list, WallPressureForce{}, stop);
+    for (const PairList* list : {&n.fluid_solid, &n.wall_fluid, &n.body_fluid}) {
+        if (is_mps(fluid)) {
+            sweep_clearly(shown, fluid, *list, CorrectedWallForce{}, stop);
+        } else {
+            sweep_clearly(shown, fluid, *list, WallPressureForce{}, stop);
+        }
     }
     for (auto store : {&Particles::fluid, &Particles::wall, &Particles::body}) {
         for (Index k = 0; k < (p.*store).size(); ++k) {
@@ -186,6 +184,10 @@ TEST_P(Loops, RatesEqualTheirReference)
     update_neighbours(fluid);
     update_pressure(fluid);
     update_forces(fluid, 1e-4);
+    update_rates(fluid); // of which the corrections of MPS come
+    for (Index k = 0; k < fluid.particles.fluid.size(); k += 3) {
+        fluid.particles.fluid[field::gap][k] = 100;
+    }
     const std::vector<real> gap = copy_of(fluid.particles.fluid[field::gap]);
     update_rates(fluid);
     const Particles& p = fluid.particles;
@@ -194,7 +196,11 @@ TEST_P(Loops, RatesEqualTheirReference)
     sweep_clearly(clearly, fluid, n.fluid_solid, SolidContinuity{});
     expect_room_for_gaps(fluid, clearly.fluid[field::shepard_sum], gap);
     clear(clearly.fluid, Fields<DensityRate>{});
-    sweep_clearly(clearly, fluid, n.fluid_fluid, Continuity{});
+    if (is_mps(fluid)) {
+        sweep_clearly(clearly, fluid, n.fluid_fluid, CorrectedContinuity{});
+    } else {
+        sweep_clearly(clearly, fluid, n.fluid_fluid, Continuity{});
+    }
     sweep_clearly(clearly, fluid, n.fluid_solid, Continuity{});
     for (Index k = 0; k < p.fluid.size(); ++k) {
         clearly.fluid[field::density_rate][k] *= p.fluid[field::density][k];
@@ -302,11 +308,9 @@ TEST_P(Loops, CollisionsAreTheBackstopOfTheFluid)
     }
     const Particles& p = with.particles;
     Particles clearly = without.particles;
-    if (with.parameters.formulation == FormulationKind::sph) {
-        sweep_clearly(clearly, with, with.neighbours.fluid_fluid,
-                      SolidBackstop{dp, 1.5 * with.parameters.mass / (2 * dt)});
-        expect_same_fluid(p, clearly, field::force, tolerance(), "collisions");
-    }
+    sweep_clearly(clearly, with, with.neighbours.fluid_fluid,
+                  SolidBackstop{dp, 1.5 * with.parameters.mass / (2 * dt)});
+    expect_same_fluid(p, clearly, field::force, tolerance(), "collisions");
     EXPECT_GT((p.fluid[field::force][7] - without.particles.fluid[field::force][7]).norm(), 0);
 }
 

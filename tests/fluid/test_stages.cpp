@@ -84,7 +84,7 @@ void sum_clearly(const Fluid& fluid, Store& store)
         return StoreRow{&store, fluid.neighbours.fluid.row[static_cast<std::size_t>(slot)]};
     };
     const FluidTerms terms{{}, {}, fluid.effects, {}};
-    Pass::call(Sph{}, terms, [&](const auto&... term) {
+    Pass::call(terms, [&](const auto&... term) {
         if constexpr (sizeof...(term) > 0) {
             (clear(store, typename std::remove_cvref_t<decltype(term)>::Writes{}), ...);
             using List = RecordList<Stored, std::remove_cvref_t<decltype(term)>...>;

@@ -63,8 +63,6 @@ struct Force           { using type = Vec3; static constexpr FieldInfo info{"For
 struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N", Holders::all, true}; };
 /// Uncorrected sum for the gradient of the pressure, of which one side alone is known.
 struct PressureGradient { using type = Vec3; static constexpr FieldInfo info{"PressureGradient", "Pa/m", Holders::fluid}; };
-/// Sum of V grad W: the gradient of the share of space that particles fill.
-struct CrowdingGradient { using type = Vec3; static constexpr FieldInfo info{"CrowdingGradient", "1/m", Holders::fluid}; };
 /// Second moments of V grad W, by which a gradient is corrected: xx, yy, zz and yz, xz, xy.
 struct Moments         { using type = Vec3; static constexpr FieldInfo info{"Moments", "1", Holders::fluid}; };
 struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"MixedMoments", "1", Holders::fluid}; };
@@ -100,7 +98,6 @@ inline constexpr Cavity          cavity{};
 inline constexpr Force           force{};
 inline constexpr ViscousForce    viscous_force{};
 inline constexpr PressureGradient pressure_gradient{};
-inline constexpr CrowdingGradient crowding_gradient{};
 inline constexpr Moments         moments{};
 inline constexpr MixedMoments    mixed_moments{};
 inline constexpr GradientCorrection gradient_correction{};

@@ -98,6 +98,24 @@ public:
         });
     }
 
+    /// Fills records that hold more than the common ones: the common fields as their records show
+    /// them, the others from the columns.
+    template <class Common>
+    void complete(Records<Common, Real> common, const Store& store, const Tiles& tiles)
+    {
+        parallel_blocks(0, tiles.tiles(),
+                        [&](Index tile) { complete_tile(common, store, tiles, tile); });
+    }
+    /// The same for some of the tiles.
+    template <class Common>
+    void complete(Records<Common, Real> common, const Store& store, const Tiles& tiles,
+                  std::span<const std::int32_t> which)
+    {
+        parallel_blocks(0, static_cast<Index>(which.size()), [&](Index k) {
+            complete_tile(common, store, tiles, which[static_cast<std::size_t>(k)]);
+        });
+    }
+
     /// Sets a field of the records to value_of(row): what particles show of it to their neighbours
     /// where that is not the value of the column.
     template <Field To>
@@ -119,6 +137,28 @@ public:
 
 private:
     Row& at(Index slot) { return rows_[slot]; }
+
+    template <class Common>
+    void complete_tile(Records<Common, Real> common, const Store& store, const Tiles& tiles,
+                       Index tile_index)
+    {
+        for_each(List{}, [&](auto field) {
+            using Of = decltype(field);
+            if constexpr (!contains<Of, Common>) {
+                load_tile(store, tiles, tile_index, Fields<Of>{});
+                return;
+            } else {
+                const auto tile = static_cast<std::size_t>(tile_index);
+                for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
+                    const Index slot = tiles.first_slot + k;
+                    for (int axis = 0; axis < width<Of>; ++axis) {
+                        at(slot).value[offset<Of, List> + axis] =
+                            common.data()[slot].value[offset<Of, Common> + axis];
+                    }
+                }
+            }
+        });
+    }
 
     template <class Some>
     void load_tile(const Store& store, const Tiles& tiles, Index tile_index, Some fields)

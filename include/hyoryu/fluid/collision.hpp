@@ -18,7 +18,7 @@ struct ParticleCollision {
     static constexpr std::string_view name = "particle_collision";
     using Writes = Fields<>;
     struct Sum {
-        static void call(const auto&, const auto& terms, const auto& f) { f(terms.collision); }
+        static void call(const auto& terms, const auto& f) { f(terms.collision); }
     };
     using Passes = PassList<Sum>;
     real restitution = 0; // e [1]

@@ -59,7 +59,7 @@ struct RenormalisedDiffusion {
     using Writes = Fields<DiffusionRate>;
     using Columns = Union<Writes, DensityGradient::Writes>;
     struct Sum {
-        static void call(const auto&, const auto& terms, const auto& f)
+        static void call(const auto& terms, const auto& f)
         {
             if (const auto* own = held<RenormalisedDiffusion>(terms.effects)) {
                 f(*own);

@@ -175,7 +175,7 @@ inline FluidEffects chosen_effects(const FluidChoices& choices, const GradientSe
         };
         std::visit(fill, choices[slot]);
     });
-    if (gradient.corrected) {
+    if (gradient.corrected || fluid.formulation == FormulationKind::mps) {
         effects[slot::gradient] = CorrectedGradient{};
     }
     if (walls.sticks && !std::holds_alternative<Off>(effects[slot::viscosity])) {

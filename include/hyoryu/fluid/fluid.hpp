@@ -77,16 +77,15 @@ struct Fluid {
     FluidEffects effects;
     Particles particles;
     FixedWalls fixed_walls; // whose particles exist where fluid is near
-    Kernel kernel;          // of the loops in SPH, and of gauges in any formulation
-    MpsKernel mps_kernel;   // of the loops in MPS
+    Kernel kernel;          // of all pairs in SPH; in MPS of those with solids, and of gauges
+    MpsKernel mps_kernel;   // of the pairs of fluid in MPS
     FluidNeighbours neighbours;
     std::variant<PairData<float>, PairData<double>> pair_data; // as the precision says
     Vec3 domain_min{-infinity, -infinity, -infinity};
     Vec3 domain_max{infinity, infinity, infinity};
     Vec3 period{0, 0, 0}; // from domain_min on; 0 along an axis that does not repeat itself [m]
     LostParticles lost;
-    bool moving_walls = false;       // the caller places their particles, which takes new grids
-    bool mirrors_velocities = false; // solids show `VelocitySum` for their velocity
+    bool moving_walls = false; // the caller places their particles, which takes new grids
     std::vector<real> body_particle_mass; // rho0 x volume of a particle of each body [kg]
     /// Where joints carry the pressure between solids, body by body, in the order of the numbers
     /// of the particles; empty while no body has a joint.

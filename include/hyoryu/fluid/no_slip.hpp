@@ -18,7 +18,7 @@ struct NoSlip {
     static constexpr bool needs_solids = true;
     /// Viscous forces between the fluid and the solids to which it sticks.
     struct Friction {
-        static void call(const auto&, const auto& terms, const auto& f)
+        static void call(const auto& terms, const auto& f)
         {
             for_each_effect(terms.effects, [&](const auto& effect) {
                 if constexpr (requires { effect.at_wall(); }) {

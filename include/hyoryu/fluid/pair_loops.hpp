@@ -3,10 +3,11 @@
 // once for each instruction set and chosen at start.
 #pragma once
 
+#include "hyoryu/core/mps_kernel.hpp"
 #include "hyoryu/fluid/corrected_wall.hpp"
 #include "hyoryu/fluid/effects.hpp"
-#include "hyoryu/fluid/formulation.hpp"
 #include "hyoryu/fluid/parting.hpp"
+#include "hyoryu/fluid/pressure.hpp"
 #include "hyoryu/fluid/wall.hpp"
 
 #include <array>
@@ -29,98 +30,66 @@ struct FluidTerms {
 /// take in the terms of the effects that name it.
 namespace pass {
 
-/// f(pressure, more...): the pressure term of the fluid among itself.
-template <class Formulation>
-void with_pressure(Formulation, const FluidTerms& terms, const auto& f, const auto&... more)
+/// corrected() if the gradient is, else plain().
+void if_corrected(const FluidTerms& terms, const auto& corrected, const auto& plain)
 {
-    if constexpr (Formulation::may_correct) {
-        if (const auto* corrected = held<CorrectedGradient>(terms.effects)) {
-            f(*corrected, more...);
-            return;
-        }
-    }
-    f(typename Formulation::FluidPressure{}, more...);
-}
-/// f(pressure, more...): the pressure term between fluid and solids; `plain` without correction.
-template <class Formulation>
-void with_solid_pressure(Formulation, const FluidTerms& terms, const auto& plain, const auto& f,
-                         const auto&... more)
-{
-    if constexpr (Formulation::may_correct) {
+    if constexpr (is_built<CorrectedGradient>) {
         if (held<CorrectedGradient>(terms.effects) != nullptr) {
-            f(CorrectedWallForce{}, more...);
+            corrected();
             return;
         }
     }
-    f(plain, more...);
-}
-/// f(continuity, more...): the continuity that belongs to that pressure, and sums for the next.
-template <class Formulation>
-void with_continuity(Formulation, const FluidTerms& terms, const auto& plain, const auto& corrected,
-                     const auto& f, const auto&... more)
-{
-    if constexpr (Formulation::may_correct) {
-        if (held<CorrectedGradient>(terms.effects) != nullptr) {
-            f(corrected, GradientMoments{}, more...);
-            return;
-        }
-    }
-    f(plain, more...);
+    plain();
 }
 
 /// solid <- fluid: the pressure before a solid
 struct Extrapolation {
-    static void call(const auto&, const FluidTerms& terms, const auto& f)
-    {
-        f(terms.extrapolation);
-    }
+    static void call(const FluidTerms& terms, const auto& f) { f(terms.extrapolation); }
 };
 /// fluid <- fluid: pressure and what belongs to it
 struct FluidForces {
-    static void call(auto formulation, const FluidTerms& terms, const auto& f)
+    static void call(const FluidTerms& terms, const auto& f)
     {
         with_terms_of<stage::Forces>(terms.effects, [&](const auto&... more) {
-            with_pressure(formulation, terms, f, more...);
+            if_corrected(
+                terms, [&] { f(CorrectedGradient{}, more...); },
+                [&] { f(PressureForce{}, more...); });
         });
     }
 };
-/// fluid <- solid: pressure and backstop
+/// fluid <- solid and solid <- fluid: pressure and backstop
 struct SolidForces {
-    template <class Formulation>
-    static void call(Formulation, const FluidTerms& terms, const auto& f)
+    static void call(const FluidTerms& terms, const auto& f)
     {
-        with_solid_pressure(Formulation{}, terms, typename Formulation::SolidPressure{}, f,
-                            terms.backstop);
-    }
-};
-/// solid <- fluid: the reaction of pressure and backstop
-struct SolidLoads {
-    static void call(auto formulation, const FluidTerms& terms, const auto& f)
-    {
-        with_solid_pressure(formulation, terms, WallPressureForce{}, f, terms.backstop);
+        if_corrected(
+            terms, [&] { f(CorrectedWallForce{}, terms.backstop); },
+            [&] { f(WallPressureForce{}, terms.backstop); });
     }
 };
 /// body <- solid and back: pressure in thin films
 using FilmForces = PassOf<WallPressureForce>;
 /// fluid <- fluid: continuity, viscosity and what else depends on velocities
 struct FluidRates {
-    static void call(auto formulation, const FluidTerms& terms, const auto& f)
+    static void call(const FluidTerms& terms, const auto& f)
     {
         with_terms_of<stage::Rates>(terms.effects, [&](const auto&... more) {
-            with_continuity(formulation, terms, Continuity{}, CorrectedContinuity{}, f, more...);
+            if_corrected(
+                terms, [&] { f(CorrectedContinuity{}, GradientMoments{}, more...); },
+                [&] { f(Continuity{}, more...); });
         });
     }
 };
-/// fluid <- solid: continuity
+/// fluid <- solid: continuity, and moments for the next correction
 struct SolidRates {
-    static void call(auto formulation, const FluidTerms& terms, const auto& f)
+    static void call(const FluidTerms& terms, const auto& f)
     {
-        with_continuity(formulation, terms, SolidContinuity{}, SolidContinuity{}, f);
+        if_corrected(
+            terms, [&] { f(SolidContinuity{}, GradientMoments{}); }, [&] { f(SolidContinuity{}); });
     }
 };
 /// fluid <- fluid and solid: crowding
 struct CrowdingSums {
-    static void call(const auto&, const FluidTerms& terms, const auto& f)
+    static void call(const FluidTerms& terms, const auto& f)
     {
         with_terms_of<stage::Crowding>(terms.effects, f);
     }
@@ -128,15 +97,20 @@ struct CrowdingSums {
 
 } // namespace pass
 
-using AllPasses = JoinedPasses<
-    PassList<pass::Extrapolation, pass::FluidForces, pass::SolidForces, pass::SolidLoads,
-             pass::FilmForces, pass::FluidRates, pass::SolidRates, pass::CrowdingSums>,
-    EffectPasses>::type;
+using AllPasses =
+    JoinedPasses<PassList<pass::Extrapolation, pass::FluidForces, pass::SolidForces,
+                          pass::FilmForces, pass::FluidRates, pass::SolidRates, pass::CrowdingSums>,
+                 EffectPasses>::type;
 
-/// The loops of a formulation in the number Real, one for each pass, each over one block of lists.
-template <class Real, class Formulation = Sph>
+/// Passes that meet solids alone, which have the kernel of SPH in either formulation.
+using SolidPasses = PassList<pass::Extrapolation, pass::SolidForces, pass::FilmForces,
+                             pass::SolidRates, NoSlip::Mirror, NoSlip::Friction>;
+
+/// The loops of a kernel in the number Real, one for each pass, each over one block of lists; none
+/// for `SolidPasses` with the kernel of MPS. SPH and MPS have the same terms.
+template <class Real, class PairKernel = Kernel>
 struct PairLoops {
-    using View = SweepView<Real, typename Formulation::PairKernel>;
+    using View = SweepView<Real, PairKernel>;
     /// `local`: room for the records of all chunks of the block. Both it and the records of the
     /// view have the list `RecordList<Stored, ...>` of the terms that the pass sums.
     using Loop = void (*)(const View& view, Index block, std::byte* local, const FluidTerms& terms);
@@ -145,9 +119,9 @@ struct PairLoops {
     std::array<Loop, static_cast<std::size_t>(AllPasses::count)> loop{};
 };
 
-/// Of every formulation, in either precision.
-using FluidLoops = std::tuple<PairLoops<float, Sph>, PairLoops<double, Sph>, PairLoops<float, Mps>,
-                              PairLoops<double, Mps>>;
+/// Of every kernel, in either precision.
+using FluidLoops = std::tuple<PairLoops<float, Kernel>, PairLoops<double, Kernel>,
+                              PairLoops<float, MpsKernel>, PairLoops<double, MpsKernel>>;
 
 /// The loops for an instruction set, which must be available.
 const FluidLoops& fluid_loops(InstructionSet set);

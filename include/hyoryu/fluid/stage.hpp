@@ -18,7 +18,7 @@ struct Crowding {}; // fluid <- fluid and solid, after the rates
 } // namespace stage
 
 /// A list of passes. A pass is a type with
-///     static void call(Formulation, const FluidTerms& terms, const auto& f)
+///     static void call(const FluidTerms& terms, const auto& f)
 /// that calls f with the terms to be summed together.
 template <class... P>
 struct PassList {
@@ -50,7 +50,7 @@ struct JoinedPasses<PassList<P...>, PassList<Q...>, Rest...>
 /// The pass of one term without parameters.
 template <class Term>
 struct PassOf {
-    static void call(const auto&, const auto&, const auto& f) { f(Term{}); }
+    static void call(const auto&, const auto& f) { f(Term{}); }
 };
 
 } // namespace hyoryu
