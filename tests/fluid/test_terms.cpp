@@ -73,6 +73,18 @@ TEST(Terms, QuadraticViscosityActsOnApproachAlone)
     EXPECT_EQ(parting[field::viscous_force].x, 0);
 }
 
+TEST(Terms, QuadraticViscosityNeedsNoAlpha)
+{
+    const FluidParameters fluid{.eos = {1000, 30}, .spacing = 0.1, .h = 0.15};
+    std::variant<Off, Viscosity> slot;
+    ArtificialViscosity{0, 0}.fill(slot, fluid);
+    EXPECT_TRUE(std::holds_alternative<Off>(slot));
+    ArtificialViscosity{0, 3}.fill(slot, fluid);
+    ASSERT_TRUE(std::holds_alternative<Viscosity>(slot));
+    EXPECT_EQ(std::get<Viscosity>(slot).kappa, 0);
+    EXPECT_EQ(std::get<Viscosity>(slot).beta, 3);
+}
+
 TEST(Terms, MorrisViscosityByHand)
 {
     Record<Fields<ViscousForce>, real> sum;

@@ -16,8 +16,7 @@ namespace hyoryu {
 /// half the dissipation (Colagrossi, Antuono, Souto-Iglesias & Le Touze 2011). The part of beta
 /// acts between particles that approach: it takes the energy of impacts and leaves smooth flow
 /// alone. Source: Monaghan & Gingold (1983); equivalence nu = alpha h c0 / (2 (d + 2)): Monaghan
-/// (2005), sec. 8; beta = 3 is the limiter of Zhang, Hu & Adams (2017), J. Comput. Phys. 335,
-/// eq. 18.
+/// (2005), sec. 8; beta = 3 is the limiter of Zhang, Hu & Adams (2017), J. Comput. Phys. 335.
 struct Viscosity {
     static constexpr std::string_view name = "viscosity";
     using Stage = stage::Rates;
@@ -93,11 +92,12 @@ struct ArtificialViscosity {
     }
     std::string why() const
     {
-        return fmt::format("`fluid.viscosity.model` is \"artificial\", alpha = {}", alpha);
+        return fmt::format("`fluid.viscosity.model` is \"artificial\", alpha = {}{}", alpha,
+                           beta > 0 ? fmt::format(", beta = {}", beta) : "");
     }
     void fill(auto& slot, const FluidParameters& f) const
     {
-        if (const real kappa = artificial_kappa(alpha, f.h, f.eos.c0); kappa > 0) {
+        if (const real kappa = artificial_kappa(alpha, f.h, f.eos.c0); kappa > 0 || beta > 0) {
             slot = Viscosity{f.eos.rho0, kappa, f.h, beta};
         }
     }
