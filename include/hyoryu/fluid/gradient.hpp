@@ -93,8 +93,8 @@ struct CorrectionRange {
 /// the reason is not known.
 inline constexpr CorrectionRange sph_correction{0.9, 0.8, 0.95};
 /// The weight of MPS, steep at its centre, keeps particles apart with the whole correction, too:
-/// 1.6e-4 sqrt(gH). Its surface needs it: there the plain form reaches two spacings deep and
-/// inflates an elongated drop by 4 %.
+/// 1.6e-4 sqrt(gH). Its surface needs it: with the limits of SPH an elongated drop is 1.4 % too
+/// long, with these 0.2 %.
 inline constexpr CorrectionRange mps_correction{1, 0.5, 0.8};
 
 /// B - 1 = share (M^-1 - 1) from the moments M, the share as `range` has it.
