@@ -363,7 +363,7 @@ class Completions(ProgramTest):
                 (("hyoryu", "new", "tank", "n"), ["notes.txt"]),
                 (("hyoryu", "verify", "--tier", "n"), ["nightly"]),
                 (("hyoryu", "describe", "fluid.vis"),
-                 ["fluid.viscosity", "fluid.viscosity.alpha", "fluid.viscosity.form",
+                 ["fluid.viscosity", "fluid.viscosity.alpha", "fluid.viscosity.beta", "fluid.viscosity.form",
                   "fluid.viscosity.kinematic", "fluid.viscosity.model", "fluid.viscosity.smagorinsky"]),
                 (("hyoryu", "man", "com"), ["completions"]),
                 (("hyoryu", "completions", ""), ["bash", "fish", "zsh"])):
