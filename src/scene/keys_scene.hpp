@@ -208,7 +208,8 @@ void keys_of(auto& keys, Is<Scene> auto& scene)
     std::vector<BuildingKeys> buildings; // walls when the case is resolved
     keys.tables("buildings", "Buildings from footprints, each a wall of its own.", buildings,
                 scene);
-    keys.tables("sponge", "A box that damps waves before they reach its end.", scene.sponges);
+    keys.tables("sponge", "A box that damps waves before they reach its end, or restores a stream.",
+                scene.sponges, scene.gravity.norm());
     keys.tables("open", "A window in a side of the domain through which fluid enters and leaves.",
                 scene.open, scene);
     keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,

@@ -126,22 +126,37 @@ void keys_of(auto& keys, Is<Lift> auto& lift, auto& motion, double spacing, doub
     keys.rule(lift_gate, lift, motion, spacing, end);
 }
 
-inline void check_sponge(TableReader& table, const Sponge& sponge)
+inline void check_sponge(TableReader& table, const Sponge& sponge, double gravity)
 {
+    if (sponge.depth && sponge.rate) {
+        table.error("rate", "give either `depth` or `rate`, not both");
+    } else if (!table.mistaken() && !table.has("depth") && !table.has("rate")) {
+        table.error("depth", "is missing: give `depth` or `rate`",
+                    "Depth of the water at rest [m], or the rate of damping [1/s]");
+    } else if (sponge.depth && !(gravity > 0)) {
+        table.error("depth", "gives no rate of damping without `gravity`", "give `rate` [1/s]");
+    }
     if (table.reading().dimensions == 2 && sponge.side > 1) {
         table.error("side", "in two dimensions there are \"-x\" and \"+x\"");
     }
 }
 
-void keys_of(auto& keys, Is<Sponge> auto& sponge)
+void keys_of(auto& keys, Is<Sponge> auto& sponge, double gravity)
 {
     keys.planar("min", sponge.min, "m", "Lower corner of the box of a sponge.", required);
     keys.planar("max", sponge.max, "m", "Upper corner of the box of a sponge.", required);
     keys.rule(check_corners, sponge.min, sponge.max);
     keys.choice("side", sponge.side, {"-x", "+x", "-y", "+y"},
                 "The side of the box where it damps most; at the opposite side it begins.", "+x");
-    keys.positive("depth", sponge.depth, "m", "Depth of the water at rest.", required);
-    keys.rule(check_sponge, sponge);
+    keys.positive("depth", sponge.depth, "m",
+                  "Depth of the water at rest, for waves: the rate of damping at the side is "
+                  "10 sqrt(g/depth); give either depth or rate.");
+    keys.positive("rate", sponge.rate, "1/s",
+                  "Rate of damping at the side; give either depth or rate.");
+    keys.planar("velocity", sponge.velocity, "m/s",
+                "Velocity to which the fluid is brought: that of a stream which a sponge in a "
+                "periodic domain restores.");
+    keys.rule(check_sponge, sponge, gravity);
 }
 
 } // namespace hyoryu

@@ -75,6 +75,9 @@ double expected_speed(const Scene& scene, const Filling& filling)
     for (const Wall& wall : scene.walls) {
         speed = std::max(speed, speed_bound(wall.motion, 0, scene.time.end));
     }
+    for (const Sponge& sponge : scene.sponges) {
+        speed = std::max(speed, sponge.velocity.norm());
+    }
     for (const OpenSettings& open : scene.open) {
         const double low = lowest(scene, filling);
         speed =
@@ -231,7 +234,7 @@ void list_effects(const Scene& scene, Plan& plan)
     const std::string dry = "the scene has no fluid";
     census.add("sponge",
                when(fluid && !scene.sponges.empty(),
-                    fmt::format("{} sponges damp waves", scene.sponges.size())),
+                    fmt::format("{} sponges damp the fluid", scene.sponges.size())),
                fluid ? "the scene has no sponge" : dry);
     const auto rough =
         std::ranges::count_if(scene.walls, [](const Wall& wall) { return wall.manning > 0; });

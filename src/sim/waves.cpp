@@ -12,8 +12,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double strip = 4;      // of the fluid before a paddle that is looked at [spacings]
-constexpr double strongest = 10; // damping of a sponge at its end, times sqrt(g/d)
+constexpr double strip = 4; // of the fluid before a paddle that is looked at [spacings]
 const FixedUnit count_unit = fixed_unit(1); // of sums of weights
 
 // Sum of the weights of the particles before a paddle: 1 at its face, falling to 0 across the
@@ -55,6 +54,12 @@ double depth_in(const Sponge& sponge, const Vec3& x)
     const int axis = sponge.side / 2;
     const double s = (x[axis] - sponge.min[axis]) / (sponge.max[axis] - sponge.min[axis]);
     return sponge.side % 2 == 1 ? s : 1 - s;
+}
+
+// Of the damping at the side of a sponge; 10 sqrt(g/d) for waves in water of depth d [1/s].
+double strongest_rate(const Sponge& sponge, double gravity)
+{
+    return sponge.rate ? *sponge.rate : 10 * std::sqrt(gravity / sponge.depth.value());
 }
 
 } // namespace
@@ -104,20 +109,20 @@ void damp_in_sponges(Simulation& sim, double dt)
     Fluid& fluid = *sim.fluid;
     const auto x = fluid.particles.fluid[field::position];
     const auto v = fluid.particles.fluid[field::velocity];
-    const double g = sim.scene.gravity.norm();
     const FixedUnit unit = sum_units(fluid.parameters).velocity;
     sim.waves.sponge_impulse = Vec3::Zero();
     for (const Sponge& sponge : sim.scene.sponges) {
-        const double rate = strongest * std::sqrt(g / sponge.depth);
+        const double rate = strongest_rate(sponge, sim.scene.gravity.norm());
         // Each particle is in one tile, and so is damped once.
         const auto [px, py, pz] =
             sum_by_tile<3>(fluid.neighbours.fluid, {unit, unit, unit}, [&](Index i) {
                 if (!holds(sponge, x[i], sim.scene.dimensions)) {
                     return std::array{0.0, 0.0, 0.0};
                 }
-                const Vec3 taken = std::expm1(-dt * rate * sq(depth_in(sponge, x[i]))) * v[i];
-                v[i] += taken;
-                return std::array{taken.x(), taken.y(), taken.z()};
+                const double share = -std::expm1(-dt * rate * sq(depth_in(sponge, x[i])));
+                const Vec3 change = share * (sponge.velocity - v[i]);
+                v[i] += change;
+                return std::array{change.x(), change.y(), change.z()};
             });
         sim.waves.sponge_impulse += fluid.parameters.mass * Vec3(px, py, pz);
     }

@@ -198,6 +198,43 @@ TEST(Waves, DepthsThatAreNotThoseOfTheWaterAreWarnedOf)
     EXPECT_EQ(behind.find("no water"), std::string::npos) << behind;
 }
 
+// A sponge has a depth or a rate; without gravity a depth gives no rate, and it would damp nothing.
+TEST(Waves, SpongesHaveADepthOrARate)
+{
+    const auto fault = [](const std::string& gravity, const std::string& keys) -> std::string {
+        try {
+            parse_case("dimensions = 2\n" + gravity +
+                           "[time]\nend = 1\n[particles]\nspacing = 0.05\n[fluid]\n"
+                           "sound_speed = 20\n[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
+                           "max = [1, 0, 1]\n[[sponge]]\nmin = [0, 0, 0]\nmax = [1, 0, 1]\n" +
+                           keys,
+                       "case.toml");
+        } catch (const CaseError& error) {
+            return error.what();
+        }
+        return {};
+    };
+    const std::string weightless = "gravity = [0, 0, 0]\n";
+    EXPECT_EQ(fault("", "depth = 0.5\n"), "");
+    EXPECT_EQ(fault(weightless, "rate = 0.5\nvelocity = [1, 0, 0]\n"), "");
+    EXPECT_NE(fault("", "").find("give `depth` or `rate`"), std::string::npos);
+    EXPECT_NE(fault("", "depth = 1\nrate = 2\n").find("not both"), std::string::npos);
+    EXPECT_NE(fault(weightless, "depth = 1\n").find("without `gravity`"), std::string::npos);
+}
+
+// Still water that a sponge brings to a stream needs the speed of sound of the stream.
+TEST(Waves, TheStreamOfASpongeIsAnExpectedSpeed)
+{
+    const Scene scene = parse_case(
+        "dimensions = 2\ngravity = [0, 0, 0]\n[time]\nend = 1\n[particles]\nspacing = 0.05\n"
+        "[fluid]\n[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 0, 1]\n"
+        "[[sponge]]\nmin = [0, 0, 0]\nmax = [1, 0, 1]\nrate = 1\nvelocity = [-3, 0, 4]\n",
+        "case.toml");
+    const Plan plan = make_plan(scene, fill(scene));
+    EXPECT_DOUBLE_EQ(plan.expected_speed, 5);
+    EXPECT_DOUBLE_EQ(plan.fluid->eos.c0, 50);
+}
+
 TEST(Waves, DampersWithoutWaterAreWarnedOf)
 {
     const std::string still = "velocity = [0, 0, 0]\n";

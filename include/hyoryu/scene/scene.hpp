@@ -149,12 +149,15 @@ struct Wall {
     Place place;
 };
 
-/// A box in which the motion of the fluid is damped, more and more towards one side.
+/// A box in which the fluid is brought to a velocity, more and more towards one side. It has a
+/// depth or a rate.
 struct Sponge {
-    Vec3 min{0, 0, 0}; // [m]
-    Vec3 max{0, 0, 0}; // [m]
-    int side = 1;      // of the strongest damping: 0 -x, 1 +x, 2 -y, 3 +y
-    double depth = 0;  // of the water at rest [m]
+    Vec3 min{0, 0, 0};           // [m]
+    Vec3 max{0, 0, 0};           // [m]
+    int side = 1;                // of the strongest damping: 0 -x, 1 +x, 2 -y, 3 +y
+    std::optional<double> depth; // of the water at rest, which gives the rate [m]
+    std::optional<double> rate;  // of damping at the side [1/s]
+    Vec3 velocity{0, 0, 0};      // of the fluid when it leaves the sponge [m/s]
     Place place;
 };
 

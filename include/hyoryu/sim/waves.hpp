@@ -36,8 +36,9 @@ Waves make_waves(const Simulation& sim);
 /// Schaeffer and Klopman, J. Waterway Port Coast. Ocean Eng. 126 (2000) 88.
 void absorb_waves(Simulation& sim, double dt);
 
-/// Damps the velocities in the sponges of the scene over dt: v exp(-r dt) with r = 10 s^2
-/// sqrt(g/d), s from 0 to 1 across a sponge. `Waves::sponge_impulse` is what it took.
+/// Brings the velocities in the sponges of the scene towards theirs, u, over dt: u + (v - u)
+/// exp(-r s^2 dt), s from 0 to 1 across a sponge, r its rate or, for waves in water of depth d,
+/// 10 sqrt(g/d) [1/s]. `Waves::sponge_impulse` is what the fluid gained.
 void damp_in_sponges(Simulation& sim, double dt);
 
 } // namespace hyoryu

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Sponges: fluid comes to their velocity at their rate, and the books of momentum count them.
+#include "runs.hpp"
+
+#include "dice.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hyoryu {
+namespace {
+
+struct Stream {
+    double length, spacing, rate;
+    Vec3 before, asked; // velocities [m/s]
+    bool to_the_left;
+
+    // x at which damping begins and where it is strongest.
+    double begin() const { return to_the_left ? length : 0; }
+    double side() const { return length - begin(); }
+
+    std::string text() const
+    {
+        return fmt::format(R"(
+dimensions = 2
+gravity = [0, 0, 0]
+[time]
+end = 100.0
+[particles]
+spacing = {1}
+precision = "double"
+[domain]
+min = [0, 0, 0]
+max = [{0}, 0, {0}]
+periodic = ["x", "z"]
+[fluid]
+sound_speed = 20.0
+[[fluid.block]]
+shape = "box"
+min = [0, 0, 0]
+max = [{0}, 0, {0}]
+velocity = [{2}, 0, {3}]
+[[sponge]]
+min = [0, 0, 0]
+max = [{0}, 0, {0}]
+side = "{4}"
+rate = {5}
+velocity = [{6}, 0, {7}]
+)",
+                           length, spacing, before.x(), before.z(), to_the_left ? "-x" : "+x", rate,
+                           asked.x(), asked.z());
+    }
+};
+
+Stream thrown(Dice& dice)
+{
+    Stream s;
+    s.length = dice.between(0.5, 3);
+    s.spacing = s.length / std::floor(dice.between(12, 24)); // a period is whole spacings
+    s.rate = std::exp(dice.between(0, 5));
+    s.before = {dice.between(-1, 1), 0, dice.between(-1, 1)};
+    s.asked = {dice.between(-1, 1), 0, dice.between(-1, 1)};
+    s.to_the_left = dice.chance(0.5);
+    return s;
+}
+
+// A stream without pressure feels no other force: after one step v = u + (v0 - u) exp(-r s^2 dt).
+// The fluid drifts by less than v0 dt before it is damped, which changes s^2 by 2 v0 dt / length.
+TEST(Sponges, DampAtTheirRateTowardsTheirVelocity)
+{
+    Dice dice(31);
+    for (int n = 0; n < 10; ++n) {
+        const Stream s = thrown(dice);
+        Simulation sim = make(s.text());
+        const auto at = sim.fluid->particles.fluid[field::position];
+        const std::vector<Vec3> x(at.begin(), at.end());
+        step_on(sim);
+        const auto v = sim.fluid->particles.fluid[field::velocity];
+        const double change = (s.before - s.asked).norm();
+        const double drift = s.before.norm() * sim.clock.time / s.length;
+        const double tolerance = 1e-12 + 2 * drift * s.rate * sim.clock.time * change;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double depth = (x[i].x() - s.begin()) / (s.side() - s.begin());
+            const double kept = std::exp(-s.rate * depth * depth * sim.clock.time);
+            const Vec3 exact = s.asked + kept * (s.before - s.asked);
+            EXPECT_NEAR((v[static_cast<Index>(i)] - exact).norm(), 0, tolerance);
+        }
+    }
+}
+
+TEST(Sponges, RestoreAStreamAndCloseTheBooks)
+{
+    Dice dice(32);
+    for (int n = 0; n < 4; ++n) {
+        Stream s = thrown(dice);
+        s.rate = 20;
+        s.asked.x() = dice.between(0.5, 1);
+        Simulation sim = make(s.text());
+        const double mass =
+            sim.fluid->parameters.mass * static_cast<double>(sim.fluid->particles.fluid.size());
+        while (sim.clock.time < 3 * s.length / s.asked.x()) { // three times through the sponge
+            step_on(sim);
+        }
+        const auto v = sim.fluid->particles.fluid[field::velocity];
+        Vec3 mean{0, 0, 0};
+        for (const Vec3& one : v) {
+            mean += one / static_cast<double>(v.size());
+        }
+        EXPECT_NEAR((mean - s.asked).norm(), 0, 0.02); // of speeds of about 1 m/s
+        // What the sponges gave is what the fluid has gained.
+        EXPECT_NEAR((sim.conservation.wall_impulse - mass * (mean - s.before)).norm(), 0,
+                    1e-9 * mass);
+        EXPECT_LT(sim.conservation.worst_closure, 1e-10); // rounding, in double precision
+    }
+}
+
+} // namespace
+} // namespace hyoryu
