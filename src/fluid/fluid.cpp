@@ -115,6 +115,14 @@ void part_from_solids(Fluid& fluid, real dt)
     });
 }
 
+// Keeps account of the density that the correction of the divergence makes.
+void keep_corrections(Store& store, real dt)
+{
+    const auto made = store[field::correction];
+    const auto rate = store[field::correction_rate];
+    parallel_for(0, store.size(), [&](Index i) { made[i] += dt * rate[i]; });
+}
+
 void open_cavities(Store& store, const Cavitation& cavitation)
 {
     const auto rho = store[field::density];
@@ -135,6 +143,9 @@ void drift(Fluid& fluid, real dt)
         rho[i] += dt * rate[i];
         x[i] += dt * v[i];
     });
+    if (store.has(field::correction)) {
+        keep_corrections(store, dt);
+    }
     if (store.has(field::gap)) {
         part_from_solids(fluid, dt);
     }

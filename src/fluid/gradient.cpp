@@ -5,6 +5,15 @@
 
 namespace hyoryu {
 
+namespace {
+
+const CorrectionRange& range_of(const FluidParameters& fluid)
+{
+    return fluid.formulation == FormulationKind::mps ? mps_correction : sph_correction;
+}
+
+} // namespace
+
 Mat3 correction(const Mat3& M, const CorrectionRange& range)
 {
     const real share = range.part * share_between(M, range.surface, range.inside);
@@ -13,8 +22,7 @@ Mat3 correction(const Mat3& M, const CorrectionRange& range)
 
 void update_corrections(const FluidParameters& fluid, Store& store)
 {
-    const CorrectionRange& range =
-        fluid.formulation == FormulationKind::mps ? mps_correction : sph_correction;
+    const CorrectionRange& range = range_of(fluid);
     const auto moments = store[field::moments];
     const auto mixed = store[field::mixed_moments];
     const auto diagonal = store[field::gradient_correction];
@@ -23,6 +31,19 @@ void update_corrections(const FluidParameters& fluid, Store& store)
         const Mat3 C = correction(moment_matrix(moments[i], mixed[i], fluid.dimensions), range);
         diagonal[i] = C.diagonal();
         off[i] = Vec3(C(1, 2), C(0, 2), C(0, 1));
+    });
+}
+
+void add_corrections(const FluidParameters& fluid, Store& store)
+{
+    const real relaxation = fluid.gravity.norm() / (range_of(fluid).memory * fluid.eos.c0);
+    const auto rho = store[field::density];
+    const auto made = store[field::correction];
+    const auto made_rate = store[field::correction_rate];
+    const auto rate = store[field::density_rate];
+    parallel_for(0, store.size(), [&](Index i) {
+        made_rate[i] = rho[i] * made_rate[i] - relaxation * made[i];
+        rate[i] += made_rate[i];
     });
 }
 

@@ -294,6 +294,9 @@ void set_densities(Fluid& fluid, const OpenBoundary& open)
             if (store.has(field::cavity)) {
                 store[field::cavity][row] = 0;
             }
+            if (store.has(field::correction)) {
+                store[field::correction][row] = 0;
+            }
         });
     }
 }

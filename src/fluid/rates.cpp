@@ -134,7 +134,7 @@ void update_rates(Fluid& fluid)
     clear(store, Union<Continuity::Writes, StageWrites<stage::Rates>>{});
     const bool corrects = held<CorrectedGradient>(fluid.effects) != nullptr;
     if (corrects) {
-        clear(store, GradientMoments::Writes{});
+        clear(store, Union<GradientMoments::Writes, CorrectedContinuity::Writes>{});
     }
     const bool sticks = sticks_to_solids(fluid) && has_solids(fluid);
     if (sticks) {
@@ -150,6 +150,9 @@ void update_rates(Fluid& fluid)
     const auto rho = store[field::density];
     const auto rate = store[field::density_rate];
     parallel_for(0, store.size(), [&](Index i) { rate[i] *= rho[i]; });
+    if (corrects) {
+        add_corrections(fluid.parameters, store);
+    }
     if (store.has(field::solid_rate)) {
         update_solid_rates(fluid);
         add_part(store, field::solid_rate);

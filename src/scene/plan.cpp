@@ -76,7 +76,7 @@ double expected_speed(const Scene& scene, const Filling& filling)
         speed = std::max(speed, speed_bound(wall.motion, 0, scene.time.end));
     }
     for (const Sponge& sponge : scene.sponges) {
-        speed = std::max(speed, sponge.velocity.norm());
+        speed = std::max(speed, (sponge.parabolic ? 1.5 : 1.0) * sponge.velocity.norm());
     }
     for (const OpenSettings& open : scene.open) {
         const double low = lowest(scene, filling);

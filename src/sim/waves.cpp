@@ -62,6 +62,12 @@ double strongest_rate(const Sponge& sponge, double gravity)
     return sponge.rate ? *sponge.rate : 10 * std::sqrt(gravity / sponge.depth.value());
 }
 
+Vec3 velocity_asked(const Sponge& sponge, const Vec3& x)
+{
+    const double s = (x.z() - sponge.min.z()) / (sponge.max.z() - sponge.min.z());
+    return sponge.parabolic ? 6 * s * (1 - s) * sponge.velocity : sponge.velocity;
+}
+
 } // namespace
 
 Waves make_waves(const Simulation& sim)
@@ -120,7 +126,7 @@ void damp_in_sponges(Simulation& sim, double dt)
                     return std::array{0.0, 0.0, 0.0};
                 }
                 const double share = -std::expm1(-dt * rate * sq(depth_in(sponge, x[i])));
-                const Vec3 change = share * (sponge.velocity - v[i]);
+                const Vec3 change = share * (velocity_asked(sponge, x[i]) - v[i]);
                 v[i] += change;
                 return std::array{change.x(), change.y(), change.z()};
             });

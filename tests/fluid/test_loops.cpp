@@ -197,12 +197,16 @@ TEST_P(Loops, RatesEqualTheirReference)
     expect_room_for_gaps(fluid, clearly.fluid[field::shepard_sum], gap);
     clear(clearly.fluid, Fields<DensityRate>{});
     if (is_mps(fluid)) {
+        clear(clearly.fluid, Fields<CorrectionRate>{});
         sweep_clearly(clearly, fluid, n.fluid_fluid, CorrectedContinuity{});
     } else {
         sweep_clearly(clearly, fluid, n.fluid_fluid, Continuity{});
     }
     sweep_clearly(clearly, fluid, n.fluid_solid, Continuity{});
     for (Index k = 0; k < p.fluid.size(); ++k) {
+        if (is_mps(fluid)) {
+            clearly.fluid[field::density_rate][k] += clearly.fluid[field::correction_rate][k];
+        }
         clearly.fluid[field::density_rate][k] *= p.fluid[field::density][k];
         if (GetParam().diffusion) {
             clearly.fluid[field::density_rate][k] += p.fluid[field::diffusion_rate][k];

@@ -15,7 +15,7 @@ namespace {
 struct Stream {
     double length, spacing, rate;
     Vec3 before, asked; // velocities [m/s]
-    bool to_the_left;
+    bool to_the_left, parabolic;
 
     // x at which damping begins and where it is strongest.
     double begin() const { return to_the_left ? length : 0; }
@@ -48,9 +48,10 @@ max = [{0}, 0, {0}]
 side = "{4}"
 rate = {5}
 velocity = [{6}, 0, {7}]
+profile = "{8}"
 )",
                            length, spacing, before.x(), before.z(), to_the_left ? "-x" : "+x", rate,
-                           asked.x(), asked.z());
+                           asked.x(), asked.z(), parabolic ? "parabolic" : "uniform");
     }
 };
 
@@ -63,11 +64,13 @@ Stream thrown(Dice& dice)
     s.before = {dice.between(-1, 1), 0, dice.between(-1, 1)};
     s.asked = {dice.between(-1, 1), 0, dice.between(-1, 1)};
     s.to_the_left = dice.chance(0.5);
+    s.parabolic = dice.chance(0.5);
     return s;
 }
 
 // A stream without pressure feels no other force: after one step v = u + (v0 - u) exp(-r s^2 dt).
-// The fluid drifts by less than v0 dt before it is damped, which changes s^2 by 2 v0 dt / length.
+// The fluid drifts by less than v0 dt before it is damped, which changes s^2 by 2 v0 dt / length
+// and a parabola by 6.
 TEST(Sponges, DampAtTheirRateTowardsTheirVelocity)
 {
     Dice dice(31);
@@ -78,13 +81,15 @@ TEST(Sponges, DampAtTheirRateTowardsTheirVelocity)
         const std::vector<Vec3> x(at.begin(), at.end());
         step_on(sim);
         const auto v = sim.fluid->particles.fluid[field::velocity];
-        const double change = (s.before - s.asked).norm();
+        const double change = s.before.norm() + 1.5 * s.asked.norm();
         const double drift = s.before.norm() * sim.clock.time / s.length;
-        const double tolerance = 1e-12 + 2 * drift * s.rate * sim.clock.time * change;
+        const double tolerance = 1e-12 + (2 + 6) * drift * s.rate * sim.clock.time * change;
         for (std::size_t i = 0; i < x.size(); ++i) {
             const double depth = (x[i].x() - s.begin()) / (s.side() - s.begin());
             const double kept = std::exp(-s.rate * depth * depth * sim.clock.time);
-            const Vec3 exact = s.asked + kept * (s.before - s.asked);
+            const double height = x[i].z() / s.length;
+            const Vec3 asked = (s.parabolic ? 6 * height * (1 - height) : 1.0) * s.asked;
+            const Vec3 exact = asked + kept * (s.before - asked);
             EXPECT_NEAR((v[static_cast<Index>(i)] - exact).norm(), 0, tolerance);
         }
     }
@@ -96,6 +101,7 @@ TEST(Sponges, RestoreAStreamAndCloseTheBooks)
     for (int n = 0; n < 4; ++n) {
         Stream s = thrown(dice);
         s.rate = 20;
+        s.parabolic = false;
         s.asked.x() = dice.between(0.5, 1);
         Simulation sim = make(s.text());
         const double mass =

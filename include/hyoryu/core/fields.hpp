@@ -69,6 +69,9 @@ struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"Mix
 /// B - 1 of the corrected gradient, B the inverse of those moments: xx, yy, zz and yz, xz, xy.
 struct GradientCorrection { using type = Vec3; static constexpr FieldInfo info{"GradientCorrection", "1", Holders::fluid, true}; };
 struct MixedCorrection { using type = Vec3; static constexpr FieldInfo info{"MixedCorrection", "1", Holders::fluid, true}; };
+/// Density that the correction of the divergence has made, less what has relaxed, and its rate.
+struct Correction      { using type = real; static constexpr FieldInfo info{"Correction", "kg/m3", Holders::fluid, true}; };
+struct CorrectionRate  { using type = real; static constexpr FieldInfo info{"CorrectionRate", "kg/m3/s", Holders::fluid, true}; };
 /// Sum that points to where particles are dense, by which they are shifted.
 struct ShiftGradient   { using type = Vec3; static constexpr FieldInfo info{"ShiftGradient", "1/m", Holders::fluid}; };
 /// Twice the rate of strain, xx, yy, zz and yz, xz, xy, and the eddy viscosity that it makes.
@@ -102,6 +105,8 @@ inline constexpr Moments         moments{};
 inline constexpr MixedMoments    mixed_moments{};
 inline constexpr GradientCorrection gradient_correction{};
 inline constexpr MixedCorrection mixed_correction{};
+inline constexpr Correction      correction{};
+inline constexpr CorrectionRate  correction_rate{};
 inline constexpr ShiftGradient   shift_gradient{};
 inline constexpr ShepardSum      shepard_sum{};
 inline constexpr VelocitySum     velocity_sum{};

@@ -157,7 +157,8 @@ struct Sponge {
     int side = 1;                // of the strongest damping: 0 -x, 1 +x, 2 -y, 3 +y
     std::optional<double> depth; // of the water at rest, which gives the rate [m]
     std::optional<double> rate;  // of damping at the side [1/s]
-    Vec3 velocity{0, 0, 0};      // of the fluid when it leaves the sponge [m/s]
+    Vec3 velocity{0, 0, 0};      // of the fluid when it leaves the sponge, mean over z [m/s]
+    bool parabolic = false;      // over z, between two plates at its lower and upper side
     Place place;
 };
 
