@@ -156,9 +156,10 @@ void keys_of(auto& keys, Is<Sponge> auto& sponge, double gravity)
     keys.planar("velocity", sponge.velocity, "m/s",
                 "Velocity to which the fluid is brought: that of a stream which a sponge in a "
                 "periodic domain restores.");
-    keys.choice("profile", sponge.parabolic, {"uniform", "parabolic"},
-                "Velocity over z: \"parabolic\" is that of viscous flow between plates at the lower "
-                "and the upper side of the box, of which `velocity` is the mean.");
+    keys.choice(
+        "profile", sponge.parabolic, {"uniform", "parabolic"},
+        "Velocity over z: \"parabolic\" is that of viscous flow between plates at the lower "
+        "and the upper side of the box, of which `velocity` is the mean.");
     keys.rule(check_sponge, sponge, gravity);
 }
 
