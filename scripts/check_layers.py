@@ -12,20 +12,22 @@ import sys
 
 MAY_INCLUDE = {
     "core": set(),
-    "fluid": {"core"},
+    "ranks": {"core"},
+    "fluid": {"core", "ranks"},
     "rigid": {"core"},
-    "coupling": {"core", "fluid", "rigid"},
+    "coupling": {"core", "ranks", "fluid", "rigid"},
     "geometry": {"core"},
-    "scene": {"core", "fluid", "rigid", "coupling", "geometry"},
-    "sim": {"core", "fluid", "rigid", "coupling", "scene"},
+    "scene": {"core", "ranks", "fluid", "rigid", "coupling", "geometry"},
+    "sim": {"core", "ranks", "fluid", "rigid", "coupling", "scene"},
     "io": {"core"},
     "assess": {"core", "scene", "io", "report"},
     "report": {"core", "scene", "io"},
-    "bench": {"core", "fluid", "rigid", "coupling", "scene", "sim", "io"},
+    "bench": {"core", "ranks", "fluid", "rigid", "coupling", "scene", "sim", "io"},
     "view": {"core", "io"},
     "gis": {"core", "geometry"},
+    "mpi": {"core", "ranks"},
     "vtk": {"core", "io", "geometry", "view"},
-    "app": {"core", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "assess",
+    "app": {"core", "ranks", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "assess",
             "report", "bench", "view"},
 }
 LONGEST_FILE = 450

@@ -54,7 +54,7 @@ bool nearer(const ChunkBox& a, const ChunkBox& b, float radius)
 // Makes the lists of the points of one tile.
 class TileLister {
 public:
-    TileLister(const Tiles& destination, std::span<const Tiles* const> sources,
+    TileLister(const Tiles& destination, std::span<const ListSource> sources,
                const PairList::Settings& settings, const ListChoice& choice, ListShop& shop,
                PageStore& store, std::vector<ListBlock>& out)
         : destination_(destination), sources_(sources), loops_(*loops_of(settings.set)),
@@ -124,20 +124,29 @@ private:
             }
         }
         const auto place = TileLattice::place_of(destination_.tile[at(tile_)]);
-        for (const Tiles* source : sources_) {
+        for (const ListSource& source : sources_) {
             for (int z = -1; z <= 1; ++z) {
                 for (int y = -1; y <= 1; ++y) {
                     for (int x = -1; x <= 1; ++x) {
-                        const Index tile =
-                            source->find(destination_.lattice.beside(place, {x, y, z}));
-                        if (tile >= 0) {
-                            collect_tile(*source, tile, {x, y, z}, bounds);
+                        const std::uint64_t number = destination_.lattice.beside(place, {x, y, z});
+                        collect_number(*source.own, number, {x, y, z}, bounds);
+                        if (source.ghosts != nullptr) {
+                            collect_number(*source.ghosts, number, {x, y, z}, bounds);
                         }
                     }
                 }
             }
         }
         add_nothing();
+    }
+
+    void collect_number(const Tiles& source, std::uint64_t number, const std::array<int, 3>& way,
+                        const ChunkBox& bounds)
+    {
+        const Index tile = source.find(number);
+        if (tile >= 0) {
+            collect_tile(source, tile, way, bounds);
+        }
     }
 
     void collect_tile(const Tiles& source, Index tile, const std::array<int, 3>& way,
@@ -281,7 +290,7 @@ private:
     }
 
     const Tiles& destination_;
-    std::span<const Tiles* const> sources_;
+    std::span<const ListSource> sources_;
     const ListLoops& loops_;
     int lanes_;
     const ListChoice& choice_;
@@ -294,7 +303,7 @@ private:
 
 } // namespace
 
-void PairList::build(const Tiles& destination, std::span<const Tiles* const> sources,
+void PairList::build(const Tiles& destination, std::span<const ListSource> sources,
                      const Settings& settings, const ListChoice& choice)
 {
     expects(settings.radius <= destination.lattice.edge.minCoeff());

@@ -45,6 +45,23 @@ void Store::reset(Index rows)
     owner_.assign(kind_ == Kind::fluid ? 0 : id_.size(), 0);
 }
 
+void Store::reset_like(const Store& other, Index rows)
+{
+    reset(rows);
+    const auto count = static_cast<std::size_t>(rows);
+    for (const StoredColumn& column : other.columns_) {
+        std::visit(
+            [&]<class T>(const ColumnValues<T>&) {
+                if constexpr (std::is_same_v<T, Vec3>) {
+                    columns_.push_back({column.field, ColumnValues<T>(count, Vec3::Zero())});
+                } else {
+                    columns_.push_back({column.field, ColumnValues<T>(count, T(0))});
+                }
+            },
+            column.values);
+    }
+}
+
 ColumnPointers Store::pointers()
 {
     ColumnPointers all;

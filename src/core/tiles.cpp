@@ -220,7 +220,12 @@ std::uint64_t TileLattice::cell_of(const Vec3& point) const
 
 std::uint64_t TileLattice::tile_of(const Vec3& point) const
 {
-    return cell_of(point) >> cell_bits;
+    return tile_of_cell(cell_of(point));
+}
+
+std::uint64_t TileLattice::tile_of_cell(std::uint64_t cell)
+{
+    return cell >> cell_bits;
 }
 
 std::array<std::int64_t, 3> TileLattice::place_of(std::uint64_t tile)

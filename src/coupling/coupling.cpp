@@ -2,6 +2,7 @@
 #include "hyoryu/coupling/coupling.hpp"
 
 #include "hyoryu/fluid/sum_units.hpp"
+#include "hyoryu/fluid/totals.hpp"
 
 namespace hyoryu {
 
@@ -88,6 +89,7 @@ void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums
                {units.force, units.force, units.force, units.torque, units.torque, units.torque});
     parallel_blocks(0, tiles.tiles(),
                     [&](Index tile) { sums.add_tile(tiles, tile, body_of, wrench); });
+    sums.end([&](auto of_bodies) { add_other_ranks(fluid, of_bodies); });
     loads.resize(poses.size());
     for (std::size_t b = 0; b < poses.size(); ++b) {
         const auto [fx, fy, fz, tx, ty, tz] = sums.of(b);
@@ -114,6 +116,7 @@ void collect_wall_forces(const Fluid& fluid, OwnerSums<3>& sums, std::span<Vec3>
     parallel_blocks(0, all ? tiles.tiles() : static_cast<Index>(wet.size()), [&](Index k) {
         sums.add_tile(tiles, all ? k : wet[at(k)], wall_of, force_of);
     });
+    sums.end([&](auto of_walls) { add_other_ranks(fluid, of_walls); });
     for (std::size_t wall = 0; wall < forces.size(); ++wall) {
         const auto [x, y, z] = sums.of(wall);
         forces[wall] = Vec3(x, y, z);

@@ -2,6 +2,7 @@
 #include "hyoryu/fluid/fluid.hpp"
 
 #include "moments.hpp"
+#include "sharing.hpp"
 #include "sweeps.hpp"
 
 namespace hyoryu {
@@ -30,6 +31,7 @@ void add_renormalised_diffusion(Fluid& fluid)
     parallel_for(0, store.size(), [&](Index i) {
         G[i] = renormalised(G[i], moment_matrix(moments[i], mixed[i], fluid.parameters.dimensions));
     });
+    share_fluid(fluid, Fields<PressureGradient>{});
     run<RenormalisedDiffusion::Sum>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
 }
 

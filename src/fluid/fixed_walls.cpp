@@ -43,21 +43,24 @@ void touch(FixedWalls& walls, const Tiles& tiles, const auto& counts)
     });
 }
 
-// The tiles whose particles may be within reach, ascending.
-void find_near(FixedWalls& walls, const Waters& waters, std::vector<std::int32_t>& near)
+// The own tiles whose particles may be within reach, ascending.
+void find_near(FixedWalls& walls, std::span<const Waters> waters, const TileRange& own,
+               std::vector<std::int32_t>& near)
 {
-    walls.wet_body.assign(at(waters.body.count()), 0);
-    mark_near(waters.body, waters.fluid, {}, waters.reach, walls.wet_body);
     walls.touched.assign(walls.tile.size(), 0);
-    touch(walls, waters.fluid, [](Index) { return true; });
-    touch(walls, waters.body, [&](Index t) {
-        const auto first = walls.wet_body.begin() + waters.body.start[at(t)];
-        const auto last = walls.wet_body.begin() + waters.body.start[at(t + 1)];
-        return std::find(first, last, 1) != last;
-    });
+    for (const Waters& water : waters) {
+        touch(walls, water.tiles, [&](Index t) {
+            if (water.counted.empty()) {
+                return true;
+            }
+            const auto first = water.counted.begin() + water.tiles.start[at(t)];
+            const auto last = water.counted.begin() + water.tiles.start[at(t + 1)];
+            return std::find(first, last, 1) != last;
+        });
+    }
     near.clear();
     for (std::size_t t = 0; t < walls.touched.size(); ++t) {
-        if (walls.touched[t] != 0) {
+        if (walls.touched[t] != 0 && own.holds(walls.tile[t])) {
             near.push_back(static_cast<std::int32_t>(t));
         }
     }
@@ -202,8 +205,7 @@ std::size_t FixedWalls::bytes() const
     const auto held_by = [&](const Tiles& c) {
         return held(c.tile, c.start, c.row, c.x, c.y, c.z, c.chunk_start, c.box);
     };
-    std::size_t sum =
-        held(tile, start, run, near, exists, touched, wet_body, marks, row_of, old_row);
+    std::size_t sum = held(tile, start, run, near, exists, touched, marks, row_of, old_row);
     for (const std::vector<WallCandidate>& of_worker : made) {
         sum += held(of_worker);
     }
@@ -242,16 +244,18 @@ void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
     walls.run.shrink_to_fit();
 }
 
-bool update_rows(FixedWalls& walls, const Waters& waters, Store& store, std::span<std::byte> room)
+bool update_rows(FixedWalls& walls, std::span<const Waters> waters, const WallReach& which,
+                 Store& store, std::span<std::byte> room)
 {
-    find_near(walls, waters, walls.old_row);
+    find_near(walls, waters, which.own, walls.old_row);
     const bool others = walls.old_row != walls.near;
     if (others) {
-        update_candidates(walls, waters.fluid.lattice, walls.old_row);
+        update_candidates(walls, waters.front().tiles.lattice, walls.old_row);
     }
     walls.marks.assign(walls.candidates.row.size(), 0);
-    mark_near(walls.candidates, waters.fluid, {}, waters.reach, walls.marks);
-    mark_near(walls.candidates, waters.body, walls.wet_body, waters.reach, walls.marks);
+    for (const Waters& water : waters) {
+        mark_near(walls.candidates, water.tiles, water.counted, which.reach, walls.marks);
+    }
     if (!others && walls.marks == walls.exists) {
         return false;
     }

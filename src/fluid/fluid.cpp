@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/fluid/fluid.hpp"
 
+#include "sharing.hpp"
 #include "sweeps.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -174,15 +175,13 @@ void extrapolate_pressure(Fluid& fluid)
             V_w[i] = stand_in_mass(fluid, owner[i]) / rho_w[i];
         };
     });
+    share_solids(fluid, Fields<Volume, Pressure>{});
     load_solids(fluid, Fields<Volume, Pressure>{});
 }
 
-} // namespace
-
-void update_pressure(Fluid& fluid)
+// p and V from rho.
+void apply_equation_of_state(const FluidParameters& f, Store& store)
 {
-    Store& store = fluid.particles.fluid;
-    const FluidParameters& f = fluid.parameters;
     const auto rho = store[field::density];
     const auto p = store[field::pressure];
     const auto V = store[field::volume];
@@ -190,6 +189,16 @@ void update_pressure(Fluid& fluid)
         p[i] = f.eos.pressure(rho[i]);
         V[i] = f.mass / rho[i];
     });
+}
+
+} // namespace
+
+void update_pressure(Fluid& fluid)
+{
+    apply_equation_of_state(fluid.parameters, fluid.particles.fluid);
+    if (fluid.ghosts) {
+        apply_equation_of_state(fluid.parameters, fluid.ghosts->particles.fluid);
+    }
     load_fluid(fluid, Stored{});
     if (has_solids(fluid)) {
         extrapolate_pressure(fluid);
@@ -217,20 +226,26 @@ void add_film_forces(Fluid& fluid, const FluidTerms& terms)
     for (const FilmCut& cut : fluid.film_cuts) {
         F[cut.row] -= cut.removed;
     }
+    replicate_film_cuts(fluid);
 }
 
 // Forces between fluid and solids, and of solids in thin films. Fluid that has parted from them
 // shows them no pressure.
 void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
 {
-    const Store& store = fluid.particles.fluid;
     const FluidNeighbours& n = fluid.neighbours;
-    const auto p = store[field::pressure];
-    const auto gap = store[field::gap];
+    const auto show = [&](auto& data, const Store& store, const Tiles& tiles) {
+        const auto p = store[field::pressure];
+        const auto gap = store[field::gap];
+        data.records().show(tiles, field::pressure,
+                            [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
+    };
     std::visit(
         [&](auto& data) {
-            data.records().show(n.fluid, field::pressure,
-                                [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
+            show(data, fluid.particles.fluid, n.fluid);
+            if (const Ghosts* const g = fluid.ghosts.get()) {
+                show(data, g->particles.fluid, g->fluid.tiles);
+            }
         },
         fluid.pair_data);
     run<pass::SolidForces>(fluid,
@@ -338,7 +353,8 @@ void shift(Fluid& fluid, real dt)
     const FluidParameters& f = fluid.parameters;
     const FluidNeighbours& n = fluid.neighbours;
     const FluidTerms terms = terms_of(fluid, dt);
-    const real scale = shifting->coefficient * f.h * top_speed(fluid) * dt;
+    const real fastest = largest_of_all(fluid, top_speed(fluid));
+    const real scale = shifting->coefficient * f.h * fastest * dt;
     clear(store, StageWrites<stage::Crowding>{});
     run<pass::CrowdingSums>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
     run<pass::CrowdingSums>(fluid, n.fluid_solid, to_fluid(fluid), terms);
@@ -353,8 +369,11 @@ void shift(Fluid& fluid, real dt)
 
 std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid)
 {
-    return fluid_limits(fluid.parameters, top_speed(fluid), top_acceleration(fluid),
-                        effective_viscosity(fluid));
+    std::array most{top_speed(fluid), top_acceleration(fluid), effective_viscosity(fluid)};
+    if (fluid.ghosts) {
+        fluid.ghosts->comm.largest(most);
+    }
+    return fluid_limits(fluid.parameters, most[0], most[1], most[2]);
 }
 
 } // namespace hyoryu

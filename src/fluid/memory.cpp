@@ -51,7 +51,7 @@ std::vector<MemoryUse> memory_of(const Fluid& fluid)
             {"tiles", held(n.fluid) + held(n.wall) + held(n.body)},
             {"motion of tiles", held(n.fluid_motion) + held(n.wall_motion) + held(n.body_motion)},
             {"sorting", held(s.key, s.key_swap) + held(s.row, s.row_swap, s.histogram)},
-            {"marks", held(n.met) + held(n.wet_walls, n.owner)}};
+            {"marks", held(n.met, n.wet_body) + held(n.wet_walls, n.owner)}};
 }
 
 std::size_t total(const std::vector<MemoryUse>& parts)

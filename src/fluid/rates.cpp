@@ -2,6 +2,7 @@
 // The rates that depend on velocities: continuity, viscosity, friction at solids, turbulence.
 #include "hyoryu/fluid/fluid.hpp"
 
+#include "sharing.hpp"
 #include "sweeps.hpp"
 
 namespace hyoryu {
@@ -25,6 +26,7 @@ void mirror_velocities(Fluid& fluid)
                                       : u[i];
         };
     });
+    share_solids(fluid, Fields<VelocitySum>{});
 }
 
 enum class SolidVelocity { own, mirrored };
@@ -44,6 +46,10 @@ void show_velocities(Fluid& fluid, SolidVelocity which)
             };
             show(fluid.particles.wall, fluid.neighbours.wall);
             show(fluid.particles.body, fluid.neighbours.body);
+            if (const Ghosts* const g = fluid.ghosts.get()) {
+                show(g->particles.wall, g->wall.tiles);
+                show(g->particles.body, g->body.tiles);
+            }
         },
         fluid.pair_data);
 }
@@ -78,6 +84,7 @@ void update_turbulence(Fluid& fluid, const EddyViscosity& eddies, bool sticks)
     const auto nu = store[field::turbulent_viscosity];
     parallel_for(0, store.size(),
                  [&](Index i) { nu[i] = eddy_viscosity(strain[i], mixed[i], eddies.length); });
+    share_fluid(fluid, Fields<TurbulentViscosity>{});
 }
 
 // Viscous forces between the fluid and the solids to which it sticks.
@@ -129,6 +136,7 @@ void update_rates(Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;
     const FluidTerms terms = terms_of(fluid, 0);
+    share_velocities(fluid);
     load_fluid(fluid, Fields<Velocity>{});
     load_solids(fluid, Fields<Velocity>{});
     clear(store, Union<Continuity::Writes, StageWrites<stage::Rates>>{});

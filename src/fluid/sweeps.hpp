@@ -26,6 +26,9 @@ void load_fluid(Fluid& fluid, const auto& fields)
     std::visit(
         [&](auto& data) {
             data.records().load(fluid.particles.fluid, fluid.neighbours.fluid, fields);
+            if (const Ghosts* const g = fluid.ghosts.get()) {
+                data.records().load(g->particles.fluid, g->fluid.tiles, fields);
+            }
         },
         fluid.pair_data);
 }
@@ -38,6 +41,10 @@ void load_solids(Fluid& fluid, const auto& fields)
         [&](auto& data) {
             data.records().load(fluid.particles.wall, n.wall, n.wet_walls, fields);
             data.records().load(fluid.particles.body, n.body, fields);
+            if (const Ghosts* const g = fluid.ghosts.get()) {
+                data.records().load(g->particles.wall, g->wall.tiles, fields);
+                data.records().load(g->particles.body, g->body.tiles, fields);
+            }
         },
         fluid.pair_data);
 }
@@ -121,6 +128,13 @@ PassRecords records_of(const Fluid& fluid, PairData<Real>& data, Among which,
             if (which == Among::all) {
                 records.complete(common, fluid.particles.wall, n.wall, n.wet_walls);
                 records.complete(common, fluid.particles.body, n.body);
+            }
+            if (const Ghosts* const g = fluid.ghosts.get()) {
+                records.complete(common, g->particles.fluid, g->fluid.tiles);
+                if (which == Among::all) {
+                    records.complete(common, g->particles.wall, g->wall.tiles);
+                    records.complete(common, g->particles.body, g->body.tiles);
+                }
             }
         }
         found = {records.data(), sizeof(RecordRow<List, Real>)};

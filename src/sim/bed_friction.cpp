@@ -2,6 +2,7 @@
 #include "hyoryu/sim/bed_friction.hpp"
 
 #include "hyoryu/fluid/sum_units.hpp"
+#include "hyoryu/fluid/totals.hpp"
 #include "solid_places.hpp"
 
 #include <algorithm>
@@ -67,6 +68,21 @@ void fill_columns(const Fluid& fluid, BedFriction& bed)
             std::atomic_ref(bed.speeds[column][axis]).fetch_add(units, std::memory_order_relaxed);
         }
     });
+}
+
+// Adds what the columns of other ranks hold.
+void add_other_columns(const Fluid& fluid, BedFriction& bed)
+{
+    std::vector<std::int64_t> numbers(bed.particles.begin(), bed.particles.end());
+    for (const auto& speed : bed.speeds) {
+        numbers.insert(numbers.end(), speed.begin(), speed.end());
+    }
+    fluid.ghosts->comm.add(numbers);
+    const std::size_t columns = bed.particles.size();
+    for (std::size_t k = 0; k < columns; ++k) {
+        bed.particles[k] = static_cast<std::int32_t>(numbers[k]);
+        std::copy_n(&numbers[columns + 3 * k], 3, bed.speeds[k].begin());
+    }
 }
 
 // The depth of a column, at least a spacing [m].
@@ -162,6 +178,9 @@ void rub_on_beds(Simulation& sim, double dt)
     BedFriction& bed = sim.bed;
     lay_columns(fluid, bed);
     fill_columns(fluid, bed);
+    if (fluid.ghosts) {
+        add_other_columns(fluid, bed);
+    }
     const Tiles& tiles = fluid.neighbours.fluid;
     const auto x = fluid.particles.fluid[field::position];
     parallel_blocks(0, tiles.tiles(), [&](Index tile) {
@@ -174,7 +193,7 @@ void rub_on_beds(Simulation& sim, double dt)
     });
     const FixedUnit unit = sum_units(fluid.parameters).velocity;
     for (const int wall : bed.walls) {
-        const auto [px, py, pz] = sum_by_tile<3>(tiles, {unit, unit, unit}, [&](Index i) {
+        const auto [px, py, pz] = sum_over_fluid<3>(fluid, {unit, unit, unit}, [&](Index i) {
             const Vec3 taken = bed.by[at(i)] == wall ? bed.taken[at(i)] : Vec3(Vec3::Zero());
             return std::array{taken.x(), taken.y(), taken.z()};
         });

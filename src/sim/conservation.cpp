@@ -2,6 +2,7 @@
 #include "hyoryu/sim/conservation.hpp"
 
 #include "hyoryu/fluid/sum_units.hpp"
+#include "hyoryu/fluid/totals.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ MomentumSum motion(const Simulation& sim)
         const FluidParameters& f = sim.fluid->parameters;
         const FixedUnit unit = sum_units(f).velocity;
         const auto [x, y, z, speed] =
-            sum_by_tile<4>(sim.fluid->neighbours.fluid, {unit, unit, unit, unit}, [&](Index i) {
+            sum_over_fluid<4>(*sim.fluid, {unit, unit, unit, unit}, [&](Index i) {
                 return std::array{v[i].x(), v[i].y(), v[i].z(), v[i].norm()};
             });
         all = {f.mass * Vec3(x, y, z), f.mass * speed};
@@ -80,8 +81,9 @@ Vec3 weight(const Simulation& sim)
 {
     Vec3 total = Vec3::Zero();
     if (sim.fluid) {
-        total += static_cast<double>(sim.fluid->particles.fluid.size()) *
-                 sim.fluid->parameters.mass * (sim.scene.gravity + sim.fluid->parameters.drive);
+        const Index count = count_over_ranks(*sim.fluid, sim.fluid->particles.fluid.size());
+        total += static_cast<double>(count) * sim.fluid->parameters.mass *
+                 (sim.scene.gravity + sim.fluid->parameters.drive);
     }
     for (const Body& body : sim.rigid.bodies) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -106,7 +108,7 @@ FluidEnergy fluid_energy(const Fluid& fluid, const OpenBoundary& open)
     const FluidParameters& f = fluid.parameters;
     const FixedUnit unit = sum_units(f).energy;
     const auto [kinetic, potential, internal] =
-        sum_by_tile<3>(fluid.neighbours.fluid, {unit, unit, unit}, [&](Index i) {
+        sum_over_fluid<3>(fluid, {unit, unit, unit}, [&](Index i) {
             if (!open.carpets.empty() && is_behind(open, x[i], f.spacing)) {
                 return std::array{0.0, 0.0, 0.0};
             }

@@ -112,7 +112,8 @@ double energy_scale(const Simulation& sim)
     };
     if (sim.fluid) {
         const FluidParameters& f = sim.fluid->parameters;
-        mass = f.mass * static_cast<double>(sim.fluid->particles.fluid.size());
+        const Index count = count_over_ranks(*sim.fluid, sim.fluid->particles.fluid.size());
+        mass = f.mass * static_cast<double>(count);
         of_sound = 0.5 * mass * sq(0.01 * f.eos.c0);
         reach(sim.fluid->domain_min, 0);
         reach(sim.fluid->domain_max, 0);

@@ -3,6 +3,7 @@
 #include "hyoryu/sim/gauges.hpp"
 
 #include "hyoryu/fluid/sum_units.hpp"
+#include "hyoryu/fluid/totals.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
@@ -27,11 +28,11 @@ Vec3 viscous_force(const Simulation& sim, int target)
     const auto owner = store.owner();
     const Rows rows = target >= 0 ? sim.body_particles.of[at(target)] : store.rows();
     const Vec3 none = Vec3::Zero();
-    return sum_of_vectors(rows.size(), sum_units(sim.fluid->parameters).force,
-                          [&](Index k) -> const Vec3& {
-                              const Index row = rows.begin + k;
-                              return owner[row] == target ? F[row] : none;
-                          });
+    return vector_sum_over_ranks(*sim.fluid, rows.size(), sum_units(sim.fluid->parameters).force,
+                                 [&](Index k) -> const Vec3& {
+                                     const Index row = rows.begin + k;
+                                     return owner[row] == target ? F[row] : none;
+                                 });
 }
 
 Vec3 contact_impulse(const std::vector<Contact>& contacts, int target)

@@ -305,11 +305,25 @@ void share_with_bodies(Simulation& sim)
                 mass * yield_of(sim.rigid.bodies[body_of(hit)], barrier.places[solid], hit);
         }
     }
-    for (BarrierHit& hit : barrier.all) {
+    for (std::size_t k = 0; k < barrier.all.size(); ++k) {
+        BarrierHit& hit = barrier.all[k];
         const double yield = barrier.yields[static_cast<std::size_t>(hit.solid)];
         const Vec3 taken = (yield > 1 ? 1 - 1 / yield : 0) * hit.impulse;
         hit.impulse -= taken;
-        v[at(hit.row)] -= taken / mass;
+        if (k >= barrier.own.first && k < barrier.own.first + barrier.own.count) {
+            v[at(hit.row)] -= taken / mass;
+        }
+    }
+}
+
+// The hits of all ranks, in the order of their rows in one process.
+void gather_hits(const Fluid& fluid, WallBarrier& barrier)
+{
+    barrier.own = {0, barrier.all.size()};
+    if (fluid.ghosts) {
+        auto gathered = gather(fluid.ghosts->comm, std::span<const BarrierHit>(barrier.all));
+        barrier.all = std::move(gathered.all);
+        barrier.own.first = gathered.own;
     }
 }
 
@@ -324,6 +338,7 @@ void load_solids(Simulation& sim, double dt)
     }
     std::ranges::sort(barrier.all, {},
                       [](const BarrierHit& h) { return std::tie(h.row, h.order); });
+    gather_hits(*sim.fluid, barrier);
     share_with_bodies(sim);
     for (const BarrierHit& hit : barrier.all) {
         const Vec3 force = -hit.impulse / dt; // constant over the step

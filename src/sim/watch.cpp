@@ -63,16 +63,57 @@ std::string probable_cause(const Simulation& sim)
         {sim.clock.step, sim.clock.time, std::move(who), std::move(field_name), std::move(cause)});
 }
 
-[[noreturn]] void report_particle(const Simulation& sim, std::size_t row)
+// What is said of a particle, its state and the cause.
+using Complaint = std::array<std::string, 3>;
+
+Complaint complaint_of(const Simulation& sim, std::size_t row)
 {
     const Store& store = sim.fluid->particles.fluid;
     const Vec3& x = store[field::position][row];
-    report(sim,
-           fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m", store.id()[row], x.x(),
-                       x.y(), x.z()),
-           fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", store[field::density][row],
-                       store[field::velocity][row].norm()),
-           probable_cause(sim) + "; " + nearby_particles(sim, row));
+    return {fmt::format("fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m", store.id()[row], x.x(),
+                        x.y(), x.z()),
+            fmt::format("density {:.4g} kg/m3, speed {:.4g} m/s", store[field::density][row],
+                        store[field::velocity][row].norm()),
+            probable_cause(sim) + "; " + nearby_particles(sim, row)};
+}
+
+// The complaint of the first rank that has one; every rank makes it its own.
+Complaint first_complaint(Comm& comm, const std::optional<Complaint>& own)
+{
+    Parcel parcel;
+    if (own) {
+        for (const std::string& text : *own) {
+            put(parcel, text.size());
+            put(parcel, std::span<const char>(text));
+        }
+    }
+    const auto ranks = static_cast<std::size_t>(comm.size());
+    const std::vector<Parcel> in = comm.exchange(std::vector<Parcel>(ranks, parcel));
+    const auto first = std::ranges::find_if(in, [](const Parcel& p) { return !p.empty(); });
+    Complaint complaint;
+    Unpacking from(*first);
+    for (std::string& text : complaint) {
+        text.resize(from.take<std::size_t>());
+        from.take(std::span<char>(text));
+    }
+    return complaint;
+}
+
+// Reports the first particle for which bad(row) holds; there is one on a rank at least.
+[[noreturn]] void report_particle(const Simulation& sim, const auto& bad)
+{
+    const Store& store = sim.fluid->particles.fluid;
+    Index row = 0;
+    while (row < store.size() && !bad(row)) {
+        ++row;
+    }
+    std::optional<Complaint> own;
+    if (row < store.size()) {
+        own = complaint_of(sim, static_cast<std::size_t>(row));
+    }
+    const Ghosts* const g = sim.fluid->ghosts.get();
+    const Complaint said = g != nullptr ? first_complaint(g->comm, own) : own.value();
+    report(sim, said[0], said[1], said[2]);
 }
 
 // The largest compression of the fluid.
@@ -90,13 +131,9 @@ double watch_fluid(const Simulation& sim)
         const bool good = e <= worst_compression && v[i].squaredNorm() <= top;
         return good ? e : infinity;
     };
-    const real worst = largest(0, store.size(), 0, error);
+    const real worst = largest_of_all(fluid, largest(0, store.size(), 0, error));
     if (worst == infinity) {
-        Index bad = 0;
-        while (error(bad) != infinity) {
-            ++bad;
-        }
-        report_particle(sim, static_cast<std::size_t>(bad));
+        report_particle(sim, [&](Index row) { return error(row) == infinity; });
     }
     return worst;
 }

@@ -2,6 +2,7 @@
 #include "hyoryu/sim/waves.hpp"
 
 #include "hyoryu/fluid/sum_units.hpp"
+#include "hyoryu/fluid/totals.hpp"
 #include "hyoryu/scene/shapes.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
@@ -25,7 +26,7 @@ double weight_before(const Simulation& sim, const Absorber& absorber)
     const double face = absorber.face + displacement(motion, sim.clock.time).x();
     const double width = strip * fluid.parameters.spacing;
     const bool planar = sim.scene.dimensions == 2;
-    return sum_by_tile<1>(fluid.neighbours.fluid, {count_unit}, [&](Index i) {
+    return sum_over_fluid<1>(fluid, {count_unit}, [&](Index i) {
         const double away = absorber.side * (x[i].x() - face);
         const bool before = planar || (x[i].y() >= absorber.low && x[i].y() <= absorber.high);
         return std::array{before && away >= 0 ? std::max(0.0, 1 - away / width) : 0.0};
@@ -37,8 +38,8 @@ double side_of_fluid(const Simulation& sim, double middle)
 {
     const auto x = sim.fluid->particles.fluid[field::position];
     const Index right = sum(0, sim.fluid->particles.fluid.size(), Index(0),
-                            [&](Index i) { return x[i].x() > middle ? Index(1) : Index(0); });
-    return 2 * right >= sim.fluid->particles.fluid.size() ? 1 : -1;
+                            [&](Index i) { return x[i].x() > middle ? Index(1) : Index(-1); });
+    return count_over_ranks(*sim.fluid, right) >= 0 ? 1 : -1;
 }
 
 bool holds(const Sponge& sponge, const Vec3& x, int dimensions)
@@ -120,16 +121,15 @@ void damp_in_sponges(Simulation& sim, double dt)
     for (const Sponge& sponge : sim.scene.sponges) {
         const double rate = strongest_rate(sponge, sim.scene.gravity.norm());
         // Each particle is in one tile, and so is damped once.
-        const auto [px, py, pz] =
-            sum_by_tile<3>(fluid.neighbours.fluid, {unit, unit, unit}, [&](Index i) {
-                if (!holds(sponge, x[i], sim.scene.dimensions)) {
-                    return std::array{0.0, 0.0, 0.0};
-                }
-                const double share = -std::expm1(-dt * rate * sq(depth_in(sponge, x[i])));
-                const Vec3 change = share * (velocity_asked(sponge, x[i]) - v[i]);
-                v[i] += change;
-                return std::array{change.x(), change.y(), change.z()};
-            });
+        const auto [px, py, pz] = sum_over_fluid<3>(fluid, {unit, unit, unit}, [&](Index i) {
+            if (!holds(sponge, x[i], sim.scene.dimensions)) {
+                return std::array{0.0, 0.0, 0.0};
+            }
+            const double share = -std::expm1(-dt * rate * sq(depth_in(sponge, x[i])));
+            const Vec3 change = share * (velocity_asked(sponge, x[i]) - v[i]);
+            v[i] += change;
+            return std::array{change.x(), change.y(), change.z()};
+        });
         sim.waves.sponge_impulse += fluid.parameters.mass * Vec3(px, py, pz);
     }
 }

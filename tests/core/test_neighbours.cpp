@@ -95,7 +95,7 @@ TEST(PairList, HoldsEveryPairOnce)
     const std::vector<Vec3> solid = points(1400, 2);
     const Tiles a = tiles_of(fluid, 0);
     const Tiles b = tiles_of(solid, a.count());
-    const Tiles* const both[] = {&a, &b};
+    const ListSource both[] = {&a, &b};
     Pairs expected = pairs_within(a, fluid, a, fluid, radius);
     expected.merge(pairs_within(a, fluid, b, solid, radius));
     ASSERT_GT(expected.size(), 100000U);
@@ -117,7 +117,7 @@ TEST(PairList, LeavesOutTheOwnOwnerAndTheUnwanted)
 {
     const std::vector<Vec3> solid = points(900, 3);
     const Tiles tiles = tiles_of(solid, 0);
-    const Tiles* const sources[] = {&tiles};
+    const ListSource sources[] = {&tiles};
     std::vector<std::int32_t> owner(solid.size());
     std::vector<std::uint8_t> wanted(solid.size());
     for (std::size_t k = 0; k < solid.size(); ++k) {
@@ -141,12 +141,12 @@ TEST(PairList, OfPointsThatMeetNothingIsEmpty)
     const std::vector<Vec3> other{{0.15, 0, 0}};
     const Tiles a = tiles_of(one, 0);
     const Tiles b = tiles_of(other, 1);
-    const Tiles* const far[] = {&b};
+    const ListSource far[] = {&b};
     PairList list;
     list.build(a, far, {radius, 16, widest_instruction_set()});
     EXPECT_TRUE(list.empty());
     EXPECT_EQ(list.entries(), 0);
-    const Tiles* const own[] = {&a};
+    const ListSource own[] = {&a};
     list.build(a, own, {radius, 16, widest_instruction_set()});
     EXPECT_EQ(pairs_of(list), (Pairs{{0, 0}}));
     EXPECT_EQ(list.entries(), 16);
@@ -157,7 +157,7 @@ TEST(PairList, EveryThirtyFirstChunkIsNothingAndTheLast)
 {
     const std::vector<Vec3> fluid = points(3000, 4);
     const Tiles tiles = tiles_of(fluid, 0);
-    const Tiles* const sources[] = {&tiles};
+    const ListSource sources[] = {&tiles};
     PairList list;
     list.build(tiles, sources, {radius, 16, widest_instruction_set()});
     for (const ListBlock& block : list.blocks()) {

@@ -68,7 +68,7 @@ struct Cloud {
         const Index n =
             sort_rows(lattice, {particles[field::position], particles.id()}, -far, far, space);
         make_tiles(tiles, lattice, particles[field::position], space, n);
-        const Tiles* const sources[] = {&tiles};
+        const ListSource sources[] = {&tiles};
         pairs.build(tiles, sources,
                     {kernel.support, Pack<Real, bytes>::lanes, widest_instruction_set()});
         Records<In, Real>(memory, n).load(particles, tiles);

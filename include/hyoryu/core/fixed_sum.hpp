@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace hyoryu {
 
@@ -86,6 +87,8 @@ public:
         }
         return values;
     }
+    /// The sum of each number.
+    std::span<FixedSum> each() { return sums_; }
 
 private:
     std::array<FixedSum, n> sums_;
@@ -117,7 +120,7 @@ FixedSums<n> sum_of_blocks(Index blocks, const F& add)
 /// Sums of term(row) over the points of all tiles: plain numbers within a tile, in the order of its
 /// slots, then tiles in fixed point.
 template <std::size_t n, class F>
-std::array<double, n> sum_by_tile(const Tiles& tiles, const FixedUnits<n>& units, const F& term)
+FixedSums<n> sums_by_tile(const Tiles& tiles, const FixedUnits<n>& units, const F& term)
 {
     const auto add_tile = [&](Index tile, FixedSums<n>& sums) {
         const auto t = static_cast<std::size_t>(tile);
@@ -130,13 +133,18 @@ std::array<double, n> sum_by_tile(const Tiles& tiles, const FixedUnits<n>& units
         }
         sums.add(of_tile, units);
     };
-    return sum_of_blocks<n>(tiles.tiles(), add_tile).values(units);
+    return sum_of_blocks<n>(tiles.tiles(), add_tile);
+}
+template <std::size_t n, class F>
+std::array<double, n> sum_by_tile(const Tiles& tiles, const FixedUnits<n>& units, const F& term)
+{
+    return sums_by_tile<n>(tiles, units, term).values(units);
 }
 
 /// Sums of term(k) for k in [0, count), each number in fixed point: for terms of which there are
 /// few, or that stand in no order.
 template <std::size_t n, class F>
-std::array<double, n> sum_of_each(Index count, const FixedUnits<n>& units, const F& term)
+FixedSums<n> sums_of_each(Index count, const FixedUnits<n>& units, const F& term)
 {
     constexpr Index block_terms = 64;
     const auto add_block = [&](Index block, FixedSums<n>& sums) {
@@ -144,7 +152,12 @@ std::array<double, n> sum_of_each(Index count, const FixedUnits<n>& units, const
             sums.add(term(k), units);
         }
     };
-    return sum_of_blocks<n>((count + block_terms - 1) / block_terms, add_block).values(units);
+    return sum_of_blocks<n>((count + block_terms - 1) / block_terms, add_block);
+}
+template <std::size_t n, class F>
+std::array<double, n> sum_of_each(Index count, const FixedUnits<n>& units, const F& term)
+{
+    return sums_of_each<n>(count, units, term).values(units);
 }
 
 /// The same of vectors.

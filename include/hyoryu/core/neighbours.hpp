@@ -13,6 +13,15 @@
 
 namespace hyoryu {
 
+/// Points among which neighbours are looked for. Those that another process owns stand in tiles of
+/// their own; a tile is whole in one of the two.
+struct ListSource {
+    const Tiles* own = nullptr;
+    const Tiles* ghosts = nullptr; // null where this process has all
+
+    ListSource(const Tiles* own_, const Tiles* ghosts_ = nullptr) : own(own_), ghosts(ghosts_) {}
+};
+
 /// What is left out of neighbour lists. An empty span leaves out nothing.
 struct ListChoice {
     std::span<const std::int32_t> owner = {};  // by slot: neighbours of the same owner (a body)
@@ -95,7 +104,7 @@ public:
     };
     /// Points of a slot are listed source by source; a point of the source is its own neighbour,
     /// as kernel sums want it and differences do not mind.
-    void build(const Tiles& destination, std::span<const Tiles* const> sources,
+    void build(const Tiles& destination, std::span<const ListSource> sources,
                const Settings& settings, const ListChoice& choice = {});
     /// Which slots stand in any list; what has met nothing needs no list of its own.
     void mark_met(std::vector<std::uint8_t>& marks) const;

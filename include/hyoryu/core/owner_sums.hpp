@@ -50,14 +50,22 @@ public:
         sums[owner].add(run, units_);
     }
 
-    /// The sums of an owner.
+    /// Ends the sums: adds up what the threads have, then calls `add_others(sums)` with the sums of
+    /// each number of each owner, for what other processes have of them.
+    void end(const auto& add_others)
+    {
+        std::vector<FixedSums<n>>& all = by_thread_.front();
+        for (std::size_t thread = 1; thread < by_thread_.size(); ++thread) {
+            for (std::size_t owner = 0; owner < all.size(); ++owner) {
+                all[owner].add(by_thread_[thread][owner]);
+            }
+        }
+        add_others(std::span(all));
+    }
+    /// The sums of an owner, once they have ended.
     std::array<double, n> of(std::size_t owner) const
     {
-        FixedSums<n> all;
-        for (const std::vector<FixedSums<n>>& sums : by_thread_) {
-            all.add(sums[owner]);
-        }
-        return all.values(units_);
+        return by_thread_.front()[owner].values(units_);
     }
 
 private:

@@ -84,6 +84,9 @@ public:
 
     /// Sets the number of rows and removes all columns; numbers are 0.
     void reset(Index rows);
+    /// Sets the number of rows and makes the columns of another store of this kind, zeroed; numbers
+    /// are 0.
+    void reset_like(const Store& other, Index rows);
 
     /// Makes columns for the listed fields that particles of this kind have, zeroed.
     template <class... F>

@@ -30,8 +30,9 @@ struct TileLattice {
 
     /// The number of the cell of a point; the tile is all but its last six bits.
     std::uint64_t cell_of(const Vec3& point) const;
-    /// The number of the tile of a point.
+    /// The number of the tile of a point, and of a cell.
     std::uint64_t tile_of(const Vec3& point) const;
+    static std::uint64_t tile_of_cell(std::uint64_t cell);
     /// Tile indices along x, y, z of the number of a tile, and back.
     static std::array<std::int64_t, 3> place_of(std::uint64_t tile);
     static std::uint64_t tile_at(const std::array<std::int64_t, 3>& place);

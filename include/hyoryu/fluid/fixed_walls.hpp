@@ -7,6 +7,7 @@
 #pragma once
 
 #include "hyoryu/core/tiles.hpp"
+#include "hyoryu/ranks/cuts.hpp"
 
 #include <functional>
 
@@ -55,7 +56,7 @@ struct FixedWalls {
     std::vector<std::uint8_t> exists; // by candidate
 
     // Memory of `update_rows`, kept from one time to the next.
-    std::vector<std::uint8_t> touched, wet_body, marks;
+    std::vector<std::uint8_t> touched, marks;
     std::vector<std::int32_t> row_of, old_row;
     Tiles last_candidates;
     std::vector<std::vector<WallCandidate>> made; // by worker
@@ -67,18 +68,23 @@ struct FixedWalls {
 void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
                      std::span<const std::int32_t> index, std::span<const Vec3> place);
 
-/// Where the fluid and the bodies are.
+/// Points by which walls exist: of the fluid, or of bodies where fluid is near.
 struct Waters {
-    const Tiles& fluid;
-    const Tiles& body;
-    real reach = 0; // [m]; at most the edge of a tile
+    const Tiles& tiles;
+    std::span<const std::uint8_t> counted; // by point: whether it counts; empty: all do
 };
 
-/// Makes the particles that are within reach of the fluid, or of a body particle within reach of
-/// the fluid, and drops all others. Rows come in the order of tiles, cells and numbers; those that
-/// stay keep their values, new ones are zero but for position, number, owner and depth. Returns
-/// whether anything changed. `room` as in Store::gather.
-bool update_rows(FixedWalls& walls, const Waters& waters, Store& store, std::span<std::byte> room);
+/// Which particles exist: those of own tiles within reach of waters.
+struct WallReach {
+    real reach = 0; // [m]; at most the edge of a tile
+    TileRange own;
+};
+
+/// Makes the particles that are within reach of waters and drops all others. Rows come in the order
+/// of tiles, cells and numbers; those that stay keep their values, new ones are zero but for
+/// position, number, owner and depth. Returns whether anything changed. `room` as in Store::gather.
+bool update_rows(FixedWalls& walls, std::span<const Waters> waters, const WallReach& which,
+                 Store& store, std::span<std::byte> room);
 
 /// The tiles of the particles that exist, for a store that has no others.
 void make_tiles(const FixedWalls& walls, Tiles& tiles);

@@ -5,6 +5,7 @@
 
 #include "hyoryu/core/timer.hpp"
 #include "hyoryu/fluid/fixed_walls.hpp"
+#include "hyoryu/fluid/ghosts.hpp"
 #include "hyoryu/fluid/list_schedule.hpp"
 #include "hyoryu/fluid/pair_loops.hpp"
 #include "hyoryu/fluid/parameters.hpp"
@@ -28,8 +29,9 @@ struct FluidNeighbours {
     DisplacementSpace fluid_motion, wall_motion, body_motion;
     std::vector<std::int32_t> wet_walls; // tiles of walls of which a particle is in any list
     SortSpace space;
-    std::vector<std::uint8_t> met;   // by slot: what stands in any list
-    std::vector<std::int32_t> owner; // of solid particles, by slot
+    std::vector<std::uint8_t> met;      // by slot: what stands in any list
+    std::vector<std::uint8_t> wet_body; // by point of bodies: whether fluid is near
+    std::vector<std::int32_t> owner;    // of solid particles, by slot
     long long builds = 0;
     EntryCounts entries;
     Index visits = 0; // list entries that the sweeps of one step go over
@@ -90,6 +92,7 @@ struct Fluid {
     /// Where joints carry the pressure between solids, body by body, in the order of the numbers
     /// of the particles; empty while no body has a joint.
     std::vector<FilmCut> film_cuts;
+    std::unique_ptr<Ghosts> ghosts; // of other processes; null where this one has the whole case
 };
 
 /// Whether friction acts between the fluid and solids.
@@ -144,7 +147,8 @@ void update_rates(Fluid& fluid);
 /// Moves the fluid particles by the shifting of a step, if that effect is on.
 void shift(Fluid& fluid, real dt);
 
-/// Largest speed [m/s] and acceleration [m/s2] of the fluid; NaN if any value is not finite.
+/// Largest speed [m/s] and acceleration [m/s2] of the fluid of this process; NaN if any value is
+/// not finite.
 real top_speed(const Fluid& fluid);
 real top_acceleration(const Fluid& fluid);
 

@@ -53,8 +53,11 @@ struct Simulation {
     OpenFlow open;              // at the open sides
 };
 
-/// The scene at time 0. The particles of `filling` go into the store.
-Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling);
+/// The scene at time 0. The particles of `filling` go into the store; of a case that several
+/// processes share, those of the fluid that are this one's. `comm`, null for one process, outlives
+/// the simulation.
+Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling,
+                           Comm* comm = nullptr);
 
 /// Advances by one step, limited as the clock says. Throws NumericalError when the state after it
 /// is not finite or out of bounds.

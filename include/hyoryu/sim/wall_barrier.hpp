@@ -78,8 +78,11 @@ struct WallBarrier {
     std::vector<std::vector<SurfaceHold>> holds; // of one particle, by thread
     std::vector<std::vector<BarrierHit>> hits;   // of this step, by thread
     std::vector<BarrierHit> all;                 // of this step, in the order of rows
-    std::vector<double> yields;                  // m sum K of the hits of each solid [1]
-    std::vector<int> numbers;                    // of all solids
+    struct {
+        std::size_t first = 0, count = 0;
+    } own;                      // those of this process
+    std::vector<double> yields; // m sum K of the hits of each solid [1]
+    std::vector<int> numbers;   // of all solids
 };
 
 WallBarrier make_wall_barrier(const Scene& scene);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// A case that several processes share: what one of them has of the particles of the others. A fluid
+// of one process has none of this.
+#pragma once
+
+#include "hyoryu/fluid/list_schedule.hpp"
+#include "hyoryu/ranks/halo.hpp"
+
+#include <optional>
+
+namespace hyoryu {
+
+struct Fluid;
+
+/// The ghosts of one kind of particles.
+struct GhostsOfKind {
+    Halo halo;
+    Tiles tiles;
+    DisplacementSpace motion; // of their tiles, and which own tiles touch them
+};
+
+/// The particles of other ranks that this one may look at.
+struct Ghosts {
+    Comm& comm;
+    Cuts cuts;
+    std::optional<Cuts> next_cuts; // from the next lists on; the same on all ranks
+    GhostsOfKind fluid, wall, body;
+    Particles particles;                // row k is point k of the tiles of its kind
+    std::vector<std::uint8_t> wet_body; // by point: whether fluid is near
+    std::vector<Parcel> outbox, inbox;  // memory of messages
+};
+
+/// Makes the fluid one of several: its store has the particles of its range of tiles and no others.
+/// Called once, before the first lists are made.
+void share(Fluid& fluid, Comm& comm, const Cuts& cuts);
+
+/// Sends to the ranks that have ghosts of them the places of particles and what else a step reads
+/// of neighbours before new velocities are known. Nothing before the first lists.
+void share_places(Fluid& fluid);
+
+/// Gives all ranks the pressures and kernel sums of all body particles, as joints need them.
+void replicate_body_pressures(Fluid& fluid);
+
+/// The numbers of tiles of this rank; all without ranks.
+TileRange own_tiles(const Fluid& fluid);
+
+/// The sum of a count over all ranks.
+Index count_over_ranks(const Fluid& fluid, Index count);
+/// The largest of a number over all ranks; not-a-number if any is.
+real largest_of_all(const Fluid& fluid, real number);
+
+} // namespace hyoryu

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Sums over the particles of all processes that share a case.
+#pragma once
+
+#include "hyoryu/fluid/fluid.hpp"
+
+namespace hyoryu {
+
+/// Adds to sums what the other ranks have of them.
+inline void add_other_ranks(const Fluid& fluid, std::span<FixedSum> sums)
+{
+    if (fluid.ghosts) {
+        fluid.ghosts->comm.add(sums);
+    }
+}
+/// The same of the sums of owners, see OwnerSums::end.
+template <std::size_t n>
+void add_other_ranks(const Fluid& fluid, std::span<FixedSums<n>> of_owners)
+{
+    if (!fluid.ghosts) {
+        return;
+    }
+    std::vector<FixedSum> sums;
+    for (FixedSums<n>& owner : of_owners) {
+        sums.insert(sums.end(), owner.each().begin(), owner.each().end());
+    }
+    fluid.ghosts->comm.add(std::span(sums));
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        of_owners[k / n].each()[k % n] = sums[k];
+    }
+}
+
+/// sum_by_tile over the fluid of all ranks.
+template <std::size_t n, class F>
+std::array<double, n> sum_over_fluid(const Fluid& fluid, const FixedUnits<n>& units, const F& term)
+{
+    FixedSums<n> sums = sums_by_tile<n>(fluid.neighbours.fluid, units, term);
+    add_other_ranks(fluid, sums.each());
+    return sums.values(units);
+}
+
+/// sum_of_each over terms of all ranks, of which this one has `count`.
+template <std::size_t n, class F>
+std::array<double, n> sum_over_ranks(const Fluid& fluid, Index count, const FixedUnits<n>& units,
+                                     const F& term)
+{
+    FixedSums<n> sums = sums_of_each<n>(count, units, term);
+    add_other_ranks(fluid, sums.each());
+    return sums.values(units);
+}
+/// The same of vectors.
+template <class F>
+Vec3 vector_sum_over_ranks(const Fluid& fluid, Index count, const FixedUnit& unit, const F& term)
+{
+    const auto [x, y, z] = sum_over_ranks<3>(fluid, count, {unit, unit, unit}, [&](Index k) {
+        const Vec3& v = term(k);
+        return std::array{v.x(), v.y(), v.z()};
+    });
+    return {x, y, z};
+}
+
+} // namespace hyoryu

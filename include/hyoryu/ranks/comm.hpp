@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// What processes that share a case say to each other. A rank is one of them. Every call is made by
+// all ranks, in the same order.
+#pragma once
+
+#include "hyoryu/core/fixed_sum.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace hyoryu {
+
+/// A message.
+using Parcel = std::vector<std::byte>;
+
+/// The connection of a rank with the others.
+class Comm {
+public:
+    virtual ~Comm() = default;
+
+    virtual int rank() const = 0;
+    virtual int size() const = 0;
+
+    /// Sends `out[r]` to rank r, and returns by rank what each sent to this one, itself included.
+    /// An empty parcel is no message.
+    virtual std::vector<Parcel> exchange(std::vector<Parcel> out) = 0;
+    /// The same where a rank knows how long the messages to it are: `in[r]` has the size of what
+    /// rank r sends. Saves the ranks from asking.
+    virtual void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) = 0;
+
+    /// Each number becomes the largest of those of all ranks; not-a-number if any is.
+    virtual void largest(std::span<double> numbers) = 0;
+    /// Each number becomes the sum of those of all ranks.
+    virtual void add(std::span<std::int64_t> numbers) = 0;
+    virtual void add(std::span<FixedSum> sums) = 0;
+};
+
+/// Values whose bytes are all there is to them; vectors of Eigen count.
+template <class T>
+concept Sendable = std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>;
+
+/// Appends values to a parcel.
+template <Sendable T>
+void put(Parcel& parcel, std::span<const T> values)
+{
+    const std::size_t before = parcel.size();
+    parcel.resize(before + values.size_bytes());
+    if (!values.empty()) {
+        std::memcpy(parcel.data() + before, static_cast<const void*>(values.data()),
+                    values.size_bytes());
+    }
+}
+template <Sendable T>
+void put(Parcel& parcel, const T& value)
+{
+    put(parcel, std::span<const T>(&value, 1));
+}
+
+/// Takes values out of a parcel in the order in which they were put.
+class Unpacking {
+public:
+    explicit Unpacking(std::span<const std::byte> parcel) : left_(parcel) {}
+
+    template <Sendable T>
+    void take(std::span<T> values)
+    {
+        expects(left_.size() >= values.size_bytes());
+        if (!values.empty()) {
+            std::memcpy(static_cast<void*>(values.data()), left_.data(), values.size_bytes());
+        }
+        left_ = left_.subspan(values.size_bytes());
+    }
+    template <Sendable T>
+    T take()
+    {
+        T value{};
+        take(std::span<T>(&value, 1));
+        return value;
+    }
+    bool empty() const { return left_.empty(); }
+
+private:
+    std::span<const std::byte> left_;
+};
+
+/// The values of all ranks, one rank after the other, and where those of this one are among them.
+template <class T>
+struct Gathered {
+    std::vector<T> all;
+    std::size_t own = 0; // the first of this rank
+};
+template <class T>
+Gathered<T> gather(Comm& comm, std::span<const T> values)
+{
+    Parcel parcel;
+    put(parcel, values);
+    const auto ranks = static_cast<std::size_t>(comm.size());
+    const std::vector<Parcel> in = comm.exchange(std::vector<Parcel>(ranks, parcel));
+    Gathered<T> gathered;
+    for (std::size_t r = 0; r < ranks; ++r) {
+        if (static_cast<int>(r) == comm.rank()) {
+            gathered.own = gathered.all.size();
+        }
+        const std::size_t before = gathered.all.size();
+        gathered.all.resize(before + in[r].size() / sizeof(T));
+        Unpacking(in[r]).take(std::span(gathered.all).subspan(before));
+    }
+    return gathered;
+}
+
+} // namespace hyoryu

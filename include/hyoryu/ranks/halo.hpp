@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Ghosts: copies of the particles of other ranks that a rank may look at, which are those of the
+// tiles that touch its range. Tiles travel whole and in their order, so that whoever looks at a
+// tile sees what its owner sees, and lists and sums have the bits of one process.
+#pragma once
+
+#include "hyoryu/ranks/comm.hpp"
+#include "hyoryu/ranks/cuts.hpp"
+
+#include "hyoryu/core/particles.hpp"
+
+namespace hyoryu {
+
+/// Who has copies of whom, for one kind of particles, until the tiles are made anew.
+struct Halo {
+    std::vector<std::vector<std::int32_t>>
+        out;              // by rank: points of own tiles of which it has copies
+    std::vector<Rows> in; // by rank: its points among the ghosts
+
+    Index count() const { return in.empty() ? 0 : in.back().end; }
+};
+
+/// Sends own tiles to the ranks that own a place beside them, and makes the tiles of the ghosts, of
+/// which point k has row k.
+Halo share_tiles(Comm& comm, const Cuts& cuts, const Tiles& own, Tiles& ghosts);
+
+/// Makes a store of the ghosts anew: all columns, numbers and owners as their owners have them.
+void share_rows(Comm& comm, const Halo& halo, const Tiles& tiles, const Store& own, Store& ghosts);
+
+/// Sends marks of ghosts to the ranks that own them; a point that any rank marks is marked.
+/// `own_first`, `ghost_first`: the mark of the first own point and of the first ghost.
+void return_marks(Comm& comm, const Halo& halo, std::vector<std::uint8_t>& marks, Index own_first,
+                  Index ghost_first);
+/// Sets the marks of ghosts to those that their owners have.
+void share_marks(Comm& comm, const Halo& halo, std::span<const std::uint8_t> own,
+                 std::span<std::uint8_t> ghosts);
+
+/// Moves each row to the rank that `owner` names for it, with all columns and its number. Rows that
+/// arrive come behind those that stay. `room` as in Store::gather.
+void move_rows(Comm& comm, Store& store, std::span<const int> owner, std::span<std::byte> room);
+
+/// Values of fields on their way from own particles to the ghosts of others: added field by field,
+/// sent in one message for each pair of ranks.
+class Delivery {
+public:
+    /// A field of a store of own particles, and of that of the ghosts of the same kind.
+    template <Field F>
+    void add(const Halo& halo, const Tiles& tiles, const Store& own, Store& ghosts, F of)
+    {
+        using T = typename F::type;
+        const auto* const from = own[of].data();
+        auto* const to = ghosts[of].data();
+        parts_.push_back({&halo, tiles.row.data(), reinterpret_cast<const std::byte*>(from),
+                          reinterpret_cast<std::byte*>(to), sizeof(T)});
+    }
+    /// Sends and receives. The parcels are memory that may serve again.
+    void send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const;
+
+private:
+    struct Part {
+        const Halo* halo;
+        const std::int32_t* row; // of each own point
+        const std::byte* from;
+        std::byte* to;
+        std::size_t bytes; // of a value
+    };
+    std::vector<Part> parts_;
+};
+
+} // namespace hyoryu

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/fluid/ghosts.hpp"
+
+#include "sharing.hpp"
+#include "sweeps.hpp"
+
+#include <unordered_map>
+
+namespace hyoryu {
+
+void share(Fluid& fluid, Comm& comm, const Cuts& cuts)
+{
+    expects(cuts.ranks() == comm.size());
+    fluid.ghosts = std::unique_ptr<Ghosts>(new Ghosts{.comm = comm, .cuts = cuts});
+}
+
+TileRange own_tiles(const Fluid& fluid)
+{
+    return fluid.ghosts ? fluid.ghosts->cuts.range(fluid.ghosts->comm.rank()) : TileRange{};
+}
+
+Index count_over_ranks(const Fluid& fluid, Index count)
+{
+    std::int64_t sum = count;
+    if (fluid.ghosts) {
+        fluid.ghosts->comm.add(std::span(&sum, 1));
+    }
+    return sum;
+}
+
+real largest_of_all(const Fluid& fluid, real number)
+{
+    if (fluid.ghosts) {
+        fluid.ghosts->comm.largest(std::span(&number, 1));
+    }
+    return number;
+}
+
+void share_places(Fluid& fluid)
+{
+    if (!fluid.ghosts || fluid.neighbours.builds == 0) {
+        return;
+    }
+    Delivery delivery;
+    deliver_fluid(delivery, fluid,
+                  Fields<Position, Density, Gap, GradientCorrection, MixedCorrection>{});
+    if (fluid.moving_walls) {
+        deliver_walls(delivery, fluid, Fields<Position, Velocity>{});
+    }
+    deliver_bodies(delivery, fluid, Fields<Position, Velocity>{});
+    delivery.send(fluid.ghosts->comm, fluid.ghosts->outbox, fluid.ghosts->inbox);
+}
+
+void share_velocities(Fluid& fluid)
+{
+    if (!fluid.ghosts) {
+        return;
+    }
+    Delivery delivery;
+    deliver_fluid(delivery, fluid, Fields<Velocity>{});
+    if (fluid.moving_walls) {
+        deliver_walls(delivery, fluid, Fields<Velocity>{});
+    }
+    deliver_bodies(delivery, fluid, Fields<Velocity>{});
+    delivery.send(fluid.ghosts->comm, fluid.ghosts->outbox, fluid.ghosts->inbox);
+}
+
+void replicate_body_pressures(Fluid& fluid)
+{
+    if (!fluid.ghosts) {
+        return;
+    }
+    const auto p = fluid.particles.body[field::pressure];
+    const auto shepard = fluid.particles.body[field::shepard_sum];
+    Parcel parcel;
+    for (const std::int32_t row : fluid.neighbours.body.row) {
+        put(parcel, row);
+        put(parcel, p[row]);
+        put(parcel, shepard[row]);
+    }
+    Comm& comm = fluid.ghosts->comm;
+    for (const Parcel& in : comm.exchange(std::vector<Parcel>(at(comm.size()), parcel))) {
+        for (Unpacking from(in); !from.empty();) {
+            const auto row = from.take<std::int32_t>();
+            p[row] = from.take<real>();
+            shepard[row] = from.take<real>();
+        }
+    }
+}
+
+void replicate_film_cuts(Fluid& fluid)
+{
+    if (!fluid.ghosts || fluid.film_cuts.empty()) {
+        return;
+    }
+    std::vector<std::uint8_t> own(at(fluid.particles.body.size()), 0);
+    for (const std::int32_t row : fluid.neighbours.body.row) {
+        own[at(row)] = 1;
+    }
+    Parcel parcel;
+    for (std::size_t k = 0; k < fluid.film_cuts.size(); ++k) {
+        if (own[at(fluid.film_cuts[k].row)] != 0) {
+            put(parcel, k);
+            put(parcel, fluid.film_cuts[k].removed);
+        }
+    }
+    Comm& comm = fluid.ghosts->comm;
+    for (const Parcel& in : comm.exchange(std::vector<Parcel>(at(comm.size()), parcel))) {
+        for (Unpacking from(in); !from.empty();) {
+            const auto k = from.take<std::size_t>();
+            fluid.film_cuts[k].removed = from.take<Vec3>();
+        }
+    }
+}
+
+void migrate_fluid(Fluid& fluid, const TileLattice& lattice)
+{
+    if (!fluid.ghosts) {
+        return;
+    }
+    const Ghosts& g = *fluid.ghosts;
+    Store& store = fluid.particles.fluid;
+    const auto x = store[field::position];
+    std::vector<int> owner(at(store.size()));
+    parallel_for(0, store.size(), [&](Index i) {
+        const bool inside = (x[i].array() >= fluid.domain_min.array()).all() &&
+                            (x[i].array() <= fluid.domain_max.array()).all();
+        owner[at(i)] = inside ? g.cuts.owner(lattice.tile_of(x[i])) : g.comm.rank();
+    });
+    std::visit([&](auto& data) { move_rows(g.comm, store, owner, data.common.room()); },
+               fluid.pair_data);
+}
+
+namespace {
+
+void make_ghosts(Ghosts& g, GhostsOfKind& kind, const Tiles& tiles, const Store& own, Store& ghosts)
+{
+    kind.halo = share_tiles(g.comm, g.cuts, tiles, kind.tiles);
+    share_rows(g.comm, kind.halo, tiles, own, ghosts);
+}
+
+} // namespace
+
+void make_ghosts_of_fluid(Fluid& fluid)
+{
+    if (fluid.ghosts) {
+        Ghosts& g = *fluid.ghosts;
+        make_ghosts(g, g.fluid, fluid.neighbours.fluid, fluid.particles.fluid, g.particles.fluid);
+    }
+}
+
+void make_ghosts_of_walls(Fluid& fluid)
+{
+    if (fluid.ghosts) {
+        Ghosts& g = *fluid.ghosts;
+        fluid.neighbours.wall.lattice = fluid.neighbours.fluid.lattice; // there may be no own walls
+        make_ghosts(g, g.wall, fluid.neighbours.wall, fluid.particles.wall, g.particles.wall);
+    }
+}
+
+void make_ghosts_of_bodies(Fluid& fluid)
+{
+    if (fluid.ghosts) {
+        Ghosts& g = *fluid.ghosts;
+        make_ghosts(g, g.body, fluid.neighbours.body, fluid.particles.body, g.particles.body);
+    }
+}
+
+FrictionOnTheMove::FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice)
+{
+    if (!fluid.ghosts || !fluid.particles.wall.has(field::viscous_force)) {
+        return;
+    }
+    const Ghosts& g = *fluid.ghosts;
+    const auto send = [&](const Tiles& tiles, const Store& store, const auto& name_of) {
+        const auto x = store[field::position];
+        const auto F = store[field::viscous_force];
+        std::vector<Parcel> out(at(g.comm.size()));
+        for (const std::int32_t row : tiles.row) {
+            Parcel& to = out[at(g.cuts.owner(lattice.tile_of(lattice.wrapped(x[row]))))];
+            put(to, name_of(row));
+            put(to, F[row]);
+        }
+        return g.comm.exchange(std::move(out));
+    };
+    const FluidNeighbours& n = fluid.neighbours;
+    // Rows of bodies are the same on all ranks, those of walls are not.
+    const Store& wall = fluid.particles.wall;
+    wall_ = send(n.wall, wall, [&](std::int32_t row) { return wall.id()[row]; });
+    body_ = send(n.body, fluid.particles.body, [](std::int32_t row) { return row; });
+}
+
+void FrictionOnTheMove::arrive(Fluid& fluid) const
+{
+    Store& body = fluid.particles.body;
+    for (const Parcel& parcel : body_) {
+        for (Unpacking from(parcel); !from.empty();) {
+            const auto row = from.take<std::int32_t>();
+            body[field::viscous_force][row] = from.take<Vec3>();
+        }
+    }
+    Store& wall = fluid.particles.wall;
+    std::unordered_map<std::int64_t, Index> row_of;
+    for (Index row = 0; row < wall.size() && !wall_.empty(); ++row) {
+        row_of[wall.id()[row]] = row;
+    }
+    for (const Parcel& parcel : wall_) {
+        for (Unpacking from(parcel); !from.empty();) {
+            const auto found = row_of.find(from.take<std::int64_t>());
+            const Vec3 force = from.take<Vec3>();
+            if (found != row_of.end()) { // dry walls are dropped
+                wall[field::viscous_force][found->second] = force;
+            }
+        }
+    }
+}
+
+} // namespace hyoryu

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// How far particles have moved since the lists were made.
+#include "lists.hpp"
+
+#include <algorithm>
+
+namespace hyoryu {
+
+const Tiles& measured_walls(const Fluid& fluid)
+{
+    return fluid.moving_walls ? fluid.neighbours.wall : fluid.fixed_walls.candidates;
+}
+
+void measure_walls(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    if (fluid.moving_walls) {
+        bound_motion(n.wall, fluid.particles.wall[field::position], n.wall_motion.box);
+    } else {
+        n.wall_motion.box.assign(measured_walls(fluid).tile.size(), {Vec3(0, 0, 0), Vec3(0, 0, 0)});
+    }
+}
+
+namespace {
+
+// The farthest that particles of tiles beside fixed walls have moved, besides walls that move: the
+// tiles of walls that do not exist yet are in no list of tiles that touch.
+real motion_beside_fixed_walls(const Fluid& fluid)
+{
+    const FluidNeighbours& n = fluid.neighbours;
+    const Tiles& walls = fluid.fixed_walls.candidates;
+    real most = 0;
+    const auto look = [&](const Tiles& tiles, const std::vector<DisplacementBox>& boxes) {
+        for (std::size_t t = 0; t < tiles.tile.size(); ++t) {
+            const real way = boxes[t].low.cwiseAbs().cwiseMax(boxes[t].high.cwiseAbs()).norm();
+            const auto place = TileLattice::place_of(tiles.tile[t]);
+            for (int k = 0; k < 27 && way > most; ++k) {
+                const std::array<int, 3> to{k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+                most = walls.find(tiles.lattice.beside(place, to)) >= 0 ? way : most;
+            }
+        }
+    };
+    look(n.fluid, n.fluid_motion.box);
+    look(n.body, n.body_motion.box);
+    if (const Ghosts* const g = fluid.ghosts.get()) {
+        look(g->fluid.tiles, g->fluid.motion.box);
+        look(g->body.tiles, g->body.motion.box);
+    }
+    return most;
+}
+
+// What is measured between tiles of this rank and ghosts, and the largest of all ranks. A pair of
+// two ranks is measured by one of them at least: with walls by the rank that has the walls.
+void add_motion_of_ghosts(Fluid& fluid, Displacement& motion)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    Ghosts& g = *fluid.ghosts;
+    DisplacementSpace& f = g.fluid.motion;
+    DisplacementSpace& b = g.body.motion;
+    bound_motion(g.fluid.tiles, g.particles.fluid[field::position], f.box);
+    bound_motion(g.body.tiles, g.particles.body[field::position], b.box);
+    motion.fluid = std::max(motion.fluid, relative_motion(f.box, n.fluid_motion.box, f.fluid));
+    motion.solid = std::max({motion.solid, relative_motion(f.box, n.wall_motion.box, f.wall),
+                             relative_motion(f.box, n.body_motion.box, f.body),
+                             relative_motion(b.box, n.wall_motion.box, b.wall),
+                             relative_motion(b.box, n.body_motion.box, b.body)});
+}
+
+} // namespace
+
+Displacement measure(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
+    const Particles& particles = fluid.particles;
+    DisplacementSpace& f = n.fluid_motion;
+    DisplacementSpace& w = n.wall_motion;
+    DisplacementSpace& b = n.body_motion;
+    Displacement motion;
+    motion.absolute = bound_motion(n.fluid, particles.fluid[field::position], f.box);
+    motion.absolute =
+        std::max(motion.absolute, bound_motion(n.body, particles.body[field::position], b.box));
+    if (fluid.moving_walls || n.steps == 1) { // fixed walls stay where they are
+        measure_walls(fluid);
+        for (const DisplacementBox& box : w.box) {
+            motion.absolute =
+                std::max(motion.absolute, box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).norm());
+        }
+    }
+    motion.fluid = relative_motion(f.box, f.box, f.fluid);
+    motion.solid =
+        std::max({relative_motion(f.box, w.box, f.wall), relative_motion(f.box, b.box, f.body),
+                  relative_motion(b.box, w.box, b.wall), relative_motion(b.box, b.box, b.body)});
+    if (fluid.ghosts) {
+        add_motion_of_ghosts(fluid, motion);
+    }
+    if (fluid.moving_walls) {
+        motion.solid = std::max(motion.solid, motion_beside_fixed_walls(fluid));
+    }
+    if (fluid.ghosts) {
+        std::array most{motion.fluid, motion.solid, motion.absolute};
+        fluid.ghosts->comm.largest(most);
+        motion = {most[0], most[1], most[2]};
+    }
+    return motion;
+}
+
+} // namespace hyoryu

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What the stages of a step send to the ranks that have ghosts of a particle.
+#pragma once
+
+#include "hyoryu/fluid/fluid.hpp"
+
+namespace hyoryu {
+
+/// Adds the listed columns to a delivery, where the store of a kind has them.
+template <class... F>
+void deliver(Delivery& delivery, const GhostsOfKind& kind, const Tiles& tiles, const Store& own,
+             Store& ghosts, Fields<F...>)
+{
+    const auto add = [&](auto field) {
+        if (own.has(field)) {
+            delivery.add(kind.halo, tiles, own, ghosts, field);
+        }
+    };
+    (add(F{}), ...);
+}
+
+template <class List>
+void deliver_fluid(Delivery& delivery, Fluid& fluid, List fields)
+{
+    Ghosts& g = *fluid.ghosts;
+    deliver(delivery, g.fluid, fluid.neighbours.fluid, fluid.particles.fluid, g.particles.fluid,
+            fields);
+}
+template <class List>
+void deliver_walls(Delivery& delivery, Fluid& fluid, List fields)
+{
+    Ghosts& g = *fluid.ghosts;
+    deliver(delivery, g.wall, fluid.neighbours.wall, fluid.particles.wall, g.particles.wall,
+            fields);
+}
+template <class List>
+void deliver_bodies(Delivery& delivery, Fluid& fluid, List fields)
+{
+    Ghosts& g = *fluid.ghosts;
+    deliver(delivery, g.body, fluid.neighbours.body, fluid.particles.body, g.particles.body,
+            fields);
+}
+
+/// Sends columns of the fluid; nothing without ranks.
+template <class List>
+void share_fluid(Fluid& fluid, List fields)
+{
+    if (fluid.ghosts) {
+        Delivery delivery;
+        deliver_fluid(delivery, fluid, fields);
+        delivery.send(fluid.ghosts->comm, fluid.ghosts->outbox, fluid.ghosts->inbox);
+    }
+}
+/// Sends columns of walls and bodies; nothing without ranks.
+template <class List>
+void share_solids(Fluid& fluid, List fields)
+{
+    if (fluid.ghosts) {
+        Delivery delivery;
+        deliver_walls(delivery, fluid, fields);
+        deliver_bodies(delivery, fluid, fields);
+        delivery.send(fluid.ghosts->comm, fluid.ghosts->outbox, fluid.ghosts->inbox);
+    }
+}
+
+/// Sends the velocities of all particles that move.
+void share_velocities(Fluid& fluid);
+
+/// The fluid rows that left the range of this rank go to their owners, those that left the domain
+/// stay.
+void migrate_fluid(Fluid& fluid, const TileLattice& lattice);
+/// Tiles and rows of the ghosts, from own tiles that were just made.
+void make_ghosts_of_fluid(Fluid& fluid);
+void make_ghosts_of_walls(Fluid& fluid);
+void make_ghosts_of_bodies(Fluid& fluid);
+/// Gives all ranks what the owners of the body particles behind joints have removed from films.
+void replicate_film_cuts(Fluid& fluid);
+/// Friction on solid particles acts a step later, on the ranks that own them then.
+class FrictionOnTheMove {
+public:
+    /// Sends the friction on own particles to the ranks that own them from now on.
+    FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice);
+    /// Gives it to the particles, which are in the stores now.
+    void arrive(Fluid& fluid) const;
+
+private:
+    std::vector<Parcel> wall_, body_; // numbers or rows, and forces
+};
+
+} // namespace hyoryu

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/ranks/rows.hpp"
+
+#include <numeric>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+} // namespace
+
+void put_rows(Parcel& parcel, const Store& store, std::span<const std::int32_t> rows)
+{
+    const auto put_column = [&](const auto& values) {
+        for (const std::int32_t row : rows) {
+            put(parcel, values[at(row)]);
+        }
+    };
+    store.for_each_column([&](const FieldInfo&, const auto& values) { put_column(values); });
+    put_column(store.id());
+    if (!store.owner().empty()) {
+        put_column(store.owner());
+    }
+}
+
+void take_rows(Unpacking& from, Store& store, std::span<const std::int32_t> rows)
+{
+    const auto take_column = [&](auto&& values) {
+        using T = std::remove_cvref_t<decltype(values[0])>;
+        for (const std::int32_t row : rows) {
+            values[at(row)] = from.take<T>();
+        }
+    };
+    store.for_each_column([&](const FieldInfo&, auto& values) { take_column(values); });
+    take_column(store.id());
+    if (!store.owner().empty()) {
+        take_column(store.owner());
+    }
+}
+
+std::vector<std::int32_t> rows_from(Index first, Index count)
+{
+    std::vector<std::int32_t> rows(at(count));
+    std::iota(rows.begin(), rows.end(), static_cast<std::int32_t>(first));
+    return rows;
+}
+
+void put_tiles(Parcel& parcel, const Tiles& tiles)
+{
+    put(parcel, tiles.tiles());
+    put(parcel, std::span(tiles.tile));
+    put(parcel, std::span(tiles.start));
+    for (const std::vector<float>* column : {&tiles.x, &tiles.y, &tiles.z}) {
+        put(parcel, std::span(*column));
+    }
+}
+
+void append_tiles(Unpacking& from, std::span<const std::int32_t> rows, Tiles& all)
+{
+    const auto tiles = at(from.take<Index>());
+    const std::size_t before = all.tile.size();
+    all.tile.resize(before + tiles);
+    from.take(std::span(all.tile).subspan(before));
+    std::vector<std::int32_t> start(tiles + 1);
+    from.take(std::span(start));
+    const std::int32_t first = all.start.back();
+    for (std::size_t t = 1; t <= tiles; ++t) {
+        all.start.push_back(first + start[t]);
+    }
+    for (std::vector<float>* column : {&all.x, &all.y, &all.z}) {
+        column->resize(at(all.start.back()));
+        from.take(std::span(*column).subspan(at(first)));
+    }
+    all.row.insert(all.row.end(), rows.begin(), rows.end());
+}
+
+} // namespace hyoryu

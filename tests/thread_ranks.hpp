@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Several ranks as threads of one process.
+#pragma once
+
+#include "hyoryu/ranks/comm.hpp"
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+namespace hyoryu::testing {
+
+/// What the ranks have in common: the parcels on their way, and a place to wait for each other. A
+/// rank that fails frees those that wait for it.
+class Board {
+public:
+    explicit Board(int ranks)
+        : ranks_(ranks), mail_(static_cast<std::size_t>(ranks),
+                               std::vector<Parcel>(static_cast<std::size_t>(ranks)))
+    {
+    }
+    int ranks() const { return ranks_; }
+    Parcel& mail(std::size_t from, std::size_t to) { return mail_[from][to]; }
+
+    void wait()
+    {
+        std::unique_lock lock(mutex_);
+        const long long turn = turn_;
+        if (++waiting_ == ranks_) {
+            waiting_ = 0;
+            turn_ += 1;
+            all_here_.notify_all();
+        }
+        all_here_.wait(lock, [&] { return turn_ != turn || failed_; });
+        if (failed_) {
+            throw std::runtime_error("another rank failed");
+        }
+    }
+    void fail()
+    {
+        const std::lock_guard lock(mutex_);
+        failed_ = true;
+        all_here_.notify_all();
+    }
+
+private:
+    int ranks_;
+    std::vector<std::vector<Parcel>> mail_;
+    std::mutex mutex_;
+    std::condition_variable all_here_;
+    int waiting_ = 0;
+    long long turn_ = 0;
+    bool failed_ = false;
+};
+
+/// What a rank has sent.
+struct Traffic {
+    long long calls = 0;    // that all ranks make together
+    long long messages = 0; // to others that are not empty
+    long long bytes = 0;
+};
+
+class ThreadComm : public Comm {
+public:
+    ThreadComm(Board& board, int rank) : board_(board), rank_(rank) {}
+
+    int rank() const override { return rank_; }
+    int size() const override { return board_.ranks(); }
+
+    std::vector<Parcel> exchange(std::vector<Parcel> out) override
+    {
+        traffic.calls += 1;
+        const auto self = static_cast<std::size_t>(rank_);
+        for (std::size_t to = 0; to < out.size(); ++to) {
+            traffic.messages += to != self && !out[to].empty() ? 1 : 0;
+            traffic.bytes += to != self ? static_cast<long long>(out[to].size()) : 0;
+            board_.mail(self, to) = std::move(out[to]);
+        }
+        board_.wait();
+        std::vector<Parcel> in;
+        for (std::size_t from = 0; from < static_cast<std::size_t>(size()); ++from) {
+            in.push_back(std::move(board_.mail(from, self)));
+        }
+        board_.wait();
+        return in;
+    }
+    void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) override
+    {
+        std::vector<Parcel> arrived = exchange(out);
+        for (std::size_t from = 0; from < in.size(); ++from) {
+            expects(arrived[from].size() == in[from].size());
+        }
+        in = std::move(arrived);
+    }
+    void largest(std::span<double> numbers) override
+    {
+        combine(numbers, [](double& a, double b) { a = b <= a ? a : (a <= b ? b : a + b); });
+    }
+    void add(std::span<std::int64_t> numbers) override
+    {
+        combine(numbers, [](std::int64_t& a, std::int64_t b) { a += b; });
+    }
+    void add(std::span<FixedSum> sums) override
+    {
+        combine(sums, [](FixedSum& a, const FixedSum& b) { a.add(b); });
+    }
+
+    Traffic traffic;
+
+private:
+    template <class T>
+    void combine(std::span<T> values, const auto& join)
+    {
+        Parcel parcel;
+        put(parcel, std::span<const T>(values));
+        const std::vector<Parcel> in =
+            exchange(std::vector<Parcel>(static_cast<std::size_t>(size()), parcel));
+        std::vector<T> others(values.size());
+        for (std::size_t from = 0; from < in.size(); ++from) {
+            Unpacking(in[from]).take(from == 0 ? values : std::span<T>(others));
+            for (std::size_t k = 0; from > 0 && k < values.size(); ++k) {
+                join(values[k], others[k]);
+            }
+        }
+    }
+
+    Board& board_;
+    int rank_;
+};
+
+/// Calls f(comm) on every rank, each in a thread of its own, and throws what the first rank that
+/// failed by itself has thrown.
+inline void on_ranks(int ranks, const std::function<void(ThreadComm&)>& f)
+{
+    Board board(ranks);
+
+    std::vector<std::thread> threads;
+    std::mutex one_at_a_time;
+    std::exception_ptr first;
+    for (int rank = 0; rank < ranks; ++rank) {
+        threads.emplace_back([&, rank] {
+            ThreadComm comm(board, rank);
+            try {
+                f(comm);
+            } catch (...) {
+                const std::lock_guard lock(one_at_a_time);
+                first = first ? first : std::current_exception();
+                board.fail();
+            }
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    if (first) {
+        std::rethrow_exception(first);
+    }
+}
+
+} // namespace hyoryu::testing
