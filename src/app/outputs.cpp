@@ -140,6 +140,21 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     }
 }
 
+bool any_due(const Simulation& sim)
+{
+    Clock clock = sim.clock;
+    count_due(clock, sim.scene);
+    return clock.history != sim.clock.history || clock.gauge != sim.clock.gauge ||
+           clock.frame != sim.clock.frame;
+}
+
+void count_due(Clock& clock, const Scene& scene)
+{
+    clock.history += history_due(clock, scene) ? 1 : 0;
+    clock.gauge += !scene.gauges.empty() && gauge_due(clock, scene) ? 1 : 0;
+    clock.frame += frame_due(clock, scene) ? 1 : 0;
+}
+
 void Outputs::update(Simulation& sim)
 {
     timer_.begin("histories");

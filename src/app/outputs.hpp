@@ -18,6 +18,10 @@ struct RestingPair {
     double weight = 0;
 };
 
+/// Whether output is due besides the contacts of a step, and its count in the clock.
+bool any_due(const Simulation& sim);
+void count_due(Clock& clock, const Scene& scene);
+
 class Outputs {
 public:
     /// Opens all files; a resumed run keeps the rows up to the present time of `sim`.

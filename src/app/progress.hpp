@@ -15,6 +15,8 @@ enum class Verbosity { quiet, normal };
 
 class Progress {
 public:
+    /// Shows and writes nothing.
+    Progress() = default;
     /// Opens `folder/run.log`, or goes on with it. `from`: simulated time at the start [s].
     Progress(const std::filesystem::path& folder, Verbosity verbosity, double from);
 
@@ -34,9 +36,9 @@ private:
     void show(const Simulation& sim);
 
     std::ofstream log_;
-    Verbosity verbosity_;
-    bool terminal_;
-    double from_;
+    Verbosity verbosity_ = Verbosity::quiet;
+    bool terminal_ = false;
+    double from_ = 0;
     std::int64_t first_step_ = -1;
     Clock::time_point start_ = Clock::now();
     Clock::time_point shown_ = start_;

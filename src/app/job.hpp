@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A run in progress.
+#pragma once
+
+#include "commands.hpp"
+#include "machine_load.hpp"
+#include "outputs.hpp"
+#include "progress.hpp"
+#include "resume.hpp"
+
+#include "hyoryu/io/results.hpp"
+
+#include <limits>
+
+namespace hyoryu {
+
+struct Job {
+    std::filesystem::path folder;
+    std::string case_text;
+    Simulation sim;
+    Comm* comm = nullptr; // of the processes that share the run; null for one
+    /// Those of the process that writes.
+    std::optional<FolderLock> lock = {};
+    std::optional<Outputs> outputs = {};
+    Progress progress = {};
+    std::int64_t first_step = 0;
+    std::int64_t good_step = 0;  // of `last_good`
+    std::int64_t saved_step = 0; // of the last checkpoint
+    /// At the last frame; none while the checkpoint on disk is newer and no recovery needs it.
+    std::optional<Snapshot> last_good = {};
+    double until = infinity;
+    bool stopped = false;              // on request
+    std::string command_to_go_on = {}; // for the user, where the run stops before its end
+    CoreWatch cores = {};
+    std::map<std::string, std::string> given = {}; // texts of checkpoints beside the case
+};
+
+/// What a run begins with.
+struct Beginning {
+    const RunOptions& options;
+    std::filesystem::path folder;
+    const Scene& scene;
+    const Plan& plan;
+    Comm* comm = nullptr;
+};
+
+/// A run from time 0, and one that goes on from a checkpoint; the filling goes with it.
+Job start(const Beginning& from, Filling filling);
+Job resume(const Beginning& from, Resumption state, Filling filling);
+
+/// Writes the output that is due; called after each step and once before the first.
+void update_outputs(Job& job);
+/// Keeps the present state as the one to return to.
+void keep_good_state(Job& job);
+/// Writes the present state to the disk. It takes the place of an older one in memory, unless the
+/// run may return to that: a recovery must not depend on when checkpoints were written.
+void write_checkpoint(Job& job);
+
+} // namespace hyoryu

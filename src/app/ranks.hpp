@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// A run that several processes share, as `mpirun` starts them.
+#pragma once
+
+#include "hyoryu/ranks/comm.hpp"
+#include "hyoryu/scene/scene.hpp"
+
+#include <exception>
+#include <optional>
+
+namespace hyoryu {
+
+/// The connection of this process with those that share its run, if it is one of several by what
+/// its environment says. Throws IoError if the module for that is missing.
+class Ranks {
+public:
+    Ranks();
+    ~Ranks();
+    Ranks(const Ranks&) = delete;
+    Ranks& operator=(const Ranks&) = delete;
+
+    /// Null for a process that is alone.
+    Comm* comm() const { return comm_; }
+    /// Tells of an error, once for all processes, and ends them with its exit code.
+    [[noreturn]] void end(const std::exception_ptr& error) const;
+
+private:
+    Comm* comm_ = nullptr;
+    void* module_ = nullptr;
+};
+
+/// Whether this process is the one that writes: alone, or rank 0.
+bool writes(const Comm* comm);
+
+/// What several processes cannot share yet. Throws CaseError, naming all of it.
+void refuse_unshared(const Scene& scene);
+
+/// Decisions that depend on a clock or a signal, which must be those of all processes: whether any
+/// of them wishes each of some things.
+template <std::size_t n>
+std::array<bool, n> any_wishes(Comm* comm, std::array<bool, n> wishes)
+{
+    if (comm == nullptr) {
+        return wishes;
+    }
+    std::array<double, n> numbers{};
+    for (std::size_t k = 0; k < n; ++k) {
+        numbers[k] = wishes[k] ? 1 : 0;
+    }
+    comm->largest(numbers);
+    for (std::size_t k = 0; k < n; ++k) {
+        wishes[k] = numbers[k] > 0;
+    }
+    return wishes;
+}
+
+} // namespace hyoryu

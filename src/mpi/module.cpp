@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Comm by MPI.
+#include "module.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace {
+
+using namespace hyoryu;
+
+// Longest piece of a message: MPI counts in int.
+constexpr std::size_t piece_bytes = std::size_t(1) << 30;
+
+void larger(void* in, void* inout, int* count, MPI_Datatype*)
+{
+    const auto* const a = static_cast<const double*>(in);
+    auto* const b = static_cast<double*>(inout);
+    for (int k = 0; k < *count; ++k) { // a comparison that fails keeps what is not a number
+        b[k] = b[k] <= a[k] ? a[k] : (a[k] <= b[k] ? b[k] : a[k] + b[k]);
+    }
+}
+
+void add_fixed(void* in, void* inout, int* count, MPI_Datatype*)
+{
+    const auto* a = static_cast<const std::byte*>(in);
+    auto* b = static_cast<std::byte*>(inout);
+    for (int k = 0; k < *count; ++k, a += sizeof(FixedSum), b += sizeof(FixedSum)) {
+        FixedSum one; // memory of MPI need not be aligned
+        FixedSum other;
+        std::memcpy(static_cast<void*>(&one), a, sizeof one);
+        std::memcpy(static_cast<void*>(&other), b, sizeof other);
+        other.add(one);
+        std::memcpy(b, static_cast<const void*>(&other), sizeof other);
+    }
+}
+
+// Calls f(first byte, bytes, tag) for the pieces of a message.
+void for_pieces(std::size_t bytes, const auto& f)
+{
+    int tag = 0;
+    for (std::size_t first = 0; first < bytes; first += piece_bytes) {
+        f(first, static_cast<int>(std::min(piece_bytes, bytes - first)), tag++);
+    }
+}
+
+class MpiComm : public Comm {
+public:
+    MpiComm()
+    {
+        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &thread_support_);
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+        MPI_Comm_size(MPI_COMM_WORLD, &size_);
+        MPI_Op_create(larger, 1, &larger_);
+        MPI_Op_create(add_fixed, 1, &add_fixed_);
+        MPI_Type_contiguous(sizeof(FixedSum), MPI_BYTE, &fixed_sum_);
+        MPI_Type_commit(&fixed_sum_);
+    }
+    ~MpiComm() override
+    {
+        MPI_Type_free(&fixed_sum_);
+        MPI_Op_free(&larger_);
+        MPI_Op_free(&add_fixed_);
+        MPI_Finalize();
+    }
+    MpiComm(const MpiComm&) = delete;
+    MpiComm& operator=(const MpiComm&) = delete;
+
+    int rank() const override { return rank_; }
+    int size() const override { return size_; }
+
+    std::vector<Parcel> exchange(std::vector<Parcel> out) override
+    {
+        std::vector<std::uint64_t> sent;
+        for (const Parcel& parcel : out) {
+            sent.push_back(parcel.size());
+        }
+        std::vector<std::uint64_t> received(out.size());
+        MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T,
+                     MPI_COMM_WORLD);
+        std::vector<Parcel> in(out.size());
+        for (std::size_t r = 0; r < in.size(); ++r) {
+            in[r].resize(received[r]);
+        }
+        exchange(out, in);
+        return in;
+    }
+
+    void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) override
+    {
+        const auto self = static_cast<std::size_t>(rank_);
+        requests_.clear();
+        const auto request = [&]() -> MPI_Request* { return &requests_.emplace_back(); };
+        for (std::size_t r = 0; r < in.size(); ++r) {
+            if (r != self) {
+                for_pieces(in[r].size(), [&](std::size_t first, int bytes, int tag) {
+                    MPI_Irecv(in[r].data() + first, bytes, MPI_BYTE, static_cast<int>(r), tag,
+                              MPI_COMM_WORLD, request());
+                });
+            }
+        }
+        for (std::size_t r = 0; r < out.size(); ++r) {
+            if (r != self) {
+                for_pieces(out[r].size(), [&](std::size_t first, int bytes, int tag) {
+                    MPI_Isend(out[r].data() + first, bytes, MPI_BYTE, static_cast<int>(r), tag,
+                              MPI_COMM_WORLD, request());
+                });
+            }
+        }
+        in[self] = out[self];
+        MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+    }
+
+    void largest(std::span<double> numbers) override { reduce(numbers, MPI_DOUBLE, larger_); }
+    void add(std::span<std::int64_t> numbers) override { reduce(numbers, MPI_INT64_T, MPI_SUM); }
+    void add(std::span<FixedSum> sums) override { reduce(sums, fixed_sum_, add_fixed_); }
+
+private:
+    template <class T>
+    static void reduce(std::span<T> values, MPI_Datatype type, MPI_Op op)
+    {
+        MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), type, op,
+                      MPI_COMM_WORLD);
+    }
+
+    int rank_ = 0;
+    int size_ = 1;
+    int thread_support_ = 0;
+    MPI_Op larger_ = MPI_OP_NULL;
+    MPI_Op add_fixed_ = MPI_OP_NULL;
+    MPI_Datatype fixed_sum_ = MPI_DATATYPE_NULL;
+    std::vector<MPI_Request> requests_;
+};
+
+std::unique_ptr<MpiComm> connection;
+
+} // namespace
+
+extern "C" {
+
+[[gnu::visibility("default")]] hyoryu::Comm* hyoryu_module_begin_ranks()
+{
+    connection = std::make_unique<MpiComm>();
+    return connection.get();
+}
+
+[[gnu::visibility("default")]] void hyoryu_module_end_ranks()
+{
+    connection.reset();
+}
+
+[[gnu::visibility("default")]] void hyoryu_module_abort_ranks(int code)
+{
+    MPI_Abort(MPI_COMM_WORLD, code);
+}
+
+} // extern "C"
