@@ -105,6 +105,7 @@ int run_chosen(const CLI::App& app, const CommandOptions& options)
         {"describe", [&] { return describe_keys(options.describe); }},
         {"new", [&] { return write_new_case(options.new_case); }},
         {"info", [&] { return show_info(options.info); }},
+        {"stop", [&] { return stop_run(options.stop); }},
         {"render", [&] { return render_results(options.render); }},
         {"report", [&] { return write_report(options.report); }},
         {"convert", [&] { return convert_results(options.convert); }},

@@ -20,6 +20,7 @@ struct CommandOptions {
     DescribeOptions describe;
     NewOptions new_case;
     InfoOptions info;
+    StopOptions stop;
     RenderOptions render;
     ReportOptions report;
     ConvertOptions convert;

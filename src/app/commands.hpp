@@ -46,6 +46,12 @@ struct InfoOptions {
 };
 int show_info(const InfoOptions& options);
 
+struct StopOptions {
+    std::filesystem::path folder;
+};
+/// Asks the run that writes to a results folder to stop as SIGUSR1 does.
+int stop_run(const StopOptions& options);
+
 struct NewOptions {
     std::string name;               // of a template
     std::filesystem::path file;     // the case file or its folder; empty: NAME.toml here

@@ -224,6 +224,12 @@ void add_info(CLI::App& app, InfoOptions& options)
     info->add_flag("--json", options.json, "the same as JSON, for programs");
 }
 
+void add_stop(CLI::App& app, StopOptions& options)
+{
+    auto* stop = app.add_subcommand("stop", "ask a run to write a checkpoint and end");
+    add_results(*stop, options.folder);
+}
+
 void add_new(CLI::App& app, NewOptions& options)
 {
     auto* new_ = app.add_subcommand("new", "write a commented case to start from");
@@ -310,6 +316,7 @@ void add_commands(CLI::App& app, CommandOptions& options)
     add_describe(app, options.describe);
     add_new(app, options.new_case);
     add_info(app, options.info);
+    add_stop(app, options.stop);
     add_render(app, options.render);
     add_report(app, options.report);
     add_convert(app, options.convert);

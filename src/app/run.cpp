@@ -104,7 +104,12 @@ void advance(Job& job)
 {
     Simulation& sim = job.sim;
     double saved = job.progress.wall_seconds();
-    bool stop = any_wishes<1>(job.comm, {stop_requested()})[0];
+    std::optional<StopFile> file;
+    if (writes(job.comm)) {
+        file.emplace(job.folder);
+    }
+    const auto asked = [&] { return stop_requested() || (file && file->requested()); };
+    bool stop = any_wishes<1>(job.comm, {asked()})[0];
     while (!finished(sim.clock, sim.scene) && sim.clock.time < job.until && !stop) {
         if (!step_or_recover(job)) {
             continue;
@@ -116,8 +121,7 @@ void advance(Job& job)
         }
         const double since = job.progress.wall_seconds() - saved;
         const auto wishes = any_wishes<2>(
-            job.comm,
-            {stop_requested(), writes(job.comm) && since > sim.scene.output.checkpoint_every});
+            job.comm, {asked(), writes(job.comm) && since > sim.scene.output.checkpoint_every});
         stop = wishes[0];
         if (wishes[1]) {
             write_checkpoint(job);

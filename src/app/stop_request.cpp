@@ -43,4 +43,27 @@ bool stop_requested()
     return requested != 0;
 }
 
+std::filesystem::path stop_file(const std::filesystem::path& folder)
+{
+    return folder / "stop";
+}
+
+StopFile::StopFile(const std::filesystem::path& folder) : file_(stop_file(folder))
+{
+    std::error_code fault;
+    std::filesystem::remove(file_, fault);
+}
+
+bool StopFile::requested()
+{
+    constexpr auto interval = std::chrono::seconds(1);
+    const auto now = std::chrono::steady_clock::now();
+    if (!seen_ && now - looked_ >= interval) {
+        looked_ = now;
+        std::error_code fault;
+        seen_ = std::filesystem::remove(file_, fault);
+    }
+    return seen_;
+}
+
 } // namespace hyoryu

@@ -2,6 +2,9 @@
 // Ctrl-C, SIGTERM and SIGUSR1 ask a run to stop after the step it is in.
 #pragma once
 
+#include <chrono>
+#include <filesystem>
+
 namespace hyoryu {
 
 /// From now on the first SIGINT, SIGTERM or SIGHUP is taken as a request, and the second one ends
@@ -13,5 +16,22 @@ void watch_for_stop();
 /// at once, for nothing is written yet.
 void watch_for_batch_signal();
 bool stop_requested();
+
+/// The file by which `hyoryu stop` asks the run of a results folder to stop.
+std::filesystem::path stop_file(const std::filesystem::path& folder);
+
+/// Looks for that file once a second.
+class StopFile {
+public:
+    /// A request that was made before the run began is removed.
+    explicit StopFile(const std::filesystem::path& folder);
+    /// Whether the file is there or was; it is removed when it is seen.
+    bool requested();
+
+private:
+    std::filesystem::path file_;
+    std::chrono::steady_clock::time_point looked_ = std::chrono::steady_clock::now();
+    bool seen_ = false;
+};
 
 } // namespace hyoryu

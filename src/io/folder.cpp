@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 /// Files that runs, `render`, `report` and `convert` write, as patterns of paths relative to the
 /// folder.
 constexpr std::array our_files{
-    R"(case\.toml|plan\.json|summary\.json|run\.log|report\.html|results\.h5|checkpoint(\.previous)?\.h5|all\.vtkhdf)",
+    R"(case\.toml|plan\.json|summary\.json|run\.log|stop|report\.html|results\.h5|checkpoint(\.previous)?\.h5|all\.vtkhdf)",
     R"((bodies|contacts|energy|gauges|open)(_[0-9]+)?\.csv)",
     R"((fluid|bodies|surfaces|walls|structures)\.(hdf|hdf\.series))",
     R"(frames/[a-z]+_[0-9]{6,}\.hdf)",

@@ -207,6 +207,24 @@ class Runs(ProgramTest):
                          str(summary["simulated_seconds"] + 0.01))
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_stop_ends_a_run_with_a_checkpoint(self):
+        case = self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.03"))
+        process = subprocess.Popen([HYORYU, "run", case, "-o", "out"], cwd=self.dir, stderr=subprocess.DEVNULL)
+        while not (self.dir / "out" / "frames" / "fluid_000001.hdf").exists():
+            time.sleep(0.01)
+            self.assertIsNone(process.poll(), "ended before it was asked to")
+        self.assertEqual(self.call("stop", "out").returncode, 0)
+        self.assertEqual(process.wait(60), 130)
+        self.assertEqual(json.loads(self.read("out", "summary.json"))["exit_reason"], "interrupted")
+        self.assertFalse((self.dir / "out" / "stop").exists(), "the request outlives the run")
+        again = self.call("stop", "out")
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("no run writes to", again.stderr)
+        self.assertEqual(self.call("stop", ".").returncode, 2)
+        (self.dir / "out" / "stop").write_text("left by another run")
+        done = self.call("run", case, "-o", "out", "--resume", "--until", "0.3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_e11_threads_are_those_of_the_environment(self):
         for environment, arguments, threads in (("1", (), 1), ("2", (), 2), ("1", ("--threads", "2"), 2)):
             done = self.call("run", self.write(self.SMALL), "-o", "out", "--force", "--until", "0.01",

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// `hyoryu stop`: a file in the results folder, which the run looks for. It reaches a run on another
+// machine, and one that mpirun has started, to which Ctrl-C does not leave the time for a
+// checkpoint.
+#include "commands.hpp"
+#include "options.hpp"
+#include "stop_request.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
+
+#include <fmt/format.h>
+
+namespace hyoryu {
+
+namespace {
+
+// Whether a run holds the folder.
+bool is_running(const std::filesystem::path& folder)
+{
+    try {
+        const FolderLock lock(folder);
+        return false;
+    } catch (const CaseError&) {
+        return true;
+    }
+}
+
+} // namespace
+
+int stop_run(const StopOptions& options)
+{
+    std::error_code fault;
+    if (!std::filesystem::exists(options.folder / "plan.json", fault)) {
+        throw CaseError(
+            fmt::format("{} is not a results folder: it has no plan.json", options.folder.string()),
+            "name the folder that the run writes to");
+    }
+    if (!is_running(options.folder)) {
+        throw CaseError(fmt::format("no run writes to `{}`", options.folder.string()),
+                        "only a run that is in progress can be stopped");
+    }
+    write_text(stop_file(options.folder), "This file asks the run to stop.\n");
+    fmt::print("the run will write a checkpoint and end after the step it is in\n");
+    return exit_code::done;
+}
+
+} // namespace hyoryu
