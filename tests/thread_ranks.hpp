@@ -2,7 +2,8 @@
 // Several ranks as threads of one process.
 #pragma once
 
-#include "hyoryu/ranks/comm.hpp"
+#include "hyoryu/core/parallel.hpp"
+#include "hyoryu/ranks/counted.hpp"
 
 #include <condition_variable>
 #include <exception>
@@ -56,13 +57,6 @@ private:
     bool failed_ = false;
 };
 
-/// What a rank has sent.
-struct Traffic {
-    long long calls = 0;    // that all ranks make together
-    long long messages = 0; // to others that are not empty
-    long long bytes = 0;
-};
-
 class ThreadComm : public Comm {
 public:
     ThreadComm(Board& board, int rank) : board_(board), rank_(rank) {}
@@ -72,11 +66,8 @@ public:
 
     std::vector<Parcel> exchange(std::vector<Parcel> out) override
     {
-        traffic.calls += 1;
         const auto self = static_cast<std::size_t>(rank_);
         for (std::size_t to = 0; to < out.size(); ++to) {
-            traffic.messages += to != self && !out[to].empty() ? 1 : 0;
-            traffic.bytes += to != self ? static_cast<long long>(out[to].size()) : 0;
             board_.mail(self, to) = std::move(out[to]);
         }
         board_.wait();
@@ -108,8 +99,6 @@ public:
         combine(sums, [](FixedSum& a, const FixedSum& b) { a.add(b); });
     }
 
-    Traffic traffic;
-
 private:
     template <class T>
     void combine(std::span<T> values, const auto& join)
@@ -133,7 +122,7 @@ private:
 
 /// Calls f(comm) on every rank, each in a thread of its own, and throws what the first rank that
 /// failed by itself has thrown.
-inline void on_ranks(int ranks, const std::function<void(ThreadComm&)>& f)
+inline void on_ranks(int ranks, const std::function<void(CountedComm&)>& f)
 {
     Board board(ranks);
 
@@ -142,8 +131,10 @@ inline void on_ranks(int ranks, const std::function<void(ThreadComm&)>& f)
     std::exception_ptr first;
     for (int rank = 0; rank < ranks; ++rank) {
         threads.emplace_back([&, rank] {
-            ThreadComm comm(board, rank);
+            ThreadComm direct(board, rank);
+            CountedComm comm(direct);
             try {
+                set_threads(1);
                 f(comm);
             } catch (...) {
                 const std::lock_guard lock(one_at_a_time);

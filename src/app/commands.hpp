@@ -16,6 +16,7 @@ struct RunOptions {
     std::filesystem::path folder; // empty: case stem + "-results" in the current folder
     std::vector<std::string> overrides;
     int threads = 0;             // 0: all
+    long long rebalance = 50;    // steps between checks of the balance of processes; 0: never
     std::optional<double> until; // [s]
     bool resume = false;
     bool force = false;

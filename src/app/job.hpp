@@ -6,6 +6,7 @@
 #include "machine_load.hpp"
 #include "outputs.hpp"
 #include "progress.hpp"
+#include "rank_log.hpp"
 #include "resume.hpp"
 
 #include "hyoryu/io/results.hpp"
@@ -19,6 +20,7 @@ struct Job {
     std::string case_text;
     Simulation sim;
     Comm* comm = nullptr; // of the processes that share the run; null for one
+    RankLog* ranks = nullptr;
     /// Those of the process that writes.
     std::optional<FolderLock> lock = {};
     std::optional<Outputs> outputs = {};
@@ -41,7 +43,8 @@ struct Beginning {
     std::filesystem::path folder;
     const Scene& scene;
     const Plan& plan;
-    Comm* comm = nullptr;
+    CountedComm* comm = nullptr;
+    RankLog* ranks = nullptr;
 };
 
 /// A run from time 0, and one that goes on from a checkpoint; the filling goes with it.

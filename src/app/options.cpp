@@ -54,6 +54,11 @@ void add_run(CLI::App& app, RunOptions& options)
                     "threads to use (default: OMP_NUM_THREADS, else all)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
+    run->add_option("--rebalance", options.rebalance,
+                    "with several processes: steps between checks of their balance; 0: never "
+                    "(default: 50)")
+        ->type_name("STEPS")
+        ->check(CLI::Range(0, 1000000));
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
         ->type_name("SECONDS")
         ->check(finite & CLI::NonNegativeNumber);

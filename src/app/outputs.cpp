@@ -140,49 +140,44 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     }
 }
 
-bool any_due(const Simulation& sim)
+bool particles_due(const Simulation& sim)
 {
     Clock clock = sim.clock;
-    count_due(clock, sim.scene);
-    return clock.history != sim.clock.history || clock.gauge != sim.clock.gauge ||
-           clock.frame != sim.clock.frame;
+    count_due_of_particles(clock, sim.scene);
+    return clock.gauge != sim.clock.gauge || clock.frame != sim.clock.frame;
 }
 
-void count_due(Clock& clock, const Scene& scene)
+void count_due_of_particles(Clock& clock, const Scene& scene)
 {
-    clock.history += history_due(clock, scene) ? 1 : 0;
     clock.gauge += !scene.gauges.empty() && gauge_due(clock, scene) ? 1 : 0;
     clock.frame += frame_due(clock, scene) ? 1 : 0;
 }
 
-void Outputs::update(Simulation& sim)
+void Outputs::write_particles(Simulation& sim)
 {
-    timer_.begin("histories");
-    log_contacts(sim);
-    if (history_due(sim.clock, sim.scene)) {
-        write_histories(sim);
-        sim.clock.history += 1;
-    }
-    timer_.end();
-    if (gauges_ && gauge_due(sim.clock, sim.scene)) {
+    Clock counted = sim.clock;
+    count_due_of_particles(counted, sim.scene);
+    if (counted.gauge != sim.clock.gauge) {
         write_gauges(sim);
-        sim.clock.gauge += 1;
     }
-    if (frame_due(sim.clock, sim.scene)) {
+    sim.clock.gauge = counted.gauge;
+    if (counted.frame != sim.clock.frame) {
         timer_.begin("frames");
         write_resting(sim);
         count_in_solids(sim);
         write_frame(sim);
-        sim.clock.frame += 1;
         timer_.end();
     }
+    sim.clock.frame = counted.frame;
 }
 
-void Outputs::write_histories(const Simulation& sim)
+void Outputs::write_histories(const Simulation& sim, const Totals& now)
 {
+    timer_.begin("histories");
     write_bodies(sim);
-    write_energy(sim);
+    write_energy(sim, now);
     write_open(sim);
+    timer_.end();
 }
 
 void Outputs::write_gauges(Simulation& sim)
@@ -217,9 +212,8 @@ void Outputs::write_bodies(const Simulation& sim)
     }
 }
 
-void Outputs::write_energy(const Simulation& sim)
+void Outputs::write_energy(const Simulation& sim, const Totals& t)
 {
-    const Totals t = totals(sim);
     std::vector<std::string> row =
         cells({sim.clock.time, t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic,
                t.body_potential, sim.conservation.contact_loss});
@@ -274,6 +268,7 @@ void Outputs::write_contact(const Simulation& sim, const Contact& c)
 
 void Outputs::log_contacts(const Simulation& sim)
 {
+    timer_.begin("histories");
     for (const Contact& contact : sim.contacts) {
         if (contact.kind == Contact::Kind::impact) {
             write_contact(sim, contact);
@@ -300,6 +295,7 @@ void Outputs::log_contacts(const Simulation& sim)
         sum.located = sum.located && rest.sum.located;
         rest.sum = sum;
     }
+    timer_.end();
 }
 
 void Outputs::write_resting(const Simulation& sim)

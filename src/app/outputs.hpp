@@ -18,9 +18,10 @@ struct RestingPair {
     double weight = 0;
 };
 
-/// Whether output is due besides the contacts of a step, and its count in the clock.
-bool any_due(const Simulation& sim);
-void count_due(Clock& clock, const Scene& scene);
+/// Whether output of the particles is due, gauges or a frame.
+bool particles_due(const Simulation& sim);
+/// Counts in the clock what is due of it.
+void count_due_of_particles(Clock& clock, const Scene& scene);
 
 class Outputs {
 public:
@@ -28,8 +29,13 @@ public:
     Outputs(std::filesystem::path folder, const Simulation& sim, const Bounds& domain);
     Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot& resumed);
 
-    /// Writes all due output; called after each step and once before the first.
-    void update(Simulation& sim);
+    // What is due, in this order; called after each step and once before the first.
+    /// The contacts of the step.
+    void log_contacts(const Simulation& sim);
+    /// A row of the histories; `now`: its sums.
+    void write_histories(const Simulation& sim, const Totals& now);
+    /// Gauges and frames.
+    void write_particles(Simulation& sim);
     /// The state for a restart: of the simulation and of the sums below.
     Snapshot snapshot(const Simulation& sim) const;
     /// Waits until all rows and frames so far are on disk.
@@ -46,12 +52,10 @@ private:
     // Sum of the resting contacts of one pair over the present output interval.
     using PairKey = std::pair<int, int>;
 
-    void write_histories(const Simulation& sim);
     void write_bodies(const Simulation& sim);
-    void write_energy(const Simulation& sim);
+    void write_energy(const Simulation& sim, const Totals& now);
     void write_open(const Simulation& sim);
     void write_gauges(Simulation& sim);
-    void log_contacts(const Simulation& sim);
     void write_contact(const Simulation& sim, const Contact& contact);
     void write_resting(const Simulation& sim);
     void write_frame(const Simulation& sim);

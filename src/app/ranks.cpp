@@ -86,12 +86,6 @@ Function function_of(void* module, const char* name)
     return reinterpret_cast<Function>(found);
 }
 
-std::string host_name()
-{
-    std::array<char, 256> name{};
-    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown host";
-}
-
 // Whether every process meets an error, because all of them know what it follows from.
 bool is_of_all(const std::exception_ptr& error)
 {
@@ -108,22 +102,28 @@ bool is_of_all(const std::exception_ptr& error)
 
 } // namespace
 
+std::string host_name()
+{
+    std::array<char, 256> name{};
+    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown host";
+}
+
 Ranks::Ranks()
 {
     if (is_one_of_several()) {
         module_ = open_module();
-        comm_ = function_of<mpi_module::Begin>(module_, mpi_module::begin_name)();
+        comm_.emplace(*function_of<mpi_module::Begin>(module_, mpi_module::begin_name)());
     }
 }
 
 Ranks::~Ranks()
 {
-    if (comm_ != nullptr) {
+    if (comm_) {
         function_of<mpi_module::End>(module_, mpi_module::end_name)();
     }
 }
 
-void Ranks::end(const std::exception_ptr& error) const
+void Ranks::end(const std::exception_ptr& error)
 {
     // What all processes meet, rank 0 tells: its MPI_Abort comes within seconds.
     constexpr auto patience = std::chrono::seconds(10);
@@ -136,6 +136,92 @@ void Ranks::end(const std::exception_ptr& error) const
     std::fflush(stdout);
     function_of<mpi_module::Abort>(module_, mpi_module::abort_name)(code);
     std::_Exit(code);
+}
+
+namespace {
+
+void put_text(Parcel& parcel, const std::string& text)
+{
+    put(parcel, text.size());
+    put(parcel, std::span<const char>(text));
+}
+
+std::string take_text(Unpacking& from)
+{
+    std::string text(from.take<std::size_t>(), '\0');
+    from.take(std::span<char>(text));
+    return text;
+}
+
+void put_column(Parcel& parcel, const Column& column)
+{
+    put_text(parcel, column.name);
+    put_text(parcel, column.unit);
+    put(parcel, column.components);
+    put(parcel, column.values.index());
+    std::visit(
+        [&]<class T>(const std::vector<T>& values) {
+            put(parcel, values.size());
+            put(parcel, std::span<const T>(values));
+        },
+        column.values);
+}
+
+template <std::size_t index = 0>
+void take_values(Unpacking& from, std::size_t which, Column& column)
+{
+    if constexpr (index < std::variant_size_v<decltype(column.values)>) {
+        if (which != index) {
+            return take_values<index + 1>(from, which, column);
+        }
+        auto& values = column.values.emplace<index>(from.take<std::size_t>());
+        from.take(std::span(values));
+    }
+}
+
+Column take_column(Unpacking& from)
+{
+    Column column{take_text(from), take_text(from), from.take<int>(), {}};
+    take_values(from, from.take<std::size_t>(), column);
+    return column;
+}
+
+Parcel packed(const Snapshot& state)
+{
+    Parcel parcel;
+    put(parcel, state.arrays.size());
+    for (const auto& [name, column] : state.arrays) {
+        put_text(parcel, name);
+        put_column(parcel, column);
+    }
+    put(parcel, state.texts.size());
+    for (const auto& [name, text] : state.texts) {
+        put_text(parcel, name);
+        put_text(parcel, text);
+    }
+    return parcel;
+}
+
+} // namespace
+
+Snapshot state_of_root(Comm& comm, const Snapshot* state)
+{
+    std::vector<Parcel> out(static_cast<std::size_t>(comm.size()));
+    if (state != nullptr) {
+        std::ranges::fill(out, packed(*state));
+    }
+    const std::vector<Parcel> in = comm.exchange(std::move(out));
+    Unpacking from(in.front());
+    Snapshot received;
+    for (auto left = from.take<std::size_t>(); left > 0; --left) {
+        std::string name = take_text(from);
+        received.arrays.emplace(std::move(name), take_column(from));
+    }
+    for (auto left = from.take<std::size_t>(); left > 0; --left) {
+        std::string name = take_text(from);
+        received.texts.emplace(std::move(name), take_text(from));
+    }
+    return received;
 }
 
 bool writes(const Comm* comm)
@@ -152,10 +238,6 @@ void refuse_unshared(const Scene& scene)
     if (!scene.open.empty()) {
         refuse("open", "several processes cannot share a case with open sides yet",
                "run it in one process, with threads");
-    }
-    if (scene.time.recover) {
-        refuse("time.recover", "several processes cannot recover from a failed step yet",
-               "leave it out, or run the case in one process");
     }
     if (!all.empty()) {
         throw CaseError(all);

@@ -2,11 +2,13 @@
 // A run that several processes share, as `mpirun` starts them.
 #pragma once
 
-#include "hyoryu/ranks/comm.hpp"
+#include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/ranks/counted.hpp"
 #include "hyoryu/scene/scene.hpp"
 
 #include <exception>
 #include <optional>
+#include <string>
 
 namespace hyoryu {
 
@@ -20,20 +22,26 @@ public:
     Ranks& operator=(const Ranks&) = delete;
 
     /// Null for a process that is alone.
-    Comm* comm() const { return comm_; }
+    CountedComm* comm() { return comm_ ? &*comm_ : nullptr; }
     /// Tells of an error, once for all processes, and ends them with its exit code.
-    [[noreturn]] void end(const std::exception_ptr& error) const;
+    [[noreturn]] void end(const std::exception_ptr& error);
 
 private:
-    Comm* comm_ = nullptr;
+    std::optional<CountedComm> comm_;
     void* module_ = nullptr;
 };
+
+/// Of this machine.
+std::string host_name();
 
 /// Whether this process is the one that writes: alone, or rank 0.
 bool writes(const Comm* comm);
 
 /// What several processes cannot share yet. Throws CaseError, naming all of it.
 void refuse_unshared(const Scene& scene);
+
+/// Gives all processes the state that rank 0 has.
+Snapshot state_of_root(Comm& comm, const Snapshot* state);
 
 /// Decisions that depend on a clock or a signal, which must be those of all processes: whether any
 /// of them wishes each of some things.

@@ -49,12 +49,18 @@ void check_memory(const Plan& plan)
     }
 }
 
+std::optional<RankSummary> summary_of_ranks(const Job& job)
+{
+    return job.ranks != nullptr ? std::optional(job.ranks->summary()) : std::nullopt;
+}
+
 // Called where results are written, while the simulation is whole.
-void write_closing(Job& job, const std::string& reason)
+void write_closing(Job& job, const std::string& reason, const std::optional<RankSummary>& ranks)
 {
     write_text(job.folder / "summary.json",
                summary_json(job.sim, reason, job.progress.wall_seconds(), job.first_step,
-                            job.outputs->timer(), job.outputs->frame_cost()));
+                            job.outputs->timer(), job.outputs->frame_cost(),
+                            ranks ? &*ranks : nullptr));
     write_master(job.folder, job.case_text, std::string(build_info::version));
 }
 
@@ -64,7 +70,13 @@ void recover(Job& job, const NumericalError& error)
 {
     const Scene& scene = job.sim.scene;
     Simulation sim = make_simulation(scene, job.sim.plan, fill(scene));
-    restore(sim, *job.last_good);
+    const Snapshot* const good = job.last_good ? &*job.last_good : nullptr; // of rank 0
+    if (job.comm == nullptr) {
+        restore(sim, *good);
+    } else {
+        restore(sim, state_of_root(*job.comm, good));
+        keep_share(sim, *job.comm);
+    }
     sim.clock.share = 0.5 * job.sim.clock.share;
     job.sim.timer.end(); // of the failed stage
     sim.timer = job.sim.timer;
@@ -74,8 +86,10 @@ void recover(Job& job, const NumericalError& error)
     job.progress.line(fmt::format(
         "recovery: back to t = {} s, then to the end with time steps of {} of the limits",
         sim.clock.time, sim.clock.share));
-    job.outputs.reset(); // all that it holds back is on disk before it is read again
-    job.outputs.emplace(job.folder, sim, *job.last_good);
+    if (job.outputs) {
+        job.outputs.reset(); // all that it holds back is on disk before it is read again
+        job.outputs.emplace(job.folder, sim, *job.last_good);
+    }
     job.sim = std::move(sim);
 }
 
@@ -113,6 +127,9 @@ void advance(Job& job)
     while (!finished(sim.clock, sim.scene) && sim.clock.time < job.until && !stop) {
         if (!step_or_recover(job)) {
             continue;
+        }
+        if (job.ranks != nullptr) {
+            job.ranks->balance_work(sim);
         }
         const std::int64_t frame = sim.clock.frame;
         update_outputs(job);
@@ -190,8 +207,9 @@ int finish(Job& job)
     }
     with_whole(job.sim, job.comm, [&] { count_in_solids(job.sim); });
     write_checkpoint(job);
+    const std::optional<RankSummary> ranks = summary_of_ranks(job);
     with_whole(job.sim, job.comm, [&] {
-        write_closing(job, reason);
+        write_closing(job, reason, ranks);
         job.progress.end(job.sim);
         tell_doubts(job);
     });
@@ -217,12 +235,13 @@ int finish(Job& job)
 // The state of the last frame was good; a run can go on from it with other settings.
 void give_up(Job& job, const std::string& error, const std::string& exit_reason)
 {
+    const std::optional<RankSummary> ranks = summary_of_ranks(job);
     with_whole(job.sim, job.comm, [&] {
         job.progress.abandon("error: " + error);
         if (job.last_good && job.good_step > job.saved_step) {
             job.outputs->write_checkpoint(std::move(*job.last_good));
         }
-        write_closing(job, exit_reason);
+        write_closing(job, exit_reason, ranks);
     });
 }
 
@@ -242,7 +261,7 @@ int carry_out(Job& job)
 }
 
 // The run, or what this process does of it.
-int run_share(const RunOptions& options, Comm* comm)
+int run_share(const RunOptions& options, CountedComm* comm)
 {
     set_threads(options.threads);
     const fs::path folder = results_folder(options);
@@ -264,7 +283,11 @@ int run_share(const RunOptions& options, Comm* comm)
         }
     }
     check_memory(plan);
-    const Beginning beginning{options, folder, scene, plan, comm};
+    std::optional<RankLog> ranks;
+    if (comm != nullptr) {
+        ranks.emplace(*comm, options.rebalance);
+    }
+    const Beginning beginning{options, folder, scene, plan, comm, ranks ? &*ranks : nullptr};
     Job job = from ? resume(beginning, std::move(*from), std::move(filling))
                    : start(beginning, std::move(filling));
     from.reset();
@@ -278,7 +301,7 @@ int run_share(const RunOptions& options, Comm* comm)
 int run_case(const RunOptions& options)
 {
     watch_for_batch_signal();
-    const Ranks ranks;
+    Ranks ranks;
     if (ranks.comm() == nullptr) {
         return run_share(options, nullptr);
     }

@@ -82,7 +82,11 @@ TimingBudget timing_budget(const RunOptions& options, const Scene& scene, const 
 // What processes begin with that do not write.
 Job follower(const Beginning& from, Simulation sim)
 {
-    return {.folder = from.folder, .case_text = {}, .sim = std::move(sim), .comm = from.comm};
+    return {.folder = from.folder,
+            .case_text = {},
+            .sim = std::move(sim),
+            .comm = from.comm,
+            .ranks = from.ranks};
 }
 
 Progress progress_of(const Beginning& from, double time)
@@ -159,6 +163,9 @@ Job start(const Beginning& from, Filling filling)
         job.lock.emplace(std::move(*lock));
         job.progress = progress_of(from, 0);
         job.outputs.emplace(from.folder, job.sim, domain);
+        if (job.ranks != nullptr) {
+            job.ranks->open(from.folder);
+        }
         job.given = texts_of_given_case(from.options, from.scene);
     });
     update_outputs(job);
@@ -192,6 +199,9 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
                 fmt::format("note: {}; using the previous checkpoint", state.passed_over));
         }
         job.outputs.emplace(from.folder, job.sim, state.state);
+        if (job.ranks != nullptr) {
+            job.ranks->open(from.folder);
+        }
         if (state.changed || !fs::exists(from.folder / "plan.json")) {
             write_case(from.folder, from.scene, from.plan);
         }
@@ -212,16 +222,26 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
 void update_outputs(Job& job)
 {
     Simulation& sim = job.sim;
-    if (!any_due(sim)) {
-        if (job.outputs) {
-            job.outputs->update(sim); // the contacts of the step
-        }
-        return;
+    if (job.outputs) {
+        job.outputs->log_contacts(sim);
     }
-    Clock clock = sim.clock;
-    with_whole(sim, job.comm, [&] { job.outputs->update(sim); });
-    count_due(clock, sim.scene);
-    sim.clock = clock; // of all processes
+    if (history_due(sim.clock, sim.scene)) {
+        const Totals now = totals(sim); // of all processes
+        if (job.outputs) {
+            job.outputs->write_histories(sim, now);
+        }
+        sim.clock.history += 1;
+    }
+    if (particles_due(sim)) {
+        Clock clock = sim.clock;
+        const std::int64_t frame = clock.frame;
+        with_whole(sim, job.comm, [&] { job.outputs->write_particles(sim); });
+        count_due_of_particles(clock, sim.scene);
+        sim.clock = clock; // of all processes
+        if (job.ranks != nullptr && clock.frame != frame) {
+            job.ranks->write(sim);
+        }
+    }
 }
 
 void keep_good_state(Job& job)

@@ -2,6 +2,7 @@
 #include "summary.hpp"
 
 #include "build_info.hpp"
+#include "rank_log.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/sim/watch.hpp"
@@ -158,7 +159,7 @@ double peak_memory()
 
 std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
                          std::int64_t first_step, const StageTimer& output,
-                         const FrameWriter::Cost& frames)
+                         const FrameWriter::Cost& frames, const RankSummary* ranks)
 {
     const Totals end = totals(sim);
     const auto& n = sim.plan.counts;
@@ -166,6 +167,12 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     add_run(json, sim, exit_reason, wall_seconds);
     add_rates(json, sim, sim.clock.step - first_step, wall_seconds);
     json["peak_memory_bytes"] = peak_memory();
+    if (ranks != nullptr) {
+        json["ranks"] = {{"count", ranks->count},
+                         {"imbalance", ranks->imbalance},
+                         {"waited_share", ranks->waited},
+                         {"rebalances", ranks->rebalances}};
+    }
     json["stages"] = seconds_by_stage(sim.timer);
     json["output"] = seconds_by_stage(output);
     json["frame_writer"] = {{"files", frames.files},

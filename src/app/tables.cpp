@@ -50,6 +50,21 @@ Table contacts_table(int dimensions)
     return table;
 }
 
+Table ranks_table()
+{
+    return {"ranks",
+            {{"time", "s"},
+             {"rank", ""},
+             {"host", ""},
+             {"particles", ""},
+             {"ghosts", ""},
+             {"busy", "s"},
+             {"waited", "s"},
+             {"messages", ""},
+             {"sent", "B"},
+             {"memory", "B"}}};
+}
+
 Table energy_table(const Scene& scene)
 {
     const int dimensions = scene.dimensions;

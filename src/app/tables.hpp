@@ -14,6 +14,8 @@ namespace hyoryu {
 // Units say it where two dimensions mean per metre of width.
 Table bodies_table(int dimensions);
 Table contacts_table(int dimensions);
+/// ranks.csv: what each process of a shared run does, since the start of the program.
+Table ranks_table();
 /// energy.csv; with open sides also what these gave.
 Table energy_table(const Scene& scene);
 /// open.csv: level, velocity and discharge of each open side, and what has passed it.

@@ -47,19 +47,20 @@ void Store::reset(Index rows)
 
 void Store::reset_like(const Store& other, Index rows)
 {
-    reset(rows);
     const auto count = static_cast<std::size_t>(rows);
-    for (const StoredColumn& column : other.columns_) {
-        std::visit(
-            [&]<class T>(const ColumnValues<T>&) {
-                if constexpr (std::is_same_v<T, Vec3>) {
-                    columns_.push_back({column.field, ColumnValues<T>(count, Vec3::Zero())});
-                } else {
-                    columns_.push_back({column.field, ColumnValues<T>(count, T(0))});
-                }
-            },
-            column.values);
+    id_.assign(count, 0);
+    owner_.assign(kind_ == Kind::fluid ? 0 : count, 0);
+    if (!std::ranges::equal(columns_, other.columns_, {}, &StoredColumn::field,
+                            &StoredColumn::field)) {
+        columns_ = other.columns_;
     }
+    for_each_column([&]<class T>(const FieldInfo&, ColumnValues<T>& values) {
+        if constexpr (std::is_same_v<T, Vec3>) {
+            values.assign(count, Vec3::Zero());
+        } else {
+            values.assign(count, T(0));
+        }
+    });
 }
 
 ColumnPointers Store::pointers()

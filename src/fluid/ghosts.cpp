@@ -133,10 +133,16 @@ void migrate_fluid(Fluid& fluid, const TileLattice& lattice)
 
 namespace {
 
+// What the loops read of neighbours before a stage sends it anew.
+using ReadOfGhosts = Fields<Position, Velocity, Density, Gap, GradientCorrection, MixedCorrection>;
+
 void make_ghosts(Ghosts& g, GhostsOfKind& kind, const Tiles& tiles, const Store& own, Store& ghosts)
 {
     kind.halo = share_tiles(g.comm, g.cuts, tiles, kind.tiles);
-    share_rows(g.comm, kind.halo, tiles, own, ghosts);
+    ghosts.reset_like(own, kind.halo.count());
+    Delivery delivery;
+    deliver(delivery, kind, tiles, own, ghosts, ReadOfGhosts{});
+    delivery.send(g.comm, g.outbox, g.inbox);
 }
 
 } // namespace
@@ -153,8 +159,10 @@ void make_ghosts_of_walls(Fluid& fluid)
 {
     if (fluid.ghosts) {
         Ghosts& g = *fluid.ghosts;
+        const Store& own = fluid.particles.wall;
         fluid.neighbours.wall.lattice = fluid.neighbours.fluid.lattice; // there may be no own walls
-        make_ghosts(g, g.wall, fluid.neighbours.wall, fluid.particles.wall, g.particles.wall);
+        make_ghosts(g, g.wall, fluid.neighbours.wall, own, g.particles.wall);
+        share_owners(g.comm, g.wall.halo, fluid.neighbours.wall, own, g.particles.wall);
     }
 }
 
@@ -162,7 +170,9 @@ void make_ghosts_of_bodies(Fluid& fluid)
 {
     if (fluid.ghosts) {
         Ghosts& g = *fluid.ghosts;
-        make_ghosts(g, g.body, fluid.neighbours.body, fluid.particles.body, g.particles.body);
+        const Store& own = fluid.particles.body;
+        make_ghosts(g, g.body, fluid.neighbours.body, own, g.particles.body);
+        share_owners(g.comm, g.body.halo, fluid.neighbours.body, own, g.particles.body);
     }
 }
 

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 /// folder.
 constexpr std::array our_files{
     R"(case\.toml|plan\.json|summary\.json|run\.log|stop|report\.html|results\.h5|checkpoint(\.previous)?\.h5|all\.vtkhdf)",
-    R"((bodies|contacts|energy|gauges|open)(_[0-9]+)?\.csv)",
+    R"((bodies|contacts|energy|gauges|open|ranks)(_[0-9]+)?\.csv)",
     R"((fluid|bodies|surfaces|walls|structures)\.(hdf|hdf\.series))",
     R"(frames/[a-z]+_[0-9]{6,}\.hdf)",
     R"((vtp|csv)/([a-z]+_[0-9]{6,}\.(vtp|csv)|[a-z]+\.(pvd|csv)|\.hyoryu-convert))",

@@ -122,22 +122,18 @@ Halo share_tiles(Comm& comm, const Cuts& cuts, const Tiles& own, Tiles& ghosts)
     return halo;
 }
 
-void share_rows(Comm& comm, const Halo& halo, const Tiles& tiles, const Store& own, Store& ghosts)
+void share_owners(Comm& comm, const Halo& halo, const Tiles& tiles, const Store& own, Store& ghosts)
 {
     std::vector<Parcel> out(halo.out.size());
-    std::vector<std::int32_t> rows;
     for (std::size_t r = 0; r < out.size(); ++r) {
-        rows.clear();
         for (const std::int32_t point : halo.out[r]) {
-            rows.push_back(tiles.row[at(point)]);
+            put(out[r], own.owner()[tiles.row[at(point)]]);
         }
-        put_rows(out[r], own, rows);
     }
     const std::vector<Parcel> in = comm.exchange(std::move(out));
-    ghosts.reset_like(own, halo.count());
     for (std::size_t r = 0; r < in.size(); ++r) {
-        Unpacking from(in[r]);
-        take_rows(from, ghosts, rows_from(halo.in[r].begin, halo.in[r].size()));
+        const std::span<std::int32_t> owner = ghosts.owner();
+        Unpacking(in[r]).take(owner.subspan(at(halo.in[r].begin), at(halo.in[r].size())));
     }
 }
 

@@ -17,8 +17,12 @@ std::size_t at(Index k)
 void put_rows(Parcel& parcel, const Store& store, std::span<const std::int32_t> rows)
 {
     const auto put_column = [&](const auto& values) {
+        constexpr std::size_t bytes = sizeof(values[0]);
+        std::size_t next = parcel.size();
+        parcel.resize(next + bytes * rows.size());
         for (const std::int32_t row : rows) {
-            put(parcel, values[at(row)]);
+            std::memcpy(&parcel[next], static_cast<const void*>(&values[at(row)]), bytes);
+            next += bytes;
         }
     };
     store.for_each_column([&](const FieldInfo&, const auto& values) { put_column(values); });

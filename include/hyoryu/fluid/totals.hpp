@@ -17,7 +17,7 @@ inline void add_other_ranks(const Fluid& fluid, std::span<FixedSum> sums)
 template <std::size_t n>
 void add_other_ranks(const Fluid& fluid, std::span<FixedSums<n>> of_owners)
 {
-    if (!fluid.ghosts) {
+    if (!fluid.ghosts || of_owners.empty()) {
         return;
     }
     std::vector<FixedSum> sums;

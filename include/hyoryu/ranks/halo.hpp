@@ -24,8 +24,9 @@ struct Halo {
 /// which point k has row k.
 Halo share_tiles(Comm& comm, const Cuts& cuts, const Tiles& own, Tiles& ghosts);
 
-/// Makes a store of the ghosts anew: all columns, numbers and owners as their owners have them.
-void share_rows(Comm& comm, const Halo& halo, const Tiles& tiles, const Store& own, Store& ghosts);
+/// Gives solid ghosts the owners of their particles, bodies and walls.
+void share_owners(Comm& comm, const Halo& halo, const Tiles& tiles, const Store& own,
+                  Store& ghosts);
 
 /// Sends marks of ghosts to the ranks that own them; a point that any rank marks is marked.
 /// `own_first`, `ghost_first`: the mark of the first own point and of the first ghost.

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/balance.hpp"
+
+#include "hyoryu/ranks/comm.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace hyoryu {
+
+namespace {
+
+std::size_t at(Index k)
+{
+    return static_cast<std::size_t>(k);
+}
+
+struct TileWeight {
+    std::uint64_t tile = 0;
+    double weight = 0;
+};
+
+// Adds the entries of a list to the weights of its own tiles.
+void add_entries(const PairList& list, const Tiles& tiles, std::map<std::uint64_t, double>& weight)
+{
+    for (const ListBlock& block : list.blocks()) {
+        const auto after = std::upper_bound(tiles.start.begin(), tiles.start.end(),
+                                            block.first - tiles.first_slot);
+        double entries = 0;
+        for (std::int32_t k = 0; k < block.last - block.first; ++k) {
+            entries += list.lanes() * block.list[k].packs;
+        }
+        weight[tiles.tile[at(after - tiles.start.begin() - 1)]] += entries;
+    }
+}
+
+// The weights of the tiles of this rank, which add up to `work`.
+std::vector<TileWeight> own_weights(const Fluid& fluid, double work)
+{
+    // What a particle costs besides its pairs, in entries: a step without neighbours over one with.
+    constexpr double particle = 10;
+    const FluidNeighbours& n = fluid.neighbours;
+    std::map<std::uint64_t, double> weight;
+    for (std::size_t t = 0; t < n.fluid.tile.size(); ++t) {
+        weight[n.fluid.tile[t]] += particle * (n.fluid.start[t + 1] - n.fluid.start[t]);
+    }
+    add_entries(n.fluid_fluid, n.fluid, weight);
+    add_entries(n.fluid_solid, n.fluid, weight);
+    add_entries(n.wall_fluid, n.wall, weight);
+    add_entries(n.wall_body, n.wall, weight);
+    add_entries(n.body_fluid, n.body, weight);
+    add_entries(n.body_solid, n.body, weight);
+    double sum = 0;
+    for (const auto& [tile, entries] : weight) {
+        sum += entries;
+    }
+    std::vector<TileWeight> all;
+    for (const auto& [tile, entries] : weight) {
+        all.push_back({tile, entries * work / sum});
+    }
+    return all;
+}
+
+} // namespace
+
+void balance(Simulation& sim, Balance& balance, double busy)
+{
+    constexpr double tolerated = 1.1;
+    if (!sim.fluid || !sim.fluid->ghosts || balance.every <= 0 ||
+        sim.clock.step % balance.every != 0) {
+        return;
+    }
+    Ghosts& ghosts = *sim.fluid->ghosts;
+    const double work = busy - std::exchange(balance.busy, busy);
+    const std::vector<double> of_ranks = gather(ghosts.comm, std::span(&work, 1)).all;
+    const double mean = std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0) /
+                        static_cast<double>(of_ranks.size());
+    balance.imbalance = mean > 0 ? *std::ranges::max_element(of_ranks) / mean : 1;
+    if (balance.imbalance <= tolerated) {
+        return;
+    }
+    const std::vector<TileWeight> own = own_weights(*sim.fluid, work);
+    std::vector<std::uint64_t> tiles;
+    std::vector<double> weights;
+    for (const TileWeight& w : gather(ghosts.comm, std::span<const TileWeight>(own)).all) {
+        tiles.push_back(w.tile);
+        weights.push_back(w.weight);
+    }
+    ghosts.next_cuts = cut_evenly(tiles, weights, ghosts.comm.size());
+    balance.moves += 1;
+}
+
+} // namespace hyoryu

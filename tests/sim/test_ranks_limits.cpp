@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Ranks at their limits: without particles, without fluid, with a failure; and what they say to
+// each other.
+#include "shared_runs.hpp"
+
+namespace hyoryu {
+namespace {
+
+using namespace shared_runs;
+
+TEST(RanksAtLimits, MoreRanksThanTilesAndBodiesAloneHaveTheBitsOfOneProcess)
+{
+    const std::string puddle = R"(
+title = "a puddle that leaves the domain"
+dimensions = 2
+[time]
+end = 1
+[domain]
+min = [0, 0, 0]
+max = [1, 0, 1]
+[particles]
+spacing = 0.05
+[fluid]
+sound_speed = 40
+[[fluid.block]]
+shape = "box"
+min = [0.4, 0, 0.05]
+max = [0.6, 0, 0.25]
+)";
+    expect_ranks_agree(puddle, {}, {13}, 300);
+    const std::string boxes = R"(
+title = "boxes that fall"
+dimensions = 2
+[time]
+end = 1
+[particles]
+spacing = 0.04
+[[wall]]
+name = "ground"
+shape = "plane"
+)" + crates;
+    expect_ranks_agree(boxes, {"body[0].position=[1,0,0.5]"}, {3}, 200);
+}
+
+TEST(RanksAtLimits, ARaftOverSeveralRanksHasTheBitsOfOneProcess)
+{
+    const std::string raft = R"(
+[[body]]
+name = "raft"
+shape = "box"
+size = [0.7, 1, 0.12]
+density = 400
+position = [0.4, 0, 0.62]
+)";
+    expect_ranks_agree(dam + raft, {}, {4, 7}, 300);
+}
+
+// Between steps everything that a stage does not send anew is not a number, but for velocities,
+// which hold until new ones are known.
+TEST(RanksAtLimits, NothingIsReadOfGhostsThatWasNotSent)
+{
+    for (const std::vector<std::string>& overrides : std::vector<std::vector<std::string>>{
+             {},
+             {"fluid.gradient=\"corrected\"", "fluid.density_diffusion.model=\"antuono\""},
+             {"fluid.walls=\"no_slip\"", "fluid.viscosity.model=\"sps\"",
+              "fluid.viscosity.kinematic=1e-3"}}) {
+        const Case of(dam + crates, overrides);
+        const Outcome one = alone(of, 150);
+        Outcome many;
+        std::mutex one_at_a_time;
+        testing::on_ranks(3, [&](Comm& comm) {
+            Simulation sim = of.start(&comm);
+            const auto poison = [](Store& store) {
+                const double nan = std::numeric_limits<double>::quiet_NaN();
+                store.for_each_column([&]<class T>(const FieldInfo& f, ColumnValues<T>& values) {
+                    if (&f == &Velocity::info) {
+                        return;
+                    }
+                    if constexpr (std::is_same_v<T, Vec3>) {
+                        std::ranges::fill(values, Vec3::Constant(nan));
+                    } else {
+                        std::ranges::fill(values, nan);
+                    }
+                });
+            };
+            for (int k = 0; k < 150; ++k) {
+                Particles& ghosts = sim.fluid->ghosts->particles;
+                poison(ghosts.fluid);
+                if (!sim.fluid->moving_walls) { // fixed walls stay where they are
+                    const ColumnValues<Vec3> places(ghosts.wall[field::position].begin(),
+                                                    ghosts.wall[field::position].end());
+                    poison(ghosts.wall);
+                    std::ranges::copy(places, ghosts.wall[field::position].begin());
+                }
+                poison(ghosts.body);
+                step(sim);
+            }
+            Outcome own = rest_of(sim);
+            const std::lock_guard lock(one_at_a_time);
+            add_fluid(many, sim);
+            many.bodies = own.bodies;
+            many.sums = own.sums;
+        });
+        expect_equal(one, many);
+    }
+}
+
+TEST(RanksAtLimits, AFailureIsThatOfOneProcessOnAllRanks)
+{
+    const Case of(dam + crates, {});
+    const auto failure_of = [&](Comm* comm) -> std::string {
+        Simulation sim = of.start(comm);
+        run(sim, 20);
+        Store& store = sim.fluid->particles.fluid;
+        for (Index row = 0; row < store.size(); ++row) {
+            store[field::density][row] *= store.id()[row] == 77 ? 3 : 1;
+        }
+        try {
+            run(sim, 5);
+        } catch (const NumericalError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string one = failure_of(nullptr);
+    ASSERT_NE(one, "");
+    std::vector<std::string> said(3);
+    testing::on_ranks(
+        3, [&](Comm& comm) { said[static_cast<std::size_t>(comm.rank())] = failure_of(&comm); });
+    // What is near the particle is told by the rank that has it.
+    const std::string common = one.substr(0, one.find("within"));
+    for (const std::string& text : said) {
+        EXPECT_EQ(text, said.front());
+        EXPECT_EQ(text.substr(0, common.size()), common);
+    }
+}
+
+// The calls of a step without new lists, as docs/processes.md lists them.
+TEST(RanksAtLimits, AStepSaysWhatTheDocumentSays)
+{
+    for (const auto& [text, calls] : {std::pair{dam, 11}, std::pair{dam + crates, 14}}) {
+        const Case of(text, {});
+        testing::on_ranks(3, [&](CountedComm& comm) {
+            Simulation sim = of.start(&comm);
+            run(sim, 5);
+            int counted = 0;
+            for (int k = 0; k < 50; ++k) {
+                const Traffic before = comm.traffic();
+                const long long builds = sim.fluid->neighbours.builds;
+                step(sim);
+                if (sim.fluid->neighbours.builds == builds) {
+                    EXPECT_EQ(comm.traffic().calls - before.calls, calls);
+                    ++counted;
+                }
+            }
+            EXPECT_GT(counted, 10);
+        });
+    }
+}
+
+} // namespace
+} // namespace hyoryu
