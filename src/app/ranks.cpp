@@ -229,19 +229,4 @@ bool writes(const Comm* comm)
     return comm == nullptr || comm->rank() == 0;
 }
 
-void refuse_unshared(const Scene& scene)
-{
-    std::vector<Diagnostic> all;
-    const auto refuse = [&](const char* key, const char* what, const char* hint) {
-        all.push_back({.file = scene.file.string(), .key = key, .what = what, .hint = hint});
-    };
-    if (!scene.open.empty()) {
-        refuse("open", "several processes cannot share a case with open sides yet",
-               "run it in one process, with threads");
-    }
-    if (!all.empty()) {
-        throw CaseError(all);
-    }
-}
-
 } // namespace hyoryu

@@ -4,7 +4,6 @@
 
 #include "hyoryu/core/snapshot.hpp"
 #include "hyoryu/ranks/counted.hpp"
-#include "hyoryu/scene/scene.hpp"
 
 #include <exception>
 #include <optional>
@@ -36,9 +35,6 @@ std::string host_name();
 
 /// Whether this process is the one that writes: alone, or rank 0.
 bool writes(const Comm* comm);
-
-/// What several processes cannot share yet. Throws CaseError, naming all of it.
-void refuse_unshared(const Scene& scene);
 
 /// Gives all processes the state that rank 0 has.
 Snapshot state_of_root(Comm& comm, const Snapshot* state);

@@ -271,9 +271,6 @@ int run_share(const RunOptions& options, CountedComm* comm)
         from = resumption_of(options, folder, scene);
         scene = from->scene;
     }
-    if (comm != nullptr) {
-        refuse_unshared(scene);
-    }
     Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
     watch_for_stop();

@@ -2,11 +2,15 @@
 // Which rows the carpets of open sides hold. A carpet is a lattice that moves with its flow: the
 // next column of a row stands one spacing behind its outermost particle, so that the places of the
 // particles are all that a carpet remembers.
+#include "hyoryu/fluid/totals.hpp"
+
 #include "carpet.hpp"
 #include "places.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace hyoryu {
 
@@ -177,21 +181,43 @@ struct Lanes {
     std::vector<real> inside;           // distance of the nearest of the lowest row inside
 };
 
-// Marks the rows that have left; sorts the others into lanes.
-Lanes sort_into_lanes(const Fluid& fluid, const Carpet& carpet, Places& places,
-                      std::vector<std::uint8_t>& left)
+// A row about a plane, as all ranks know it.
+struct NearRow {
+    int rank = 0;
+    std::int32_t row = 0;
+    int beside_body = 0;
+    Vec3 place{0, 0, 0}; // [m]
+
+    std::pair<int, std::int32_t> name() const { return {rank, row}; }
+};
+
+std::vector<NearRow> near_rows(const Fluid& fluid, const Carpet& carpet)
+{
+    const auto x = fluid.particles.fluid[field::position];
+    const int rank = fluid.ghosts ? fluid.ghosts->comm.rank() : 0;
+    std::vector<NearRow> own;
+    for (std::size_t k = 0; k < carpet.near.size(); ++k) {
+        const std::int32_t row = carpet.near[k];
+        own.push_back({rank, row, carpet.is_beside_body(k) ? 1 : 0, x[row]});
+    }
+    return terms_of_all(fluid, std::move(own));
+}
+
+// Rows of all ranks that have left.
+using LeftRows = std::set<std::pair<int, std::int32_t>>;
+
+// Finds the rows that have left; sorts the others into lanes.
+Lanes sort_into_lanes(const Fluid& fluid, const Carpet& carpet, Places& places, LeftRows& left)
 {
     const OpenSide& side = carpet.side;
     const real dp = fluid.parameters.spacing;
-    const auto x = fluid.particles.fluid[field::position];
     Lanes lanes{std::vector<std::vector<Vec3>>(at(side.lanes())),
                 std::vector<real>(at(side.lanes()), infinity)};
-    for (std::size_t k = 0; k < carpet.near.size(); ++k) {
-        const std::int32_t row = carpet.near[k];
-        const Vec3& p = x[row];
+    for (const NearRow& near : near_rows(fluid, carpet)) {
+        const Vec3& p = near.place;
         const real s = side.distance(p);
-        if (s < 0 && has_left(fluid, carpet, p, carpet.is_beside_body(k))) {
-            left[at(row)] = 1;
+        if (s < 0 && has_left(fluid, carpet, p, near.beside_body != 0)) {
+            left.insert(near.name());
             continue;
         }
         if (s < 2 * dp) {
@@ -222,25 +248,54 @@ void add_bodies(const Fluid& fluid, const Carpet& carpet, Places& places)
     }
 }
 
+// The rows of this rank among those that left, marked.
+std::vector<std::uint8_t> own_marks(const Fluid& fluid, const LeftRows& left)
+{
+    const int rank = fluid.ghosts ? fluid.ghosts->comm.rank() : 0;
+    std::vector<std::uint8_t> marks(at(fluid.particles.fluid.size()), 0);
+    for (const auto& [of, row] : left) {
+        if (of == rank) {
+            marks[at(row)] = 1;
+        }
+    }
+    return marks;
+}
+
 void book_dropped(const Fluid& fluid, const std::vector<std::uint8_t>& left, OpenBoundary& open)
 {
+    struct Dropped {
+        Vec3 momentum{0, 0, 0}, force{0, 0, 0};
+    };
     const Store& store = fluid.particles.fluid;
     const auto v = store[field::velocity];
     const bool viscous = store.has(field::viscous_force);
-    Vec3 momentum = Vec3::Zero();
+    std::vector<Dropped> own;
     for (Index row = 0; row < store.size(); ++row) {
         if (left[at(row)] != 0) {
-            momentum += fluid.parameters.mass * v[row];
-            open.dropped_force += viscous ? store[field::viscous_force][row] : Vec3::Zero();
+            own.push_back({fluid.parameters.mass * v[row],
+                           viscous ? Vec3(store[field::viscous_force][row]) : Vec3(0, 0, 0)});
         }
+    }
+    Vec3 momentum = Vec3::Zero();
+    for (const Dropped& dropped : terms_of_all(fluid, std::move(own))) {
+        momentum += dropped.momentum;
+        open.dropped_force += dropped.force;
     }
     open.impulse -= momentum;
 }
 
-// Puts the new particles behind the rows that stay.
+// Puts the new particles behind the rows that stay; all of them on one rank, from which they go to
+// their owners when lists are made.
 void change_rows(Fluid& fluid, const std::vector<std::uint8_t>& left,
                  const std::vector<NewParticle>& made, OpenBoundary& open)
 {
+    const std::int64_t first_id = open.next_id;
+    open.next_id += std::ssize(made);
+    for (const NewParticle& particle : made) {
+        open.impulse += fluid.parameters.mass * particle.velocity;
+    }
+    const bool holds = !fluid.ghosts || fluid.ghosts->comm.rank() == 0;
+    const std::size_t added = holds ? made.size() : 0;
     Store& store = fluid.particles.fluid;
     std::vector<std::int32_t> from;
     for (Index row = 0; row < store.size(); ++row) {
@@ -249,18 +304,17 @@ void change_rows(Fluid& fluid, const std::vector<std::uint8_t>& left,
         }
     }
     const std::size_t kept = from.size();
-    if (kept == left.size() && made.empty()) {
+    if (kept == left.size() && added == 0) {
         return;
     }
-    from.resize(kept + made.size(), -1);
+    from.resize(kept + added, -1);
     store.gather(from);
-    for (std::size_t k = 0; k < made.size(); ++k) {
+    for (std::size_t k = 0; k < added; ++k) {
         const std::size_t row = kept + k;
         store[field::position][row] = made[k].place;
         store[field::velocity][row] = made[k].velocity;
         store[field::density][row] = made[k].density;
-        store.id()[row] = open.next_id++;
-        open.impulse += fluid.parameters.mass * made[k].velocity;
+        store.id()[row] = first_id + static_cast<std::int64_t>(k);
     }
 }
 
@@ -268,12 +322,12 @@ void change_rows(Fluid& fluid, const std::vector<std::uint8_t>& left,
 
 void renew_carpets(Fluid& fluid, OpenBoundary& open)
 {
-    std::vector<std::uint8_t> left(at(fluid.particles.fluid.size()), 0);
+    LeftRows left;
     std::vector<NewParticle> made;
     for (Carpet& carpet : open.carpets) {
         const real dp = fluid.parameters.spacing;
         Taken taken{Places(least_distance * dp), Places(least_from_body * dp)};
-        const auto gone = std::ranges::count(left, 1);
+        const std::size_t gone = left.size();
         const Lanes lanes = sort_into_lanes(fluid, carpet, taken.water, left);
         add_bodies(fluid, carpet, taken.bodies);
         const std::size_t before = made.size();
@@ -282,11 +336,12 @@ void renew_carpets(Fluid& fluid, OpenBoundary& open)
             emitter.fill_lane(lane, lanes.own[at(lane)], lanes.inside[at(lane)]);
         }
         carpet.made += static_cast<std::int64_t>(made.size() - before);
-        carpet.dropped += std::ranges::count(left, 1) - gone;
+        carpet.dropped += static_cast<std::int64_t>(left.size() - gone);
         carpet.moved = 0;
     }
-    book_dropped(fluid, left, open);
-    change_rows(fluid, left, made, open);
+    const std::vector<std::uint8_t> marks = own_marks(fluid, left);
+    book_dropped(fluid, marks, open);
+    change_rows(fluid, marks, made, open);
 }
 
 } // namespace hyoryu

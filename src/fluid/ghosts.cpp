@@ -176,39 +176,46 @@ void make_ghosts_of_bodies(Fluid& fluid)
     }
 }
 
+void replicate_body_friction(Fluid& fluid)
+{
+    if (!fluid.ghosts) {
+        return;
+    }
+    const auto F = fluid.particles.body[field::viscous_force];
+    Parcel parcel;
+    for (const std::int32_t row : fluid.neighbours.body.row) {
+        put(parcel, row);
+        put(parcel, F[row]);
+    }
+    Comm& comm = fluid.ghosts->comm;
+    for (const Parcel& in : comm.exchange(std::vector<Parcel>(at(comm.size()), parcel))) {
+        for (Unpacking from(in); !from.empty();) {
+            const auto row = from.take<std::int32_t>();
+            F[row] = from.take<Vec3>();
+        }
+    }
+}
+
 FrictionOnTheMove::FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice)
 {
-    if (!fluid.ghosts || !fluid.particles.wall.has(field::viscous_force)) {
+    const Store& wall = fluid.particles.wall;
+    if (!fluid.ghosts || !wall.has(field::viscous_force)) {
         return;
     }
     const Ghosts& g = *fluid.ghosts;
-    const auto send = [&](const Tiles& tiles, const Store& store, const auto& name_of) {
-        const auto x = store[field::position];
-        const auto F = store[field::viscous_force];
-        std::vector<Parcel> out(at(g.comm.size()));
-        for (const std::int32_t row : tiles.row) {
-            Parcel& to = out[at(g.cuts.owner(lattice.tile_of(lattice.wrapped(x[row]))))];
-            put(to, name_of(row));
-            put(to, F[row]);
-        }
-        return g.comm.exchange(std::move(out));
-    };
-    const FluidNeighbours& n = fluid.neighbours;
-    // Rows of bodies are the same on all ranks, those of walls are not.
-    const Store& wall = fluid.particles.wall;
-    wall_ = send(n.wall, wall, [&](std::int32_t row) { return wall.id()[row]; });
-    body_ = send(n.body, fluid.particles.body, [](std::int32_t row) { return row; });
+    const auto x = wall[field::position];
+    const auto F = wall[field::viscous_force];
+    std::vector<Parcel> out(at(g.comm.size()));
+    for (const std::int32_t row : fluid.neighbours.wall.row) {
+        Parcel& to = out[at(g.cuts.owner(lattice.tile_of(lattice.wrapped(x[row]))))];
+        put(to, wall.id()[row]);
+        put(to, F[row]);
+    }
+    wall_ = g.comm.exchange(std::move(out));
 }
 
 void FrictionOnTheMove::arrive(Fluid& fluid) const
 {
-    Store& body = fluid.particles.body;
-    for (const Parcel& parcel : body_) {
-        for (Unpacking from(parcel); !from.empty();) {
-            const auto row = from.take<std::int32_t>();
-            body[field::viscous_force][row] = from.take<Vec3>();
-        }
-    }
     Store& wall = fluid.particles.wall;
     std::unordered_map<std::int64_t, Index> row_of;
     for (Index row = 0; row < wall.size() && !wall_.empty(); ++row) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "hyoryu/fluid/totals.hpp"
+
 #include "carpet.hpp"
 #include "places.hpp"
 
@@ -213,7 +215,12 @@ void count_crossings(const Fluid& fluid, OpenBoundary& open)
     const auto x = store[field::position];
     const auto v = store[field::velocity];
     const auto rho = store[field::density];
+    struct Crossing {
+        int inward = 0;
+        real energy = 0; // carried in [J]
+    };
     for (Carpet& carpet : open.carpets) {
+        std::vector<Crossing> own;
         for (std::size_t k = 0; k < carpet.near.size(); ++k) {
             const auto row = at(carpet.near[k]);
             const std::uint8_t now = carpet.side.distance(x[row]) < 0 ? 1 : 0;
@@ -221,10 +228,13 @@ void count_crossings(const Fluid& fluid, OpenBoundary& open)
                 continue;
             }
             carpet.behind[k] = now;
-            (now == 0 ? carpet.in : carpet.out) += 1;
             const real energy = f.mass * (0.5 * v[row].squaredNorm() - f.gravity.dot(x[row]) +
                                           std::max(f.eos.pressure(rho[row]), real(0)) / rho[row]);
-            open.energy += now == 0 ? energy : -energy;
+            own.push_back(now == 0 ? Crossing{1, energy} : Crossing{0, -energy});
+        }
+        for (const Crossing& crossing : terms_of_all(fluid, std::move(own))) {
+            (crossing.inward == 1 ? carpet.in : carpet.out) += 1;
+            open.energy += crossing.energy;
         }
     }
 }
@@ -323,6 +333,7 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
         const OpenSide& side = carpet.side;
         std::size_t next = 0;
         real fastest = 0;
+        std::vector<Vec3> changes;
         for_carpet(fluid, carpet, [&](std::size_t k, std::size_t row, int lane) {
             const StationFlow& flow = station_of(carpet, lane);
             const Vec3& before = carpet.kept[next++];
@@ -332,10 +343,14 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
                 const real wave = std::sqrt(gravity * std::max(flow.depth, dp));
                 set = v[row] - std::expm1(-dt * wave / (strip_half * dp)) * (set - v[row]);
             }
-            change += set - v[row];
+            changes.push_back(set - v[row]);
             v[row] = set;
             fastest = std::max(fastest, std::abs(set[side.axis]));
         });
+        fastest = largest_of_all(fluid, fastest);
+        for (const Vec3& one : terms_of_all(fluid, std::move(changes))) {
+            change += one;
+        }
         for (int c = 0; c < side.stations(); ++c) {
             const StationFlow& flow = carpet.stations[at(c)];
             const real width = fluid.parameters.dimensions == 2 ? 1 : side.open_lanes(c) * dp;

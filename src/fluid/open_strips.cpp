@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Depth and velocity of the water in the strips before open sides.
+#include "hyoryu/fluid/totals.hpp"
+
 #include "carpet.hpp"
 
 #include <algorithm>
@@ -40,7 +42,11 @@ std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
     const auto v = store[field::velocity];
     const auto rho = store[field::density];
     const real dp = fluid.parameters.spacing;
-    std::vector<StripSums> sums(at(side.stations()));
+    struct Term {
+        int station = 0;
+        real volume = 0, moved = 0;
+    };
+    std::vector<Term> own;
     for (std::size_t k = 0; k < carpet.near.size(); ++k) {
         const auto row = at(carpet.near[k]);
         const real s = side.distance(x[row]);
@@ -48,9 +54,13 @@ std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
         const int lane = side.lane(x[row], dp);
         if (w > 0 && lane >= 0 && lane < side.lanes()) {
             const real V = w * fluid.parameters.mass / rho[row];
-            sums[at(lane / side.station_lanes)].volume += V;
-            sums[at(lane / side.station_lanes)].moved += V * side.into * v[row][side.axis];
+            own.push_back({lane / side.station_lanes, V, V * side.into * v[row][side.axis]});
         }
+    }
+    std::vector<StripSums> sums(at(side.stations()));
+    for (const Term& term : terms_of_all(fluid, std::move(own))) {
+        sums[at(term.station)].volume += term.volume;
+        sums[at(term.station)].moved += term.moved;
     }
     return sums;
 }

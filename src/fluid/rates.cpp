@@ -98,6 +98,7 @@ void add_friction(Fluid& fluid)
         run<NoSlip::Friction>(fluid, n.wall_fluid, to_walls(fluid), terms);
         run<NoSlip::Friction>(fluid, n.body_fluid, to_bodies(fluid), terms);
     });
+    replicate_body_friction(fluid);
 }
 
 // The part of the density rate that solids make, and the end of gaps where there is no room for

@@ -75,7 +75,10 @@ void make_ghosts_of_walls(Fluid& fluid);
 void make_ghosts_of_bodies(Fluid& fluid);
 /// Gives all ranks what the owners of the body particles behind joints have removed from films.
 void replicate_film_cuts(Fluid& fluid);
-/// Friction on solid particles acts a step later, on the ranks that own them then.
+/// Gives all ranks the friction on all body particles: it acts a step later, when other ranks may
+/// own them.
+void replicate_body_friction(Fluid& fluid);
+/// Friction on wall particles, on its way to the ranks that own them from now on.
 class FrictionOnTheMove {
 public:
     /// Sends the friction on own particles to the ranks that own them from now on.
@@ -84,7 +87,7 @@ public:
     void arrive(Fluid& fluid) const;
 
 private:
-    std::vector<Parcel> wall_, body_; // numbers or rows, and forces
+    std::vector<Parcel> wall_; // numbers and forces
 };
 
 } // namespace hyoryu

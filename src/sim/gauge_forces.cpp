@@ -28,11 +28,14 @@ Vec3 viscous_force(const Simulation& sim, int target)
     const auto owner = store.owner();
     const Rows rows = target >= 0 ? sim.body_particles.of[at(target)] : store.rows();
     const Vec3 none = Vec3::Zero();
-    return vector_sum_over_ranks(*sim.fluid, rows.size(), sum_units(sim.fluid->parameters).force,
-                                 [&](Index k) -> const Vec3& {
-                                     const Index row = rows.begin + k;
-                                     return owner[row] == target ? F[row] : none;
-                                 });
+    const FixedUnit unit = sum_units(sim.fluid->parameters).force;
+    const auto term = [&](Index k) -> const Vec3& {
+        const Index row = rows.begin + k;
+        return owner[row] == target ? F[row] : none;
+    };
+    // All processes know the friction on all bodies.
+    return target >= 0 ? sum_of_vectors(rows.size(), unit, term)
+                       : vector_sum_over_ranks(*sim.fluid, rows.size(), unit, term);
 }
 
 Vec3 contact_impulse(const std::vector<Contact>& contacts, int target)

@@ -58,7 +58,7 @@ void set_flows(Simulation& sim, double time)
 
 void expect_room(const Simulation& sim)
 {
-    const Index held = sim.fluid->particles.fluid.size();
+    const Index held = count_over_ranks(*sim.fluid, sim.fluid->particles.fluid.size());
     if (static_cast<double>(held) > sim.open.most) {
         throw RoomError(sim.clock.step, sim.clock.time, held,
                         static_cast<std::int64_t>(sim.open.most));

@@ -42,6 +42,7 @@ void update_lists(Simulation& sim)
     share_places(*sim.fluid);
     if (has_open_sides(sim)) {
         renew_open(sim);
+        share_places(*sim.fluid); // and the densities that the carpets have now
     } else {
         update_neighbours(*sim.fluid);
     }

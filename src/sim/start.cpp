@@ -5,6 +5,8 @@
 #include "hyoryu/scene/shapes.hpp"
 #include "hyoryu/scene/wall_layers.hpp"
 
+#include "hyoryu/sim/whole.hpp"
+
 #include "parts.hpp"
 
 #include <cmath>
@@ -172,6 +174,12 @@ constexpr double updates_of_particle = 10;
 
 Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling, Comm* comm)
 {
+    if (comm != nullptr && plan.runs(OpenSides::name)) {
+        // The first carpets follow from sums in the order of the filling, which ranks do not have.
+        Simulation whole = make_simulation(scene, plan, filling);
+        keep_share(whole, *comm);
+        return whole;
+    }
     Simulation sim{.scene = scene, .plan = plan};
     sim.rigid = make_rigid(scene);
     sim.gauges = make_gauge_memory(scene);

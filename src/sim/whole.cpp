@@ -44,6 +44,7 @@ void keep_share(Simulation& sim, Comm& comm)
 {
     if (sim.fluid) {
         keep_share(*sim.fluid, comm);
+        find_rows(*sim.fluid, sim.open.boundary);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A case that several ranks share has the bits of one process: particles, bodies, sums and clock.
 // The ranks are threads of this process.
+#include "open_scenes.hpp"
 #include "shared_runs.hpp"
 
 #include <fmt/ranges.h>
@@ -84,6 +85,24 @@ TEST(Ranks, ACheckpointShowsNoRanksAndServesAnyNumberOfThem)
             }
         }
     }
+}
+
+TEST(Ranks, OpenSidesHaveTheBitsOfOneProcess)
+{
+    const std::string crate = R"(
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.15, 1, 0.15]
+density = 400
+position = [1.1, 0, 0.4]
+)";
+    const std::string river = case_of({.near = inflow(0.4, 0.3)});
+    expect_ranks_agree(river + crate, {}, {2, 5}, 300);
+    expect_ranks_agree(river + crate, {}, {3}, 150, Cutting::at_random);
+    expect_ranks_agree(case_of({.dimensions = 3, .spacing = 0.08, .near = inflow(0.4, 0.5)}), {},
+                       {3}, 100);
+    expect_ranks_agree(case_of({.velocity = 1.2, .far = "kind = \"outflow\"\n"}), {}, {3}, 200);
 }
 
 // HYORYU_SCENES=200 is the nightly size, HYORYU_SEED the first seed.

@@ -30,6 +30,14 @@ void add_other_ranks(const Fluid& fluid, std::span<FixedSums<n>> of_owners)
     }
 }
 
+/// The terms of all ranks, in the order in which one process has them: those of a rank are in the
+/// order of its rows, which are in the order of tiles.
+template <class T>
+std::vector<T> terms_of_all(const Fluid& fluid, std::vector<T> own)
+{
+    return fluid.ghosts ? gather(fluid.ghosts->comm, std::span<const T>(own)).all : own;
+}
+
 /// sum_by_tile over the fluid of all ranks.
 template <std::size_t n, class F>
 std::array<double, n> sum_over_fluid(const Fluid& fluid, const FixedUnits<n>& units, const F& term)
