@@ -198,7 +198,7 @@ void replicate_body_friction(Fluid& fluid)
 
 FrictionOnTheMove::FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice)
 {
-    const Store& wall = fluid.particles.wall;
+    Store& wall = fluid.particles.wall;
     if (!fluid.ghosts || !wall.has(field::viscous_force)) {
         return;
     }
@@ -212,6 +212,7 @@ FrictionOnTheMove::FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice)
         put(to, F[row]);
     }
     wall_ = g.comm.exchange(std::move(out));
+    std::ranges::fill(F, Vec3(0, 0, 0)); // rows of walls that move stay
 }
 
 void FrictionOnTheMove::arrive(Fluid& fluid) const

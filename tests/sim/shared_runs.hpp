@@ -65,6 +65,10 @@ inline Outcome rest_of(const Simulation& sim)
                     sim.fluid ? static_cast<double>(sim.fluid->neighbours.builds) : 0,
                     sim.fluid ? static_cast<double>(sim.fluid->lost.count) : 0,
                     sim.fluid ? sim.fluid->lost.energy : 0};
+    for (const GaugedForce& force : sim.gauges.forces) {
+        outcome.sums.insert(outcome.sums.end(), force.viscous.begin(), force.viscous.end());
+        outcome.sums.insert(outcome.sums.end(), force.pressure.begin(), force.pressure.end());
+    }
     return outcome;
 }
 

@@ -31,6 +31,20 @@ TEST(Ranks, AMovingWallAndAFloatInSpaceHaveTheBitsOfOneProcess)
     expect_ranks_agree(tank, {}, {2, 5}, 150);
 }
 
+TEST(Ranks, FrictionOnWhatMovesHasTheBitsOfOneProcess)
+{
+    const std::string gauges =
+        "[[gauge]]\nname = \"on paddle\"\ntype = \"force\"\non = \"paddle\"\n"
+        "[[gauge]]\nname = \"on float\"\ntype = \"force\"\non = \"float\"\n"
+        "[[gauge]]\nname = \"on basin\"\ntype = \"force\"\non = \"basin\"\n";
+    const std::vector<std::string> sticking{"fluid.walls=\"no_slip\"",
+                                            "fluid.viscosity.model=\"laminar\"",
+                                            "fluid.viscosity.kinematic=1e-3"};
+    for (const Cutting cutting : {Cutting::once, Cutting::at_random}) {
+        expect_ranks_agree(tank + gauges, sticking, {2, 5}, 100, cutting);
+    }
+}
+
 TEST(Ranks, APeriodicDomainHasTheBitsOfOneProcess)
 {
     expect_ranks_agree(ring, {}, {2, 3, 7}, 200);
