@@ -185,13 +185,18 @@ void update_fixed_walls(Fluid& fluid)
                               way_of_half_step * fluid.parameters.spacing,
                           own_tiles(fluid)};
     mark_wet_bodies(fluid, which.reach);
-    std::vector<Waters> waters{{n.fluid, {}}, {n.body, n.wet_body}};
-    if (const Ghosts* const g = fluid.ghosts.get()) {
-        waters.push_back({g->fluid.tiles, {}});
-        waters.push_back({g->body.tiles, g->wet_body});
-    }
     const auto room = std::visit([](auto& data) { return data.common.room(); }, fluid.pair_data);
-    const bool changed = update_rows(fluid.fixed_walls, waters, which, fluid.particles.wall, room);
+    const auto update = [&](std::span<const Waters> waters) {
+        return update_rows(fluid.fixed_walls, waters, which, fluid.particles.wall, room);
+    };
+    const Waters own[] = {{n.fluid, {}}, {n.body, n.wet_body}};
+    bool changed = false;
+    if (const Ghosts* const g = fluid.ghosts.get()) {
+        const Waters all[] = {own[0], own[1], {g->fluid.tiles, {}}, {g->body.tiles, g->wet_body}};
+        changed = update(all);
+    } else {
+        changed = update(own);
+    }
     if (changed && !fluid.moving_walls) { // those that move are sorted with all lists
         make_tiles(fluid.fixed_walls, n.wall);
         n.wall.first_slot = 0;
