@@ -15,14 +15,7 @@
 
 namespace hyoryu {
 
-namespace {
-
-struct Told {
-    std::string message;
-    int code = 0;
-};
-
-Told meaning_of(const std::exception_ptr& error)
+Meaning meaning_of(const std::exception_ptr& error)
 {
     try {
         std::rethrow_exception(error);
@@ -49,11 +42,9 @@ Told meaning_of(const std::exception_ptr& error)
     }
 }
 
-} // namespace
-
 int tell_error(const std::exception_ptr& error, const std::string& who)
 {
-    const Told told = meaning_of(error); // fmt::print would throw
+    const Meaning told = meaning_of(error); // fmt::print would throw
     std::fputs((who + printable(told.message) + "\n").c_str(), stderr);
     return told.code;
 }

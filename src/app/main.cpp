@@ -2,17 +2,20 @@
 // The program: options to a command, errors to exit codes.
 #include "errors.hpp"
 #include "options.hpp"
+#include "ranks.hpp"
 
 #include "hyoryu/core/error.hpp"
 
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <thread>
 
 #include <malloc.h>
 
@@ -58,6 +61,10 @@ int main(int argc, char** argv)
         }
         return code;
     } catch (...) {
+        if (!is_first()) { // the first of several processes says it; then the launcher ends all
+            std::this_thread::sleep_for(std::chrono::seconds(2));
+            return meaning_of(std::current_exception()).code;
+        }
         return tell_error(std::current_exception());
     }
 }

@@ -45,12 +45,6 @@ bool is_one_of_several()
            (number_of("PMIX_RANK") >= 0 && number_of("SLURM_NTASKS") > 1);
 }
 
-bool is_first()
-{
-    return std::max({number_of("OMPI_COMM_WORLD_RANK"), number_of("PMI_RANK"),
-                     number_of("PMIX_RANK")}) <= 0;
-}
-
 // The module beside the program, or in ../lib/hyoryu.
 void* open_module()
 {
@@ -102,6 +96,12 @@ bool is_of_all(const std::exception_ptr& error)
 
 } // namespace
 
+bool is_first()
+{
+    return std::max({number_of("OMPI_COMM_WORLD_RANK"), number_of("PMI_RANK"),
+                     number_of("PMIX_RANK")}) <= 0;
+}
+
 std::string host_name()
 {
     std::array<char, 256> name{};
@@ -128,7 +128,7 @@ void Ranks::end(const std::exception_ptr& error)
     // What all processes meet, rank 0 tells: its MPI_Abort comes within seconds.
     constexpr auto patience = std::chrono::seconds(10);
     const bool first = comm_->rank() == 0;
-    if (!first && is_of_all(error)) {
+    if (!first && (!alone_ || is_of_all(error))) {
         std::this_thread::sleep_for(patience);
     }
     const int code =

@@ -22,13 +22,20 @@ public:
 
     /// Null for a process that is alone.
     CountedComm* comm() { return comm_ ? &*comm_ : nullptr; }
+    /// From here on a process may fail alone: until now all of them read the same files.
+    void begin_work() { alone_ = true; }
     /// Tells of an error, once for all processes, and ends them with its exit code.
     [[noreturn]] void end(const std::exception_ptr& error);
 
 private:
     std::optional<CountedComm> comm_;
     void* module_ = nullptr;
+    bool alone_ = false;
 };
+
+/// Whether this process speaks for all before they are connected: it is alone, or the first one by
+/// what its environment says.
+bool is_first();
 
 /// Of this machine.
 std::string host_name();

@@ -261,8 +261,9 @@ int carry_out(Job& job)
 }
 
 // The run, or what this process does of it.
-int run_share(const RunOptions& options, CountedComm* comm)
+int run_share(const RunOptions& options, Ranks& others)
 {
+    CountedComm* const comm = others.comm();
     set_threads(options.threads);
     const fs::path folder = results_folder(options);
     Scene scene = read_case(options.case_file, options.overrides);
@@ -284,6 +285,7 @@ int run_share(const RunOptions& options, CountedComm* comm)
     if (comm != nullptr) {
         ranks.emplace(*comm, options.rebalance);
     }
+    others.begin_work();
     const Beginning beginning{options, folder, scene, plan, comm, ranks ? &*ranks : nullptr};
     Job job = from ? resume(beginning, std::move(*from), std::move(filling))
                    : start(beginning, std::move(filling));
@@ -300,10 +302,10 @@ int run_case(const RunOptions& options)
     watch_for_batch_signal();
     Ranks ranks;
     if (ranks.comm() == nullptr) {
-        return run_share(options, nullptr);
+        return run_share(options, ranks);
     }
     try {
-        return run_share(options, ranks.comm());
+        return run_share(options, ranks);
     } catch (...) {
         ranks.end(std::current_exception());
     }

@@ -6,6 +6,7 @@
 #include "job.hpp"
 #include "plan_report.hpp"
 #include "ranks.hpp"
+#include "stop_request.hpp"
 #include "tables.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -101,6 +102,7 @@ FolderLock begin_folder(const Beginning& from, const std::string& case_text, con
     check_disk(from.folder, from.scene, from.plan);
     FolderLock lock =
         prepare_results(from.folder, from.options.force ? Existing::replace : Existing::refuse);
+    forget_stop_request(from.folder);
     TimingBudget budget = timing_budget(from.options, from.scene, from.plan);
     budget.file = seconds_to_write(from.folder / "case.toml", case_text);
     std::optional<StepCost> timed;
@@ -181,6 +183,7 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
     std::optional<FolderLock> lock;
     if (writes(from.comm)) {
         lock.emplace(prepare_results(from.folder, Existing::extend));
+        forget_stop_request(from.folder);
     }
     Simulation sim = make_simulation(from.scene, from.plan, filling);
     filling = {}; // as large as the state of the fluid, and no more needed

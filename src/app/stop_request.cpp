@@ -48,10 +48,10 @@ std::filesystem::path stop_file(const std::filesystem::path& folder)
     return folder / "stop";
 }
 
-StopFile::StopFile(const std::filesystem::path& folder) : file_(stop_file(folder))
+void forget_stop_request(const std::filesystem::path& folder)
 {
     std::error_code fault;
-    std::filesystem::remove(file_, fault);
+    std::filesystem::remove(stop_file(folder), fault);
 }
 
 bool StopFile::requested()

@@ -20,11 +20,13 @@ bool stop_requested();
 /// The file by which `hyoryu stop` asks the run of a results folder to stop.
 std::filesystem::path stop_file(const std::filesystem::path& folder);
 
+/// Removes a request that an earlier run has left, before this one can be asked.
+void forget_stop_request(const std::filesystem::path& folder);
+
 /// Looks for that file once a second.
 class StopFile {
 public:
-    /// A request that was made before the run began is removed.
-    explicit StopFile(const std::filesystem::path& folder);
+    explicit StopFile(const std::filesystem::path& folder) : file_(stop_file(folder)) {}
     /// Whether the file is there or was; it is removed when it is seen.
     bool requested();
 

@@ -15,7 +15,7 @@ namespace hyoryu {
 
 namespace {
 
-// Whether a run holds the folder.
+// Whether a run holds the folder, which exists.
 bool is_running(const std::filesystem::path& folder)
 {
     try {
@@ -31,12 +31,14 @@ bool is_running(const std::filesystem::path& folder)
 int stop_run(const StopOptions& options)
 {
     std::error_code fault;
-    if (!std::filesystem::exists(options.folder / "plan.json", fault)) {
+    const bool running =
+        std::filesystem::is_directory(options.folder, fault) && is_running(options.folder);
+    if (!running && !std::filesystem::exists(options.folder / "plan.json", fault)) {
         throw CaseError(
             fmt::format("{} is not a results folder: it has no plan.json", options.folder.string()),
             "name the folder that the run writes to");
     }
-    if (!is_running(options.folder)) {
+    if (!running) {
         throw CaseError(fmt::format("no run writes to `{}`", options.folder.string()),
                         "only a run that is in progress can be stopped");
     }

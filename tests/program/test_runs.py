@@ -209,14 +209,18 @@ class Runs(ProgramTest):
 
     def test_stop_ends_a_run_with_a_checkpoint(self):
         case = self.write(FLOOD.replace("spacing = 0.05", "spacing = 0.03"))
-        process = subprocess.Popen([HYORYU, "run", case, "-o", "out"], cwd=self.dir, stderr=subprocess.DEVNULL)
-        while not (self.dir / "out" / "frames" / "fluid_000001.hdf").exists():
-            time.sleep(0.01)
-            self.assertIsNone(process.poll(), "ended before it was asked to")
-        self.assertEqual(self.call("stop", "out").returncode, 0)
-        self.assertEqual(process.wait(60), 130)
-        self.assertEqual(json.loads(self.read("out", "summary.json"))["exit_reason"], "interrupted")
-        self.assertFalse((self.dir / "out" / "stop").exists(), "the request outlives the run")
+        for begun in ("plan.json", "frames/fluid_000001.hdf"): # before the first step, and later
+            process = subprocess.Popen([HYORYU, "run", case, "-o", "out", "--force"], cwd=self.dir,
+                                       stderr=subprocess.DEVNULL)
+            while not (self.dir / "out" / begun).exists():
+                time.sleep(0.01)
+                self.assertIsNone(process.poll(), "ended before it was asked to")
+            self.assertEqual(self.call("stop", "out").returncode, 0)
+            self.assertEqual(process.wait(60), 130)
+            self.assertEqual(json.loads(self.read("out", "summary.json"))["exit_reason"], "interrupted")
+            self.assertFalse((self.dir / "out" / "stop").exists(), "the request outlives the run")
+            shutil.move(self.dir / "out", self.dir / f"out-{begun[:4]}")
+        shutil.move(self.dir / "out-fram", self.dir / "out")
         again = self.call("stop", "out")
         self.assertEqual(again.returncode, 2)
         self.assertIn("no run writes to", again.stderr)
