@@ -45,6 +45,92 @@ TEST(Ranks, FrictionOnWhatMovesHasTheBitsOfOneProcess)
     }
 }
 
+TEST(Ranks, CratesThatStandInWaterHaveTheBitsOfOneProcess)
+{
+    const std::string pool = R"(
+title = "crates that stand in a pool"
+dimensions = 2
+[time]
+end = 2
+[particles]
+spacing = 0.04
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0, 0, 0]
+max = [1.6, 0, 0.5]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0, 0, 0]
+max = [1.6, 0, 1]
+open = ["+z"]
+[[body]]
+name = "lower"
+shape = "box"
+size = [0.4, 1, 0.16]
+density = 1400
+position = [0.7, 0, 0.08]
+[[body]]
+name = "upper"
+shape = "box"
+size = [0.2, 1, 0.2]
+density = 1100
+position = [0.7, 0, 0.26]
+[[body]]
+name = "neighbour"
+shape = "box"
+size = [0.2, 1, 0.2]
+density = 1300
+position = [1.03, 0, 0.1]
+)";
+    expect_ranks_agree(pool, {}, {2, 5}, 150);
+    expect_ranks_agree(pool, {}, {4}, 150, Cutting::at_random);
+}
+
+TEST(Ranks, AJetThatSurfacesHoldHasTheBitsOfOneProcess)
+{
+    const std::string jet = R"(
+title = "a jet against thin plates, one of which is free"
+dimensions = 2
+[time]
+end = 2
+[particles]
+spacing = 0.04
+[domain]
+min = [-2, 0, -2]
+max = [2, 0, 2]
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [-0.6, 0, -0.2]
+max = [-0.2, 0, 0.2]
+velocity = [8, 0, 0]
+[[wall]]
+name = "plate"
+shape = "box"
+size = [0.03, 1, 0.5]
+position = [0, 0, 0.25]
+rotation_deg = { axis = [0, 1, 0], angle = 12 }
+[[body]]
+name = "free plate"
+shape = "box"
+size = [0.03, 1, 0.5]
+density = 1000
+position = [0, 0, -0.26]
+)";
+    const Case of(jet, {});
+    Simulation sim = of.start(nullptr);
+    std::size_t hits = 0;
+    for (int k = 0; k < 350; ++k) {
+        step_on(sim);
+        hits += sim.barrier->all.size();
+    }
+    ASSERT_GT(hits, 20U) << "the scene does not show what it is for";
+    expect_ranks_agree(jet, {}, {2, 5}, 350);
+    expect_ranks_agree(jet, {}, {3}, 350, Cutting::at_random);
+}
+
 TEST(Ranks, APeriodicDomainHasTheBitsOfOneProcess)
 {
     expect_ranks_agree(ring, {}, {2, 3, 7}, 200);
