@@ -66,7 +66,7 @@ std::string open_lines(const Plan& plan)
         return {};
     }
     std::string text = fmt::format("  open sides, at most about {} fluid particles with their "
-                                   "carpets; several processes cannot share them yet\n",
+                                   "carpets\n",
                                    plan.most_fluid);
     for (const auto& open : plan.open) {
         text += fmt::format("    {:<22} {}\n", open.name, open.what);

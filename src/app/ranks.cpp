@@ -5,6 +5,7 @@
 #include "options.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/instruction_set.hpp"
 #include "mpi/module.hpp"
 
 #include <fmt/format.h>
@@ -38,11 +39,27 @@ int number_of(const char* variable)
     return number;
 }
 
-// What the launchers of OpenMPI, MPICH and Slurm tell their processes.
-bool is_one_of_several()
+// How many processes the launchers of OpenMPI, MPICH and Slurm tell of; 1 without a launcher.
+int processes_announced()
 {
-    return number_of("OMPI_COMM_WORLD_SIZE") > 1 || number_of("PMI_SIZE") > 1 ||
-           (number_of("PMIX_RANK") >= 0 && number_of("SLURM_NTASKS") > 1);
+    const int of_slurm = number_of("PMIX_RANK") >= 0 ? number_of("SLURM_NTASKS") : 1;
+    return std::max({1, number_of("OMPI_COMM_WORLD_SIZE"), number_of("PMI_SIZE"), of_slurm});
+}
+
+// Processes that do not belong together, or round differently, must not share a run.
+void expect_alike(Comm& comm)
+{
+    if (comm.size() != processes_announced()) {
+        throw IoError(fmt::format("the launcher has started {} processes, but MPI connects {} of "
+                                  "them: {} and the launcher are of different MPIs",
+                                  processes_announced(), comm.size(), mpi_module::file_name));
+    }
+    const auto own = static_cast<int>(widest_instruction_set());
+    const std::vector<int> sets = gather(comm, std::span<const int>(&own, 1)).all;
+    if (std::ranges::count(sets, own) != std::ssize(sets)) {
+        throw IoError("the processes run on processors with different instruction sets, which "
+                      "round differently\n  hint: start the run on processors of one kind");
+    }
 }
 
 // The module beside the program, or in ../lib/hyoryu.
@@ -59,9 +76,6 @@ void* open_module()
             }
             return module;
         }
-    }
-    if (!is_first()) { // the first process speaks for all
-        std::_Exit(exit_code::io);
     }
     throw IoError(fmt::format("this is one of several processes that are to share a run, which "
                               "needs {}: on Debian it is in the package hyoryu-mpi; from source "
@@ -110,9 +124,10 @@ std::string host_name()
 
 Ranks::Ranks()
 {
-    if (is_one_of_several()) {
+    if (processes_announced() > 1) {
         module_ = open_module();
         comm_.emplace(*function_of<mpi_module::Begin>(module_, mpi_module::begin_name)());
+        expect_alike(*comm_);
     }
 }
 

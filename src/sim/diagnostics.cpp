@@ -60,6 +60,10 @@ std::string nearby_particles(const Simulation& sim, std::size_t row)
     for_solids(particles, [&](const Store& store) {
         look_at(store, [&](Index k) { return store.owner()[k]; });
     });
+    if (const Ghosts* const g = sim.fluid->ghosts.get()) { // all processes have all bodies
+        look_at(g->particles.fluid, [](Index) { return fluid_owner; });
+        look_at(g->particles.wall, [&](Index k) { return g->particles.wall.owner()[k]; });
+    }
     if (counts.empty()) {
         return "no particle within 2 spacings of it";
     }

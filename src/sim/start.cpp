@@ -178,6 +178,7 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
         // The first carpets follow from sums in the order of the filling, which ranks do not have.
         Simulation whole = make_simulation(scene, plan, filling);
         keep_share(whole, *comm);
+        update_pressure(*whole.fluid); // of solids, which the first output shows
         return whole;
     }
     Simulation sim{.scene = scene, .plan = plan};

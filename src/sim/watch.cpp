@@ -100,8 +100,9 @@ Complaint first_complaint(Comm& comm, const std::optional<Complaint>& own)
 }
 
 // Reports the first particle for which bad(row) holds; there is one on a rank at least.
-[[noreturn]] void report_particle(const Simulation& sim, const auto& bad)
+[[noreturn]] void report_particle(Simulation& sim, const auto& bad)
 {
+    share_places(*sim.fluid); // as they are now, for what is near
     const Store& store = sim.fluid->particles.fluid;
     Index row = 0;
     while (row < store.size() && !bad(row)) {
@@ -117,7 +118,7 @@ Complaint first_complaint(Comm& comm, const std::optional<Complaint>& own)
 }
 
 // The largest compression of the fluid.
-double watch_fluid(const Simulation& sim)
+double watch_fluid(Simulation& sim)
 {
     const Fluid& fluid = *sim.fluid;
     const Store& store = fluid.particles.fluid;
