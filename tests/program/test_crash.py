@@ -11,88 +11,9 @@ import signal
 import subprocess
 import time
 
-from program import HYORYU, ProgramTest, main
+from program import DAM, HISTORIES, HYORYU, ProgramTest, main
 
 KILLS = int(os.environ.get("HYORYU_KILLS", "20"))
-
-# A dam break, pushed by a paddle, against two crates in 2-D: all kinds of output, walls that move and every
-# kind of gauge, and many checkpoints in about a second.
-DAM = """
-dimensions = 2
-[time]
-end = 0.4
-[particles]
-spacing = 0.02
-[fluid]
-[[fluid.block]]
-shape = "box"
-min = [0.0, 0.0, 0.0]
-max = [0.5, 0.0, 0.5]
-[[wall]]
-name = "basin"
-shape = "basin"
-min = [-0.3, 0.0, 0.0]
-max = [1.4, 0.0, 0.8]
-open = ["+z"]
-[[wall]]
-name = "paddle"
-shape = "box"
-min = [-0.1, 0.0, 0.0]
-max = [0.0, 0.0, 0.7]
-[wall.motion]
-velocity = [0.2, 0.0, 0.0]
-[[body]]
-name = "crate"
-shape = "box"
-size = [0.12, 0.12, 0.12]
-density = 400.0
-position = [0.7, 0.0, 0.06]
-[[body]]
-name = "upper"
-shape = "box"
-size = [0.12, 0.12, 0.12]
-density = 300.0
-position = [0.72, 0.0, 0.18]
-[[gauge]]
-name = "level"
-type = "elevation"
-at = [0.3, 0.0]
-[[gauge]]
-name = "pressure"
-type = "pressure"
-at = [1.4, 0.0, 0.06]
-normal = [-1.0, 0.0, 0.0]
-area = 0.06
-filter = "median"
-window = 0.02
-[[gauge]]
-name = "speed"
-type = "velocity"
-at = [0.4, 0.0, 0.05]
-[[gauge]]
-name = "paddle_force"
-type = "force"
-on = "paddle"
-[[gauge]]
-name = "crate_force"
-type = "force"
-on = "crate"
-[[gauge]]
-name = "flux"
-type = "flux"
-at = [0.6, 0.0, 0.0]
-normal = [1.0, 0.0, 0.0]
-[[gauge]]
-name = "front"
-type = "front"
-axis = "x"
-filter = "mean"
-window = 0.01
-[output]
-every = 0.01
-checkpoint_every = 0.02
-"""
-HISTORIES = ("bodies.csv", "contacts.csv", "energy.csv", "gauges.csv")
 
 
 class CrashTest(ProgramTest):

@@ -1,0 +1,286 @@
+#!/usr/bin/env python3
+"""A run that several processes share by MPI: its files are those of one process, and it ends as the user or the case ends it.
+
+No call may take long: processes that wait for each other for ever are the fault to find.
+"""
+import contextlib
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+from program import CASES, DAM, FLOOD, HISTORIES, HYORYU, ProgramTest, main
+
+LONGEST = 25  # of a call [s]
+MODULE = pathlib.Path(HYORYU).parent / "libhyoryu_mpi.so"
+# MPI may start as root, more processes than cores, without reading the memory of another process.
+ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive",
+               "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+SHORT_DAM = DAM.replace("end = 0.4", "end = 0.12")
+LONG_DAM = DAM.replace("end = 0.4", "end = 60.0")
+
+
+class RanksTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.case = self.write(SHORT_DAM)
+
+    def start(self, ranks, *arguments):
+        """A call by that number of processes, which does not outlive the test."""
+        command = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+        process = subprocess.Popen([*command, self.program, *map(str, arguments)], cwd=self.dir,
+                                   env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, process)
+        return process
+
+    def end(self, process):
+        if process.poll() is None:
+            process.terminate()  # mpirun ends its processes
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(5)
+        process.kill()
+        process.communicate()
+
+    def finish(self, process):
+        """Exit code and messages."""
+        try:
+            message = process.communicate(timeout=LONGEST)[1]
+        except subprocess.TimeoutExpired:
+            self.end(process)
+            self.fail(f"still runs after {LONGEST} s: {process.args}")
+        return process.returncode, message
+
+    def run_by(self, ranks, out, *arguments, code=0):
+        """What the processes tell."""
+        found, message = self.finish(self.start(ranks, "run", self.case, "-o", out, *arguments))
+        self.assertEqual(found, code, message)
+        return message
+
+    def wait_for(self, process, file):
+        end = time.monotonic() + LONGEST
+        while not (self.dir / "out" / file).exists():
+            self.assertLess(time.monotonic(), end, file)
+            if process.poll() is not None:
+                self.fail(f"ended too early: {self.finish(process)}")
+            time.sleep(0.005)
+
+    def expect_equal(self, one, other):
+        """All that a run writes, except for what tells of the machine and of times."""
+        def names(folder):
+            return sorted(str(p.relative_to(self.dir / folder)) for p in (self.dir / folder).rglob("*")
+                          if p.suffix in (".hdf", ".csv", ".series") and p.name != "ranks.csv")
+        self.assertEqual(names(one), names(other))
+        self.assertIn("frames/fluid_000000.hdf", names(one))
+        self.assertIn("energy.csv", names(one))
+        for name in names(one):
+            self.assertEqual(self.read(one, name), self.read(other, name), name)
+
+    def children(self, process):
+        """The processes of a run by their rank."""
+        found = {}
+        text = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text()
+        for child in text.split():
+            with contextlib.suppress(OSError):
+                variables = pathlib.Path(f"/proc/{child}/environ").read_bytes().decode()
+                rank = re.search(r"(?:^|\0)OMPI_COMM_WORLD_RANK=(\d+)\0", variables)
+                if rank:
+                    found[int(rank[1])] = int(child)
+        return found
+
+
+class Bits(RanksTest):
+    def test_results_of_a_dam_break_with_crates_and_gauges_do_not_depend_on_the_processes(self):
+        self.run_by(1, "one")
+        for name in HISTORIES:
+            self.assertGreater(len(self.read("one", name).splitlines()), 2, name)
+        for ranks in (2, 3):
+            self.run_by(ranks, f"by{ranks}")
+            self.expect_equal("one", f"by{ranks}")
+
+    def test_results_of_a_flood_in_three_dimensions_do_not_depend_on_the_processes(self):
+        self.write(FLOOD)
+        for ranks in (1, 2, 3):
+            self.run_by(ranks, f"by{ranks}", "--set", "time.end=0.3")
+            self.expect_equal("by1", f"by{ranks}")
+
+    def test_results_of_shipped_cases_do_not_depend_on_the_processes(self):
+        for name, changes in (("floating_box", ("time.end=0.2", "particles.spacing=0.04")),
+                              ("taylor_green", ("time.end=0.02",)),
+                              ("cradle", ("time.end=0.1",))):  # bodies alone
+            with self.subTest(name):
+                self.case = CASES / name / "case.toml"
+                settings = [part for change in changes for part in ("--set", change)]
+                self.run_by(1, f"{name}-one", *settings)
+                for ranks in (2, 3):
+                    self.run_by(ranks, f"{name}-by{ranks}", *settings)
+                    if name == "cradle":
+                        for table in ("bodies.csv", "contacts.csv", "energy.csv"):
+                            self.assertEqual(self.read(f"{name}-one", table), self.read(f"{name}-by{ranks}", table))
+                    else:
+                        self.expect_equal(f"{name}-one", f"{name}-by{ranks}")
+
+    def test_more_processes_than_tiles(self):
+        self.write(FLOOD)
+        settings = ("--set", "particles.spacing=0.125", "--set", "time.end=0.1")
+        self.run_by(1, "one", *settings)
+        self.run_by(6, "many", *settings)
+        self.expect_equal("one", "many")
+
+    def test_threads_of_the_processes_change_nothing(self):
+        self.run_by(1, "one", "--threads", "2")
+        self.run_by(2, "two", "--threads", "2")
+        self.expect_equal("one", "two")
+
+    def test_the_commands_around_a_run_read_its_results(self):
+        self.run_by(2, "out")
+        for arguments in (("info", "out", "--json"), ("report", "out"), ("convert", "out", "--to", "csv")):
+            done = self.call(*arguments)
+            self.assertEqual(done.returncode, 0, (arguments, done.stderr))
+
+
+class Ends(RanksTest):
+    def test_a_signal_stops_a_run_and_any_number_of_processes_goes_on(self):
+        self.run_by(1, "whole")
+        for ranks, next_ranks in ((2, 3), (3, 1), (1, 2)):
+            process = self.start(ranks, "run", self.case, "-o", "out", "--force")
+            self.wait_for(process, "frames/fluid_000003.hdf")
+            process.send_signal(signal.SIGUSR1)
+            code, message = self.finish(process)
+            self.assertEqual(code, 130, message)
+            self.assertEqual(message.count("interrupted; checkpoint written"), 1, message)
+            self.assertIn("--resume", message)
+            self.assertFalse((self.dir / "out/frames/fluid_000012.hdf").exists(), "ended before the signal")
+            self.run_by(next_ranks, "out", "--resume")
+            self.expect_equal("whole", "out")
+            (self.dir / "out/frames/fluid_000003.hdf").unlink()
+
+    def test_signals_before_the_first_step_and_more_than_one(self):
+        process = self.start(2, "run", self.write(LONG_DAM), "-o", "out")
+        self.wait_for(process, "plan.json")
+        for _ in range(3):  # mpirun itself dies of one that comes when its processes have ended
+            process.send_signal(signal.SIGUSR1)
+            time.sleep(0.005)
+        code, message = self.finish(process)
+        self.assertEqual(code, 130, message)
+        self.assertTrue((self.dir / "out/checkpoint.h5").exists())
+
+    def test_until_and_resumption_by_other_numbers_of_processes(self):
+        self.run_by(1, "whole")
+        for ranks, until in ((3, "0.03"), (1, "0.05"), (2, "0.08"), (4, "1")):
+            self.run_by(ranks, "out", *(["--resume"] if until != "0.03" else []), "--until", until)
+        self.expect_equal("whole", "out")
+
+    def test_a_checkpoint_has_the_contents_of_that_of_one_process(self):
+        for ranks in (1, 2):
+            self.run_by(ranks, f"by{ranks}", "--until", "0.06")
+        self.assertEqual(self.read("by1", "checkpoint.h5"), self.read("by2", "checkpoint.h5"))
+
+    def test_a_mistake_in_the_case_is_told_once(self):
+        self.write(SHORT_DAM.replace("density = 400.0", "density = -400.0"))
+        alone = self.run_by(1, "out", code=2)
+        for ranks in (2, 3):
+            message = self.run_by(ranks, "out", code=2)
+            self.assertEqual(message.count(alone.splitlines()[0]), 1, message)
+            self.assertEqual(message.count("body[0].density"), alone.count("body[0].density"), message)
+        self.assertFalse((self.dir / "out").exists())
+
+    def test_existing_results_are_told_once_and_stay(self):
+        self.run_by(1, "out", "--until", "0.01")
+        before = self.read("out", "energy.csv")
+        alone = self.run_by(1, "out", code=2)
+        message = self.run_by(2, "out", code=2)
+        self.assertEqual(message.count(alone.splitlines()[0]), 1, message)
+        self.assertEqual(self.read("out", "energy.csv"), before)
+
+    def test_what_several_processes_cannot_share_is_refused_before_anything_is_written(self):
+        self.case = CASES / "open_rest" / "case.toml"
+        message = self.run_by(2, "out", code=2)
+        self.assertEqual(message.count("open sides"), 1, message)
+        self.case = "case.toml"
+        message = self.run_by(2, "out", "--set", "time.recover=true", code=2)
+        self.assertEqual(message.count("recover from a failed step"), 1, message)
+        self.assertFalse((self.dir / "out").exists())
+
+    def test_an_unstable_run_ends_with_one_message_and_its_last_good_state(self):
+        told = re.compile("^error: the simulation became unstable: .*$", re.M)
+        settings = ("--set", "time.cfl=3", "--set", "output.checkpoint_every=1000")  # by no clock
+        for number, text in enumerate((DAM, FLOOD)):
+            self.write(text)
+            one = f"one{number}"
+            alone = told.findall(self.run_by(1, one, *settings, code=3))
+            self.assertEqual(len(alone), 1)
+            for ranks in (2, 3):
+                out = f"by{ranks}-{number}"
+                message = self.run_by(ranks, out, *settings, code=3)
+                self.assertEqual(told.findall(message), alone, message)
+                self.expect_equal(one, out)
+                self.assertEqual(self.read(one, "checkpoint.h5"), self.read(out, "checkpoint.h5"))
+                self.assertIn("numerical error", (self.dir / out / "summary.json").read_text())
+
+    def test_a_results_folder_that_cannot_be_written(self):
+        self.write("", "file")
+        message = self.run_by(3, "file/out", code=4)
+        self.assertEqual(len(re.findall(r"error: ", message)), 1, message)
+
+    def test_a_results_folder_that_is_taken_away(self):
+        process = self.start(2, "run", self.write(LONG_DAM), "-o", "out")
+        self.wait_for(process, "frames/fluid_000001.hdf")
+        os.rename(self.dir / "out", self.dir / "elsewhere")
+        code, message = self.finish(process)
+        self.assertEqual(code, 4, message)
+        self.assertIn("No such file", message)
+
+    def test_the_loss_of_a_process_ends_the_run_and_resume_goes_on(self):
+        self.run_by(1, "whole", "--set", "time.end=0.2")
+        for lost in (0, 1, 2):
+            process = self.start(3, "run", self.case, "-o", "out", "--force", "--set", "time.end=0.2")
+            self.wait_for(process, "frames/fluid_000005.hdf")
+            children = self.children(process)
+            self.assertEqual(sorted(children), [0, 1, 2])
+            os.kill(children[lost], signal.SIGKILL)
+            begin = time.monotonic()
+            code, message = self.finish(process)
+            self.assertLess(time.monotonic() - begin, 20)
+            self.assertEqual(code, 137, message)
+            self.run_by(2, "out", "--resume", "--set", "time.end=0.2")
+            self.expect_equal("whole", "out")
+            (self.dir / "out/frames/fluid_000005.hdf").unlink()
+
+
+class Module(RanksTest):
+    def test_the_program_itself_needs_no_mpi(self):
+        linked = subprocess.run(["ldd", HYORYU], capture_output=True, text=True, check=True, timeout=LONGEST).stdout
+        self.assertIn("libc.so", linked)
+        self.assertNotRegex(linked, "libmpi|libopen-rte|libpmix")
+        linked = subprocess.run(["ldd", MODULE], capture_output=True, text=True, check=True, timeout=LONGEST).stdout
+        self.assertIn("libmpi", linked)
+
+    def test_without_the_module_several_processes_tell_once_where_it_is(self):
+        self.program = shutil.copy(HYORYU, self.dir / "hyoryu")
+        for ranks in (2, 3):
+            for _ in range(5):
+                begin = time.monotonic()
+                message = self.run_by(ranks, "out", code=4)
+                self.assertLess(time.monotonic() - begin, 10)
+                self.assertEqual(message.count("error: "), 1, message)
+                self.assertIn("hyoryu-mpi", message)
+                self.assertIn("HYORYU_MPI=ON", message)
+        self.assertFalse((self.dir / "out").exists())
+        self.run_by(1, "out", "--until", "0.01")
+
+    def test_a_module_of_another_kind_is_told(self):
+        self.program = shutil.copy(HYORYU, self.dir / "hyoryu")
+        self.write("no library", MODULE.name)
+        message = self.run_by(2, "out", code=4)
+        self.assertIn(f"cannot load {MODULE.name}", message)
+
+
+if __name__ == "__main__":
+    if shutil.which("mpirun") is None:
+        raise SystemExit("mpirun is not in the path")
+    main()
