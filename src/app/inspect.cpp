@@ -42,9 +42,9 @@ void draw_plan(const CheckOptions& options, const Scene& scene, const Filling& f
 
 std::string version_text()
 {
-    return fmt::format("hyoryu {} (commit {}, {}, {}, native {}, VTK {}, {} instructions)",
+    return fmt::format("hyoryu {} (commit {}, {}, {}, native {}, VTK {}, MPI {}, {} instructions)",
                        build_info::version, build_info::commit, build_info::compiler,
-                       build_info::type, build_info::native, build_info::vtk,
+                       build_info::type, build_info::native, build_info::vtk, build_info::mpi,
                        name(widest_instruction_set()));
 }
 
