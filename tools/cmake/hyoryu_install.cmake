@@ -1,5 +1,5 @@
-# What `cmake --install` and the Debian packages hold: the component `program`, and `vtk` and `gis` with the
-# modules that need VTK and GDAL, which the program finds in ../lib/hyoryu from its own folder.
+# What `cmake --install` and the Debian packages hold: the component `program`, and `vtk`, `gis` and
+# `mpi` with the modules that need VTK, GDAL and MPI, which the program finds in ../lib/hyoryu from its own folder.
 include(GNUInstallDirs)
 install(TARGETS hyoryu RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/texts/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
@@ -27,6 +27,11 @@ if(TARGET hyoryu_gis)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hyoryu-gis RENAME copyright
     COMPONENT gis)
 endif()
+if(TARGET hyoryu_mpi)
+  install(TARGETS hyoryu_mpi LIBRARY DESTINATION lib/hyoryu COMPONENT mpi)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hyoryu-mpi RENAME copyright
+    COMPONENT mpi)
+endif()
 
 # Debian packages, by scripts/package.
 set(CPACK_GENERATOR DEB)
@@ -41,6 +46,9 @@ if(HYORYU_VTK)
 endif()
 if(TARGET hyoryu_gis)
   list(APPEND CPACK_COMPONENTS_ALL gis)
+endif()
+if(TARGET hyoryu_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -58,4 +66,8 @@ set(CPACK_COMPONENT_VTK_DESCRIPTION "Meshes and pictures for hyoryu: what needs 
 set(CPACK_DEBIAN_GIS_PACKAGE_NAME hyoryu-gis)
 set(CPACK_DEBIAN_GIS_PACKAGE_DEPENDS "hyoryu (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_GIS_DESCRIPTION "GeoTIFF and other rasters for hyoryu: what needs GDAL.")
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME hyoryu-mpi)
+# The launcher is of the MPI that the module is linked to.
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "hyoryu (= ${PROJECT_VERSION}), openmpi-bin")
+set(CPACK_COMPONENT_MPI_DESCRIPTION "Runs of hyoryu that several processes share: what needs MPI.")
 include(CPack)
