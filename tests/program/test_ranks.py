@@ -159,6 +159,14 @@ class Ends(RanksTest):
             self.expect_equal("whole", "out")
             (self.dir / "out/frames/fluid_000003.hdf").unlink()
 
+    def test_a_request_to_stop_reaches_a_run_that_mpirun_has_started(self):
+        process = self.start(2, "run", self.write(LONG_DAM), "-o", "out")
+        self.wait_for(process, "frames/fluid_000001.hdf")
+        self.assertEqual(self.call("stop", "out").returncode, 0)
+        code, message = self.finish(process)
+        self.assertEqual(code, 130, message)
+        self.assertTrue((self.dir / "out/checkpoint.h5").exists())
+
     def test_signals_before_the_first_step_and_more_than_one(self):
         process = self.start(2, "run", self.write(LONG_DAM), "-o", "out")
         self.wait_for(process, "plan.json")
