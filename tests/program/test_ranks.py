@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """A run that several processes share by MPI: its files are those of one process, and it ends as the user or the case ends it.
 
-No call may take long: processes that wait for each other for ever are the fault to find.
+Usage: test_ranks.py PATH_TO_HYORYU [NAME...]. No call may take long, since processes that wait for each other for ever are the
+fault to find: HYORYU_LONGEST seconds (default 25), more on a machine that is busy with other work.
 """
 import contextlib
+import csv
+import json
 import os
 import pathlib
 import re
@@ -14,7 +17,7 @@ import time
 
 from program import CASES, DAM, FLOOD, HISTORIES, HYORYU, ProgramTest, main
 
-LONGEST = 25  # of a call [s]
+LONGEST = float(os.environ.get("HYORYU_LONGEST", "25"))  # of a call [s]
 MODULE = pathlib.Path(HYORYU).parent / "libhyoryu_mpi.so"
 # MPI may start as root, more processes than cores, without reading the memory of another process.
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive",
@@ -70,7 +73,7 @@ class RanksTest(ProgramTest):
             time.sleep(0.005)
 
     def expect_equal(self, one, other):
-        """All that a run writes, except for what tells of the machine and of times."""
+        """All that a run writes, except for what tells of the processes, of the machine and of times."""
         def names(folder):
             return sorted(str(p.relative_to(self.dir / folder)) for p in (self.dir / folder).rglob("*")
                           if p.suffix in (".hdf", ".csv", ".series") and p.name != "ranks.csv")
@@ -135,6 +138,37 @@ class Bits(RanksTest):
         self.run_by(1, "one", "--threads", "2")
         self.run_by(2, "two", "--threads", "2")
         self.expect_equal("one", "two")
+
+    def test_a_balance_that_moves_the_parts_changes_nothing(self):
+        self.run_by(1, "one")
+        for ranks, steps in ((2, 1), (3, 5), (3, 0)):
+            out = f"by{ranks}-{steps}"
+            self.run_by(ranks, out, "--rebalance", steps)
+            self.expect_equal("one", out)
+            told = json.loads((self.dir / out / "summary.json").read_text())["ranks"]
+            self.assertEqual(told["count"], ranks)
+            self.assertEqual(told["rebalances"] > 0, steps > 0, told)
+
+    def test_a_recovery_is_that_of_one_process(self):
+        self.write(FLOOD.replace("end = 0.5\n", "end = 0.5\ncfl = 3\nrecover = true\n"))
+        self.run_by(1, "one")
+        self.assertIn("recovery: back to", (self.dir / "one/run.log").read_text())
+        for ranks in (2, 3):
+            self.run_by(ranks, f"by{ranks}")
+            self.expect_equal("one", f"by{ranks}")
+
+    def test_each_process_is_told_of_at_each_frame(self):
+        self.run_by(3, "out")
+        rows = list(csv.DictReader(line for line in (self.dir / "out/ranks.csv").read_text().splitlines()
+                                   if not line.startswith("#")))
+        frames = len(list((self.dir / "out/frames").glob("fluid_*")))
+        self.assertEqual([row["rank"] for row in rows], ["0", "1", "2"] * frames)
+        fluid = json.loads((self.dir / "out/plan.json").read_text())["counts"]["fluid"]
+        for frame in range(frames):
+            self.assertEqual(sum(int(row["particles"]) for row in rows[3 * frame:3 * frame + 3]), fluid)
+        for row in rows:
+            self.assertGreater(float(row["memory"]), 1e6)
+            self.assertGreaterEqual(float(row["busy"]), 0)
 
     def test_the_commands_around_a_run_read_its_results(self):
         self.run_by(2, "out")
@@ -209,9 +243,6 @@ class Ends(RanksTest):
         self.case = CASES / "open_rest" / "case.toml"
         message = self.run_by(2, "out", code=2)
         self.assertEqual(message.count("open sides"), 1, message)
-        self.case = "case.toml"
-        message = self.run_by(2, "out", "--set", "time.recover=true", code=2)
-        self.assertEqual(message.count("recover from a failed step"), 1, message)
         self.assertFalse((self.dir / "out").exists())
 
     def test_an_unstable_run_ends_with_one_message_and_its_last_good_state(self):
