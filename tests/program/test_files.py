@@ -353,7 +353,7 @@ class Completions(ProgramTest):
                 (("hyoryu", "--v"), ["--version"]),
                 (("hyoryu", "run", "fl"), ["flood results", "flood.toml"]),
                 (("hyoryu", "run", "no"), []),
-                (("hyoryu", "run", "flood.toml", "--re"), ["--resume"]),
+                (("hyoryu", "run", "flood.toml", "--re"), ["--rebalance", "--resume"]),
                 (("hyoryu", "run", "--output", "s"), ["sub"]),
                 (("hyoryu", "run", "--threads", ""), []),
                 (("hyoryu", "convert", "--to", "vt"), ["vtkhdf", "vtp"]),
