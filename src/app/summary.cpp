@@ -11,6 +11,10 @@
 
 #include <sys/resource.h>
 
+#include <cstdio>
+#include <fstream>
+#include <string>
+
 namespace hyoryu {
 
 namespace {
@@ -152,6 +156,14 @@ ordered_json momenta(const Simulation& sim, const Totals& end)
 
 double peak_memory()
 {
+    // What getrusage tells is that of the process that started this one, where that was larger.
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        double kib = 0;
+        if (std::sscanf(line.c_str(), "VmHWM: %lf kB", &kib) == 1) {
+            return 1024 * kib;
+        }
+    }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
