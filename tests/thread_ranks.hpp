@@ -14,8 +14,8 @@
 
 namespace hyoryu::testing {
 
-/// What the ranks have in common: the parcels on their way, and a place to wait for each other. A
-/// rank that fails frees those that wait for it.
+/// Memory that the ranks share: the parcels that are sent, and a barrier. A rank that fails frees
+/// those that wait at the barrier.
 class Board {
 public:
     explicit Board(int ranks)

@@ -65,27 +65,40 @@ void share_velocities(Fluid& fluid)
     delivery.send(fluid.ghosts->comm, fluid.ghosts->outbox, fluid.ghosts->inbox);
 }
 
-void replicate_body_pressures(Fluid& fluid)
+namespace {
+
+// Gives all ranks the listed columns of all body particles, whose rows are the same everywhere.
+template <class... F>
+void replicate_bodies(Fluid& fluid, Fields<F...>)
 {
     if (!fluid.ghosts) {
         return;
     }
-    const auto p = fluid.particles.body[field::pressure];
-    const auto shepard = fluid.particles.body[field::shepard_sum];
+    Store& store = fluid.particles.body;
     Parcel parcel;
     for (const std::int32_t row : fluid.neighbours.body.row) {
         put(parcel, row);
-        put(parcel, p[row]);
-        put(parcel, shepard[row]);
+        (put(parcel, store[F{}][row]), ...);
     }
     Comm& comm = fluid.ghosts->comm;
     for (const Parcel& in : comm.exchange(std::vector<Parcel>(at(comm.size()), parcel))) {
         for (Unpacking from(in); !from.empty();) {
             const auto row = from.take<std::int32_t>();
-            p[row] = from.take<real>();
-            shepard[row] = from.take<real>();
+            ((store[F{}][row] = from.take<typename F::type>()), ...);
         }
     }
+}
+
+} // namespace
+
+void replicate_body_pressures(Fluid& fluid)
+{
+    replicate_bodies(fluid, Fields<Pressure, ShepardSum>{});
+}
+
+void replicate_body_friction(Fluid& fluid)
+{
+    replicate_bodies(fluid, Fields<ViscousForce>{});
 }
 
 void replicate_film_cuts(Fluid& fluid)
@@ -173,26 +186,6 @@ void make_ghosts_of_bodies(Fluid& fluid)
         const Store& own = fluid.particles.body;
         make_ghosts(g, g.body, fluid.neighbours.body, own, g.particles.body);
         share_owners(g.comm, g.body.halo, fluid.neighbours.body, own, g.particles.body);
-    }
-}
-
-void replicate_body_friction(Fluid& fluid)
-{
-    if (!fluid.ghosts) {
-        return;
-    }
-    const auto F = fluid.particles.body[field::viscous_force];
-    Parcel parcel;
-    for (const std::int32_t row : fluid.neighbours.body.row) {
-        put(parcel, row);
-        put(parcel, F[row]);
-    }
-    Comm& comm = fluid.ghosts->comm;
-    for (const Parcel& in : comm.exchange(std::vector<Parcel>(at(comm.size()), parcel))) {
-        for (Unpacking from(in); !from.empty();) {
-            const auto row = from.take<std::int32_t>();
-            F[row] = from.take<Vec3>();
-        }
     }
 }
 

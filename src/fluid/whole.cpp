@@ -8,6 +8,7 @@
 #include "sweeps.hpp"
 
 #include <map>
+#include <numeric>
 #include <unordered_map>
 
 namespace hyoryu {

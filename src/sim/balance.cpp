@@ -38,7 +38,8 @@ void add_entries(const PairList& list, const Tiles& tiles, std::map<std::uint64_
 // The weights of the tiles of this rank, which add up to `work`.
 std::vector<TileWeight> own_weights(const Fluid& fluid, double work)
 {
-    // What a particle costs besides its pairs, in entries: a step without neighbours over one with.
+    // Work for a particle besides its pairs, in list entries. An estimate: it moves cuts, and no
+    // result depends on them.
     constexpr double particle = 10;
     const FluidNeighbours& n = fluid.neighbours;
     std::map<std::uint64_t, double> weight;

@@ -141,10 +141,11 @@ TEST_P(FixedSumFamily, OfTilesDependsNeitherOnRowsNorOnThreads)
         }
         const FixedUnits<2> units{fixed_unit(1), fixed_unit(1e-3)};
         const auto total = [&] {
-            return sum_by_tile<2>(tiles_of(x, id, edge), units, [&](Index i) {
+            const auto term = [&](Index i) {
                 const Vec3& r = x[static_cast<std::size_t>(i)];
                 return std::array{r.x() / 3, 1e-3 * r.y() * r.z()};
-            });
+            };
+            return sums_by_tile<2>(tiles_of(x, id, edge), units, term).values(units);
         };
         set_threads(1);
         const auto expected = total();

@@ -138,7 +138,10 @@ TEST(RanksAtLimits, AFailureIsThatOfOneProcessOnAllRanks)
     }
 }
 
-// The calls of a step without new lists, as docs/processes.md lists them.
+// The calls of a step without new lists, see docs/processes.md. To ghosts: places, pressures of
+// solids, velocities. Of all: limits of the step, motions, forces on walls, what surfaces hold,
+// momentum before and after, number of particles, largest compression. With bodies: their loads,
+// their pressures and what joints remove from films.
 TEST(RanksAtLimits, AStepSaysWhatTheDocumentSays)
 {
     for (const bool bodies : {false, true}) {

@@ -135,11 +135,6 @@ FixedSums<n> sums_by_tile(const Tiles& tiles, const FixedUnits<n>& units, const 
     };
     return sum_of_blocks<n>(tiles.tiles(), add_tile);
 }
-template <std::size_t n, class F>
-std::array<double, n> sum_by_tile(const Tiles& tiles, const FixedUnits<n>& units, const F& term)
-{
-    return sums_by_tile<n>(tiles, units, term).values(units);
-}
 
 /// Sums of term(k) for k in [0, count), each number in fixed point: for terms of which there are
 /// few, or that stand in no order.

@@ -30,8 +30,8 @@ struct Ghosts {
     std::vector<Parcel> outbox, inbox;  // memory of messages
 };
 
-/// Makes the fluid one of several: its store has the particles of its range of tiles and no others.
-/// Called once, before the first lists are made.
+/// Makes the fluid that of one rank. Its store must then have the fluid particles of its range of
+/// tiles and no others, see keep_share where it has all.
 void share(Fluid& fluid, Comm& comm, const Cuts& cuts);
 
 /// Sends to the ranks that have ghosts of them the places of particles and what else a step reads

@@ -38,7 +38,7 @@ std::vector<T> terms_of_all(const Fluid& fluid, std::vector<T> own)
     return fluid.ghosts ? gather(fluid.ghosts->comm, std::span<const T>(own)).all : own;
 }
 
-/// sum_by_tile over the fluid of all ranks.
+/// Sums of term(row) over the fluid of all ranks, as sums_by_tile takes them.
 template <std::size_t n, class F>
 std::array<double, n> sum_over_fluid(const Fluid& fluid, const FixedUnits<n>& units, const F& term)
 {
@@ -47,7 +47,7 @@ std::array<double, n> sum_over_fluid(const Fluid& fluid, const FixedUnits<n>& un
     return sums.values(units);
 }
 
-/// sum_of_each over terms of all ranks, of which this one has `count`.
+/// Sums of term(k) over the terms of all ranks, of which this one has k in [0, count).
 template <std::size_t n, class F>
 std::array<double, n> sum_over_ranks(const Fluid& fluid, Index count, const FixedUnits<n>& units,
                                      const F& term)

@@ -17,7 +17,7 @@ struct WholeFluid {
 /// all ranks; empty on the others.
 WholeFluid gather_whole(const Fluid& fluid);
 
-/// Exchanges the parts of a fluid with those of another; as one process has it without ghosts.
+/// Exchanges the parts of a fluid with those of another, and its ghosts.
 void swap_parts(Fluid& fluid, WholeFluid& whole, std::unique_ptr<Ghosts>& ghosts);
 
 /// Cuts by which all ranks have about the same number of fluid particles.

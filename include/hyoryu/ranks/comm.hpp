@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What processes that share a case say to each other. A rank is one of them. Every call is made by
+// Communication of the processes that share a case. A rank is one of them. Every call is made by
 // all ranks, in the same order.
 #pragma once
 
@@ -26,10 +26,10 @@ public:
     virtual int size() const = 0;
 
     /// Sends `out[r]` to rank r, and returns by rank what each sent to this one, itself included.
-    /// An empty parcel is no message.
+    /// Nothing is sent for an empty parcel.
     virtual std::vector<Parcel> exchange(std::vector<Parcel> out) = 0;
     /// The same where a rank knows how long the messages to it are: `in[r]` has the size of what
-    /// rank r sends. Saves the ranks from asking.
+    /// rank r sends. The sizes need not be exchanged first.
     virtual void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) = 0;
 
     /// Each number becomes the largest of those of all ranks; not-a-number if any is.
@@ -39,7 +39,7 @@ public:
     virtual void add(std::span<FixedSum> sums) = 0;
 };
 
-/// Values whose bytes are all there is to them; vectors of Eigen count.
+/// Values that may be copied as bytes: numbers, vectors of Eigen, and structures of them.
 template <class T>
 concept Sendable = std::is_standard_layout_v<T> && std::is_trivially_destructible_v<T>;
 

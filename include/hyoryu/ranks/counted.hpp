@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a rank says to the others, counted, and how long it waits for them.
+// Counts the messages of a rank and the time that it spends in communication.
 #pragma once
 
 #include "hyoryu/ranks/comm.hpp"
@@ -11,7 +11,7 @@ namespace hyoryu {
 /// Since the start.
 struct Traffic {
     long long calls = 0;    // that all ranks make together
-    long long messages = 0; // to other ranks; an empty one is none
+    long long messages = 0; // sent to other ranks, empty ones excluded
     long long bytes = 0;    // of them, and of numbers that are reduced
     double seconds = 0;     // in calls: waiting and sending
 };
