@@ -86,17 +86,13 @@ public:
         }
         in = std::move(arrived);
     }
-    void largest(std::span<double> numbers) override
+    void join(std::span<Joined> numbers) override
     {
-        combine(numbers, [](double& a, double b) { a = b <= a ? a : (a <= b ? b : a + b); });
+        combine(numbers, [](Joined& a, const Joined& b) { a.join(b); });
     }
     void add(std::span<std::int64_t> numbers) override
     {
         combine(numbers, [](std::int64_t& a, std::int64_t b) { a += b; });
-    }
-    void add(std::span<FixedSum> sums) override
-    {
-        combine(sums, [](FixedSum& a, const FixedSum& b) { a.add(b); });
     }
 
 private:

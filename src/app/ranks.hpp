@@ -4,6 +4,7 @@
 
 #include "hyoryu/core/snapshot.hpp"
 #include "hyoryu/ranks/counted.hpp"
+#include "hyoryu/ranks/reduction.hpp"
 
 #include <exception>
 #include <optional>
@@ -58,7 +59,7 @@ std::array<bool, n> any_wishes(Comm* comm, std::array<bool, n> wishes)
     for (std::size_t k = 0; k < n; ++k) {
         numbers[k] = wishes[k] ? 1 : 0;
     }
-    comm->largest(numbers);
+    largest_of_all(comm, numbers);
     for (std::size_t k = 0; k < n; ++k) {
         wishes[k] = numbers[k] > 0;
     }

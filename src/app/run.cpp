@@ -291,7 +291,9 @@ int run_share(const RunOptions& options, Ranks& others)
                    : start(beginning, std::move(filling));
     from.reset();
     job.until = options.until.value_or(infinity);
-    job.command_to_go_on = command_to_go_on(options, folder);
+    const std::string launcher =
+        job.comm == nullptr ? "" : fmt::format("mpirun -n {} ", job.comm->size());
+    job.command_to_go_on = launcher + command_to_go_on(options, folder);
     return carry_out(job);
 }
 

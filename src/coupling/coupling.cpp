@@ -2,7 +2,6 @@
 #include "hyoryu/coupling/coupling.hpp"
 
 #include "hyoryu/fluid/sum_units.hpp"
-#include "hyoryu/fluid/totals.hpp"
 
 namespace hyoryu {
 
@@ -70,8 +69,7 @@ void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const Body
     }
 }
 
-void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& sums,
-                   std::vector<Wrench>& loads)
+void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& sums)
 {
     const Store& store = fluid.particles.body;
     const Tiles& tiles = fluid.neighbours.body;
@@ -89,15 +87,9 @@ void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums
                {units.force, units.force, units.force, units.torque, units.torque, units.torque});
     parallel_blocks(0, tiles.tiles(),
                     [&](Index tile) { sums.add_tile(tiles, tile, body_of, wrench); });
-    sums.end([&](auto of_bodies) { add_other_ranks(fluid, of_bodies); });
-    loads.resize(poses.size());
-    for (std::size_t b = 0; b < poses.size(); ++b) {
-        const auto [fx, fy, fz, tx, ty, tz] = sums.of(b);
-        loads[b] = {Vec3(fx, fy, fz), Vec3(tx, ty, tz)};
-    }
 }
 
-void collect_wall_forces(const Fluid& fluid, OwnerSums<3>& sums, std::span<Vec3> forces)
+void collect_wall_forces(const Fluid& fluid, std::size_t walls, OwnerSums<3>& sums)
 {
     const Store& store = fluid.particles.wall;
     const Tiles& tiles = fluid.neighbours.wall;
@@ -109,18 +101,13 @@ void collect_wall_forces(const Fluid& fluid, OwnerSums<3>& sums, std::span<Vec3>
         return std::array{f.x(), f.y(), f.z()};
     };
     const FixedUnit unit = sum_units(fluid.parameters).force;
-    sums.begin(forces.size(), {unit, unit, unit});
+    sums.begin(walls, {unit, unit, unit});
     // Dry walls feel nothing, but for friction of the step before.
     const std::vector<std::int32_t>& wet = fluid.neighbours.wet_walls;
     const bool all = force.has_friction();
     parallel_blocks(0, all ? tiles.tiles() : static_cast<Index>(wet.size()), [&](Index k) {
         sums.add_tile(tiles, all ? k : wet[at(k)], wall_of, force_of);
     });
-    sums.end([&](auto of_walls) { add_other_ranks(fluid, of_walls); });
-    for (std::size_t wall = 0; wall < forces.size(); ++wall) {
-        const auto [x, y, z] = sums.of(wall);
-        forces[wall] = Vec3(x, y, z);
-    }
 }
 
 } // namespace hyoryu

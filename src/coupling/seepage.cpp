@@ -266,6 +266,9 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     }
     JointTables& tables = *seepage.tables;
     find_near(tables, rigid, poses, step.time);
+    if (std::ranges::any_of(tables.bodies, [](const BodyJoints& b) { return !b.near.empty(); })) {
+        replicate_body_pressures(fluid);
+    }
     ParticlePressure pressure = pressure_of(fluid);
     pressure.dt = step.dt;
     const KindOfJoint joins(seepage, tables, poses, fluid.parameters.gravity);
@@ -316,7 +319,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     }
 }
 
-void add_joint_loads(const Seepage& seepage, const Fluid& fluid, const std::vector<Pose>& poses,
+void add_joint_loads(const Seepage& seepage, const std::vector<Pose>& poses,
                      std::vector<Wrench>& bodies, std::span<Vec3> walls)
 {
     const auto add = [&](int solid, const Vec3& force, const Vec3& point) {
@@ -333,9 +336,20 @@ void add_joint_loads(const Seepage& seepage, const Fluid& fluid, const std::vect
             add(load.other, -load.force, load.point);
         }
     }
+}
+
+void return_film_cuts(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& bodies,
+                      OwnerSums<3>& walls)
+{
     const auto x = fluid.particles.body[field::position];
     for (const FilmCut& cut : fluid.film_cuts) {
-        add(cut.other, cut.removed, x[cut.row]);
+        const Vec3& f = cut.removed;
+        if (cut.other >= 0) {
+            const Vec3 torque = (x[cut.row] - poses[at(cut.other)].position).cross(f);
+            bodies.add(at(cut.other), {f.x(), f.y(), f.z(), torque.x(), torque.y(), torque.z()});
+        } else {
+            walls.add(at(-1 - cut.other), {f.x(), f.y(), f.z()});
+        }
     }
 }
 

@@ -226,7 +226,6 @@ void add_film_forces(Fluid& fluid, const FluidTerms& terms)
     for (const FilmCut& cut : fluid.film_cuts) {
         F[cut.row] -= cut.removed;
     }
-    replicate_film_cuts(fluid);
 }
 
 // Forces between fluid and solids, and of solids in thin films. Fluid that has parted from them
@@ -365,15 +364,6 @@ void shift(Fluid& fluid, real dt)
         const real most = most_spacings * f.spacing;
         x[i] -= (way > most ? most / way : 1) * scale * S[i];
     });
-}
-
-std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid)
-{
-    std::array most{top_speed(fluid), top_acceleration(fluid), effective_viscosity(fluid)};
-    if (fluid.ghosts) {
-        fluid.ghosts->comm.largest(most);
-    }
-    return fluid_limits(fluid.parameters, most[0], most[1], most[2]);
 }
 
 } // namespace hyoryu

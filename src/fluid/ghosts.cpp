@@ -14,6 +14,11 @@ void share(Fluid& fluid, Comm& comm, const Cuts& cuts)
     fluid.ghosts = std::unique_ptr<Ghosts>(new Ghosts{.comm = comm, .cuts = cuts});
 }
 
+Comm* comm_of(const Fluid& fluid)
+{
+    return fluid.ghosts ? &fluid.ghosts->comm : nullptr;
+}
+
 TileRange own_tiles(const Fluid& fluid)
 {
     return fluid.ghosts ? fluid.ghosts->cuts.range(fluid.ghosts->comm.rank()) : TileRange{};
@@ -30,9 +35,7 @@ Index count_over_ranks(const Fluid& fluid, Index count)
 
 real largest_of_all(const Fluid& fluid, real number)
 {
-    if (fluid.ghosts) {
-        fluid.ghosts->comm.largest(std::span(&number, 1));
-    }
+    largest_of_all(comm_of(fluid), std::span(&number, 1));
     return number;
 }
 
@@ -99,31 +102,6 @@ void replicate_body_pressures(Fluid& fluid)
 void replicate_body_friction(Fluid& fluid)
 {
     replicate_bodies(fluid, Fields<ViscousForce>{});
-}
-
-void replicate_film_cuts(Fluid& fluid)
-{
-    if (!fluid.ghosts || fluid.film_cuts.empty()) {
-        return;
-    }
-    std::vector<std::uint8_t> own(at(fluid.particles.body.size()), 0);
-    for (const std::int32_t row : fluid.neighbours.body.row) {
-        own[at(row)] = 1;
-    }
-    Parcel parcel;
-    for (std::size_t k = 0; k < fluid.film_cuts.size(); ++k) {
-        if (own[at(fluid.film_cuts[k].row)] != 0) {
-            put(parcel, k);
-            put(parcel, fluid.film_cuts[k].removed);
-        }
-    }
-    Comm& comm = fluid.ghosts->comm;
-    for (const Parcel& in : comm.exchange(std::vector<Parcel>(at(comm.size()), parcel))) {
-        for (Unpacking from(in); !from.empty();) {
-            const auto k = from.take<std::size_t>();
-            fluid.film_cuts[k].removed = from.take<Vec3>();
-        }
-    }
 }
 
 void migrate_fluid(Fluid& fluid, const TileLattice& lattice)

@@ -96,12 +96,9 @@ Displacement measure(Fluid& fluid)
     if (fluid.moving_walls) {
         motion.solid = std::max(motion.solid, motion_beside_fixed_walls(fluid));
     }
-    if (fluid.ghosts) {
-        std::array most{motion.fluid, motion.solid, motion.absolute};
-        fluid.ghosts->comm.largest(most);
-        motion = {most[0], most[1], most[2]};
-    }
-    return motion;
+    std::array most{motion.fluid, motion.solid, motion.absolute};
+    largest_of_all(comm_of(fluid), most);
+    return {most[0], most[1], most[2]};
 }
 
 } // namespace hyoryu

@@ -73,8 +73,6 @@ void migrate_fluid(Fluid& fluid, const TileLattice& lattice);
 void make_ghosts_of_fluid(Fluid& fluid);
 void make_ghosts_of_walls(Fluid& fluid);
 void make_ghosts_of_bodies(Fluid& fluid);
-/// Gives all ranks what the owners of the body particles behind joints have removed from films.
-void replicate_film_cuts(Fluid& fluid);
 /// Gives all ranks the friction on all body particles: it acts a step later, when other ranks may
 /// own them.
 void replicate_body_friction(Fluid& fluid);

@@ -14,25 +14,16 @@ using namespace hyoryu;
 // Longest piece of a message: MPI counts in int.
 constexpr std::size_t piece_bytes = std::size_t(1) << 30;
 
-void larger(void* in, void* inout, int* count, MPI_Datatype*)
-{
-    const auto* const a = static_cast<const double*>(in);
-    auto* const b = static_cast<double*>(inout);
-    for (int k = 0; k < *count; ++k) { // a comparison that fails keeps what is not a number
-        b[k] = b[k] <= a[k] ? a[k] : (a[k] <= b[k] ? b[k] : a[k] + b[k]);
-    }
-}
-
-void add_fixed(void* in, void* inout, int* count, MPI_Datatype*)
+void join(void* in, void* inout, int* count, MPI_Datatype*)
 {
     const auto* a = static_cast<const std::byte*>(in);
     auto* b = static_cast<std::byte*>(inout);
-    for (int k = 0; k < *count; ++k, a += sizeof(FixedSum), b += sizeof(FixedSum)) {
-        FixedSum one; // memory of MPI need not be aligned
-        FixedSum other;
+    for (int k = 0; k < *count; ++k, a += sizeof(Joined), b += sizeof(Joined)) {
+        Joined one; // memory of MPI need not be aligned
+        Joined other;
         std::memcpy(static_cast<void*>(&one), a, sizeof one);
         std::memcpy(static_cast<void*>(&other), b, sizeof other);
-        other.add(one);
+        other.join(one);
         std::memcpy(b, static_cast<const void*>(&other), sizeof other);
     }
 }
@@ -53,16 +44,14 @@ public:
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &thread_support_);
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         MPI_Comm_size(MPI_COMM_WORLD, &size_);
-        MPI_Op_create(larger, 1, &larger_);
-        MPI_Op_create(add_fixed, 1, &add_fixed_);
-        MPI_Type_contiguous(sizeof(FixedSum), MPI_BYTE, &fixed_sum_);
-        MPI_Type_commit(&fixed_sum_);
+        MPI_Op_create(::join, 1, &join_);
+        MPI_Type_contiguous(sizeof(Joined), MPI_BYTE, &joined_);
+        MPI_Type_commit(&joined_);
     }
     ~MpiComm() override
     {
-        MPI_Type_free(&fixed_sum_);
-        MPI_Op_free(&larger_);
-        MPI_Op_free(&add_fixed_);
+        MPI_Type_free(&joined_);
+        MPI_Op_free(&join_);
         MPI_Finalize();
     }
     MpiComm(const MpiComm&) = delete;
@@ -113,9 +102,8 @@ public:
         MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     }
 
-    void largest(std::span<double> numbers) override { reduce(numbers, MPI_DOUBLE, larger_); }
+    void join(std::span<Joined> numbers) override { reduce(numbers, joined_, join_); }
     void add(std::span<std::int64_t> numbers) override { reduce(numbers, MPI_INT64_T, MPI_SUM); }
-    void add(std::span<FixedSum> sums) override { reduce(sums, fixed_sum_, add_fixed_); }
 
 private:
     template <class T>
@@ -128,9 +116,8 @@ private:
     int rank_ = 0;
     int size_ = 1;
     int thread_support_ = 0;
-    MPI_Op larger_ = MPI_OP_NULL;
-    MPI_Op add_fixed_ = MPI_OP_NULL;
-    MPI_Datatype fixed_sum_ = MPI_DATATYPE_NULL;
+    MPI_Op join_ = MPI_OP_NULL;
+    MPI_Datatype joined_ = MPI_DATATYPE_NULL;
     std::vector<MPI_Request> requests_;
 };
 

@@ -35,7 +35,8 @@ std::string page_of(const RunResults& run, const ReportSettings& settings)
                        title, style, chart_style) +
            case_section(run) + run_section(run) + picture_section(run) +
            impact_section(run, settings.stiffness) + trajectory_section(run) + gauge_section(run) +
-           conservation_section(run) + plan_section(run) + cost_section(run) + "</body>\n</html>\n";
+           conservation_section(run) + plan_section(run) + cost_section(run) +
+           process_section(run) + "</body>\n</html>\n";
 }
 
 } // namespace

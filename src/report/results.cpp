@@ -126,6 +126,9 @@ void read_histories(RunResults& run)
     if (!run.gauge_names.empty()) {
         run.gauges = read_csv(run.folder / "gauges.csv");
     }
+    if (run.summary.contains("ranks")) {
+        run.ranks = read_csv(run.folder / "ranks.csv");
+    }
     if (counts.at("walls").get<int>() > 0) {
         run.structures = read_surface(run.folder / "structures.hdf");
     }

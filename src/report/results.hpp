@@ -23,6 +23,7 @@ struct RunResults {
     DeclaredContact contact; // as the case declares it
     CsvTable energy;
     std::optional<CsvTable> bodies, contacts, gauges; // none where the plan has none
+    std::optional<CsvTable> ranks;                    // of several processes
     std::optional<Surface> structures;                // walls at the start
 
     int dimensions() const { return plan.at("dimensions").get<int>(); }

@@ -14,6 +14,8 @@ std::string plan_section(const RunResults& run);
 std::string run_section(const RunResults& run);
 std::string picture_section(const RunResults& run);
 std::string cost_section(const RunResults& run);
+/// Empty for a run of one process.
+std::string process_section(const RunResults& run);
 std::string conservation_section(const RunResults& run);
 std::string gauge_section(const RunResults& run);
 std::string trajectory_section(const RunResults& run);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/bed_friction.hpp"
 
-#include "hyoryu/fluid/sum_units.hpp"
-#include "hyoryu/fluid/totals.hpp"
 #include "solid_places.hpp"
 
 #include <algorithm>
@@ -35,8 +33,6 @@ void lay_columns(const Fluid& fluid, BedFriction& bed)
     const std::size_t columns = at(bed.count[0] * bed.count[1]);
     bed.particles.assign(columns, 0);
     bed.speeds.assign(columns, {0, 0, 0});
-    bed.taken.assign(at(fluid.particles.fluid.size()), Vec3::Zero());
-    bed.by.assign(at(fluid.particles.fluid.size()), -1);
 }
 
 std::size_t column_of(const Fluid& fluid, const BedFriction& bed, const Vec3& x)
@@ -119,7 +115,7 @@ RoughPlace nearest_rough(const Simulation& sim, const Vec3& x)
     return found;
 }
 
-// Brakes one particle, and keeps what was taken from it.
+// Brakes one particle; the wall gets what was taken from it.
 void rub_row(Simulation& sim, Index i, double dt)
 {
     Fluid& fluid = *sim.fluid;
@@ -144,9 +140,10 @@ void rub_row(Simulation& sim, Index i, double dt)
     const double braked = dt * sim.scene.gravity.norm() * sq(n) * along(mean).squaredNorm() /
                           (std::cbrt(depth_of(fluid, bed, column)) * sim.barrier->spacing);
     if (braked > 0 && own.norm() > 0) {
-        bed.taken[at(i)] = own * (braked / (own.norm() + braked));
-        bed.by[at(i)] = rough.wall;
-        v -= bed.taken[at(i)];
+        const Vec3 taken = own * (braked / (own.norm() + braked));
+        const Vec3 f = fluid.parameters.mass / dt * taken;
+        v -= taken;
+        sim.loads.of_walls.add(at(rough.wall), {f.x(), f.y(), f.z()});
     }
 }
 
@@ -191,14 +188,6 @@ void rub_on_beds(Simulation& sim, double dt)
             }
         }
     });
-    const FixedUnit unit = sum_units(fluid.parameters).velocity;
-    for (const int wall : bed.walls) {
-        const auto [px, py, pz] = sum_over_fluid<3>(fluid, {unit, unit, unit}, [&](Index i) {
-            const Vec3 taken = bed.by[at(i)] == wall ? bed.taken[at(i)] : Vec3(Vec3::Zero());
-            return std::array{taken.x(), taken.y(), taken.z()};
-        });
-        sim.loads.walls[at(wall)] += fluid.parameters.mass / dt * Vec3(px, py, pz);
-    }
 }
 
 } // namespace hyoryu

@@ -342,6 +342,7 @@ void restore(Simulation& sim, const Snapshot& snapshot)
 {
     StateReader state(snapshot);
     describe_all(state, sim);
+    sim.last.reset();
 }
 
 double time_of(const Snapshot& snapshot)

@@ -18,35 +18,9 @@ std::size_t at(Index row)
     return static_cast<std::size_t>(row);
 }
 
-struct MomentumSum {
-    Vec3 momentum{0, 0, 0};
-    double scale = 0;
-};
-
 bool locked(const Body& body, int axis)
 {
     return body.locks[static_cast<std::size_t>(axis)];
-}
-
-// Momentum of fluid and bodies.
-MomentumSum motion(const Simulation& sim)
-{
-    MomentumSum all;
-    if (sim.fluid) {
-        const auto v = sim.fluid->particles.fluid[field::velocity];
-        const FluidParameters& f = sim.fluid->parameters;
-        const FixedUnit unit = sum_units(f).velocity;
-        const auto [x, y, z, speed] =
-            sum_over_fluid<4>(*sim.fluid, {unit, unit, unit, unit}, [&](Index i) {
-                return std::array{v[i].x(), v[i].y(), v[i].z(), v[i].norm()};
-            });
-        all = {f.mass * Vec3(x, y, z), f.mass * speed};
-    }
-    for (const Body& body : sim.rigid.bodies) {
-        all.momentum += body.mass.mass * body.velocity;
-        all.scale += body.mass.mass * body.velocity.norm();
-    }
-    return all;
 }
 
 // Impulse of contacts with walls, and of the constraints on the locked axes of bodies, which cancel
@@ -81,8 +55,7 @@ Vec3 weight(const Simulation& sim)
 {
     Vec3 total = Vec3::Zero();
     if (sim.fluid) {
-        const Index count = count_over_ranks(*sim.fluid, sim.fluid->particles.fluid.size());
-        total += static_cast<double>(count) * sim.fluid->parameters.mass *
+        total += static_cast<double>(sim.last->particles) * sim.fluid->parameters.mass *
                  (sim.scene.gravity + sim.fluid->parameters.drive);
     }
     for (const Body& body : sim.rigid.bodies) {
@@ -94,29 +67,37 @@ Vec3 weight(const Simulation& sim)
     return total;
 }
 
-struct FluidEnergy {
-    double kinetic = 0, potential = 0, internal = 0;
-};
-
-// Of the domain: what is behind an open side counts no more, or not yet.
-FluidEnergy fluid_energy(const Fluid& fluid, const OpenBoundary& open)
+// The totals of the fluid; energies of the domain alone: what is behind an open side counts no
+// more, or not yet.
+Totals fluid_totals(const Fluid& fluid, const OpenBoundary& open)
 {
     const Store& store = fluid.particles.fluid;
     const auto x = store[field::position];
     const auto v = store[field::velocity];
     const auto rho = store[field::density];
     const FluidParameters& f = fluid.parameters;
-    const FixedUnit unit = sum_units(f).energy;
-    const auto [kinetic, potential, internal] =
-        sum_over_fluid<3>(fluid, {unit, unit, unit}, [&](Index i) {
+    const FixedUnit e = sum_units(f).energy;
+    const FixedUnit u = sum_units(f).velocity;
+    const auto [kinetic, potential, internal, vx, vy, vz, speed] =
+        sum_over_fluid<7>(fluid, {e, e, e, u, u, u, u}, [&](Index i) {
+            const real norm = v[i].norm();
             if (!open.carpets.empty() && is_behind(open, x[i], f.spacing)) {
-                return std::array{0.0, 0.0, 0.0};
+                return std::array{0.0, 0.0, 0.0, v[i].x(), v[i].y(), v[i].z(), norm};
             }
             const double s = rho[i] / f.eos.rho0;
-            return std::array{0.5 * v[i].squaredNorm(), -f.gravity.dot(x[i]),
-                              sq(f.eos.c0) * (std::log(s) + 1 / s - 1)};
+            return std::array{0.5 * v[i].squaredNorm(),
+                              -f.gravity.dot(x[i]),
+                              sq(f.eos.c0) * (std::log(s) + 1 / s - 1),
+                              v[i].x(),
+                              v[i].y(),
+                              v[i].z(),
+                              norm};
         });
-    return {f.mass * kinetic, f.mass * potential, f.mass * internal};
+    return {.fluid_kinetic = f.mass * kinetic,
+            .fluid_potential = f.mass * potential,
+            .fluid_internal = f.mass * internal,
+            .momentum = f.mass * Vec3(vx, vy, vz),
+            .momentum_scale = f.mass * speed};
 }
 
 } // namespace
@@ -125,42 +106,38 @@ Totals totals(const Simulation& sim)
 {
     Totals t;
     if (sim.fluid) {
-        const FluidEnergy e = fluid_energy(*sim.fluid, sim.open.boundary);
-        t.fluid_kinetic = e.kinetic;
-        t.fluid_potential = e.potential;
-        t.fluid_internal = e.internal;
+        t = fluid_totals(*sim.fluid, sim.open.boundary);
     }
     for (const Body& body : sim.rigid.bodies) {
         t.body_kinetic += kinetic_energy(body);
+        t.momentum += body.mass.mass * body.velocity;
+        t.momentum_scale += body.mass.mass * body.velocity.norm();
         t.body_potential -= body.left ? 0 : body.mass.mass * sim.scene.gravity.dot(body.position);
     }
-    const MomentumSum all = motion(sim);
-    t.momentum = all.momentum;
-    t.momentum_scale = all.scale;
     return t;
 }
 
-MomentumBefore momentum_before(const Simulation& sim)
+OutflowBefore outflow_before(const Simulation& sim)
 {
-    const MomentumSum all = motion(sim);
-    return {all.momentum, sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()),
-            sim.open.boundary.impulse, all.scale};
+    return {sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()), sim.open.boundary.impulse};
 }
 
-void update_conservation(Simulation& sim, const MomentumBefore& before, double dt)
+void update_conservation(Simulation& sim, const Survey& start, const OutflowBefore& outflow,
+                         double dt)
 {
-    const MomentumSum after = motion(sim);
+    const Survey& end = *sim.last;
     Vec3 walls = outside_impulse(sim, dt);
     for (const Vec3& force : sim.loads.walls) {
         walls -= dt * force;
     }
     walls += sim.waves.sponge_impulse;
     const Vec3 gravity = dt * weight(sim);
-    const Vec3 lost = sim.fluid ? Vec3(sim.fluid->lost.momentum - before.lost) : Vec3(Vec3::Zero());
-    const Vec3 open = sim.open.boundary.impulse - before.open;
-    const Vec3 residual = after.momentum - before.momentum + lost - walls - gravity - open;
+    const Vec3 lost =
+        sim.fluid ? Vec3(sim.fluid->lost.momentum - outflow.lost) : Vec3(Vec3::Zero());
+    const Vec3 open = sim.open.boundary.impulse - outflow.open;
+    const Vec3 residual = end.momentum - start.momentum + lost - walls - gravity - open;
     // The impulse of gravity is part of the scale: a fluid at rest has no momentum of its own.
-    const double scale = std::max({before.scale, after.scale, gravity.norm()});
+    const double scale = std::max({start.momentum_scale, end.momentum_scale, gravity.norm()});
     sim.conservation.wall_impulse += walls;
     sim.conservation.gravity_impulse += gravity;
     if (scale > 0) {

@@ -41,6 +41,12 @@ struct Gauges {
     static constexpr std::string_view name = "gauges";
 };
 
+/// Whether joints under standing bodies are open to water.
+inline bool has_seepage(const Simulation& sim)
+{
+    return is_built<JointSeepage> && !sim.seepage.open.empty();
+}
+
 /// Sets positions and velocities of body particles to those after flying freely for so long.
 void fly_bodies(Simulation& sim, double ahead);
 

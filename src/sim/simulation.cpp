@@ -76,31 +76,20 @@ void move_walls(Simulation& sim, double place_time, double velocity_time)
     });
 }
 
-bool has_seepage(const Simulation& sim)
-{
-    return is_built<JointSeepage> && !sim.seepage.open.empty();
-}
-
 // The joints under standing bodies, at the middle of the step.
 void seep(Simulation& sim, double dt)
 {
     if (has_seepage(sim)) {
-        replicate_body_pressures(*sim.fluid);
         update_joints(sim.seepage, sim.rigid, sim.poses, sim.body_particles,
                       {sim.clock.time + dt / 2, dt}, *sim.fluid);
     }
 }
 
-void load_solids(Simulation& sim)
+// Whether something waits for the loads in the middle of a step.
+bool needs_loads(const Simulation& sim)
 {
-    if constexpr (is_built<BodyLoad>) {
-        collect_loads(*sim.fluid, sim.poses, sim.loads.sums, sim.loads.bodies);
-    }
-    sim.loads.walls.resize(sim.scene.walls.size());
-    collect_wall_forces(*sim.fluid, sim.loads.sums_of_walls, sim.loads.walls);
-    if (has_seepage(sim)) {
-        add_joint_loads(sim.seepage, *sim.fluid, sim.poses, sim.loads.bodies, sim.loads.walls);
-    }
+    return (is_built<RigidMotion> && sim.plan.rigid) ||
+           (is_built<Gauges> && !sim.gauges.forces.empty());
 }
 
 // The last barrier on exact surfaces, in the middle of a step.
@@ -134,23 +123,11 @@ void kick_fluid(Simulation& sim, double dt)
 
 } // namespace
 
-TimeLimit time_limit(const Simulation& sim)
-{
-    const std::span<const TimeLimit> limits = sim.plan.limits;
-    if (!sim.fluid) {
-        return shortest(limits);
-    }
-    // The limits of light bodies stay; those of the fluid, the first ones, follow its motion.
-    const auto now = fluid_limits(*sim.fluid);
-    const TimeLimit of_fluid = shortest(now);
-    const TimeLimit of_bodies = shortest(limits.subspan(now.size()));
-    return of_bodies.dt < of_fluid.dt ? of_bodies : of_fluid;
-}
-
 void step(Simulation& sim)
 {
-    const NextStep next = next_step(sim.clock, sim.scene, time_limit(sim));
-    const MomentumBefore before = momentum_before(sim);
+    const Survey start = sim.last ? *sim.last : survey(sim);
+    const OutflowBefore outflow = outflow_before(sim);
+    const NextStep next = next_step(sim.clock, sim.scene, time_limit(sim, start));
     const double dt = next.dt;
     sim.contacts.clear();
     if (sim.fluid) {
@@ -170,8 +147,11 @@ void step(Simulation& sim)
         sim.timer.begin("forces");
         update_forces(fluid, dt);
         sim.timer.begin("loads");
-        load_solids(sim);
+        begin_loads(sim);
         kick_fluid(sim, dt);
+        if (needs_loads(sim)) {
+            total_loads(sim);
+        }
     }
     if (is_built<RigidMotion> && sim.plan.rigid) {
         sim.timer.begin("bodies");
@@ -201,7 +181,8 @@ void step(Simulation& sim)
     sim.clock.dt = dt;
     sim.clock.step += 1;
     sim.steps_by_limit[next.limit] += 1;
-    update_conservation(sim, before, dt);
+    sim.last = survey(sim);
+    update_conservation(sim, start, outflow, dt);
     sim.timer.begin("watch");
     watch(sim);
     sim.timer.end();

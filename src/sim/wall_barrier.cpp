@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 namespace hyoryu {
 
@@ -218,10 +217,9 @@ void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index
     const double clearance = step.look(x, v, solids, holds);
     seen = seen_at(r, clearance + barrier.way, barrier.spacing);
     hold(fluid.parameters.mass, v, holds);
-    int order = 0;
     for (const SurfaceHold& h : holds) {
         if (!h.impulse.isZero(0)) {
-            barrier.hits[at(worker())].push_back({i, order++, h.solid, x, h.impulse});
+            barrier.hits[at(worker())].push_back({i, h.solid, x, h.impulse});
         }
     }
 }
@@ -284,71 +282,24 @@ double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit
     return yield + turn.dot(body.mass.inertia.inverse() * turn);
 }
 
-// A light body recoils from the particles that it stops. The hits are computed for solids of
-// infinite mass; those on a body are scaled by s = min(1, 1 / (m sum K)), K the inverse effective
-// mass of the body at each hit. The sum bounds their joint effect, so that together they never add
-// energy: the change is m du^2 s (-1 + s (1 + m sum K) / 2) at most, which is not above zero for
-// this s.
-void share_with_bodies(Simulation& sim)
+// Adds the reactions of the hits to the sums of the loads, constant over the step.
+void book_hits(Simulation& sim, double dt)
 {
-    WallBarrier& barrier = *sim.barrier;
+    const WallBarrier& barrier = *sim.barrier;
     const double mass = sim.fluid->parameters.mass;
-    const auto v = sim.fluid->particles.fluid[field::velocity];
-    barrier.yields.assign(barrier.solids.size(), 0);
-    const auto body_of = [&](const BarrierHit& hit) {
-        return static_cast<std::size_t>(hit.solid) - barrier.walls;
-    };
-    for (const BarrierHit& hit : barrier.all) {
-        const auto solid = static_cast<std::size_t>(hit.solid);
-        if (solid >= barrier.walls) {
-            barrier.yields[solid] +=
-                mass * yield_of(sim.rigid.bodies[body_of(hit)], barrier.places[solid], hit);
-        }
-    }
-    for (std::size_t k = 0; k < barrier.all.size(); ++k) {
-        BarrierHit& hit = barrier.all[k];
-        const double yield = barrier.yields[static_cast<std::size_t>(hit.solid)];
-        const Vec3 taken = (yield > 1 ? 1 - 1 / yield : 0) * hit.impulse;
-        hit.impulse -= taken;
-        if (k >= barrier.own.first && k < barrier.own.first + barrier.own.count) {
-            v[at(hit.row)] -= taken / mass;
-        }
-    }
-}
-
-// The hits of all ranks, in the order of their rows in one process.
-void gather_hits(const Fluid& fluid, WallBarrier& barrier)
-{
-    barrier.own = {0, barrier.all.size()};
-    if (fluid.ghosts) {
-        auto gathered = gather(fluid.ghosts->comm, std::span<const BarrierHit>(barrier.all));
-        barrier.all = std::move(gathered.all);
-        barrier.own.first = gathered.own;
-    }
-}
-
-// Reactions on the solids, in the order of the rows.
-void load_solids(Simulation& sim, double dt)
-{
-    WallBarrier& barrier = *sim.barrier;
-    barrier.all.clear();
-    for (std::vector<BarrierHit>& hits : barrier.hits) {
-        barrier.all.insert(barrier.all.end(), hits.begin(), hits.end());
-        hits.clear();
-    }
-    std::ranges::sort(barrier.all, {},
-                      [](const BarrierHit& h) { return std::tie(h.row, h.order); });
-    gather_hits(*sim.fluid, barrier);
-    share_with_bodies(sim);
-    for (const BarrierHit& hit : barrier.all) {
-        const Vec3 force = -hit.impulse / dt; // constant over the step
-        const auto solid = static_cast<std::size_t>(hit.solid);
-        if (solid < barrier.walls) {
-            sim.loads.walls[solid] += force;
-        } else {
-            Wrench& load = sim.loads.bodies[solid - barrier.walls];
-            load.force += force;
-            load.torque += (hit.place - barrier.places[solid].position).cross(force);
+    for (const std::vector<BarrierHit>& hits : barrier.hits) {
+        for (const BarrierHit& hit : hits) {
+            const auto solid = static_cast<std::size_t>(hit.solid);
+            const Vec3 f = -hit.impulse / dt;
+            if (solid < barrier.walls) {
+                sim.loads.of_walls.add(solid, {f.x(), f.y(), f.z()});
+                continue;
+            }
+            const std::size_t body = solid - barrier.walls;
+            const SolidPlace& place = barrier.places[solid];
+            const Vec3 t = (hit.place - place.position).cross(f);
+            const double yield = mass * yield_of(sim.rigid.bodies[body], place, hit);
+            sim.loads.of_hits.add(body, {f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), yield});
         }
     }
 }
@@ -363,8 +314,8 @@ void make_room(WallBarrier& barrier)
         barrier.holds.resize(threads);
         std::ranges::for_each(barrier.hits, [](auto& hits) { hits.reserve(usual); });
         std::ranges::for_each(barrier.holds, [](auto& holds) { holds.reserve(usual); });
-        barrier.all.reserve(usual);
     }
+    std::ranges::for_each(barrier.hits, [](auto& hits) { hits.clear(); });
 }
 
 } // namespace
@@ -401,7 +352,42 @@ void hold_at_solids(Simulation& sim, double time, double dt)
     const BarrierStep step(fluid, barrier, dt);
     parallel_blocks(0, fluid.neighbours.fluid.tiles(),
                     [&](Index tile) { hold_tile(step, fluid, barrier, tile); });
-    load_solids(sim, dt);
+    book_hits(sim, dt);
+}
+
+void share_hits(Simulation& sim)
+{
+    const WallBarrier& barrier = *sim.barrier;
+    const double mass = sim.fluid->parameters.mass;
+    const auto v = sim.fluid->particles.fluid[field::velocity];
+    const auto share_of = [&](std::size_t body) {
+        const double yield = sim.loads.of_hits.of(body).back();
+        return yield > 1 ? 1 / yield : 1;
+    };
+    for (std::size_t body = 0; body < sim.loads.of_hits.owners(); ++body) {
+        const auto [fx, fy, fz, tx, ty, tz, yield] = sim.loads.of_hits.of(body);
+        const double share = share_of(body);
+        sim.loads.bodies[body].force += share * Vec3(fx, fy, fz);
+        sim.loads.bodies[body].torque += share * Vec3(tx, ty, tz);
+    }
+    for (const std::vector<BarrierHit>& hits : barrier.hits) {
+        for (const BarrierHit& hit : hits) {
+            const auto solid = static_cast<std::size_t>(hit.solid);
+            const double share = solid < barrier.walls ? 1 : share_of(solid - barrier.walls);
+            if (share < 1) {
+                v[at(hit.row)] -= (1 - share) / mass * hit.impulse;
+            }
+        }
+    }
+}
+
+std::size_t hits_of_step(const WallBarrier& barrier)
+{
+    std::size_t count = 0;
+    for (const std::vector<BarrierHit>& hits : barrier.hits) {
+        count += hits.size();
+    }
+    return count;
 }
 
 } // namespace hyoryu

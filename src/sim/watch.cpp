@@ -18,11 +18,6 @@ namespace hyoryu {
 
 namespace {
 
-// A weakly compressible fluid is designed for 1 %. A few particles squeezed between bodies in a jam
-// reach tens of percent and recover; at twice the density the run is lost.
-constexpr double worst_compression = 1.0;
-// Nothing in the flow can be faster than its sound without the run being lost.
-constexpr double fastest_over_sound = 2;
 // Gain of energy, relative to the energy of motion and compression and to the scale of the scene,
 // beyond which a run is unstable. The hard cases gain 1 % at most, also at twice the step; an
 // unstable run exceeds a fifth within a few steps, and may be below it again at the next frame.
@@ -117,28 +112,6 @@ Complaint first_complaint(Comm& comm, const std::optional<Complaint>& own)
     report(sim, said[0], said[1], said[2]);
 }
 
-// The largest compression of the fluid.
-double watch_fluid(Simulation& sim)
-{
-    const Fluid& fluid = *sim.fluid;
-    const Store& store = fluid.particles.fluid;
-    const auto rho = store[field::density];
-    const auto v = store[field::velocity];
-    const real rho0 = fluid.parameters.eos.rho0;
-    const real top = sq(fastest_over_sound * fluid.parameters.eos.c0);
-    // Not-a-number fails both comparisons and so counts as bad.
-    const auto error = [&](Index i) {
-        const real e = std::abs(rho[i] / rho0 - 1);
-        const bool good = e <= worst_compression && v[i].squaredNorm() <= top;
-        return good ? e : infinity;
-    };
-    const real worst = largest_of_all(fluid, largest(0, store.size(), 0, error));
-    if (worst == infinity) {
-        report_particle(sim, [&](Index row) { return error(row) == infinity; });
-    }
-    return worst;
-}
-
 void watch_bodies(const Simulation& sim)
 {
     for (const Body& body : sim.rigid.bodies) {
@@ -186,8 +159,13 @@ double energy(const Totals& t)
 void watch(Simulation& sim)
 {
     if (sim.fluid) {
+        const double worst = sim.last->compression;
+        if (worst == infinity) {
+            report_particle(sim,
+                            [&](Index row) { return compression(*sim.fluid, row) == infinity; });
+        }
         sim.conservation.worst_density_error =
-            std::max(sim.conservation.worst_density_error, watch_fluid(sim));
+            std::max(sim.conservation.worst_density_error, worst);
     }
     watch_bodies(sim);
 }

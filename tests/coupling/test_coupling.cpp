@@ -58,6 +58,32 @@ struct Immersed {
     }
 };
 
+std::vector<Wrench> loads_on_bodies(const Fluid& fluid, const std::vector<Pose>& poses)
+{
+    OwnerSums<6> sums;
+    collect_loads(fluid, poses, sums);
+    sums.end();
+    std::vector<Wrench> loads;
+    for (std::size_t b = 0; b < sums.owners(); ++b) {
+        const auto [fx, fy, fz, tx, ty, tz] = sums.of(b);
+        loads.push_back({Vec3(fx, fy, fz), Vec3(tx, ty, tz)});
+    }
+    return loads;
+}
+
+std::vector<Vec3> forces_on_walls(const Fluid& fluid, std::size_t walls)
+{
+    OwnerSums<3> sums;
+    collect_wall_forces(fluid, walls, sums);
+    sums.end();
+    std::vector<Vec3> forces;
+    for (std::size_t wall = 0; wall < walls; ++wall) {
+        const auto [x, y, z] = sums.of(wall);
+        forces.emplace_back(x, y, z);
+    }
+    return forces;
+}
+
 TEST(Coupling, ParticlesMoveWithTheirBody)
 {
     Immersed scene;
@@ -86,9 +112,7 @@ TEST_P(Reaction, TheLoadIsTheReactionOfTheFluid)
 {
     const auto [precision, bound] = GetParam();
     Immersed scene(precision);
-    std::vector<Wrench> loads;
-    OwnerSums<6> sums;
-    collect_loads(scene.fluid, scene.poses, sums, loads);
+    const std::vector<Wrench> loads = loads_on_bodies(scene.fluid, scene.poses);
     Vec3 on_fluid = Vec3::Zero();
     Vec3 torque_on_fluid = Vec3::Zero();
     real scale = 0;
@@ -167,15 +191,10 @@ TEST(Coupling, LoadsAreTheSerialSumsForAnyNumberOfThreads)
         }
         std::vector<Wrench> first;
         std::vector<Vec3> first_on_walls;
-        OwnerSums<6> sums;
-        OwnerSums<3> sums_of_walls;
         for (const int threads : {1, 2, 3, 4}) {
             set_threads(threads);
-            std::vector<Wrench> loads;
-            std::vector<Vec3> on_walls(poses.size());
-            collect_loads(fluid, poses, sums, loads);
-            collect_wall_forces(fluid, sums_of_walls, on_walls);
-            ASSERT_EQ(loads.size(), poses.size());
+            const std::vector<Wrench> loads = loads_on_bodies(fluid, poses);
+            const std::vector<Vec3> on_walls = forces_on_walls(fluid, poses.size());
             first = threads == 1 ? loads : first;
             first_on_walls = threads == 1 ? on_walls : first_on_walls;
             for (std::size_t b = 0; b < poses.size(); ++b) {
@@ -203,12 +222,8 @@ TEST(Coupling, ALoadOfForcesThatAreNotFiniteIsNotFinite)
         fluid.particles.wall[field::force][18].z() = bad;
         const auto body = static_cast<std::size_t>(fluid.particles.body.owner()[17]);
         const auto wall = static_cast<std::size_t>(-1 - fluid.particles.wall.owner()[18]);
-        OwnerSums<6> sums;
-        OwnerSums<3> sums_of_walls;
-        std::vector<Wrench> loads;
-        std::vector<Vec3> on_walls(3);
-        collect_loads(fluid, std::vector<Pose>(3), sums, loads);
-        collect_wall_forces(fluid, sums_of_walls, on_walls);
+        const std::vector<Wrench> loads = loads_on_bodies(fluid, std::vector<Pose>(3));
+        const std::vector<Vec3> on_walls = forces_on_walls(fluid, 3);
         for (std::size_t k = 0; k < 3; ++k) {
             EXPECT_EQ(std::isfinite(loads[k].force.y()), k != body) << bad;
             EXPECT_EQ(loads[k].torque.allFinite(), k != body) << bad;

@@ -9,6 +9,7 @@ import csv
 import json
 import os
 import pathlib
+import random
 import re
 import shutil
 import signal
@@ -172,6 +173,37 @@ class Bits(RanksTest):
             self.assertGreater(float(row["memory"]), 1e6)
             self.assertGreaterEqual(float(row["busy"]), 0)
 
+    def test_the_report_shows_what_each_process_had_and_did(self):
+        self.run_by(1, "alone")
+        self.call("report", "alone")
+        self.assertNotIn("<h2>Processes</h2>", self.read("alone", "report.html").decode())
+        self.run_by(3, "out")
+        self.assertEqual(self.call("report", "out").returncode, 0)
+        page = self.read("out", "report.html").decode().partition("<h2>Processes</h2>")[2]
+        self.assertIn("3 processes shared the run", page)
+        self.assertEqual(page.count("<svg"), 2)
+        cells = [re.findall(r"<td[^>]*>([^<]*)</td>", row) for row in page.split("<tr>")]
+        rows = [row for row in cells if len(row) == 9]
+        self.assertEqual([row[0] for row in rows], ["0", "1", "2"])
+        fluid = json.loads((self.dir / "out/plan.json").read_text())["counts"]["fluid"]
+        self.assertEqual(sum(int(row[2]) for row in rows), fluid)
+        (self.dir / "out/ranks.csv").unlink()
+        self.assertEqual(self.call("report", "out").returncode, 4)
+
+    def test_scaling_is_measured(self):
+        root = pathlib.Path(__file__).resolve().parent.parent.parent
+        done = subprocess.run([root / "scripts/scaling", str(self.case), "--ranks", "1,3", "--steps", "40", "--repeat", "1",
+                               "--launcher", "mpirun --oversubscribe", "--program", HYORYU, "--json",
+                               self.dir / "scaling.json"], capture_output=True, text=True, cwd=self.dir,
+                              env=ENVIRONMENT, timeout=4 * LONGEST)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("the same bits", done.stdout)
+        one, three = json.loads((self.dir / "scaling.json").read_text())["rows"]
+        self.assertEqual((one["ranks"], three["ranks"], one["efficiency"], one["messages"]), (1, 3, 1, 0))
+        # Places, pressures of solids and velocities to one or two others, and what new lists need.
+        self.assertGreater(three["messages"], 3)
+        self.assertLess(three["messages"], 30)
+
     def test_the_commands_around_a_run_read_its_results(self):
         self.run_by(2, "out")
         for arguments in (("info", "out", "--json"), ("report", "out"), ("convert", "out", "--to", "csv")):
@@ -285,6 +317,29 @@ class Ends(RanksTest):
             self.run_by(2, "out", "--resume", "--set", "time.end=0.2")
             self.expect_equal("whole", "out")
             (self.dir / "out/frames/fluid_000005.hdf").unlink()
+
+    def test_processes_lost_at_any_moment_cost_what_came_after_the_last_checkpoint(self):
+        """As often as HYORYU_KILLS says, with another number of processes and another loss each time."""
+        dice = random.Random(int(os.environ.get("HYORYU_SEED", "1")))
+        settings = ("--set", "time.end=0.2", "--set", "output.every=0.004", "--set", "output.checkpoint_every=0.004")
+        begin = time.monotonic()
+        self.run_by(1, "whole", *settings)
+        alone = time.monotonic() - begin
+        lost = 0
+        for _ in range(int(os.environ.get("HYORYU_KILLS", "4"))):
+            ranks = dice.randint(2, 4)
+            resume = ("--resume",) if (self.dir / "out/checkpoint.h5").exists() else ("--force",)
+            process = self.start(ranks, "run", self.case, "-o", "out", *resume, *settings)
+            time.sleep(dice.uniform(0.5, 0.8 + alone))
+            children = self.children(process)
+            if len(children) == ranks:
+                os.kill(children[dice.randrange(ranks)], signal.SIGKILL)
+                lost += 1
+            code, message = self.finish(process)
+            self.assertIn(code, (0, 137), message)
+        self.assertGreater(lost, 0, "every run had ended before it could lose a process")
+        self.run_by(2, "out", "--resume", *settings)
+        self.expect_equal("whole", "out")
 
 
 class Module(RanksTest):

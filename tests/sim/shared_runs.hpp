@@ -88,8 +88,8 @@ inline void run(Simulation& sim, int steps)
     }
 }
 
-/// What is of one step alone, in the order of the steps: list entries and skins,
-/// particles that surfaces hold, forces on gauges.
+/// What is of one step alone, in the order of the steps: list entries and skins, forces on walls
+/// and gauges.
 inline void add_step(std::vector<double>& history, const Simulation& sim)
 {
     if (sim.fluid) {
@@ -98,8 +98,8 @@ inline void add_step(std::vector<double>& history, const Simulation& sim)
                        {static_cast<double>(n.entries.fluid), static_cast<double>(n.entries.solid),
                         n.skins.fluid, n.skins.solid});
     }
-    if (sim.barrier) {
-        history.push_back(static_cast<double>(sim.barrier->all.size()));
+    for (const Vec3& force : sim.loads.walls) {
+        history.insert(history.end(), force.begin(), force.end());
     }
     for (const GaugedForce& force : sim.gauges.forces) {
         history.insert(history.end(), force.viscous.begin(), force.viscous.end());

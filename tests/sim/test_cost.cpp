@@ -67,7 +67,7 @@ TEST(Cost, IsMeasuredAtTheEndOfARunToo)
         step_on(sim);
     }
     const double end = sim.clock.time;
-    const double dt = time_limit(sim).dt;
+    const double dt = time_limit(sim, survey(sim)).dt;
     const StepCost cost = measure_cost(sim, 10);
     EXPECT_GT(sim.clock.time, end + 5 * dt) << "ten whole steps, and the one before them";
     EXPECT_GT(cost.seconds, 0);

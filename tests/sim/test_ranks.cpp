@@ -124,7 +124,7 @@ position = [0, 0, -0.26]
     std::size_t hits = 0;
     for (int k = 0; k < 350; ++k) {
         step_on(sim);
-        hits += sim.barrier->all.size();
+        hits += hits_of_step(*sim.barrier);
     }
     ASSERT_GT(hits, 20U) << "the scene does not show what it is for";
     expect_ranks_agree(jet, {}, {2, 5}, 350);

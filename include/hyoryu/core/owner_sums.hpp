@@ -50,9 +50,15 @@ public:
         sums[owner].add(run, units_);
     }
 
-    /// Ends the sums: adds up what the threads have, then calls `add_others(sums)` with the sums of
-    /// each number of each owner, for what other processes have of them.
-    void end(const auto& add_others)
+    /// Adds a term of an owner, from any thread of a parallel loop.
+    void add(std::size_t owner, const std::array<double, n>& term)
+    {
+        by_thread_[static_cast<std::size_t>(worker())][owner].add(term, units_);
+    }
+
+    /// Ends the sums: adds up what the threads have. Returns the sums of each owner, to which those
+    /// of other processes may be added.
+    std::span<FixedSums<n>> end()
     {
         std::vector<FixedSums<n>>& all = by_thread_.front();
         for (std::size_t thread = 1; thread < by_thread_.size(); ++thread) {
@@ -60,8 +66,9 @@ public:
                 all[owner].add(by_thread_[thread][owner]);
             }
         }
-        add_others(std::span(all));
+        return all;
     }
+    std::size_t owners() const { return by_thread_.empty() ? 0 : by_thread_.front().size(); }
     /// The sums of an owner, once they have ended.
     std::array<double, n> of(std::size_t owner) const
     {

@@ -32,13 +32,12 @@ std::vector<Pose> free_flight(const Rigid& rigid, double ahead);
 void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const BodyParticles& bodies,
                   Fluid& fluid);
 
-/// Force and torque (about the centre of mass of the pose) on each body: sums of the particle
-/// forces, equal and opposite to the forces on the fluid. Not-a-number where a force is not finite
-/// or beyond all scales of the fluid (`FixedSum`). `sums` is memory kept from step to step.
-void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& sums,
-                   std::vector<Wrench>& loads);
+/// Begins the sums of force [N] and torque [N m] (about the centre of mass of the pose) on each
+/// body with the forces on its particles, which are equal and opposite to those on the fluid. A sum
+/// is not-a-number where a force is not finite or beyond all scales of the fluid (`FixedSum`).
+void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& sums);
 
-/// Force on the particles of each wall [N], in the same way.
-void collect_wall_forces(const Fluid& fluid, OwnerSums<3>& sums, std::span<Vec3> forces);
+/// The same of the forces [N] on so many walls.
+void collect_wall_forces(const Fluid& fluid, std::size_t walls, OwnerSums<3>& sums);
 
 } // namespace hyoryu

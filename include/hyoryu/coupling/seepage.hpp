@@ -60,9 +60,13 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
                    const BodyParticles& bodies, const JointTime& step, Fluid& fluid);
 
 /// Adds the forces of the joints to the loads of the bodies, about the centres of mass of the
-/// poses, and to the forces on the walls; with them what the film forces left to the joints
-/// (`Fluid::film_cuts`), of which the other side has felt the reaction.
-void add_joint_loads(const Seepage& seepage, const Fluid& fluid, const std::vector<Pose>& poses,
+/// poses, and to the forces on the walls.
+void add_joint_loads(const Seepage& seepage, const std::vector<Pose>& poses,
                      std::vector<Wrench>& bodies, std::span<Vec3> walls);
+
+/// Adds to the sums of `collect_loads` and `collect_wall_forces` what the film forces on particles
+/// of this process left to the joints (`Fluid::film_cuts`): the other side has felt its reaction.
+void return_film_cuts(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& bodies,
+                      OwnerSums<3>& walls);
 
 } // namespace hyoryu

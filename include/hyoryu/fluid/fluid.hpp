@@ -61,8 +61,9 @@ struct FilmCut {
     real part = 0;        // [1]
     real pressure = 0;    // in the joint [Pa]
     Vec3 normal{0, 0, 1}; // of the face, outward
-    Vec3 removed{0, 0,
-                 0}; // force that the particle did not get, and that the other side gives back [N]
+    // Force that the particle did not get, and that the other side gives back [N]; 0 where the
+    // particle belongs to another process.
+    Vec3 removed{0, 0, 0};
 };
 
 /// Sums over the particles that left the domain and were removed from the run.
@@ -152,10 +153,7 @@ void shift(Fluid& fluid, real dt);
 real top_speed(const Fluid& fluid);
 real top_acceleration(const Fluid& fluid);
 
-/// Limits of the next time step.
-std::array<TimeLimit, 3> fluid_limits(const Fluid& fluid);
-
-/// alpha h c0 / (2 (d + 2)) + nu + the largest nu_t [m2/s]; 0 without viscosity.
+/// alpha h c0 / (2 (d + 2)) + nu + the largest nu_t of this process [m2/s]; 0 without viscosity.
 real effective_viscosity(const Fluid& fluid);
 
 } // namespace hyoryu

@@ -5,6 +5,7 @@
 
 #include "hyoryu/fluid/list_schedule.hpp"
 #include "hyoryu/ranks/halo.hpp"
+#include "hyoryu/ranks/reduction.hpp"
 
 #include <optional>
 
@@ -41,6 +42,8 @@ void share_places(Fluid& fluid);
 /// Gives all ranks the pressures and kernel sums of all body particles, as joints need them.
 void replicate_body_pressures(Fluid& fluid);
 
+/// The connection with the other ranks; null without ranks.
+Comm* comm_of(const Fluid& fluid);
 /// The numbers of tiles of this rank; all without ranks.
 TileRange own_tiles(const Fluid& fluid);
 

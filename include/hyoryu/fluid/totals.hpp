@@ -9,25 +9,9 @@ namespace hyoryu {
 /// Adds to sums what the other ranks have of them.
 inline void add_other_ranks(const Fluid& fluid, std::span<FixedSum> sums)
 {
-    if (fluid.ghosts) {
-        fluid.ghosts->comm.add(sums);
-    }
-}
-/// The same of the sums of owners, see OwnerSums::end.
-template <std::size_t n>
-void add_other_ranks(const Fluid& fluid, std::span<FixedSums<n>> of_owners)
-{
-    if (!fluid.ghosts || of_owners.empty()) {
-        return;
-    }
-    std::vector<FixedSum> sums;
-    for (FixedSums<n>& owner : of_owners) {
-        sums.insert(sums.end(), owner.each().begin(), owner.each().end());
-    }
-    fluid.ghosts->comm.add(std::span(sums));
-    for (std::size_t k = 0; k < sums.size(); ++k) {
-        of_owners[k / n].each()[k % n] = sums[k];
-    }
+    Reduction all(comm_of(fluid));
+    all.add(sums);
+    all.run();
 }
 
 /// The terms of all ranks, in the order in which one process has them: those of a rank are in the

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -16,6 +17,21 @@ namespace hyoryu {
 
 /// A message.
 using Parcel = std::vector<std::byte>;
+
+/// A number of which ranks want the sum, the largest, or both.
+struct Joined {
+    FixedSum sum;
+    double largest = -std::numeric_limits<double>::infinity();
+
+    /// Adds what another rank has. The largest is not-a-number if any is.
+    void join(const Joined& other)
+    {
+        sum.add(other.sum);
+        const double a = largest;
+        const double b = other.largest; // a comparison that fails keeps what is not a number
+        largest = b <= a ? a : (a <= b ? b : a + b);
+    }
+};
 
 /// The connection of a rank with the others.
 class Comm {
@@ -32,11 +48,10 @@ public:
     /// rank r sends. The sizes need not be exchanged first.
     virtual void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) = 0;
 
-    /// Each number becomes the largest of those of all ranks; not-a-number if any is.
-    virtual void largest(std::span<double> numbers) = 0;
+    /// Each number becomes that of all ranks.
+    virtual void join(std::span<Joined> numbers) = 0;
     /// Each number becomes the sum of those of all ranks.
     virtual void add(std::span<std::int64_t> numbers) = 0;
-    virtual void add(std::span<FixedSum> sums) = 0;
 };
 
 /// Values that may be copied as bytes: numbers, vectors of Eigen, and structures of them.

@@ -36,15 +36,8 @@ public:
         const Watch watch(traffic_);
         comm_.exchange(out, in);
     }
-    void largest(std::span<double> numbers) override { reduce(numbers, &Comm::largest); }
-    void add(std::span<std::int64_t> numbers) override
-    {
-        reduce(numbers, static_cast<void (Comm::*)(std::span<std::int64_t>)>(&Comm::add));
-    }
-    void add(std::span<FixedSum> sums) override
-    {
-        reduce(sums, static_cast<void (Comm::*)(std::span<FixedSum>)>(&Comm::add));
-    }
+    void join(std::span<Joined> numbers) override { reduce(numbers, &Comm::join); }
+    void add(std::span<std::int64_t> numbers) override { reduce(numbers, &Comm::add); }
 
     const Traffic& traffic() const { return traffic_; }
 

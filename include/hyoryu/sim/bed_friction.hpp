@@ -28,15 +28,13 @@ struct BedFriction {
     std::array<double, 2> width{1, 1};               // of a column [m]
     std::vector<std::int32_t> particles;             // in each column
     std::vector<std::array<std::int64_t, 3>> speeds; // their sum, in units of 2^-30 c0
-    std::vector<Vec3> taken;                         // velocity from each particle [m/s]
-    std::vector<std::int32_t> by;                    // the wall that took it, or -1
 };
 
 /// The rough walls of a scene with fluid.
 BedFriction make_bed_friction(const Simulation& sim);
 
 /// Brakes the fluid at rough walls in the middle of a step of length dt, after the barrier, which
-/// knows where the walls are; adds the reactions to the loads of the step.
+/// knows where the walls are; adds the reactions to the sums of the loads.
 void rub_on_beds(Simulation& sim, double dt);
 
 } // namespace hyoryu

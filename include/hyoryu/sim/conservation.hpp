@@ -3,7 +3,7 @@
 // closure error of momentum: the part of its change that the impulses do not explain.
 #pragma once
 
-#include "hyoryu/core/types.hpp"
+#include "hyoryu/sim/survey.hpp"
 
 namespace hyoryu {
 
@@ -33,15 +33,15 @@ struct Conservation {
 
 Totals totals(const Simulation& sim);
 
-/// Momentum before a step.
-struct MomentumBefore {
-    Vec3 momentum{0, 0, 0};
-    Vec3 lost{0, 0, 0}; // of particles that left the domain, since the start
-    Vec3 open{0, 0, 0}; // impulse at open sides since the start
-    double scale = 0;
+/// What went through the sides before a step, since the start.
+struct OutflowBefore {
+    Vec3 lost{0, 0, 0}; // momentum of particles that left the domain
+    Vec3 open{0, 0, 0}; // impulse at open sides
 };
-MomentumBefore momentum_before(const Simulation& sim);
-/// Adds the impulses and losses of a step of length dt and the closure error of its momentum.
-void update_conservation(Simulation& sim, const MomentumBefore& before, double dt);
+OutflowBefore outflow_before(const Simulation& sim);
+/// Adds the impulses and losses of a step of length dt and the closure error of its momentum, from
+/// the survey of its start to the last one.
+void update_conservation(Simulation& sim, const Survey& start, const OutflowBefore& outflow,
+                         double dt);
 
 } // namespace hyoryu

@@ -12,7 +12,9 @@
 #include "hyoryu/sim/clock.hpp"
 #include "hyoryu/sim/conservation.hpp"
 #include "hyoryu/sim/gauges.hpp"
+#include "hyoryu/sim/loads.hpp"
 #include "hyoryu/sim/open_flow.hpp"
+#include "hyoryu/sim/survey.hpp"
 #include "hyoryu/sim/wall_barrier.hpp"
 #include "hyoryu/sim/waves.hpp"
 
@@ -20,14 +22,6 @@
 #include <optional>
 
 namespace hyoryu {
-
-/// Forces of the fluid on each body and wall in the last step.
-struct Loads {
-    std::vector<Wrench> bodies;
-    std::vector<Vec3> walls; // [N]
-    OwnerSums<6> sums;       // memory of their sums
-    OwnerSums<3> sums_of_walls;
-};
 
 struct Simulation {
     Scene scene;
@@ -43,6 +37,7 @@ struct Simulation {
     Waves waves;
     BedFriction bed; // of one step
     Clock clock;
+    std::optional<Survey> last; // of the end of the last step; none before the first
     Conservation conservation;
     GaugeMemory gauges;
     std::vector<Contact> contacts; // of the last step
@@ -62,8 +57,5 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
 /// Advances by one step, limited as the clock says. Throws NumericalError when the state after it
 /// is not finite or out of bounds.
 void step(Simulation& sim);
-
-/// Shortest limit of the next step.
-TimeLimit time_limit(const Simulation& sim);
 
 } // namespace hyoryu

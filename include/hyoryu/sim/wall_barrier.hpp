@@ -36,7 +36,6 @@ struct SurfaceHold {
 /// An impulse of the barrier.
 struct BarrierHit {
     Index row = 0;         // of the fluid particle
-    int order = 0;         // among those of the row
     int solid = 0;         // wall, or number of walls + body
     Vec3 place{0, 0, 0};   // of the particle [m]
     Vec3 impulse{0, 0, 0}; // on the particle [N s]
@@ -77,19 +76,27 @@ struct WallBarrier {
     std::vector<Seen> seen;
     std::vector<std::vector<SurfaceHold>> holds; // of one particle, by thread
     std::vector<std::vector<BarrierHit>> hits;   // of this step, by thread
-    std::vector<BarrierHit> all;                 // of this step, in the order of rows
-    struct {
-        std::size_t first = 0, count = 0;
-    } own;                      // those of this process
-    std::vector<double> yields; // m sum K of the hits of each solid [1]
-    std::vector<int> numbers;   // of all solids
+    std::vector<int> numbers;                    // of all solids
 };
 
 WallBarrier make_wall_barrier(const Scene& scene);
 
 /// Stops the fluid at the surfaces of walls and bodies at their places in the middle of a step of
-/// length dt, at `time`; adds the reactions to the loads of the step.
+/// length dt, at `time`; adds the reactions to the sums of the loads (`begin_loads`).
+///
+/// The hits are computed for solids of infinite mass. A light body recoils from the particles that
+/// it stops: those on a body are to be scaled by s = min(1, 1 / (m sum K)), K the inverse effective
+/// mass of the body at each hit. The sum bounds their joint effect, so that together they never add
+/// energy: the change is m du^2 s (-1 + s (1 + m sum K) / 2) at most, which is not above zero for
+/// this s.
 void hold_at_solids(Simulation& sim, double time, double dt);
+
+/// Scales the hits on bodies, once their sums are those of all processes: adds them to the loads
+/// and returns the rest to the particles.
+void share_hits(Simulation& sim);
+
+/// How many hits there were in the last step, on particles of this process.
+std::size_t hits_of_step(const WallBarrier& barrier);
 
 /// Fluid particles that are deeper than a quarter of a spacing inside a wall or body, now. Looks at
 /// every particle and every solid near it, whatever the barrier has looked at; not at the carpets

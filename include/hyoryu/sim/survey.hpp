@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What all processes must know of the whole scene between two steps: for the length of the next
+// step, the books of the last one, and whether the run is stable. All of it in one call.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+#include "hyoryu/fluid/time_limit.hpp"
+
+namespace hyoryu {
+
+struct Fluid;
+struct Simulation;
+
+struct Survey {
+    Vec3 momentum{0, 0, 0};      // of fluid and bodies [kg m/s]
+    double momentum_scale = 0;   // sum of |m v| [kg m/s]
+    Index particles = 0;         // of the fluid
+    double top_speed = 0;        // of the fluid, as all that follows [m/s]; not-a-number if any is
+    double top_acceleration = 0; // [m/s2]
+    double viscosity = 0;        // largest effective one [m2/s]
+    double compression = 0;      // largest |rho/rho0 - 1|; infinite if a particle is out of bounds
+};
+
+/// The scene as it is now. Completes the loads of the step, if they are not.
+Survey survey(Simulation& sim);
+
+/// |rho/rho0 - 1| of a fluid particle; infinite if the run is lost: at twice the density, at twice
+/// the speed of sound, or where either is not a number.
+double compression(const Fluid& fluid, Index row);
+
+/// Shortest limit of the next step.
+TimeLimit time_limit(const Simulation& sim, const Survey& now);
+
+} // namespace hyoryu

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/survey.hpp"
+
+#include "hyoryu/fluid/sum_units.hpp"
+#include "hyoryu/fluid/totals.hpp"
+#include "hyoryu/sim/simulation.hpp"
+
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+// A weakly compressible fluid is designed for 1 %. A few particles squeezed between bodies in a jam
+// reach tens of percent and recover; at twice the density the run is lost.
+constexpr double worst_compression = 1.0;
+// Nothing in the flow can be faster than its sound without the run being lost.
+constexpr double fastest_over_sound = 2;
+
+const FixedUnit count_unit = fixed_unit(1);
+
+// The fluid of this process; sums of velocities, speeds and particles apart.
+Survey own_survey(const Fluid& fluid)
+{
+    Survey own;
+    own.top_speed = top_speed(fluid);
+    own.top_acceleration = top_acceleration(fluid);
+    own.viscosity = effective_viscosity(fluid);
+    own.compression = largest(0, fluid.particles.fluid.size(), 0,
+                              [&](Index row) { return compression(fluid, row); });
+    return own;
+}
+
+void survey_fluid(Simulation& sim, Survey& now)
+{
+    const Fluid& fluid = *sim.fluid;
+    now = own_survey(fluid);
+    const auto v = fluid.particles.fluid[field::velocity];
+    const FixedUnit unit = sum_units(fluid.parameters).velocity;
+    const FixedUnits<4> units{unit, unit, unit, unit};
+    FixedSums<4> motion = sums_by_tile<4>(fluid.neighbours.fluid, units, [&](Index i) {
+        return std::array{v[i].x(), v[i].y(), v[i].z(), v[i].norm()};
+    });
+    FixedSum count;
+    count.add(static_cast<double>(fluid.particles.fluid.size()), count_unit);
+
+    const bool loads = !sim.loads.complete;
+    Reduction all(comm_of(fluid));
+    all.add(motion.each());
+    all.add(std::span(&count, 1));
+    for (double* const most :
+         {&now.top_speed, &now.top_acceleration, &now.viscosity, &now.compression}) {
+        all.largest(std::span(most, 1));
+    }
+    if (loads) {
+        end_loads(sim.loads, all);
+    }
+    all.run();
+    if (loads) {
+        complete_loads(sim);
+    }
+    const auto [x, y, z, speed] = motion.values(units);
+    now.momentum = fluid.parameters.mass * Vec3(x, y, z);
+    now.momentum_scale = fluid.parameters.mass * speed;
+    now.particles = static_cast<Index>(count.value(count_unit));
+}
+
+} // namespace
+
+double compression(const Fluid& fluid, Index row)
+{
+    const Store& store = fluid.particles.fluid;
+    const real top = sq(fastest_over_sound * fluid.parameters.eos.c0);
+    const real e = std::abs(store[field::density][row] / fluid.parameters.eos.rho0 - 1);
+    // Not-a-number fails both comparisons and so counts as lost.
+    const bool good = e <= worst_compression && store[field::velocity][row].squaredNorm() <= top;
+    return good ? e : infinity;
+}
+
+Survey survey(Simulation& sim)
+{
+    Survey now;
+    if (sim.fluid) {
+        survey_fluid(sim, now);
+    }
+    for (const Body& body : sim.rigid.bodies) {
+        now.momentum += body.mass.mass * body.velocity;
+        now.momentum_scale += body.mass.mass * body.velocity.norm();
+    }
+    return now;
+}
+
+TimeLimit time_limit(const Simulation& sim, const Survey& now)
+{
+    const std::span<const TimeLimit> limits = sim.plan.limits;
+    if (!sim.fluid) {
+        return shortest(limits);
+    }
+    // The limits of light bodies stay; those of the fluid, the first ones, follow its motion.
+    const auto of_now =
+        fluid_limits(sim.fluid->parameters, now.top_speed, now.top_acceleration, now.viscosity);
+    const TimeLimit of_fluid = shortest(of_now);
+    const TimeLimit of_bodies = shortest(limits.subspan(of_now.size()));
+    return of_bodies.dt < of_fluid.dt ? of_bodies : of_fluid;
+}
+
+} // namespace hyoryu
