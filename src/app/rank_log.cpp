@@ -40,7 +40,8 @@ double RankLog::busy() const
 
 void RankLog::balance_work(Simulation& sim)
 {
-    balance(sim, balance_, busy());
+    in_steps_ += busy() - step_begun_;
+    balance(sim, balance_, in_steps_);
 }
 
 void RankLog::write(const Simulation& sim)

@@ -25,6 +25,7 @@ public:
 
     /// Opens the table; of the process that writes.
     void open(const std::filesystem::path& folder);
+    void begin_step() { step_begun_ = busy(); }
     /// After a step: moves particles to other processes where some work longer than others.
     void balance_work(Simulation& sim);
     /// A row for each process. Called by all.
@@ -40,6 +41,8 @@ private:
     std::optional<History> table_;
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
     double waited_before_;
+    double step_begun_ = 0; // [s] of work
+    double in_steps_ = 0;   // work so far, without output
 };
 
 } // namespace hyoryu

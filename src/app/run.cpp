@@ -114,6 +114,20 @@ bool step_or_recover(Job& job)
     }
 }
 
+// What is to be done after a step; of all processes the last in this order.
+enum class Request : std::uint8_t { none, checkpoint, stop };
+
+// Processes that share fluid know from the survey of the step what any of them wished before it.
+Request request_of_all(Job& job, Request now)
+{
+    if (job.comm != nullptr && job.sim.fluid) {
+        return static_cast<Request>(job.sim.last->request);
+    }
+    const auto [stop, save] =
+        any_wishes<2>(job.comm, {now == Request::stop, now == Request::checkpoint});
+    return stop ? Request::stop : (save ? Request::checkpoint : Request::none);
+}
+
 void advance(Job& job)
 {
     Simulation& sim = job.sim;
@@ -123,8 +137,17 @@ void advance(Job& job)
         file.emplace(job.folder);
     }
     const auto asked = [&] { return stop_requested() || (file && file->requested()); };
+    const auto wished = [&] {
+        const double since = job.progress.wall_seconds() - saved;
+        const bool save = writes(job.comm) && since > sim.scene.output.checkpoint_every;
+        return asked() ? Request::stop : (save ? Request::checkpoint : Request::none);
+    };
     bool stop = any_wishes<1>(job.comm, {asked()})[0];
     while (!finished(sim.clock, sim.scene) && sim.clock.time < job.until && !stop) {
+        sim.request = static_cast<double>(wished());
+        if (job.ranks != nullptr) {
+            job.ranks->begin_step();
+        }
         if (!step_or_recover(job)) {
             continue;
         }
@@ -136,11 +159,9 @@ void advance(Job& job)
         if (sim.clock.frame != frame) {
             keep_good_state(job);
         }
-        const double since = job.progress.wall_seconds() - saved;
-        const auto wishes = any_wishes<2>(
-            job.comm, {asked(), writes(job.comm) && since > sim.scene.output.checkpoint_every});
-        stop = wishes[0];
-        if (wishes[1]) {
+        const Request request = request_of_all(job, wished());
+        stop = request == Request::stop;
+        if (request == Request::checkpoint) {
             write_checkpoint(job);
             saved = job.progress.wall_seconds();
         }

@@ -66,8 +66,7 @@ std::string charts(const CsvTable& ranks, std::size_t count)
     }
     return "<div class=\"grid\">\n" +
            svg_chart(chart_of("fluid particles of a process", "particles", time, particles)) +
-           svg_chart(chart_of("share of the time since the frame before spent waiting", "share",
-                              time, waited)) +
+           svg_chart(chart_of("time spent waiting between frames", "share", time, waited)) +
            "</div>\n";
 }
 
@@ -110,6 +109,16 @@ std::string table_of(const CsvTable& ranks, std::size_t count)
                 : std::string());
 }
 
+// What much waiting means.
+std::string waiting_text(const nlohmann::ordered_json& shared)
+{
+    constexpr double noteworthy = 0.5;
+    return number(shared.at("waited_share")) > noteworthy
+               ? " So much means that processes share cores, or that the case is too small for "
+                 "them."
+               : "";
+}
+
 } // namespace
 
 std::string process_section(const RunResults& run)
@@ -122,11 +131,13 @@ std::string process_section(const RunResults& run)
     std::string text =
         "<h2>Processes</h2>\n" +
         html_paragraph(fmt::format(
-            "{} processes shared the run. The longest working time of a process is {} of the "
-            "mean; {:.1f} % of the time was spent sending and waiting; the parts were cut anew "
+            "{} processes shared the run. The busiest one worked {} times as long as "
+            "the "
+            "mean. {:.1f} % of the time was spent sending and waiting.{} The parts were cut anew "
             "{} times.",
             count, readable(number(shared.at("imbalance"))),
-            100 * number(shared.at("waited_share")), shared.at("rebalances").get<long long>()));
+            100 * number(shared.at("waited_share")), waiting_text(shared),
+            shared.at("rebalances").get<long long>()));
     if (count == 0 || run.ranks->rows < count) {
         return text + html_paragraph("ranks.csv holds no frame of all processes.");
     }

@@ -16,6 +16,12 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
+// The longest work over the mean up to which cuts stay, and the longest work with new cuts over
+// that of the old ones from which on they are not worth moving: parts are whole tiles, and in a
+// small case no cut is even.
+constexpr double tolerated = 1.05;
+constexpr double worthwhile = 0.97;
+
 struct TileWeight {
     std::uint64_t tile = 0;
     double weight = 0;
@@ -63,11 +69,21 @@ std::vector<TileWeight> own_weights(const Fluid& fluid, double work)
     return all;
 }
 
+// The work of the rank that has most of it, with such cuts.
+double longest(const Cuts& cuts, std::span<const std::uint64_t> tiles,
+               std::span<const double> weights)
+{
+    std::vector<double> of_ranks(at(cuts.ranks()), 0);
+    for (std::size_t k = 0; k < tiles.size(); ++k) {
+        of_ranks[at(cuts.owner(tiles[k]))] += weights[k];
+    }
+    return *std::ranges::max_element(of_ranks);
+}
+
 } // namespace
 
 void balance(Simulation& sim, Balance& balance, double busy)
 {
-    constexpr double tolerated = 1.1;
     if (!sim.fluid || !sim.fluid->ghosts || balance.every <= 0 ||
         sim.clock.step % balance.every != 0) {
         return;
@@ -77,7 +93,8 @@ void balance(Simulation& sim, Balance& balance, double busy)
     const std::vector<double> of_ranks = gather(ghosts.comm, std::span(&work, 1)).all;
     const double mean = std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0) /
                         static_cast<double>(of_ranks.size());
-    balance.imbalance = mean > 0 ? *std::ranges::max_element(of_ranks) / mean : 1;
+    const double longest_now = *std::ranges::max_element(of_ranks);
+    balance.imbalance = mean > 0 ? longest_now / mean : 1;
     if (balance.imbalance <= tolerated) {
         return;
     }
@@ -88,8 +105,11 @@ void balance(Simulation& sim, Balance& balance, double busy)
         tiles.push_back(w.tile);
         weights.push_back(w.weight);
     }
-    ghosts.next_cuts = cut_evenly(tiles, weights, ghosts.comm.size());
-    balance.moves += 1;
+    const Cuts next = cut_evenly(tiles, weights, ghosts.comm.size());
+    if (longest(next, tiles, weights) < worthwhile * longest_now) {
+        ghosts.next_cuts = next;
+        balance.moves += 1;
+    }
 }
 
 } // namespace hyoryu

@@ -51,11 +51,11 @@ Vec3 outside_impulse(const Simulation& sim, double dt)
 }
 
 // Weight and driving force of the fluid [N], without the weight along locked axes.
-Vec3 weight(const Simulation& sim)
+Vec3 weight(const Simulation& sim, Index particles)
 {
     Vec3 total = Vec3::Zero();
     if (sim.fluid) {
-        total += static_cast<double>(sim.last->particles) * sim.fluid->parameters.mass *
+        total += static_cast<double>(particles) * sim.fluid->parameters.mass *
                  (sim.scene.gravity + sim.fluid->parameters.drive);
     }
     for (const Body& body : sim.rigid.bodies) {
@@ -122,22 +122,21 @@ OutflowBefore outflow_before(const Simulation& sim)
     return {sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()), sim.open.boundary.impulse};
 }
 
-void update_conservation(Simulation& sim, const Survey& start, const OutflowBefore& outflow,
-                         double dt)
+void update_conservation(Simulation& sim, const StepStart& start, const Survey& end, double dt)
 {
-    const Survey& end = *sim.last;
     Vec3 walls = outside_impulse(sim, dt);
     for (const Vec3& force : sim.loads.walls) {
         walls -= dt * force;
     }
     walls += sim.waves.sponge_impulse;
-    const Vec3 gravity = dt * weight(sim);
+    const Vec3 gravity = dt * weight(sim, end.particles);
     const Vec3 lost =
-        sim.fluid ? Vec3(sim.fluid->lost.momentum - outflow.lost) : Vec3(Vec3::Zero());
-    const Vec3 open = sim.open.boundary.impulse - outflow.open;
-    const Vec3 residual = end.momentum - start.momentum + lost - walls - gravity - open;
+        sim.fluid ? Vec3(sim.fluid->lost.momentum - start.outflow.lost) : Vec3(Vec3::Zero());
+    const Vec3 open = sim.open.boundary.impulse - start.outflow.open;
+    const Vec3 residual = end.momentum - start.survey.momentum + lost - walls - gravity - open;
     // The impulse of gravity is part of the scale: a fluid at rest has no momentum of its own.
-    const double scale = std::max({start.momentum_scale, end.momentum_scale, gravity.norm()});
+    const double scale =
+        std::max({start.survey.momentum_scale, end.momentum_scale, gravity.norm()});
     sim.conservation.wall_impulse += walls;
     sim.conservation.gravity_impulse += gravity;
     if (scale > 0) {

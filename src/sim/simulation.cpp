@@ -102,7 +102,7 @@ void hold_fluid(Simulation& sim, double dt)
 }
 
 // The new velocities: of the forces, then of what sponges, solid surfaces and open sides make of
-// them.
+// them; with the loads complete, light bodies have recoiled.
 void kick_fluid(Simulation& sim, double dt)
 {
     sim.timer.begin("kick");
@@ -119,15 +119,18 @@ void kick_fluid(Simulation& sim, double dt)
         sim.timer.begin("open sides");
         drive_open(sim, dt);
     }
+    if (needs_loads(sim)) {
+        sim.timer.begin("loads");
+        total_loads(sim);
+    }
 }
 
 } // namespace
 
 void step(Simulation& sim)
 {
-    const Survey start = sim.last ? *sim.last : survey(sim);
-    const OutflowBefore outflow = outflow_before(sim);
-    const NextStep next = next_step(sim.clock, sim.scene, time_limit(sim, start));
+    const StepStart start{sim.last ? *sim.last : survey(sim), outflow_before(sim)};
+    const NextStep next = next_step(sim.clock, sim.scene, time_limit(sim, start.survey));
     const double dt = next.dt;
     sim.contacts.clear();
     if (sim.fluid) {
@@ -149,9 +152,6 @@ void step(Simulation& sim)
         sim.timer.begin("loads");
         begin_loads(sim);
         kick_fluid(sim, dt);
-        if (needs_loads(sim)) {
-            total_loads(sim);
-        }
     }
     if (is_built<RigidMotion> && sim.plan.rigid) {
         sim.timer.begin("bodies");
@@ -182,9 +182,9 @@ void step(Simulation& sim)
     sim.clock.step += 1;
     sim.steps_by_limit[next.limit] += 1;
     sim.last = survey(sim);
-    update_conservation(sim, start, outflow, dt);
+    update_conservation(sim, start, *sim.last, dt);
     sim.timer.begin("watch");
-    watch(sim);
+    watch(sim, *sim.last);
     sim.timer.end();
 }
 

@@ -35,6 +35,7 @@ void survey_fluid(Simulation& sim, Survey& now)
 {
     const Fluid& fluid = *sim.fluid;
     now = own_survey(fluid);
+    now.request = sim.request;
     const auto v = fluid.particles.fluid[field::velocity];
     const FixedUnit unit = sum_units(fluid.parameters).velocity;
     const FixedUnits<4> units{unit, unit, unit, unit};
@@ -49,7 +50,7 @@ void survey_fluid(Simulation& sim, Survey& now)
     all.add(motion.each());
     all.add(std::span(&count, 1));
     for (double* const most :
-         {&now.top_speed, &now.top_acceleration, &now.viscosity, &now.compression}) {
+         {&now.top_speed, &now.top_acceleration, &now.viscosity, &now.compression, &now.request}) {
         all.largest(std::span(most, 1));
     }
     if (loads) {

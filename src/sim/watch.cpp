@@ -156,10 +156,10 @@ double energy(const Totals& t)
 
 } // namespace
 
-void watch(Simulation& sim)
+void watch(Simulation& sim, const Survey& now)
 {
     if (sim.fluid) {
-        const double worst = sim.last->compression;
+        const double worst = now.compression;
         if (worst == infinity) {
             report_particle(sim,
                             [&](Index row) { return compression(*sim.fluid, row) == infinity; });

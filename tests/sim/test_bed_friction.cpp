@@ -166,7 +166,7 @@ TEST(BedFriction, ARoughBedIsSlowerAndASmoothOneHasNoMemory)
         step_on(smooth);
     }
     EXPECT_EQ(smooth.bed.particles.capacity(), 0u);
-    EXPECT_EQ(smooth.bed.taken.capacity(), 0u);
+    EXPECT_EQ(smooth.bed.speeds.capacity(), 0u);
     EXPECT_LT(mean_velocity(rough), 0.99 * mean_velocity(smooth));
     EXPECT_GT(mean_velocity(rough), 0.5 * mean_velocity(smooth));
 }

@@ -89,7 +89,7 @@ TEST(Watch, NamesTheParticleAndWhatLiesAroundIt)
         corner = x[k].x() + x[k].z() < x[corner].x() + x[corner].z() ? k : corner;
     }
     particles[field::velocity][corner] = {1e6, 0, 0};
-    const std::string text = said([&] { watch(sim); });
+    const std::string text = said([&] { watch(sim, survey(sim)); });
     expect_words(text, {"fluid particle", "speed 1e+06", "of the fluid", "of wall \"basin\"",
                         "the nearest at", "step 1"});
     EXPECT_EQ(text.find("of body"), std::string::npos) << text;
@@ -101,10 +101,10 @@ TEST(Watch, ANumberThatIsNoneIsFoundWhereverItIs)
     Simulation sim = make(tank);
     advance(sim, 1);
     sim.fluid->particles.fluid[field::density][7] = none;
-    expect_words(said([&] { watch(sim); }), {"fluid particle", "density nan"});
+    expect_words(said([&] { watch(sim, survey(sim)); }), {"fluid particle", "density nan"});
     sim = make(tank);
     sim.rigid.bodies[0].angular_momentum.x() = none;
-    expect_words(said([&] { watch(sim); }), {"body \"float\"", "not finite"});
+    expect_words(said([&] { watch(sim, survey(sim)); }), {"body \"float\"", "not finite"});
 }
 
 TEST(Watch, SolidsThatRunIntoEachOtherAreNamed)
@@ -200,7 +200,7 @@ TEST(Watch, E5NamesTheRightCause)
         Simulation sim = make(tank, cause.set);
         advance(sim, 1);
         sim.fluid->particles.fluid[field::velocity][0] = {1e6, 0, 0};
-        const std::string text = said([&] { watch(sim); });
+        const std::string text = said([&] { watch(sim, survey(sim)); });
         for (const Cause& other : causes) {
             EXPECT_EQ(text.find(other.words) != std::string::npos, &other == &cause)
                 << other.words << " in: " << text;

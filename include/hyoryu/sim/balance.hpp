@@ -15,9 +15,10 @@ struct Balance {
     double imbalance = 1; // at the last check: most work of a rank over the mean
 };
 
-/// Where the step is one of those checked and a rank works a tenth longer than the mean, moves the
-/// cuts from the next lists on: a tile weighs its list entries, in the time that its rank took for
-/// one. `busy`: seconds of work of this rank since the start. Called by all ranks after a step.
+/// Where the step is one of those checked and a rank works a twentieth longer than the mean, moves
+/// the cuts from the next lists on, if that makes the longest work shorter: a tile weighs its list
+/// entries, in the time that its rank took for one. `busy`: seconds that this rank has worked in
+/// steps, without waiting. Called by all ranks after a step.
 void balance(Simulation& sim, Balance& balance, double busy);
 
 } // namespace hyoryu

@@ -39,9 +39,13 @@ struct OutflowBefore {
     Vec3 open{0, 0, 0}; // impulse at open sides
 };
 OutflowBefore outflow_before(const Simulation& sim);
+/// Where a step began.
+struct StepStart {
+    Survey survey;
+    OutflowBefore outflow;
+};
 /// Adds the impulses and losses of a step of length dt and the closure error of its momentum, from
-/// the survey of its start to the last one.
-void update_conservation(Simulation& sim, const Survey& start, const OutflowBefore& outflow,
-                         double dt);
+/// its start to the survey of its end.
+void update_conservation(Simulation& sim, const StepStart& start, const Survey& end, double dt);
 
 } // namespace hyoryu

@@ -19,6 +19,7 @@ struct Survey {
     double top_acceleration = 0; // [m/s2]
     double viscosity = 0;        // largest effective one [m2/s]
     double compression = 0;      // largest |rho/rho0 - 1|; infinite if a particle is out of bounds
+    double request = 0;          // largest Simulation::request
 };
 
 /// The scene as it is now. Completes the loads of the step, if they are not.

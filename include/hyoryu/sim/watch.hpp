@@ -10,11 +10,12 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// Keeps the largest compression of the fluid and throws NumericalError that names the particle or
-/// body, its surroundings and the probable cause when the state is not finite, a density or speed
-/// is beyond what a weakly compressible flow can have, a moving wall crushes a body against a fixed
-/// solid, or solids overlap by more than the inner radius of the thinnest body.
-void watch(Simulation& sim);
+/// Keeps the largest compression of the fluid, as `now` has it, and throws NumericalError that
+/// names the particle or body, its surroundings and the probable cause when the state is not
+/// finite, a density or speed is beyond what a weakly compressible flow can have, a moving wall
+/// crushes a body against a fixed solid, or solids overlap by more than the inner radius of the
+/// thinnest body.
+void watch(Simulation& sim, const Survey& now);
 
 /// Throws NumericalError when a run without energy input (no moving wall, no acceleration, impulses
 /// with the coupled law) has gained more than half of its energy of motion and compression, and
