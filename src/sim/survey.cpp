@@ -11,10 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-// A weakly compressible fluid is designed for 1 %. A few particles squeezed between bodies in a jam
-// reach tens of percent and recover; at twice the density the run is lost.
-constexpr double worst_compression = 1.0;
-// Nothing in the flow can be faster than its sound without the run being lost.
 constexpr double fastest_over_sound = 2;
 
 const FixedUnit count_unit = fixed_unit(1);
@@ -26,8 +22,7 @@ Survey own_survey(const Fluid& fluid)
     own.top_speed = top_speed(fluid);
     own.top_acceleration = top_acceleration(fluid);
     own.viscosity = effective_viscosity(fluid);
-    own.compression = largest(0, fluid.particles.fluid.size(), 0,
-                              [&](Index row) { return compression(fluid, row); });
+    own.compression = largest(0, fluid.particles.fluid.size(), 0, Compression(fluid));
     return own;
 }
 
@@ -68,14 +63,11 @@ void survey_fluid(Simulation& sim, Survey& now)
 
 } // namespace
 
-double compression(const Fluid& fluid, Index row)
+Compression::Compression(const Fluid& fluid)
+    : density_(fluid.particles.fluid[field::density]),
+      velocity_(fluid.particles.fluid[field::velocity]), rest_density_(fluid.parameters.eos.rho0),
+      top_squared_(sq(fastest_over_sound * fluid.parameters.eos.c0))
 {
-    const Store& store = fluid.particles.fluid;
-    const real top = sq(fastest_over_sound * fluid.parameters.eos.c0);
-    const real e = std::abs(store[field::density][row] / fluid.parameters.eos.rho0 - 1);
-    // Not-a-number fails both comparisons and so counts as lost.
-    const bool good = e <= worst_compression && store[field::velocity][row].squaredNorm() <= top;
-    return good ? e : infinity;
 }
 
 Survey survey(Simulation& sim)

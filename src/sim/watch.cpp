@@ -161,8 +161,8 @@ void watch(Simulation& sim, const Survey& now)
     if (sim.fluid) {
         const double worst = now.compression;
         if (worst == infinity) {
-            report_particle(sim,
-                            [&](Index row) { return compression(*sim.fluid, row) == infinity; });
+            const Compression compression(*sim.fluid);
+            report_particle(sim, [&](Index row) { return compression(row) == infinity; });
         }
         sim.conservation.worst_density_error =
             std::max(sim.conservation.worst_density_error, worst);
