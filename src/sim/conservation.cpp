@@ -122,7 +122,7 @@ OutflowBefore outflow_before(const Simulation& sim)
     return {sim.fluid ? sim.fluid->lost.momentum : Vec3(Vec3::Zero()), sim.open.boundary.impulse};
 }
 
-void update_conservation(Simulation& sim, const StepStart& start, const Survey& end, double dt)
+void update_conservation(Simulation& sim, const StepStart& start, const StateSurvey& end, double dt)
 {
     Vec3 walls = outside_impulse(sim, dt);
     for (const Vec3& force : sim.loads.walls) {

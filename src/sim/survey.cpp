@@ -16,9 +16,9 @@ constexpr double fastest_over_sound = 2;
 const FixedUnit count_unit = fixed_unit(1);
 
 // The fluid of this process; sums of velocities, speeds and particles apart.
-Survey own_survey(const Fluid& fluid)
+StateSurvey own_survey(const Fluid& fluid)
 {
-    Survey own;
+    StateSurvey own;
     own.top_speed = top_speed(fluid);
     own.top_acceleration = top_acceleration(fluid);
     own.viscosity = effective_viscosity(fluid);
@@ -26,7 +26,7 @@ Survey own_survey(const Fluid& fluid)
     return own;
 }
 
-void survey_fluid(Simulation& sim, Survey& now)
+void survey_fluid(Simulation& sim, StateSurvey& now)
 {
     const Fluid& fluid = *sim.fluid;
     now = own_survey(fluid);
@@ -70,9 +70,9 @@ Compression::Compression(const Fluid& fluid)
 {
 }
 
-Survey survey(Simulation& sim)
+StateSurvey survey(Simulation& sim)
 {
-    Survey now;
+    StateSurvey now;
     if (sim.fluid) {
         survey_fluid(sim, now);
     }
@@ -83,7 +83,7 @@ Survey survey(Simulation& sim)
     return now;
 }
 
-TimeLimit time_limit(const Simulation& sim, const Survey& now)
+TimeLimit time_limit(const Simulation& sim, const StateSurvey& now)
 {
     const std::span<const TimeLimit> limits = sim.plan.limits;
     if (!sim.fluid) {

@@ -156,7 +156,7 @@ double energy(const Totals& t)
 
 } // namespace
 
-void watch(Simulation& sim, const Survey& now)
+void watch(Simulation& sim, const StateSurvey& now)
 {
     if (sim.fluid) {
         const double worst = now.compression;

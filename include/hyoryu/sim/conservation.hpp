@@ -41,11 +41,12 @@ struct OutflowBefore {
 OutflowBefore outflow_before(const Simulation& sim);
 /// Where a step began.
 struct StepStart {
-    Survey survey;
+    StateSurvey survey;
     OutflowBefore outflow;
 };
 /// Adds the impulses and losses of a step of length dt and the closure error of its momentum, from
 /// its start to the survey of its end.
-void update_conservation(Simulation& sim, const StepStart& start, const Survey& end, double dt);
+void update_conservation(Simulation& sim, const StepStart& start, const StateSurvey& end,
+                         double dt);
 
 } // namespace hyoryu

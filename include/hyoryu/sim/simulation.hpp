@@ -37,8 +37,8 @@ struct Simulation {
     Waves waves;
     BedFriction bed; // of one step
     Clock clock;
-    std::optional<Survey> last; // of the end of the last step; reset it after any other change
-    double request = 0;         // of the caller: the next survey has the largest of all processes
+    std::optional<StateSurvey> last; // of the end of the last step; reset it after any other change
+    double request = 0; // of the caller: the next survey has the largest of all processes
     Conservation conservation;
     GaugeMemory gauges;
     std::vector<Contact> contacts; // of the last step

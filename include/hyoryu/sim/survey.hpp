@@ -11,7 +11,7 @@ namespace hyoryu {
 
 struct Simulation;
 
-struct Survey {
+struct StateSurvey {
     Vec3 momentum{0, 0, 0};      // of fluid and bodies [kg m/s]
     double momentum_scale = 0;   // sum of |m v| [kg m/s]
     Index particles = 0;         // of the fluid
@@ -23,7 +23,7 @@ struct Survey {
 };
 
 /// The scene as it is now. Completes the loads of the step, if they are not.
-Survey survey(Simulation& sim);
+StateSurvey survey(Simulation& sim);
 
 /// |rho/rho0 - 1| of fluid particles; infinite if the run is lost: at twice the density, at twice
 /// the speed of sound, or where either is not a number.
@@ -48,6 +48,6 @@ private:
 };
 
 /// Shortest limit of the next step.
-TimeLimit time_limit(const Simulation& sim, const Survey& now);
+TimeLimit time_limit(const Simulation& sim, const StateSurvey& now);
 
 } // namespace hyoryu

@@ -15,7 +15,7 @@ struct Simulation;
 /// finite, a density or speed is beyond what a weakly compressible flow can have, a moving wall
 /// crushes a body against a fixed solid, or solids overlap by more than the inner radius of the
 /// thinnest body.
-void watch(Simulation& sim, const Survey& now);
+void watch(Simulation& sim, const StateSurvey& now);
 
 /// Throws NumericalError when a run without energy input (no moving wall, no acceleration, impulses
 /// with the coupled law) has gained more than half of its energy of motion and compression, and
