@@ -6,6 +6,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/instruction_set.hpp"
+#include "hyoryu/sim/survey.hpp"
 #include "mpi/module.hpp"
 
 #include <fmt/format.h>
@@ -102,6 +103,8 @@ bool is_of_all(const std::exception_ptr& error)
     } catch (const CaseError&) {
         return true;
     } catch (const NumericalError&) {
+        return true;
+    } catch (const BodiesDiffer&) {
         return true;
     } catch (...) {
         return false;

@@ -5,6 +5,9 @@
 #include "hyoryu/fluid/totals.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
+#include <fmt/format.h>
+
+#include <bit>
 #include <cmath>
 
 namespace hyoryu {
@@ -26,6 +29,54 @@ StateSurvey own_survey(const Fluid& fluid)
     return own;
 }
 
+// A number of 52 bits for the bits of the state of a body (FNV-1a).
+double fingerprint(const Body& body)
+{
+    std::uint64_t hash = 14695981039346656037U;
+    const auto add = [&](const auto& vector) {
+        for (const double number : vector) {
+            hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211U;
+        }
+    };
+    add(body.position);
+    add(body.orientation.coeffs());
+    add(body.velocity);
+    add(body.angular_momentum);
+    return static_cast<double>(hash >> 12U);
+}
+
+// Whether all processes have the same bodies, by the largest of each fingerprint and of its
+// negative, which are opposite if all are equal.
+class SameBodies {
+public:
+    explicit SameBodies(const Simulation& sim)
+    {
+        constexpr long long steps_between_looks = 100;
+        if (comm_of(*sim.fluid) != nullptr && sim.clock.step % steps_between_looks == 0) {
+            for (const Body& body : sim.rigid.bodies) {
+                extremes_.push_back(fingerprint(body));
+                extremes_.push_back(-extremes_.back());
+            }
+        }
+    }
+    std::span<double> extremes() { return extremes_; }
+
+    void expect(const Simulation& sim) const
+    {
+        for (std::size_t k = 0; k < extremes_.size(); k += 2) {
+            if (extremes_[k] != -extremes_[k + 1]) {
+                throw BodiesDiffer(fmt::format(
+                    "after step {} the processes disagree on body \"{}\": probably their "
+                    "processors or C libraries are not of one kind",
+                    sim.clock.step, sim.rigid.bodies[k / 2].name));
+            }
+        }
+    }
+
+private:
+    std::vector<double> extremes_;
+};
+
 void survey_fluid(Simulation& sim, StateSurvey& now)
 {
     const Fluid& fluid = *sim.fluid;
@@ -40,8 +91,10 @@ void survey_fluid(Simulation& sim, StateSurvey& now)
     FixedSum count;
     count.add(static_cast<double>(fluid.particles.fluid.size()), count_unit);
 
+    SameBodies same(sim);
     const bool loads = !sim.loads.complete;
     Reduction all(comm_of(fluid));
+    all.largest(same.extremes());
     all.add(motion.each());
     all.add(std::span(&count, 1));
     for (double* const most :
@@ -52,6 +105,7 @@ void survey_fluid(Simulation& sim, StateSurvey& now)
         end_loads(sim.loads, all);
     }
     all.run();
+    same.expect(sim);
     if (loads) {
         complete_loads(sim);
     }

@@ -138,6 +138,33 @@ TEST(RanksAtLimits, AFailureIsThatOfOneProcessOnAllRanks)
     }
 }
 
+// Each rank moves all bodies; what moves them apart, if only by one bit, must not stay unseen.
+TEST(RanksAtLimits, BodiesThatDifferBetweenRanksAreNamed)
+{
+    const Case of(dam + crates, {});
+    for (const auto& [rank, body] : {std::pair(0, 1), std::pair(2, 0)}) {
+        std::vector<std::string> said(3);
+        testing::on_ranks(3, [&](Comm& comm) {
+            Simulation sim = of.start(&comm);
+            run(sim, 120);
+            if (comm.rank() == rank) {
+                double& x = sim.rigid.bodies[static_cast<std::size_t>(body)].position.x();
+                x = std::nextafter(x, 9.0);
+            }
+            try {
+                run(sim, 100);
+            } catch (const BodiesDiffer& error) {
+                said[static_cast<std::size_t>(comm.rank())] = error.what();
+            }
+        });
+        for (const std::string& text : said) {
+            EXPECT_EQ(text, said.front());
+            EXPECT_NE(text.find("after step 200 the processes disagree on body"), std::string::npos)
+                << text;
+        }
+    }
+}
+
 // Looks at what each of 50 steps without new lists has said and sent.
 void look_at_steps(const Case& of, CountedComm& comm,
                    const std::function<void(const Simulation&, const Traffic&)>& look)

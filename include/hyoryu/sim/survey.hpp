@@ -3,6 +3,7 @@
 // step, the books of the last one, and whether the run is stable. All of it in one call.
 #pragma once
 
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/fluid/fluid.hpp"
 
 #include <cmath>
@@ -20,6 +21,12 @@ struct StateSurvey {
     double viscosity = 0;        // largest effective one [m2/s]
     double compression = 0;      // largest |rho/rho0 - 1|; infinite if a particle is out of bounds
     double request = 0;          // largest Simulation::request
+};
+
+/// Each process moves all bodies. Throws BodiesDiffer where processes that share a case no longer
+/// have the same bits of them; looked at in every hundredth step.
+struct BodiesDiffer : IoError {
+    using IoError::IoError;
 };
 
 /// The scene as it is now. Completes the loads of the step, if they are not.
