@@ -156,6 +156,27 @@ void Ranks::end(const std::exception_ptr& error)
     std::_Exit(code);
 }
 
+void expect_common(Comm* comm, const std::vector<Common>& things)
+{
+    if (comm == nullptr) {
+        return;
+    }
+    std::vector<std::size_t> own;
+    for (const Common& thing : things) {
+        own.push_back(std::hash<std::string>()(thing.text));
+    }
+    const std::vector<std::size_t> all = gather(*comm, std::span<const std::size_t>(own)).all;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::size_t thing = k % things.size();
+        if (all[k] != all[thing]) {
+            throw CaseError(fmt::format("the processes do not have the same {}: ranks 0 and {} "
+                                        "differ",
+                                        things[thing].what, k / things.size()),
+                            "start all of them by one command, with files that all machines share");
+        }
+    }
+}
+
 namespace {
 
 void put_text(Parcel& parcel, const std::string& text)

@@ -9,6 +9,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hyoryu {
 
@@ -43,6 +44,15 @@ std::string host_name();
 
 /// Whether this process is the one that writes: alone, or rank 0.
 bool writes(const Comm* comm);
+
+/// What processes that share a run must have in common.
+struct Common {
+    std::string what; // "case", for the message
+    std::string text; // that must be the same
+};
+/// Throws CaseError, on all processes, where it is not: they would wait for each other for ever, or
+/// compute what neither case says.
+void expect_common(Comm* comm, const std::vector<Common>& things);
 
 /// Gives all processes the state that rank 0 has.
 Snapshot state_of_root(Comm& comm, const Snapshot* state);

@@ -281,6 +281,23 @@ int carry_out(Job& job)
     }
 }
 
+std::vector<Common> what_processes_share(const RunOptions& options, const Scene& scene,
+                                         const Resumption* from)
+{
+    std::string files;
+    for (const auto& [name, text] : texts_of_given_case(options, scene)) {
+        files += name + '=' + text + '\n';
+    }
+    const std::string start = from == nullptr ? "0" : fmt::format("{}", time_of(from->state));
+    return {{"program", fmt::format("{} {}", build_info::version, build_info::commit)},
+            {"case", to_toml(scene)},
+            {"files of the case", files},
+            {"options",
+             fmt::format("{} {} {} {}", results_folder(options).string(),
+                         options.until.value_or(infinity), options.rebalance, options.resume)},
+            {"checkpoint", start}};
+}
+
 // The run, or what this process does of it.
 int run_share(const RunOptions& options, Ranks& others)
 {
@@ -292,6 +309,9 @@ int run_share(const RunOptions& options, Ranks& others)
     if (options.resume) {
         from = resumption_of(options, folder, scene);
         scene = from->scene;
+    }
+    if (comm != nullptr) {
+        expect_common(comm, what_processes_share(options, scene, from ? &*from : nullptr));
     }
     Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);

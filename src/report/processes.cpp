@@ -141,7 +141,8 @@ std::string process_section(const RunResults& run)
     if (count == 0 || run.ranks->rows < count) {
         return text + html_paragraph("ranks.csv holds no frame of all processes.");
     }
-    return text + charts(*run.ranks, count) + table_of(*run.ranks, count);
+    return text + charts(*run.ranks, count) + html_paragraph("Until the last frame:") +
+           table_of(*run.ranks, count);
 }
 
 } // namespace hyoryu

@@ -265,6 +265,24 @@ class Ends(RanksTest):
             self.assertEqual(message.count("body[0].density"), alone.count("body[0].density"), message)
         self.assertFalse((self.dir / "out").exists())
 
+    def test_processes_that_were_started_differently_are_told(self):
+        self.write(SHORT_DAM.replace("density = 300.0", "density = 310.0"), "other.toml")
+        same = ["run", self.case, "-o", "out"]
+        for what, other in (("case", ["run", "other.toml", "-o", "out"]),
+                            ("case", [*same, "--set", "particles.spacing=0.021"]),
+                            ("case", [*same, "--set", "time.end=0.05"]),
+                            ("options", [*same, "--until", "0.03"]),
+                            ("options", [*same, "--rebalance", "7"]),
+                            ("options", ["run", self.case, "-o", "elsewhere"])):
+            code, message = self.finish(subprocess.Popen(
+                ["mpirun", "--oversubscribe", "-n", "2", self.program, *same, ":", "-n", "1", self.program, *other],
+                cwd=self.dir, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE, text=True))
+            self.assertEqual(code, 2, (other, message))
+            self.assertEqual(message.count("error: "), 1, (other, message))
+            self.assertIn(f"the processes do not have the same {what}: ranks 0 and 2 differ", message)
+            self.assertFalse((self.dir / "out").exists())
+
     def test_existing_results_are_told_once_and_stay(self):
         self.run_by(1, "out", "--until", "0.01")
         before = self.read("out", "energy.csv")
