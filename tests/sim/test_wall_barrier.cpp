@@ -218,6 +218,40 @@ TEST(WallBarrier, GivesTheImpulseThatTheSolidFeels)
     EXPECT_LT((load.torque - torque).norm(), 1e-9 * torque.norm());
 }
 
+// A body of half the mass of the particle that hits it in the middle: m sum K = 2, so half of the
+// impulse that would stop the particle is exchanged. Another particle, on a wall, is stopped.
+TEST(WallBarrier, ALightBodyTakesItsShareOfWhatItStops)
+{
+    for (const double part : {0.5, 0.25, 2.0}) {
+        const double m = 1000 * spacing * spacing;
+        Simulation sim =
+            make(jet(2, 0, 0.5, false) +
+                 fmt::format("[[body]]\nname = \"it\"\nshape = \"box\"\nsize = [0.4, 1, 0.4]\n"
+                             "density = {}\nposition = [0.2, 0, 0]\nvelocity = [-1, 0, 0]\n"
+                             "[[wall]]\nshape = \"box\"\nsize = [0.4, 1, 0.4]\n"
+                             "position = [0.2, 0, 1]\n",
+                             part * m / 0.16));
+        Store& particles = sim.fluid->particles.fluid;
+        const double mass = sim.fluid->parameters.mass;
+        const double share = std::min(1.0, part * m / mass);
+        const auto x = particles[field::position];
+        const auto v = particles[field::velocity];
+        x[0] = {-0.2 * spacing, 0, 0};
+        v[0] = {3, 0, 2};
+        x[1] = {-0.2 * spacing, 0, 1};
+        v[1] = {3, 0, 2};
+        sim.barrier.reset();
+        sim.barrier = make_wall_barrier(sim.scene);
+        const double dt = 1e-4;
+        hold(sim, dt);
+        EXPECT_LT((v[0] - Vec3(3 - 4 * share, 0, 2)).norm(), 1e-9) << part;
+        EXPECT_LT((v[1] - Vec3(0, 0, 2)).norm(), 1e-12) << part;
+        const Vec3 received = mass * 4 * share / dt * Vec3(1, 0, 0);
+        EXPECT_LT((sim.loads.bodies[0].force - received).norm(), 1e-9 * received.norm()) << part;
+        EXPECT_LT(sim.loads.bodies[0].torque.norm(), 1e-9 * received.norm()) << part;
+    }
+}
+
 // In the joint of two solids that stand no velocity leads out: the particle stays, and they are not
 // pressed apart. What flows there is stopped.
 TEST(WallBarrier, DoesNotPressSolidsApart)
