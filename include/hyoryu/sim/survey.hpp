@@ -23,8 +23,8 @@ struct StateSurvey {
     double request = 0;          // largest Simulation::request
 };
 
-/// Each process moves all bodies. Throws BodiesDiffer where processes that share a case no longer
-/// have the same bits of them; looked at in every hundredth step.
+/// Processes that share a case no longer have the same bits of the bodies, all of which each of
+/// them moves. Looked at in every hundredth step.
 struct BodiesDiffer : IoError {
     using IoError::IoError;
 };
