@@ -131,10 +131,9 @@ std::string process_section(const RunResults& run)
     std::string text =
         "<h2>Processes</h2>\n" +
         html_paragraph(fmt::format(
-            "{} processes shared the run. The busiest one worked {} times as long as "
-            "the "
-            "mean. {:.1f} % of the time was spent sending and waiting.{} The parts were cut anew "
-            "{} times.",
+            "{} processes shared the run. Until its end the busiest one worked {} times as long as "
+            "the mean. {:.1f} % of the time was spent sending and waiting.{} The parts were cut "
+            "anew {} times.",
             count, readable(number(shared.at("imbalance"))),
             100 * number(shared.at("waited_share")), waiting_text(shared),
             shared.at("rebalances").get<long long>()));
