@@ -2,7 +2,8 @@
 """A run that several processes share by MPI: its files are those of one process, and it ends as the user or the case ends it.
 
 Usage: test_ranks.py PATH_TO_HYORYU [NAME...]. No call may take long, since processes that wait for each other for ever are the
-fault to find: HYORYU_LONGEST seconds (default 25), more on a machine that is busy with other work.
+fault to find: HYORYU_LONGEST seconds (default 25), more on a machine that is busy with other work. HYORYU_KILLS (default 4; 20 nightly) is how
+many processes are lost at random moments, drawn by HYORYU_SEED.
 """
 import contextlib
 import csv
