@@ -16,10 +16,11 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// The longest work over the mean up to which cuts stay, and the longest work with new cuts over
-// that of the old ones from which on they are not worth moving: parts are whole tiles, and in a
-// small case no cut is even.
+// Cuts stay while the longest working time is at most this multiple of the mean. Chosen, not
+// measured.
 constexpr double tolerated = 1.05;
+// New cuts must reduce the longest working time to this part of it. Parts are whole tiles, so that
+// in a small case no cut is even. Chosen, not measured.
 constexpr double worthwhile = 0.97;
 
 struct TileWeight {

@@ -92,6 +92,8 @@ void survey_fluid(Simulation& sim, StateSurvey& now)
     count.add(static_cast<double>(fluid.particles.fluid.size()), count_unit);
 
     SameBodies same(sim);
+    // Loads for which no body waited are completed here. Bodies are fixed then and yield nothing,
+    // so that no velocity changes.
     const bool loads = !sim.loads.complete;
     Reduction all(comm_of(fluid));
     all.largest(same.extremes());

@@ -360,21 +360,19 @@ void share_hits(Simulation& sim)
     const WallBarrier& barrier = *sim.barrier;
     const double mass = sim.fluid->parameters.mass;
     const auto v = sim.fluid->particles.fluid[field::velocity];
-    const auto share_of = [&](std::size_t body) {
-        const double yield = sim.loads.of_hits.of(body).back();
-        return yield > 1 ? 1 / yield : 1;
-    };
+    const auto share_at = [](double yield) { return yield > 1 ? 1 / yield : 1; };
     for (std::size_t body = 0; body < sim.loads.of_hits.owners(); ++body) {
         const auto [fx, fy, fz, tx, ty, tz, yield] = sim.loads.of_hits.of(body);
-        const double share = share_of(body);
+        const double share = share_at(yield);
         sim.loads.bodies[body].force += share * Vec3(fx, fy, fz);
         sim.loads.bodies[body].torque += share * Vec3(tx, ty, tz);
     }
     for (const std::vector<BarrierHit>& hits : barrier.hits) {
         for (const BarrierHit& hit : hits) {
             const auto solid = static_cast<std::size_t>(hit.solid);
-            const double share = solid < barrier.walls ? 1 : share_of(solid - barrier.walls);
-            if (share < 1) {
+            const double yield =
+                solid < barrier.walls ? 0 : sim.loads.of_hits.of(solid - barrier.walls).back();
+            if (const double share = share_at(yield); share < 1) {
                 v[at(hit.row)] -= (1 - share) / mass * hit.impulse;
             }
         }

@@ -210,7 +210,7 @@ position = [0.4, 0, 0.62]
 
 // What a step sends, in double precision: of each copy of fluid its place, density and gap, then
 // its velocity; of each copy of a wall particle volume and pressure. Sums and maxima take 48 bytes
-// a number: three ways of particles; momentum and its scale, a count and five maxima, and the force
+// a number: three displacements; momentum and its scale, a count and five maxima, and the force
 // on each wall.
 TEST(RanksAtLimits, AStepSendsWhatItsCopiesNeed)
 {

@@ -37,7 +37,8 @@ void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const Body
 /// is not-a-number where a force is not finite or beyond all scales of the fluid (`FixedSum`).
 void collect_loads(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& sums);
 
-/// The same of the forces [N] on so many walls.
+/// Begins the sums of the force [N] on each of the `walls` walls of the scene with the forces on
+/// their particles.
 void collect_wall_forces(const Fluid& fluid, std::size_t walls, OwnerSums<3>& sums);
 
 } // namespace hyoryu

@@ -48,7 +48,7 @@ public:
     /// rank r sends. The sizes need not be exchanged first.
     virtual void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) = 0;
 
-    /// Each number becomes that of all ranks.
+    /// Joins each number with those of all other ranks.
     virtual void join(std::span<Joined> numbers) = 0;
     /// Each number becomes the sum of those of all ranks.
     virtual void add(std::span<std::int64_t> numbers) = 0;

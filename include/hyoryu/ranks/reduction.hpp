@@ -18,7 +18,7 @@ public:
 
     /// Each of the sums is to become that of all ranks. They stay where they are until `run`.
     void add(std::span<FixedSum> sums);
-    /// The same of the largest of each number; not-a-number if any is.
+    /// Each of the numbers is to become the largest of those of all ranks; not-a-number if any is.
     void largest(std::span<double> numbers);
 
     /// Makes all collected numbers those of all ranks, in one call.

@@ -16,9 +16,9 @@ struct Balance {
 };
 
 /// Where the step is one of those checked and a rank works a twentieth longer than the mean, moves
-/// the cuts from the next lists on, if that makes the longest work shorter: a tile weighs its list
-/// entries, in the time that its rank took for one. `busy`: seconds that this rank has worked in
-/// steps, without waiting. Called by all ranks after a step.
+/// the cuts from the next lists on, if that makes the longest work 3 % shorter: a tile weighs its
+/// list entries, in the time that its rank took for one. `busy`: seconds that this rank has worked
+/// in steps, without waiting. Called by all ranks after a step.
 void balance(Simulation& sim, Balance& balance, double busy);
 
 } // namespace hyoryu

@@ -35,7 +35,7 @@ void end_loads(Loads& loads, Reduction& all);
 /// the particles that they stop, and with joints.
 void complete_loads(Simulation& sim);
 
-/// All three steps, but for begin_loads.
+/// Ends the sums, adds those of all processes, and completes the loads.
 void total_loads(Simulation& sim);
 
 } // namespace hyoryu

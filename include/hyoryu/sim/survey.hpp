@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What all processes must know of the whole scene between two steps: for the length of the next
-// step, the books of the last one, and whether the run is stable. All of it in one call.
+// Sums and maxima over the whole scene between two steps. The length of the next step, the momentum
+// balance of the last one and the detection of instability follow from them. All processes together
+// need one call of MPI for all of them.
 #pragma once
 
 #include "hyoryu/core/error.hpp"
