@@ -14,7 +14,7 @@ MAY_INCLUDE = {
     "core": set(),
     "ranks": {"core"},
     "fluid": {"core", "ranks"},
-    "rigid": {"core"},
+    "rigid": {"core", "ranks"},
     "coupling": {"core", "ranks", "fluid", "rigid"},
     "geometry": {"core"},
     "scene": {"core", "ranks", "fluid", "rigid", "coupling", "geometry"},

@@ -75,13 +75,6 @@ Direction widest_gap(const Block& a, const Block& b)
     return best;
 }
 
-// A pair of movable bodies that the broad phase found, and how they are apart at the start.
-struct Link {
-    int a = 0, b = 0;
-    Direction direction;
-    double shift = 0; // least change of the gap on the free paths, of the centres of mass [m]
-};
-
 // The least of b t + c t^2 / 2 within [0, dt].
 double least_of(double b, double c, double dt)
 {
@@ -95,8 +88,8 @@ double least_of(double b, double c, double dt)
 Link link_of(const StepContext& context, const BodyPair& pair)
 {
     const ContactMemory& memory = context.memory;
-    Link link{pair.a, pair.b, widest_gap(block_of(memory, pair.a), block_of(memory, pair.b))};
-    const Vec3& n = link.direction.normal;
+    const auto [n, gap] = widest_gap(block_of(memory, pair.a), block_of(memory, pair.b));
+    Link link{pair.a, pair.b, n, gap};
     const auto& bodies = context.rigid.bodies;
     link.shift =
         least_of(n.dot(bodies[pair.a].velocity - bodies[pair.b].velocity),
@@ -114,9 +107,8 @@ double towards(const ContactMemory& memory, int k, const Vec3& n)
 
 bool stays_apart(const ContactMemory& memory, const Link& link)
 {
-    const Vec3& n = link.direction.normal;
-    return link.direction.gap + link.shift - towards(memory, link.a, n) -
-               towards(memory, link.b, -n) >
+    const Vec3& n = link.normal;
+    return link.gap + link.shift - towards(memory, link.a, n) - towards(memory, link.b, -n) >
            clearly_apart(memory.geometry);
 }
 
@@ -133,24 +125,9 @@ void expect_free_motion(const StepContext& context, const Cluster& cluster)
     }
 }
 
-// A group and what its step did, kept until no other group turns out to have been in its way.
-struct Group {
-    Cluster cluster;
-    bool done = false;
-    bool jammed = false;
-    RigidCounters counters;
-    std::vector<Contact> log;
-    std::vector<Remembered> fresh;
-};
-
-struct Start {
-    std::vector<SolidPose> poses; // of the bodies of the cluster, in their order
-    std::vector<Vec3> velocities, momenta;
-};
-
-Start start_of(const StepContext& context, const Cluster& cluster)
+ClusterStart start_of(const StepContext& context, const Cluster& cluster)
 {
-    Start start;
+    ClusterStart start;
     for (const int k : cluster.bodies) {
         start.poses.push_back(context.memory.poses[k]);
         start.velocities.push_back(context.rigid.bodies[k].velocity);
@@ -159,7 +136,7 @@ Start start_of(const StepContext& context, const Cluster& cluster)
     return start;
 }
 
-void put_back(const StepContext& context, const Cluster& all, const Start& start,
+void put_back(const StepContext& context, const Cluster& all, const ClusterStart& start,
               const Cluster& group)
 {
     for (const int k : group.bodies) {
@@ -188,12 +165,13 @@ void join(std::vector<int>& parents, int a, int b)
     parents[std::max(root_a, root_b)] = std::min(root_a, root_b);
 }
 
-// The groups that the roots make of the cluster; those that have not changed keep what they did.
-std::vector<Group> groups_of(const StepContext& context, const Cluster& cluster,
-                             std::vector<int>& parents, std::vector<Group>& last)
+// The groups that the roots make of the cluster. What a group did is kept until another group turns
+// out to have been in its way.
+std::vector<Outcome> groups_of(const StepContext& context, const Cluster& cluster,
+                               std::vector<int>& parents, std::vector<Outcome>& last)
 {
     ContactMemory& memory = context.memory;
-    std::vector<Group> groups;
+    std::vector<Outcome> groups;
     memory.island_of_root.assign(memory.rotors.size(), -1);
     for (const int k : cluster.bodies) {
         int& index = memory.island_of_root[root_of(parents, k)];
@@ -203,7 +181,7 @@ std::vector<Group> groups_of(const StepContext& context, const Cluster& cluster,
         }
         groups[static_cast<std::size_t>(index)].cluster.bodies.push_back(k);
     }
-    const auto group_of = [&](int body) -> Group& {
+    const auto group_of = [&](int body) -> Outcome& {
         return groups[static_cast<std::size_t>(memory.island_of_root[root_of(parents, body)])];
     };
     for (const BodyPair& pair : cluster.pairs) {
@@ -213,47 +191,13 @@ std::vector<Group> groups_of(const StepContext& context, const Cluster& cluster,
             group_of(moves ? pair.a : pair.b).cluster.pairs.push_back(pair);
         }
     }
-    for (Group& old : last) {
-        Group& group = group_of(old.cluster.bodies[0]);
+    for (Outcome& old : last) {
+        Outcome& group = group_of(old.cluster.bodies[0]);
         if (group.cluster.bodies.size() == old.cluster.bodies.size()) {
             group = std::move(old);
         }
     }
     return groups;
-}
-
-void run(const StepContext& context, Group& group, const AdvanceCluster& advance)
-{
-    ContactMemory& memory = context.memory;
-    for (const int k : group.cluster.bodies) {
-        memory.deviations[k] = {memory.poses[k].x, context.rigid.bodies[k].velocity};
-    }
-    const RigidCounters counters = std::exchange(context.rigid.counters, {});
-    const bool jammed = std::exchange(memory.jammed, false);
-    const std::size_t known = memory.fresh.size();
-    advance({context.rigid, memory, context.loads, group.log, context.start, context.dt},
-            group.cluster);
-    const auto first = memory.fresh.begin() + static_cast<std::ptrdiff_t>(known);
-    group.fresh.assign(first, memory.fresh.end());
-    memory.fresh.erase(first, memory.fresh.end());
-    group.jammed = std::exchange(memory.jammed, jammed);
-    group.counters = std::exchange(context.rigid.counters, counters);
-    group.done = true;
-}
-
-void hand_over(const StepContext& context, const Group& group)
-{
-    ContactMemory& memory = context.memory;
-    RigidCounters& sum = context.rigid.counters;
-    sum.impacts += group.counters.impacts;
-    sum.rounds += group.counters.rounds;
-    sum.events += group.counters.events;
-    sum.tangential_impacts += group.counters.tangential_impacts;
-    sum.worst_residual = std::max(sum.worst_residual, group.counters.worst_residual);
-    sum.worst_penetration = std::max(sum.worst_penetration, group.counters.worst_penetration);
-    memory.jammed = memory.jammed || group.jammed;
-    memory.fresh.insert(memory.fresh.end(), group.fresh.begin(), group.fresh.end());
-    context.log.insert(context.log.end(), group.log.begin(), group.log.end());
 }
 
 // Movable bodies of a cluster that the broad phase paired.
@@ -290,36 +234,9 @@ bool is_one(const Cluster& cluster, std::vector<int>& parents)
     });
 }
 
-// Advances the groups until none has been in the way of another.
-std::vector<Group> advance_apart(const StepContext& context, const Cluster& cluster,
-                                 const std::vector<Link>& links, const AdvanceCluster& advance)
-{
-    ContactMemory& memory = context.memory;
-    const Start start = start_of(context, cluster);
-    std::vector<Group> groups;
-    bool met = true;
-    for (int repetition = 0; met; ++repetition) {
-        groups = groups_of(context, cluster, memory.parents_of_groups, groups);
-        for (Group& group : groups) {
-            if (!group.done) {
-                put_back(context, cluster, start, group.cluster);
-                run(context, group, advance);
-            }
-        }
-        met = join_near(memory, links, memory.parents_of_groups);
-        for (const int k : cluster.bodies) {
-            if (met && repetition == most_repetitions) {
-                join(memory.parents_of_groups, k, cluster.bodies[0]);
-            }
-        }
-    }
-    return groups;
-}
-
 } // namespace
 
-void advance_in_groups(const StepContext& context, const Cluster& cluster,
-                       const AdvanceCluster& advance)
+Splitting split(const StepContext& context, const Cluster& cluster)
 {
     ContactMemory& memory = context.memory;
     memory.deviations.resize(memory.rotors.size());
@@ -327,18 +244,76 @@ void advance_in_groups(const StepContext& context, const Cluster& cluster,
     for (const int k : cluster.bodies) {
         memory.parents_of_groups[k] = k;
     }
-    const std::vector<Link> links = links_of(context, cluster);
+    Splitting splitting{.cluster = &cluster, .links = links_of(context, cluster)};
     expect_free_motion(context, cluster);
-    join_near(memory, links, memory.parents_of_groups);
-    if (is_one(cluster, memory.parents_of_groups)) {
+    join_near(memory, splitting.links, memory.parents_of_groups);
+    splitting.whole = is_one(cluster, memory.parents_of_groups);
+    if (!splitting.whole) {
+        splitting.start = start_of(context, cluster);
+    }
+    return splitting;
+}
+
+void regroup(const StepContext& context, Splitting& splitting)
+{
+    const Cluster& cluster = *splitting.cluster;
+    if (splitting.whole) {
+        splitting.groups = {{.cluster = cluster}};
+        return;
+    }
+    splitting.groups =
+        groups_of(context, cluster, context.memory.parents_of_groups, splitting.groups);
+    for (const Outcome& group : splitting.groups) {
+        if (!group.done) {
+            put_back(context, cluster, splitting.start, group.cluster);
+        }
+    }
+}
+
+void advance_group(const StepContext& context, Outcome& group, const AdvanceCluster& advance)
+{
+    ContactMemory& memory = context.memory;
+    for (const int k : group.cluster.bodies) {
+        memory.deviations[k] = {memory.poses[k].x, context.rigid.bodies[k].velocity};
+    }
+    advance_apart(context, group, advance);
+}
+
+bool join_met(const StepContext& context, Splitting& splitting)
+{
+    std::vector<int>& parents = context.memory.parents_of_groups;
+    if (!join_near(context.memory, splitting.links, parents)) {
+        return false;
+    }
+    if (splitting.repetition++ == most_repetitions) {
+        for (const int k : splitting.cluster->bodies) {
+            join(parents, k, splitting.cluster->bodies[0]);
+        }
+    }
+    return true;
+}
+
+void advance_in_groups(const StepContext& context, const Cluster& cluster,
+                       const AdvanceCluster& advance)
+{
+    Splitting splitting = split(context, cluster);
+    if (splitting.whole) {
         advance(context, cluster);
         return;
     }
-    memory.in_groups = true;
-    for (const Group& group : advance_apart(context, cluster, links, advance)) {
+    context.memory.in_groups = true;
+    do {
+        regroup(context, splitting);
+        for (Outcome& group : splitting.groups) {
+            if (!group.done) {
+                advance_group(context, group, advance);
+            }
+        }
+    } while (join_met(context, splitting));
+    context.memory.in_groups = false;
+    for (const Outcome& group : splitting.groups) {
         hand_over(context, group);
     }
-    memory.in_groups = false;
 }
 
 void note_motion(const StepContext& context, const SubStep& sub, double s)

@@ -45,6 +45,7 @@ void prepare(Rigid& rigid)
     memory.responses.resize(n);
     memory.starts.resize(n);
     memory.guesses.resize(n);
+    memory.work_of.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         Body& body = rigid.bodies[k];
         if (body.left && memory.rotors[k].movable) {

@@ -89,6 +89,7 @@ struct Resting {
 
 struct ContactMemory {
     std::vector<Remembered> forces; // sorted by feature
+    std::vector<double> work_of; // part of each body in the cost of its cluster [updates of rows]
 
     // From the bodies and boundaries at the first step; shapes, masses and locks do not change.
     Geometry geometry;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The step of the rigid layer.
 #include "broad_phase.hpp"
+#include "dealing.hpp"
 #include "groups.hpp"
 #include "penalty.hpp"
 #include "sub_step.hpp"
@@ -30,17 +31,21 @@ void fly(const StepContext& context, const Cluster& cluster)
     note_motion(context, sub, sub.h);
 }
 
-// Both bodies of every contact that closed count the event.
+// Both bodies of every contact that closed count the event. A body that does not move counts none,
+// as a wall: it may touch bodies of several groups, which must not see each other's events.
 void count_event(const StepContext& context)
 {
     ContactMemory& memory = context.memory;
     ++context.rigid.counters.events;
+    const auto count = [&](int body) {
+        if (body >= 0 && memory.rotors[body].movable) {
+            ++memory.events[body];
+        }
+    };
     for (const Candidate& c : memory.candidates) {
         if (c.touch.gap <= context.rigid.settings.contact_tolerance) {
-            ++memory.events[c.feature.a];
-            if (c.feature.b >= 0) {
-                ++memory.events[c.feature.b];
-            }
+            count(c.feature.a);
+            count(c.feature.b);
         }
     }
 }
@@ -173,6 +178,9 @@ void advance(const StepContext& context, const Cluster& cluster)
     }
     close_cluster(context);
     memory.jammed = memory.jammed || memory.stepped;
+    for (const int k : cluster.bodies) {
+        memory.work_of[k] = memory.work / static_cast<double>(cluster.bodies.size());
+    }
 }
 
 void advance_or_fly(const StepContext& context, const Cluster& cluster)
@@ -192,7 +200,7 @@ Rigid::Rigid(Rigid&&) noexcept = default;
 Rigid& Rigid::operator=(Rigid&&) noexcept = default;
 
 void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
-          std::vector<Contact>& log)
+          std::vector<Contact>& log, Comm* comm)
 {
     expects(loads.size() == rigid.bodies.size());
     prepare(rigid);
@@ -204,12 +212,16 @@ void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
     }
     find_clusters(context);
     keep_looks(*rigid.memory);
-    for (const Cluster& cluster : context.memory.clusters) {
-        if (cluster.bodies.size() == 1) {
-            advance_or_fly(context, cluster);
-        } else {
-            advance_in_groups(context, cluster, advance_or_fly);
+    if (comm == nullptr) {
+        for (const Cluster& cluster : context.memory.clusters) {
+            if (cluster.bodies.size() == 1) {
+                advance_or_fly(context, cluster);
+            } else {
+                advance_in_groups(context, cluster, advance_or_fly);
+            }
         }
+    } else {
+        advance_dealt_out(context, advance_or_fly, *comm);
     }
     close_step(rigid);
 }

@@ -74,6 +74,37 @@ TEST(Crowds, CubesThatFallFlatBesideEachOtherKeepTheirParabola)
     }
 }
 
+// A table that does not move is as a wall: what rattles on one end of it is not seen on the other.
+TEST(Crowds, PairsThatRattleOnOneFixedTableDoNotSeeEachOther)
+{
+    Draw draw(3);
+    for (const double dt : {0.2, 0.1, 0.05}) {
+        Body table = box(Vec3(20, 1, 0.2), 600, {0, 0, -0.1});
+        table.locks.fill(true);
+        Rigid all = scene(draw.between(0.9, 0.96), 0.3);
+        all.bodies.push_back(table);
+        std::vector<Rigid> alone;
+        for (int pair = 0; pair < 12; ++pair) {
+            Rigid& one = alone.emplace_back();
+            one.settings = all.settings;
+            one.laws = all.laws;
+            one.bodies = {table};
+            for (const double beside : {0.0, 0.20001}) { // which makes them one group
+                const Vec3 at(0.7 * pair + beside, 0, 0.1 + draw.between(0.002, 0.05));
+                one.bodies.push_back(body_of(Ball{0.1}, 600, at));
+                all.bodies.push_back(one.bodies.back());
+            }
+            run(one, dt, 30);
+        }
+        run(all, dt, 30);
+        for (std::size_t k = 1; k < all.bodies.size(); ++k) {
+            const Body& one = alone[(k - 1) / 2].bodies[1 + (k - 1) % 2];
+            EXPECT_EQ(all.bodies[k].position, one.position) << k << ", " << dt;
+            EXPECT_EQ(all.bodies[k].velocity, one.velocity) << k << ", " << dt;
+        }
+    }
+}
+
 // Boxes of edge a on one another, the density growing to `ratio` times the first upwards.
 Rigid tower(int n, double a, double ratio)
 {

@@ -66,6 +66,8 @@ struct RigidCounters {
     double worst_penetration = 0;     // [m]
 };
 
+class Comm;
+
 struct ContactMemory; // persistent contacts and their impulses (warm start); private to rigid
 
 struct Rigid {
@@ -91,9 +93,10 @@ struct Rigid {
 /// leave between two steps, for good. Locked velocities are set to zero. With `penalty` set,
 /// springs between particles take the place of impulses, and the log sums them over the step as
 /// resting contacts. Source: the project's contact notes; Moreau (1988) for the time-discrete cone
-/// law.
+/// law. `comm`: of ranks that all have the same bodies and call this together; they deal out the
+/// clusters, and each has the motion and the log of one process. Null for one process.
 void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
-          std::vector<Contact>& log);
+          std::vector<Contact>& log, Comm* comm = nullptr);
 
 /// The contact forces of the last sub-step, from which the next starts: with them a restarted run
 /// continues with the same bits. One entry a contact.
