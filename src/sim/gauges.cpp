@@ -44,14 +44,22 @@ std::vector<Table::Head> gauge_heads(const Scene& scene)
 
 std::vector<double> read_gauges(const Simulation& sim)
 {
-    // Side by side, each read by one thread.
     const std::vector<Gauge>& gauges = sim.scene.gauges;
     std::vector<std::vector<double>> of_fluid(gauges.size());
     if (sim.fluid) {
-        const GaugeSearch search = make_gauge_search(*sim.fluid, gauges);
-        parallel_blocks(
-            0, static_cast<Index>(gauges.size()),
-            [&](Index k) { of_fluid[at(k)] = read_fluid(*sim.fluid, search, gauges[at(k)]); }, 2);
+        const Fluid& fluid = *sim.fluid;
+        // Gauges side by side, each by one thread.
+        const auto for_gauges = [&](const auto& f) {
+            parallel_blocks(0, static_cast<Index>(gauges.size()), f, 2);
+        };
+        std::vector<GaugeTerms> terms(gauges.size());
+        const GaugeSearch search = make_gauge_search(fluid, gauges);
+        for_gauges([&](Index k) { terms[at(k)] = terms_of(fluid, search, gauges[at(k)]); });
+        if (fluid.ghosts) {
+            gather_terms(fluid.ghosts->comm, terms);
+        }
+        for_gauges(
+            [&](Index k) { of_fluid[at(k)] = read_fluid(fluid, terms[at(k)], gauges[at(k)]); });
     }
     std::vector<double> readings;
     auto force = sim.gauges.forces.begin();

@@ -51,10 +51,12 @@ void book_forces(Simulation& sim, double dt);
 /// eq. 27), at least 0, the pressure of the air; velocity: kernel average, NaN if dry; front:
 /// farthest place of the fluid along the axis; flux: sum of V v.n over the fluid, weighted with its
 /// distance from the plane by a hat of half width 2 dp, which is the exact flux of a uniform stream
-/// on a lattice.
+/// on a lattice. Called by all ranks, which send what they have about the gauges to rank 0: the
+/// readings of the fluid are right there alone.
 std::vector<double> read_gauges(const Simulation& sim);
 
-/// The next row of `gauges.csv` behind the time: raw and filtered readings.
+/// The next row of `gauges.csv` behind the time: raw and filtered readings. Called by all ranks,
+/// for rank 0.
 std::vector<double> next_gauge_row(Simulation& sim);
 
 } // namespace hyoryu
