@@ -47,14 +47,14 @@ struct Beginning {
     RankLog* ranks = nullptr;
 };
 
-/// A run from time 0, and one that goes on from a checkpoint; the filling goes with it.
+/// A run from time 0, and one that goes on from a checkpoint. The filling, and the state of a
+/// checkpoint, are those of the process that writes.
 Job start(const Beginning& from, Filling filling);
 Job resume(const Beginning& from, Resumption state, Filling filling);
 
-/// Writes the output that is due; called after each step and once before the first.
+/// Writes the output that is due, and with a frame keeps the state as the one to return to; called
+/// after each step and once before the first.
 void update_outputs(Job& job);
-/// Keeps the present state as the one to return to.
-void keep_good_state(Job& job);
 /// Writes the present state to the disk. It takes the place of an older one in memory, unless the
 /// run may return to that: a recovery must not depend on when checkpoints were written.
 void write_checkpoint(Job& job);

@@ -140,35 +140,13 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     }
 }
 
-bool particles_due(const Simulation& sim)
+void Outputs::write_frame(Simulation& sim)
 {
-    Clock clock = sim.clock;
-    count_due_of_particles(clock, sim.scene);
-    return clock.gauge != sim.clock.gauge || clock.frame != sim.clock.frame;
-}
-
-void count_due_of_particles(Clock& clock, const Scene& scene)
-{
-    clock.gauge += !scene.gauges.empty() && gauge_due(clock, scene) ? 1 : 0;
-    clock.frame += frame_due(clock, scene) ? 1 : 0;
-}
-
-void Outputs::write_particles(Simulation& sim)
-{
-    Clock counted = sim.clock;
-    count_due_of_particles(counted, sim.scene);
-    if (counted.gauge != sim.clock.gauge) {
-        write_gauges(sim);
-    }
-    sim.clock.gauge = counted.gauge;
-    if (counted.frame != sim.clock.frame) {
-        timer_.begin("frames");
-        write_resting(sim);
-        count_in_solids(sim);
-        write_frame(sim);
-        timer_.end();
-    }
-    sim.clock.frame = counted.frame;
+    timer_.begin("frames");
+    write_resting(sim);
+    count_in_solids(sim);
+    write_clouds(sim);
+    timer_.end();
 }
 
 void Outputs::write_histories(const Simulation& sim, const Totals& now)
@@ -180,15 +158,13 @@ void Outputs::write_histories(const Simulation& sim, const Totals& now)
     timer_.end();
 }
 
-void Outputs::write_gauges(Simulation& sim)
+void Outputs::write_gauges(const Simulation& sim, const std::vector<double>& readings)
 {
-    sim.timer.begin("gauges");
     std::vector<std::string> row = cells({sim.clock.time});
-    for (const double reading : next_gauge_row(sim)) {
+    for (const double reading : readings) {
         row.push_back(cell(reading));
     }
     gauges_->append(row);
-    sim.timer.end();
 }
 
 void Outputs::write_bodies(const Simulation& sim)
@@ -307,7 +283,7 @@ void Outputs::write_resting(const Simulation& sim)
     resting_.clear();
 }
 
-void Outputs::write_frame(const Simulation& sim)
+void Outputs::write_clouds(const Simulation& sim)
 {
     if (sim.fluid) {
         frames_->write(fluid_cloud(sim));

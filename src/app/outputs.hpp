@@ -18,11 +18,6 @@ struct RestingPair {
     double weight = 0;
 };
 
-/// Whether output of the particles is due, gauges or a frame.
-bool particles_due(const Simulation& sim);
-/// Counts in the clock what is due of it.
-void count_due_of_particles(Clock& clock, const Scene& scene);
-
 class Outputs {
 public:
     /// Opens all files; a resumed run keeps the rows up to the present time of `sim`.
@@ -34,8 +29,10 @@ public:
     void log_contacts(const Simulation& sim);
     /// A row of the histories; `now`: its sums.
     void write_histories(const Simulation& sim, const Totals& now);
-    /// Gauges and frames.
-    void write_particles(Simulation& sim);
+    /// A row of the gauges: their readings.
+    void write_gauges(const Simulation& sim, const std::vector<double>& readings);
+    /// A frame, and the contacts that rest since the last one.
+    void write_frame(Simulation& sim);
     /// The state for a restart: of the simulation and of the sums below.
     Snapshot snapshot(const Simulation& sim) const;
     /// Waits until all rows and frames so far are on disk.
@@ -55,10 +52,9 @@ private:
     void write_bodies(const Simulation& sim);
     void write_energy(const Simulation& sim, const Totals& now);
     void write_open(const Simulation& sim);
-    void write_gauges(Simulation& sim);
     void write_contact(const Simulation& sim, const Contact& contact);
     void write_resting(const Simulation& sim);
-    void write_frame(const Simulation& sim);
+    void write_clouds(const Simulation& sim);
 
     std::filesystem::path folder_;
     std::unique_ptr<FrameWriter> frames_;

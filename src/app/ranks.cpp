@@ -95,6 +95,9 @@ Function function_of(void* module, const char* name)
     return reinterpret_cast<Function>(found);
 }
 
+// Within it the process that tells of an error ends the others.
+constexpr auto patience = std::chrono::seconds(10);
+
 // Whether every process meets an error, because all of them know what it follows from.
 bool is_of_all(const std::exception_ptr& error)
 {
@@ -141,16 +144,46 @@ Ranks::~Ranks()
     }
 }
 
+void Ranks::together(const std::function<void()>& f)
+{
+    if (!comm_) {
+        f();
+        return;
+    }
+    std::exception_ptr fault;
+    try {
+        f();
+    } catch (...) {
+        fault = std::current_exception();
+    }
+    const int failed = fault ? 1 : 0;
+    const std::vector<int> all = gather(*comm_, std::span<const int>(&failed, 1)).all;
+    const auto first = std::ranges::find(all, 1);
+    if (first == all.end()) {
+        return;
+    }
+    if (first - all.begin() != comm_->rank()) {
+        std::this_thread::sleep_for(patience);
+        fault = std::make_exception_ptr(IoError("another process has failed"));
+    }
+    tell(fault);
+}
+
 void Ranks::end(const std::exception_ptr& error)
 {
-    // What all processes meet, rank 0 tells: its MPI_Abort comes within seconds.
-    constexpr auto patience = std::chrono::seconds(10);
-    const bool first = comm_->rank() == 0;
-    if (!first && (!alone_ || is_of_all(error))) {
-        std::this_thread::sleep_for(patience);
+    // What all processes meet, rank 0 tells: it ends the others within the time that they wait.
+    constexpr auto head_start = std::chrono::seconds(1); // of what it may have met as well
+    if (comm_->rank() > 0) {
+        std::this_thread::sleep_for(is_of_all(error) ? patience : head_start);
     }
-    const int code =
-        tell_error(error, first ? "" : fmt::format("rank {} on {}: ", comm_->rank(), host_name()));
+    tell(error);
+}
+
+void Ranks::tell(const std::exception_ptr& error)
+{
+    const int code = tell_error(error, comm_->rank() == 0 ? ""
+                                                          : fmt::format("rank {} on {}: ",
+                                                                        comm_->rank(), host_name()));
     std::fflush(stdout);
     function_of<mpi_module::Abort>(module_, mpi_module::abort_name)(code);
     std::_Exit(code);
@@ -175,92 +208,6 @@ void expect_common(Comm* comm, const std::vector<Common>& things)
                             "start all of them by one command, with files that all machines share");
         }
     }
-}
-
-namespace {
-
-void put_text(Parcel& parcel, const std::string& text)
-{
-    put(parcel, text.size());
-    put(parcel, std::span<const char>(text));
-}
-
-std::string take_text(Unpacking& from)
-{
-    std::string text(from.take<std::size_t>(), '\0');
-    from.take(std::span<char>(text));
-    return text;
-}
-
-void put_column(Parcel& parcel, const Column& column)
-{
-    put_text(parcel, column.name);
-    put_text(parcel, column.unit);
-    put(parcel, column.components);
-    put(parcel, column.values.index());
-    std::visit(
-        [&]<class T>(const std::vector<T>& values) {
-            put(parcel, values.size());
-            put(parcel, std::span<const T>(values));
-        },
-        column.values);
-}
-
-template <std::size_t index = 0>
-void take_values(Unpacking& from, std::size_t which, Column& column)
-{
-    if constexpr (index < std::variant_size_v<decltype(column.values)>) {
-        if (which != index) {
-            return take_values<index + 1>(from, which, column);
-        }
-        auto& values = column.values.emplace<index>(from.take<std::size_t>());
-        from.take(std::span(values));
-    }
-}
-
-Column take_column(Unpacking& from)
-{
-    Column column{take_text(from), take_text(from), from.take<int>(), {}};
-    take_values(from, from.take<std::size_t>(), column);
-    return column;
-}
-
-Parcel packed(const Snapshot& state)
-{
-    Parcel parcel;
-    put(parcel, state.arrays.size());
-    for (const auto& [name, column] : state.arrays) {
-        put_text(parcel, name);
-        put_column(parcel, column);
-    }
-    put(parcel, state.texts.size());
-    for (const auto& [name, text] : state.texts) {
-        put_text(parcel, name);
-        put_text(parcel, text);
-    }
-    return parcel;
-}
-
-} // namespace
-
-Snapshot state_of_root(Comm& comm, const Snapshot* state)
-{
-    std::vector<Parcel> out(static_cast<std::size_t>(comm.size()));
-    if (state != nullptr) {
-        std::ranges::fill(out, packed(*state));
-    }
-    const std::vector<Parcel> in = comm.exchange(std::move(out));
-    Unpacking from(in.front());
-    Snapshot received;
-    for (auto left = from.take<std::size_t>(); left > 0; --left) {
-        std::string name = take_text(from);
-        received.arrays.emplace(std::move(name), take_column(from));
-    }
-    for (auto left = from.take<std::size_t>(); left > 0; --left) {
-        std::string name = take_text(from);
-        received.texts.emplace(std::move(name), take_text(from));
-    }
-    return received;
 }
 
 bool writes(const Comm* comm)

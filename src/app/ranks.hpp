@@ -2,11 +2,11 @@
 // A run that several processes share, as `mpirun` starts them.
 #pragma once
 
-#include "hyoryu/core/snapshot.hpp"
 #include "hyoryu/ranks/counted.hpp"
 #include "hyoryu/ranks/reduction.hpp"
 
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,15 +24,17 @@ public:
 
     /// Null for a process that is alone.
     CountedComm* comm() { return comm_ ? &*comm_ : nullptr; }
-    /// From here on a process may fail alone: until now all of them read the same files.
-    void begin_work() { alone_ = true; }
+    /// Does what any of the processes may fail to do. If some do, the first of them tells why, and
+    /// all end.
+    void together(const std::function<void()>& f);
     /// Tells of an error, once for all processes, and ends them with its exit code.
     [[noreturn]] void end(const std::exception_ptr& error);
 
 private:
+    [[noreturn]] void tell(const std::exception_ptr& error);
+
     std::optional<CountedComm> comm_;
     void* module_ = nullptr;
-    bool alone_ = false;
 };
 
 /// Whether this process speaks for all before they are connected: it is alone, or the first one by
@@ -53,9 +55,6 @@ struct Common {
 /// Throws CaseError, on all processes, where it is not: they would wait for each other for ever, or
 /// compute what neither case says.
 void expect_common(Comm* comm, const std::vector<Common>& things);
-
-/// Gives all processes the state that rank 0 has.
-Snapshot state_of_root(Comm& comm, const Snapshot* state);
 
 /// Decisions that depend on a clock or a signal, which must be those of all processes: whether any
 /// of them wishes each of some things.

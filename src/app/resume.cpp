@@ -2,6 +2,7 @@
 #include "resume.hpp"
 
 #include "case_files.hpp"
+#include "ranks.hpp"
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"
@@ -203,6 +204,27 @@ Resumption resumption_of(const RunOptions& options, const fs::path& folder, cons
         carry_over(state, before, found.scene);
     }
     found.state = std::move(state);
+    return found;
+}
+
+Resumption resumption_for_all(const RunOptions& options, const fs::path& folder, const Scene& scene,
+                              Comm* comm)
+{
+    Resumption found =
+        writes(comm) ? resumption_of(options, folder, scene) : Resumption{.scene = scene};
+    if (comm != nullptr) {
+        std::vector<Parcel> out(static_cast<std::size_t>(comm->size()));
+        if (writes(comm)) {
+            Parcel parcel;
+            put(parcel, found.scene.output.every);
+            put(parcel, found.changed);
+            std::ranges::fill(out, parcel);
+        }
+        const std::vector<Parcel> in = comm->exchange(std::move(out));
+        Unpacking from(in.front());
+        found.scene.output.every = from.take<double>();
+        found.changed = from.take<bool>();
+    }
     return found;
 }
 

@@ -5,6 +5,7 @@
 #include "commands.hpp"
 
 #include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/ranks/comm.hpp"
 #include "hyoryu/scene/scene.hpp"
 
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace hyoryu {
 
 /// The scene and state with which a run resumes.
 struct Resumption {
-    Snapshot state;          // for the case as it is now
+    Snapshot state;          // for the case as it is now; of the process that writes
     Scene scene;             // the case, with defaults taken from the previous run
     std::string passed_over; // why `checkpoint.h5` was not read; empty if it was
     bool changed = false;    // whether the case is not the one that wrote the checkpoint
@@ -33,6 +34,11 @@ std::map<std::string, std::string> texts_of_given_case(const RunOptions& options
 /// checkpoint that can be read.
 Resumption resumption_of(const RunOptions& options, const std::filesystem::path& folder,
                          const Scene& scene);
+
+/// The same for all processes that share a run, of which the one that writes reads the checkpoint:
+/// the others get no state. `comm`: null for one process.
+Resumption resumption_for_all(const RunOptions& options, const std::filesystem::path& folder,
+                              const Scene& scene, Comm* comm);
 
 /// The command line that goes on with the run, for a shell.
 std::string command_to_go_on(const RunOptions& options, const std::filesystem::path& folder);

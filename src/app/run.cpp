@@ -14,6 +14,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
+#include "hyoryu/sim/dealing.hpp"
 #include "hyoryu/sim/watch.hpp"
 #include "hyoryu/sim/whole.hpp"
 
@@ -69,14 +70,9 @@ void write_closing(Job& job, const std::string& reason, const std::optional<Rank
 void recover(Job& job, const NumericalError& error)
 {
     const Scene& scene = job.sim.scene;
-    Simulation sim = make_simulation(scene, job.sim.plan, fill(scene));
-    const Snapshot* const good = job.last_good ? &*job.last_good : nullptr; // of rank 0
-    if (job.comm == nullptr) {
-        restore(sim, *good);
-    } else {
-        restore(sim, state_of_root(*job.comm, good));
-        keep_share(sim, *job.comm);
-    }
+    const Filling filling = writes(job.comm) ? fill(scene) : Filling{};
+    Simulation sim = make_simulation(scene, job.sim.plan, filling, job.comm);
+    restore(sim, job.comm, job.last_good ? &*job.last_good : nullptr);
     sim.clock.share = 0.5 * job.sim.clock.share;
     job.sim.timer.end(); // of the failed stage
     sim.timer = job.sim.timer;
@@ -154,11 +150,7 @@ void advance(Job& job)
         if (job.ranks != nullptr) {
             job.ranks->balance_work(sim);
         }
-        const std::int64_t frame = sim.clock.frame;
         update_outputs(job);
-        if (sim.clock.frame != frame) {
-            keep_good_state(job);
-        }
         const Request request = request_of_all(job, wished());
         stop = request == Request::stop;
         if (request == Request::checkpoint) {
@@ -281,21 +273,27 @@ int carry_out(Job& job)
     }
 }
 
-std::vector<Common> what_processes_share(const RunOptions& options, const Scene& scene,
-                                         const Resumption* from)
+std::vector<Common> what_processes_share(const RunOptions& options, const Scene& scene)
 {
     std::string files;
     for (const auto& [name, text] : texts_of_given_case(options, scene)) {
         files += name + '=' + text + '\n';
     }
-    const std::string start = from == nullptr ? "0" : fmt::format("{}", time_of(from->state));
     return {{"program", fmt::format("{} {}", build_info::version, build_info::commit)},
             {"case", to_toml(scene)},
             {"files of the case", files},
             {"options",
              fmt::format("{} {} {} {}", results_folder(options).string(),
-                         options.until.value_or(infinity), options.rebalance, options.resume)},
-            {"checkpoint", start}};
+                         options.until.value_or(infinity), options.rebalance, options.resume)}};
+}
+
+void tell_warnings(const RunOptions& options, const Plan& plan)
+{
+    if (!options.quiet) {
+        for (const Diagnostic& warning : plan.warnings) {
+            std::fputs((to_string(warning) + "\n").c_str(), stderr);
+        }
+    }
 }
 
 // The run, or what this process does of it.
@@ -304,29 +302,34 @@ int run_share(const RunOptions& options, Ranks& others)
     CountedComm* const comm = others.comm();
     set_threads(options.threads);
     const fs::path folder = results_folder(options);
-    Scene scene = read_case(options.case_file, options.overrides);
+    Scene scene;
+    std::vector<Common> common;
+    others.together([&] {
+        scene = read_case(options.case_file, options.overrides);
+        common = what_processes_share(options, scene);
+    });
+    expect_common(comm, common);
     std::optional<Resumption> from;
     if (options.resume) {
-        from = resumption_of(options, folder, scene);
+        from = resumption_for_all(options, folder, scene, comm);
         scene = from->scene;
     }
+    Filling filling;
+    Plan plan;
+    if (writes(comm)) {
+        filling = fill(scene);
+        plan = make_plan(scene, filling);
+        tell_warnings(options, plan);
+        check_memory(plan);
+    }
     if (comm != nullptr) {
-        expect_common(comm, what_processes_share(options, scene, from ? &*from : nullptr));
+        deal_plan(*comm, scene, filling, plan);
     }
-    Filling filling = fill(scene);
-    const Plan plan = make_plan(scene, filling);
     watch_for_stop();
-    if (!options.quiet && writes(comm)) {
-        for (const Diagnostic& warning : plan.warnings) {
-            std::fputs((to_string(warning) + "\n").c_str(), stderr);
-        }
-    }
-    check_memory(plan);
     std::optional<RankLog> ranks;
     if (comm != nullptr) {
         ranks.emplace(*comm, options.rebalance);
     }
-    others.begin_work();
     const Beginning beginning{options, folder, scene, plan, comm, ranks ? &*ranks : nullptr};
     Job job = from ? resume(beginning, std::move(*from), std::move(filling))
                    : start(beginning, std::move(filling));

@@ -13,6 +13,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/disk.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
+#include "hyoryu/sim/dealing.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/whole.hpp"
 
@@ -147,6 +148,35 @@ Snapshot state_of(const Job& job)
     return state;
 }
 
+// The old state goes before the new one comes: a state is as large as that of the particles.
+void keep_good_state(Job& job)
+{
+    job.outputs->timer().begin("good state");
+    job.last_good.reset();
+    job.last_good = state_of(job);
+    job.outputs->timer().end();
+}
+
+// Writes a frame and keeps the state as the one to return to, for which the particles of all
+// processes are gathered once. Behind the first frame a checkpoint is written at once.
+void write_frame(Job& job)
+{
+    Clock clock = job.sim.clock;
+    clock.frame += 1;
+    with_whole(job.sim, job.comm, [&] {
+        job.outputs->write_frame(job.sim);
+        job.sim.clock = clock;
+        if (clock.step > 0 || job.sim.scene.time.recover) {
+            keep_good_state(job);
+        }
+    });
+    job.sim.clock = clock; // of all processes
+    job.good_step = clock.step;
+    if (job.ranks != nullptr) {
+        job.ranks->write(job.sim);
+    }
+}
+
 } // namespace
 
 Job start(const Beginning& from, Filling filling)
@@ -157,23 +187,19 @@ Job start(const Beginning& from, Filling filling)
         lock.emplace(begin_folder(from, case_text, filling));
     }
     Simulation sim = make_simulation(from.scene, from.plan, filling, from.comm);
-    const Bounds domain = filling.domain;
     filling = {}; // as large as the state of the fluid, and no more needed
     Job job = follower(from, std::move(sim));
     with_whole(job.sim, job.comm, [&] {
         job.case_text = case_text;
         job.lock.emplace(std::move(*lock));
         job.progress = progress_of(from, 0);
-        job.outputs.emplace(from.folder, job.sim, domain);
+        job.outputs.emplace(from.folder, job.sim, domain_of(from.scene));
         if (job.ranks != nullptr) {
             job.ranks->open(from.folder);
         }
         job.given = texts_of_given_case(from.options, from.scene);
     });
     update_outputs(job);
-    if (from.scene.time.recover) {
-        keep_good_state(job);
-    }
     write_checkpoint(job);
     return job;
 }
@@ -185,9 +211,9 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
         lock.emplace(prepare_results(from.folder, Existing::extend));
         forget_stop_request(from.folder);
     }
-    Simulation sim = make_simulation(from.scene, from.plan, filling);
+    Simulation sim = make_simulation(from.scene, from.plan, filling, from.comm);
     filling = {}; // as large as the state of the fluid, and no more needed
-    restore(sim, state.state);
+    restore(sim, from.comm, &state.state);
     Job job = follower(from, std::move(sim));
     job.first_step = job.good_step = job.saved_step = job.sim.clock.step;
     if (writes(from.comm)) {
@@ -209,12 +235,9 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
             write_case(from.folder, from.scene, from.plan);
         }
         job.given = texts_of_given_case(from.options, from.scene);
-    }
-    if (from.scene.time.recover) {
-        job.last_good = std::move(state.state);
-    }
-    if (from.comm != nullptr) {
-        keep_share(job.sim, *from.comm);
+        if (from.scene.time.recover) {
+            job.last_good = std::move(state.state);
+        }
     }
     if (state.changed) { // or a kill would leave a checkpoint of the case before
         write_checkpoint(job);
@@ -235,29 +258,18 @@ void update_outputs(Job& job)
         }
         sim.clock.history += 1;
     }
-    if (particles_due(sim)) {
-        Clock clock = sim.clock;
-        const std::int64_t frame = clock.frame;
-        with_whole(sim, job.comm, [&] { job.outputs->write_particles(sim); });
-        count_due_of_particles(clock, sim.scene);
-        sim.clock = clock; // of all processes
-        if (job.ranks != nullptr && clock.frame != frame) {
-            job.ranks->write(sim);
+    if (!sim.scene.gauges.empty() && gauge_due(sim.clock, sim.scene)) {
+        sim.timer.begin("gauges");
+        const std::vector<double> readings = next_gauge_row(sim);
+        if (job.outputs) {
+            job.outputs->write_gauges(sim, readings);
         }
+        sim.timer.end();
+        sim.clock.gauge += 1;
     }
-}
-
-void keep_good_state(Job& job)
-{
-    with_whole(job.sim, job.comm, [&] {
-        job.outputs->timer().begin("good state");
-        // The old state goes before the new one comes: a state is as large as that of the
-        // particles.
-        job.last_good.reset();
-        job.last_good = state_of(job);
-        job.outputs->timer().end();
-    });
-    job.good_step = job.sim.clock.step;
+    if (frame_due(sim.clock, sim.scene)) {
+        write_frame(job);
+    }
 }
 
 void write_checkpoint(Job& job)

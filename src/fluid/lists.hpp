@@ -21,7 +21,5 @@ void sort_particles(Fluid& fluid);
 
 /// Makes all lists.
 void build_lists(Fluid& fluid);
-/// Makes all lists anew of tiles that were read from a checkpoint.
-void finish_lists(Fluid& fluid);
 
 } // namespace hyoryu

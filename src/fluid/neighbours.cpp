@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // When the lists of the fluid are made, and from what.
+#include "hyoryu/fluid/whole.hpp"
+
 #include "lists.hpp"
+#include "sharing.hpp"
 #include "sweeps.hpp"
 
 namespace hyoryu {
@@ -55,6 +58,11 @@ void place_fixed_walls(Fluid& fluid)
         tiles->lattice = lattice_of(fluid);
         bound_chunks(*tiles);
     }
+    if (fluid.ghosts) {
+        keep_tiles(fluid.neighbours.body, own_tiles(fluid));
+        make_ghosts_of_fluid(fluid);
+        make_ghosts_of_bodies(fluid);
+    }
     update_fixed_walls(fluid);
 }
 
@@ -98,11 +106,7 @@ void rebuild_neighbours(Fluid& fluid)
         tiles->lattice = lattice_of(fluid);
         bound_chunks(*tiles);
     }
-    finish_lists(fluid);
-}
-
-void finish_lists(Fluid& fluid)
-{
+    make_ghosts_of_walls(fluid);
     build_lists(fluid);
     dry(fluid); // a store that was just made holds the pressures of time 0
     if (!fluid.moving_walls) {

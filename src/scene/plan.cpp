@@ -19,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -87,7 +88,7 @@ double expected_speed(const Scene& scene, const Filling& filling)
     return speed;
 }
 
-FluidParameters fluid_parameters(const Scene& scene, const Filling& filling, double speed)
+FluidParameters fluid_parameters(const Scene& scene, double particle_volume, double speed)
 {
     const FluidSettings& settings = *scene.fluid;
     FluidParameters f;
@@ -95,7 +96,7 @@ FluidParameters fluid_parameters(const Scene& scene, const Filling& filling, dou
     f.formulation = settings.formulation;
     f.spacing = scene.spacing;
     f.h = settings.smoothing_ratio * scene.spacing;
-    f.mass = settings.density * particle_volume(scene, filling);
+    f.mass = settings.density * particle_volume;
     f.gravity = scene.gravity;
     f.drive = settings.acceleration;
     f.cfl = scene.time.cfl;
@@ -105,6 +106,12 @@ FluidParameters fluid_parameters(const Scene& scene, const Filling& filling, dou
     f.eos = {settings.density,
              settings.sound_speed.value_or(sound_over_speed * std::max(speed, floor))};
     return f;
+}
+
+// Of a fluid at rest [m2/s].
+double viscosity_of_scheme(const Plan& plan)
+{
+    return effective_viscosity(Fluid{.parameters = *plan.fluid, .effects = plan.effects});
 }
 
 // Collects effects as on or off with one reason for either.
@@ -325,17 +332,28 @@ double list_bytes(const FluidParameters& fluid)
     return near + others;
 }
 
-Plan make_plan(const Scene& scene, const Filling& filling)
+PlanFacts facts_of(const Scene& scene, const Filling& filling)
+{
+    PlanFacts facts{.fluid = static_cast<Index>(filling.fluid.size()),
+                    .wall = static_cast<Index>(filling.wall.size())};
+    for (const Aggregate& body : filling.bodies) {
+        facts.body_points.push_back(static_cast<Index>(body.points.size()));
+        facts.surface_points.push_back(body.surface_points);
+    }
+    if (scene.fluid) {
+        facts.particle_volume = particle_volume(scene, filling);
+        facts.expected_speed = expected_speed(scene, filling);
+    }
+    return facts;
+}
+
+Plan plan_of(const Scene& scene, const PlanFacts& facts)
 {
     Plan plan;
-    plan.warnings = scene.notices;
-    plan.warnings.insert(plan.warnings.end(), filling.warnings.begin(), filling.warnings.end());
-    plan.counts = {static_cast<Index>(filling.fluid.size()),
-                   static_cast<Index>(filling.wall.size()), 0,
-                   static_cast<Index>(scene.bodies.size()), static_cast<Index>(scene.walls.size())};
-    for (const Aggregate& body : filling.bodies) {
-        plan.counts.drawn += static_cast<Index>(body.points.size());
-    }
+    plan.counts = {facts.fluid, facts.wall, 0, static_cast<Index>(scene.bodies.size()),
+                   static_cast<Index>(scene.walls.size())};
+    plan.counts.drawn =
+        std::accumulate(facts.body_points.begin(), facts.body_points.end(), Index(0));
     plan.rigid = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                              [](const BodySettings& b) { return !b.fixed; });
     const bool stops = std::ranges::any_of(
@@ -343,20 +361,18 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     plan.contact = plan.rigid && (scene.bodies.size() > 1 || !scene.walls.empty() || stops);
     if (scene.fluid) {
         plan.counts.body = plan.counts.drawn;
-        plan.expected_speed = expected_speed(scene, filling);
-        plan.fluid = fluid_parameters(scene, filling, plan.expected_speed);
+        plan.expected_speed = facts.expected_speed;
+        plan.fluid = fluid_parameters(scene, facts.particle_volume, plan.expected_speed);
         plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->gradient,
                                       scene.fluid->walls, *plan.fluid);
-        Fluid probe{.parameters = *plan.fluid, .effects = plan.effects};
-        const double viscosity = effective_viscosity(probe);
-        const auto limits = fluid_limits(*plan.fluid, 0, scene.gravity.norm(), viscosity);
-        list_scale(scene, filling, viscosity, plan);
+        const auto limits =
+            fluid_limits(*plan.fluid, 0, scene.gravity.norm(), viscosity_of_scheme(plan));
         plan.limits.assign(limits.begin(), limits.end());
         for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
             const BodySettings& body = scene.bodies[b];
             const double mass =
                 effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
-            plan.limits.push_back(body_limit(*plan.fluid, mass, filling.bodies[b].surface_points));
+            plan.limits.push_back(body_limit(*plan.fluid, mass, facts.surface_points[b]));
         }
     } else {
         plan.limits = {{"bodies only", bodies_only_step}};
@@ -364,11 +380,22 @@ Plan make_plan(const Scene& scene, const Filling& filling)
     plan.first_step = scene.time.step.value_or(shortest(plan.limits).dt);
     list_effects(scene, plan);
     expect_built(plan, left_out);
+    list_pairs(plan);
+    list_fields(plan);
+    return plan;
+}
+
+Plan make_plan(const Scene& scene, const Filling& filling)
+{
+    Plan plan = plan_of(scene, facts_of(scene, filling));
+    plan.warnings = scene.notices;
+    plan.warnings.insert(plan.warnings.end(), filling.warnings.begin(), filling.warnings.end());
+    if (plan.fluid) {
+        list_scale(scene, filling, viscosity_of_scheme(plan), plan);
+    }
     list_contact(scene, filling, plan);
     list_gauges(scene, plan);
     list_open(scene, filling, plan);
-    list_pairs(plan);
-    list_fields(plan);
     estimate_cost(scene, plan);
     check_plan(scene, filling, plan);
     list_floating(scene, plan);

@@ -2,7 +2,10 @@
 #include "hyoryu/sim/checkpoint.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/fluid/whole.hpp"
+
 #include "state.hpp"
+#include "tiles_state.hpp"
 
 #include <fmt/format.h>
 
@@ -13,46 +16,6 @@
 namespace hyoryu {
 
 namespace {
-
-// Tiles: Tiles of the last list build, from which the lists are built again; constant for a writer.
-template <class State, class Tiles>
-void describe_tiles(State& state, Tiles& tiles, const std::string& name)
-{
-    state.list(name + "/number", "", tiles.tile);
-    state.list(name + "/start", "", tiles.start);
-    state.list(name + "/row", "", tiles.row);
-    state.list(name + "/x", "", tiles.x);
-    state.list(name + "/y", "", tiles.y);
-    state.list(name + "/z", "", tiles.z);
-}
-
-// Lists are made from tiles by index: those of a damaged checkpoint would lead anywhere.
-void check_tiles(const Tiles& tiles, Rows rows)
-{
-    const auto is_finite = [](float a) { return std::isfinite(a); };
-    const auto is_a_row = [&](std::int32_t row) { return row >= rows.begin && row < rows.end; };
-    const bool whole =
-        tiles.start.size() == tiles.tile.size() + 1 && tiles.start.front() == 0 &&
-        tiles.start.back() == tiles.count() && tiles.count() <= rows.size() &&
-        tiles.x.size() == tiles.row.size() && tiles.y.size() == tiles.row.size() &&
-        tiles.z.size() == tiles.row.size() && std::ranges::is_sorted(tiles.start) &&
-        std::ranges::is_sorted(tiles.tile) && std::ranges::all_of(tiles.row, is_a_row) &&
-        std::ranges::all_of(tiles.x, is_finite) && std::ranges::all_of(tiles.y, is_finite) &&
-        std::ranges::all_of(tiles.z, is_finite);
-    if (!whole) {
-        throw IoError("the checkpoint has tiles that do not fit its particles: it is damaged");
-    }
-}
-
-// The tiles of a kind of particles.
-template <class State, class Tiles>
-void describe_tiles_of(State& state, Tiles& tiles, const Store& store, const std::string& name)
-{
-    describe_tiles(state, tiles, name);
-    if constexpr (State::reads) {
-        check_tiles(tiles, store.rows());
-    }
-}
 
 // Of solid particles: friction, which acts a step later, and the image that the lists know.
 using LastingOfSolids = Fields<Position, ViscousForce>;
@@ -74,16 +37,59 @@ void check_places(std::span<const Vec3> places)
     }
 }
 
-// Which fixed walls have rows follows from the tiles of fluid and bodies.
-template <class State, class Fluid>
-void describe_solids(State& state, Fluid& fluid)
+// A column of wall particles, of which a rank takes those that it has.
+template <class T>
+void read_wall_column(StateReader& state, const std::string& name, const std::string& unit,
+                      const WallRows& rows, Index moving, std::span<T> own)
 {
-    auto& wall = fluid.particles.wall;
-    auto& body = fluid.particles.body;
-    describe_tiles_of(state, fluid.neighbours.body, body, "body/tiles");
-    if constexpr (State::reads) {
-        place_fixed_walls(fluid);
+    std::vector<T> all(static_cast<std::size_t>(rows.all));
+    state.values(name, unit, std::span(all));
+    std::copy_n(all.begin(), moving, own.begin());
+    std::copy_n(all.begin() + rows.first, std::ssize(own) - moving, own.begin() + moving);
+}
+
+// The tiles of walls of which some move, of which a rank takes its own.
+void read_wall_tiles(StateReader& state, Fluid& fluid, const WallRows& rows)
+{
+    Tiles& tiles = fluid.neighbours.wall;
+    describe_tiles(state, tiles, "wall/tiles");
+    check_tiles(tiles, {0, rows.all});
+    keep_tiles(tiles, own_tiles(fluid));
+    const Index moving = fluid.fixed_walls.moving_rows;
+    for (std::int32_t& row : tiles.row) {
+        row -= row >= moving ? static_cast<std::int32_t>(rows.first - moving) : 0;
     }
+    check_tiles(tiles, fluid.particles.wall.rows());
+}
+
+// Which fixed walls have rows follows from the tiles of fluid and bodies.
+void read_solids(StateReader& state, Fluid& fluid)
+{
+    Store& wall = fluid.particles.wall;
+    Store& body = fluid.particles.body;
+    describe_tiles(state, fluid.neighbours.body, "body/tiles");
+    check_tiles(fluid.neighbours.body, body.rows());
+    place_fixed_walls(fluid);
+    const WallRows rows = wall_rows(fluid);
+    for_each(LastingOfSolids{}, [&](auto column) {
+        if (lasts(fluid, column)) {
+            const std::string name(column.info.name);
+            const std::string unit(column.info.unit);
+            read_wall_column(state, "wall/" + name, unit, rows, fluid.fixed_walls.moving_rows,
+                             wall[column]);
+            state.values("body/" + name, unit, std::span(body[column]));
+        }
+    });
+    if (fluid.moving_walls) {
+        read_wall_tiles(state, fluid, rows);
+    }
+}
+
+void write_solids(StateWriter& state, const Fluid& fluid)
+{
+    const Store& wall = fluid.particles.wall;
+    const Store& body = fluid.particles.body;
+    describe_tiles(state, fluid.neighbours.body, "body/tiles");
     for_each(LastingOfSolids{}, [&](auto column) {
         if (lasts(fluid, column)) {
             const std::string name(column.info.name);
@@ -93,19 +99,14 @@ void describe_solids(State& state, Fluid& fluid)
         }
     });
     if (fluid.moving_walls) {
-        describe_tiles_of(state, fluid.neighbours.wall, wall, "wall/tiles");
+        describe_tiles(state, fluid.neighbours.wall, "wall/tiles");
     }
 }
 
 // Rows for the particles of a checkpoint: those that were lost leave the store, which of them does
-// not matter; open sides may have added some.
-void fit(Store& store, std::size_t kept, const OpenFlow& open)
+// not matter; others come from open sides, or from another rank.
+void fit(Store& store, std::size_t kept)
 {
-    if (kept > static_cast<std::size_t>(store.size()) && !open.runs()) {
-        throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
-                                  "{} of this case: it belongs to another case",
-                                  kept, store.size()));
-    }
     std::vector<std::int32_t> order(kept, -1);
     std::iota(order.begin(),
               order.begin() + std::min<std::ptrdiff_t>(std::ssize(order), store.size()), 0);
@@ -113,13 +114,13 @@ void fit(Store& store, std::size_t kept, const OpenFlow& open)
 }
 
 template <class State, class Fluid>
-void describe_fluid(State& state, Fluid& fluid, const OpenFlow& open)
+void describe_fluid(State& state, Fluid& fluid)
 {
     auto& store = fluid.particles.fluid;
     if constexpr (State::reads) {
         std::vector<std::int64_t> ids;
         state.list("fluid/id", "", ids);
-        fit(store, ids.size(), open);
+        fit(store, ids.size());
     }
     state.values("fluid/id", "", std::span(store.id()));
     store.for_each_column([&](const FieldInfo& column, auto& values) {
@@ -138,10 +139,13 @@ void describe_fluid(State& state, Fluid& fluid, const OpenFlow& open)
     state("fluid/lost", "", fluid.lost.count);
     state("fluid/lost_momentum", "kg m/s", fluid.lost.momentum);
     state("fluid/lost_energy", "J", fluid.lost.energy);
-    describe_tiles_of(state, fluid.neighbours.fluid, store, "fluid/tiles");
-    describe_solids(state, fluid);
+    describe_tiles(state, fluid.neighbours.fluid, "fluid/tiles");
     if constexpr (State::reads) {
+        check_tiles(fluid.neighbours.fluid, store.rows());
+        read_solids(state, fluid);
         rebuild_neighbours(fluid);
+    } else {
+        write_solids(state, fluid);
     }
 }
 
@@ -318,7 +322,7 @@ void describe_all(State& state, Simulation& sim)
         describe_left_bodies(state, sim);
     }
     if (sim.fluid) {
-        describe_fluid(state, *sim.fluid, sim.open);
+        describe_fluid(state, *sim.fluid);
     }
     if (sim.open.runs()) {
         describe_open(state, sim.open.boundary);
@@ -330,6 +334,37 @@ void describe_all(State& state, Simulation& sim)
 
 } // namespace
 
+void check_tiles(const Tiles& tiles, Rows rows)
+{
+    const auto is_finite = [](float a) { return std::isfinite(a); };
+    const auto is_a_row = [&](std::int32_t row) { return row >= rows.begin && row < rows.end; };
+    const bool whole =
+        tiles.start.size() == tiles.tile.size() + 1 && tiles.start.front() == 0 &&
+        tiles.start.back() == tiles.count() && tiles.count() <= rows.size() &&
+        tiles.x.size() == tiles.row.size() && tiles.y.size() == tiles.row.size() &&
+        tiles.z.size() == tiles.row.size() && std::ranges::is_sorted(tiles.start) &&
+        std::ranges::is_sorted(tiles.tile) && std::ranges::all_of(tiles.row, is_a_row) &&
+        std::ranges::all_of(tiles.x, is_finite) && std::ranges::all_of(tiles.y, is_finite) &&
+        std::ranges::all_of(tiles.z, is_finite);
+    if (!whole) {
+        throw IoError("the checkpoint has tiles that do not fit its particles: it is damaged");
+    }
+}
+
+void expect_particles_of_case(const Simulation& sim, const Snapshot& snapshot)
+{
+    if (!sim.fluid || sim.open.runs()) { // which may have added any number
+        return;
+    }
+    std::vector<std::int64_t> numbers;
+    StateReader(snapshot).list("fluid/id", "", numbers);
+    if (std::ssize(numbers) > sim.plan.counts.fluid) {
+        throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
+                                  "{} of this case: it belongs to another case",
+                                  numbers.size(), sim.plan.counts.fluid));
+    }
+}
+
 Snapshot save(const Simulation& sim)
 {
     Snapshot snapshot;
@@ -339,6 +374,12 @@ Snapshot save(const Simulation& sim)
 }
 
 void restore(Simulation& sim, const Snapshot& snapshot)
+{
+    expect_particles_of_case(sim, snapshot);
+    restore_share(sim, snapshot);
+}
+
+void restore_share(Simulation& sim, const Snapshot& snapshot)
 {
     StateReader state(snapshot);
     describe_all(state, sim);

@@ -65,6 +65,21 @@ void expect_room(const Simulation& sim)
     }
 }
 
+// The rows that open sides add and remove, and new lists of all.
+void renew_rows(Simulation& sim)
+{
+    Fluid& fluid = *sim.fluid;
+    OpenBoundary& open = sim.open.boundary;
+    let_bodies_leave(sim);
+    renew_carpets(fluid, open);
+    if (sim.clock.step > 0) { // the start is a state to go on from with more room
+        expect_room(sim);
+    }
+    make_lists(fluid);
+    find_rows(fluid, open);
+    mark_beside_bodies(fluid, open);
+}
+
 } // namespace
 
 void extend_domain(const Scene& scene, Fluid& fluid)
@@ -85,8 +100,10 @@ void start_open(Simulation& sim)
     for (const OpenSettings& settings : sim.scene.open) {
         open.carpets.push_back(make_carpet(sim.scene, settings));
     }
-    sim.open.most = sim.scene.most_fluid > 0 ? static_cast<double>(sim.scene.most_fluid)
-                                             : fluid_in_memory(sim.scene, sim.plan);
+    // What the machine has may differ between processes, and what they do must not.
+    sim.open.most = sim.scene.most_fluid > 0
+                        ? static_cast<double>(sim.scene.most_fluid)
+                        : -largest_of_all(fluid, -fluid_in_memory(sim.scene, sim.plan));
     open.next_id = sim.plan.counts.particles();
     find_rows(fluid, open);
     mark_beside_bodies(fluid, open);
@@ -101,8 +118,7 @@ void start_open(Simulation& sim)
         }
     }
     set_flows(sim, 0);
-    renew_carpets(fluid, open);
-    find_rows(fluid, open); // lists are made next, and must not make the carpets again
+    renew_rows(sim);
     open.impulse.setZero(); // the first carpets are part of the start
 }
 
@@ -113,14 +129,7 @@ void renew_open(Simulation& sim)
     count_crossings(fluid, open);
     mark_beside_bodies(fluid, open);
     if (lists_are_due(fluid, carpets_due(fluid, open))) {
-        let_bodies_leave(sim);
-        renew_carpets(fluid, open);
-        if (sim.clock.step > 0) { // the start is a state to go on from with more room
-            expect_room(sim);
-        }
-        make_lists(fluid);
-        find_rows(fluid, open);
-        mark_beside_bodies(fluid, open);
+        renew_rows(sim);
     }
     set_densities(fluid, open);
     keep_velocities(fluid, open);

@@ -155,7 +155,7 @@ void step(Simulation& sim)
     }
     if (is_built<RigidMotion> && sim.plan.rigid) {
         sim.timer.begin("bodies");
-        step(sim.rigid, sim.clock.time, dt, sim.loads.bodies, sim.contacts);
+        step(sim.rigid, sim.clock.time, dt, sim.loads.bodies, sim.contacts, sim.comm);
     }
     if (is_built<Gauges> && !sim.gauges.forces.empty()) {
         sim.timer.begin("gauges");

@@ -52,7 +52,7 @@ public:
     explicit SameBodies(const Simulation& sim)
     {
         constexpr long long steps_between_looks = 100;
-        if (comm_of(*sim.fluid) != nullptr && sim.clock.step % steps_between_looks == 0) {
+        if (sim.comm != nullptr && sim.clock.step % steps_between_looks == 0) {
             for (const Body& body : sim.rigid.bodies) {
                 extremes_.push_back(fingerprint(body));
                 extremes_.push_back(-extremes_.back());
@@ -76,6 +76,17 @@ public:
 private:
     std::vector<double> extremes_;
 };
+
+void compare_bodies(const Simulation& sim)
+{
+    SameBodies same(sim);
+    if (!same.extremes().empty()) {
+        Reduction all(sim.comm);
+        all.largest(same.extremes());
+        all.run();
+        same.expect(sim);
+    }
+}
 
 void survey_fluid(Simulation& sim, StateSurvey& now)
 {
@@ -131,6 +142,8 @@ StateSurvey survey(Simulation& sim)
     StateSurvey now;
     if (sim.fluid) {
         survey_fluid(sim, now);
+    } else {
+        compare_bodies(sim);
     }
     for (const Body& body : sim.rigid.bodies) {
         now.momentum += body.mass.mass * body.velocity;

@@ -40,12 +40,4 @@ void with_whole(Simulation& sim, Comm* comm, const std::function<void()>& look)
     }
 }
 
-void keep_share(Simulation& sim, Comm& comm)
-{
-    if (sim.fluid) {
-        keep_share(*sim.fluid, comm);
-        find_rows(*sim.fluid, sim.open.boundary);
-    }
-}
-
 } // namespace hyoryu

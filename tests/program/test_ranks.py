@@ -12,6 +12,7 @@ import os
 import pathlib
 import random
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -174,6 +175,35 @@ class Bits(RanksTest):
             self.assertGreater(float(row["memory"]), 1e6)
             self.assertGreaterEqual(float(row["busy"]), 0)
 
+    def test_processes_hold_their_parts_and_not_the_whole_case(self):
+        self.write("""title = "column"
+[time]
+end = 1.0
+[particles]
+spacing = 0.025
+[output]
+every = 0.001
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [2.0, 1.0, 1.4]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [4.0, 1.0, 2.0]
+open = ["+z"]
+""")
+        self.run_by(1, "out", "--until", "0.001")
+        one = json.loads((self.dir / "out/summary.json").read_text())["peak_memory_bytes"]
+        for arguments in (("--force", "--until", "0.001"), ("--resume", "--until", "0.002")):
+            self.run_by(4, "out", *arguments)
+            with open(self.dir / "out/ranks.csv") as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            others = [float(row["memory"]) for row in rows if row["rank"] != "0"]
+            self.assertLess(max(others), 0.6 * one, (arguments, one, others))
+
     def test_the_report_shows_what_each_process_had_and_did(self):
         self.run_by(1, "alone")
         self.call("report", "alone")
@@ -283,6 +313,33 @@ class Ends(RanksTest):
             self.assertEqual(message.count("error: "), 1, (other, message))
             self.assertIn(f"the processes do not have the same {what}: ranks 0 and 2 differ", message)
             self.assertFalse((self.dir / "out").exists())
+
+    def test_a_mistake_that_one_process_alone_meets_is_told_by_it(self):
+        (self.dir / "broken.toml").write_text("title = \n")
+        for case, told in (("missing.toml", "missing.toml"), ("broken.toml", "broken.toml:1")):
+            code, message = self.finish(subprocess.Popen(
+                ["mpirun", "--oversubscribe", "-n", "2", self.program, "run", self.case, "-o", "out", ":",
+                 "-n", "1", self.program, "run", case, "-o", "out", ":",
+                 "-n", "1", self.program, "run", self.case, "-o", "out"],
+                cwd=self.dir, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE, text=True))
+            self.assertEqual(code, 2, message)
+            self.assertEqual(message.count("error: "), 1, message)
+            self.assertRegex(message, rf"rank 2 on \S+: .*{re.escape(told)}")
+            self.assertFalse((self.dir / "out").exists())
+
+    def test_memory_that_one_process_alone_lacks_ends_the_run(self):
+        self.write(LONG_DAM.replace("spacing = 0.02", "spacing = 0.01"))
+        for rank in (0, 2):
+            process = self.start(3, "run", self.case, "-o", "out", "--force")
+            self.wait_for(process, "frames/fluid_000000.hdf")
+            pid = self.children(process)[rank]
+            room = int(re.search(r"VmSize:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text())[1]) * 1024
+            resource.prlimit(pid, resource.RLIMIT_AS, (room, room))
+            code, message = self.finish(process)
+            self.assertEqual(code, 4, message)
+            self.assertIn("memory", message)
+            shutil.rmtree(self.dir / "out")
 
     def test_existing_results_are_told_once_and_stay(self):
         self.run_by(1, "out", "--until", "0.01")

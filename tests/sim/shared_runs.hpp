@@ -6,6 +6,7 @@
 #include "random_scene.hpp"
 #include "runs.hpp"
 
+#include "hyoryu/sim/dealing.hpp"
 #include "hyoryu/sim/whole.hpp"
 
 #include <gtest/gtest.h>
@@ -78,7 +79,17 @@ struct Case {
           plan(make_plan(scene, filling))
     {
     }
-    Simulation start(Comm* comm) const { return make_simulation(scene, plan, filling, comm); }
+    // Only rank 0 knows plan and filling.
+    Simulation start(Comm* comm) const
+    {
+        if (comm == nullptr) {
+            return make_simulation(scene, plan, filling);
+        }
+        const bool root = comm->rank() == 0;
+        Plan own = root ? plan : Plan{};
+        deal_plan(*comm, scene, root ? filling : Filling{}, own);
+        return make_simulation(scene, own, root ? filling : Filling{}, comm);
+    }
 };
 
 inline void run(Simulation& sim, int steps)
@@ -314,10 +325,9 @@ inline Snapshot saved(const Case& of, int ranks, int steps, const Snapshot* befo
 {
     Snapshot state;
     testing::on_ranks(ranks, [&](Comm& comm) {
-        Simulation sim = of.start(before == nullptr ? &comm : nullptr);
+        Simulation sim = of.start(&comm);
         if (before != nullptr) {
-            restore(sim, *before);
-            keep_share(sim, comm);
+            restore(sim, &comm, comm.rank() == 0 ? before : nullptr);
         }
         run(sim, steps);
         with_whole(sim, &comm, [&] { state = save(sim); });

@@ -141,8 +141,12 @@ TEST(RanksAtLimits, AFailureIsThatOfOneProcessOnAllRanks)
 // Each rank moves all bodies; what moves them apart by a picometre must not stay unseen.
 TEST(RanksAtLimits, BodiesThatDifferBetweenRanksAreNamed)
 {
-    const Case of(dam + crates, {});
-    for (const auto& [rank, body] : {std::pair(0, 1), std::pair(2, 0)}) {
+    const std::string ground = "dimensions = 2\n[time]\nend = 10\n[particles]\nspacing = 0.04\n"
+                               "[[wall]]\nname = \"ground\"\nshape = \"plane\"\n";
+    for (const auto& [text, rank, body] :
+         {std::tuple(dam + crates, 0, 1), std::tuple(dam + crates, 2, 0),
+          std::tuple(ground + crates, 1, 1)}) {
+        const Case of(text, {});
         std::vector<std::string> said(3);
         testing::on_ranks(3, [&](Comm& comm) {
             Simulation sim = of.start(&comm);
@@ -156,10 +160,10 @@ TEST(RanksAtLimits, BodiesThatDifferBetweenRanksAreNamed)
                 said[static_cast<std::size_t>(comm.rank())] = error.what();
             }
         });
-        for (const std::string& text : said) {
-            EXPECT_EQ(text, said.front());
-            EXPECT_NE(text.find("after step 200 the processes disagree on body"), std::string::npos)
-                << text;
+        for (const std::string& told : said) {
+            EXPECT_EQ(told, said.front());
+            EXPECT_NE(told.find("after step 200 the processes disagree on body"), std::string::npos)
+                << told;
         }
     }
 }

@@ -126,9 +126,10 @@ TileLattice lattice_of(const Fluid& fluid);
 bool lists_are_due(Fluid& fluid, bool asked);
 void make_lists(Fluid& fluid);
 /// Makes the particles of fixed walls that the tiles of fluid and bodies are near to, as lists do
-/// that are made anew: a restart needs them for the columns of solids.
+/// that are made anew: a restart needs them for the columns of solids. A rank has the fluid tiles
+/// of its range and the body tiles of all ranks, of which it keeps its own.
 void place_fixed_walls(Fluid& fluid);
-/// Makes the lists again from the recorded positions, as a restart needs.
+/// Makes the lists again from the recorded positions, as a restart needs; a rank has its own tiles.
 void rebuild_neighbours(Fluid& fluid);
 
 /// p and V of the fluid from rho, then p and V of solid particles from the fluid before them.

@@ -32,7 +32,7 @@ struct Ghosts {
 };
 
 /// Makes the fluid that of one rank. Its store must then have the fluid particles of its range of
-/// tiles and no others, see keep_share where it has all.
+/// tiles and no others.
 void share(Fluid& fluid, Comm& comm, const Cuts& cuts);
 
 /// Sends to the ranks that have ghosts of them the places of particles and what else a step reads

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a fluid of one process to that of one of several, and back: what is read and written, such
-// as a checkpoint, is whole and shows neither that there were ranks nor how many.
+// From the fluid of one of several processes to that of one, and back: what is read and written,
+// such as a checkpoint, is whole and shows neither that there were ranks nor how many.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
@@ -23,8 +23,16 @@ void swap_parts(Fluid& fluid, WholeFluid& whole, std::unique_ptr<Ghosts>& ghosts
 /// Cuts by which all ranks have about the same number of fluid particles.
 Cuts even_cuts(const TileLattice& lattice, std::span<const Vec3> fluid, int ranks);
 
-/// Makes a fluid that one process has restored that of one of several, which keeps its own
-/// particles. Called by all ranks, with the same fluid.
-void keep_share(Fluid& fluid, Comm& comm);
+/// Leaves the tiles of a range.
+void keep_tiles(Tiles& tiles, const TileRange& own);
+
+/// Where the wall rows of a rank are among those of one process. Rows of walls that move come first
+/// and are on all ranks; then come those of fixed walls, rank after rank.
+struct WallRows {
+    Index first = 0; // of the fixed walls of this rank
+    Index all = 0;   // rows
+};
+/// Called by all ranks.
+WallRows wall_rows(const Fluid& fluid);
 
 } // namespace hyoryu

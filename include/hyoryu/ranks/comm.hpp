@@ -10,6 +10,8 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -101,6 +103,36 @@ public:
 private:
     std::span<const std::byte> left_;
 };
+
+/// Appends values and, before them, their number.
+template <Sendable T>
+void put_list(Parcel& parcel, std::span<const T> values)
+{
+    put(parcel, values.size());
+    put(parcel, values);
+}
+template <Sendable T>
+void put_list(Parcel& parcel, const std::vector<T>& values)
+{
+    put_list(parcel, std::span<const T>(values));
+}
+template <Sendable T>
+std::vector<T> take_list(Unpacking& from)
+{
+    std::vector<T> values(from.take<std::size_t>());
+    from.take(std::span(values));
+    return values;
+}
+inline void put_text(Parcel& parcel, std::string_view text)
+{
+    put_list(parcel, std::span<const char>(text));
+}
+inline std::string take_text(Unpacking& from)
+{
+    std::string text(from.take<std::size_t>(), '\0');
+    from.take(std::span<char>(text));
+    return text;
+}
 
 /// The values of all ranks, one rank after the other, and where those of this one are among them.
 template <class T>

@@ -47,11 +47,12 @@ struct Simulation {
     double pair_visits = 0;     // evaluated list entries so far
     double thinnest = infinity; // least inner radius of the bodies [m]
     OpenFlow open;              // at the open sides
+    Comm* comm = nullptr;       // of the processes that share the case; null for one
 };
 
-/// The scene at time 0. The particles of `filling` go into the store; of a case that several
-/// processes share, those of the fluid that are this one's. `comm`, null for one process, outlives
-/// the simulation.
+/// The scene at time 0 with the particles of `filling`. `comm`, null for one process, outlives the
+/// simulation; of a case that several processes share, `filling` is that of rank 0, which deals out
+/// its fluid, and is not looked at on the others.
 Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling,
                            Comm* comm = nullptr);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Input and output of a simulation that several processes share.
+// Output of a simulation that several processes share.
 #pragma once
 
 #include "hyoryu/sim/simulation.hpp"
@@ -12,8 +12,5 @@ namespace hyoryu {
 /// that of one process; what it changes of the particles is lost. Called by all ranks. Needs memory
 /// for all particles on rank 0. `comm`: null for one process, which calls `look` at once.
 void with_whole(Simulation& sim, Comm* comm, const std::function<void()>& look);
-
-/// Makes a simulation that was restored whole on every rank that of one of several.
-void keep_share(Simulation& sim, Comm& comm);
 
 } // namespace hyoryu
