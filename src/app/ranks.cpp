@@ -181,9 +181,9 @@ void Ranks::end(const std::exception_ptr& error)
 
 void Ranks::tell(const std::exception_ptr& error)
 {
-    const int code = tell_error(error, comm_->rank() == 0 ? ""
-                                                          : fmt::format("rank {} on {}: ",
-                                                                        comm_->rank(), host_name()));
+    const int rank = comm_->rank();
+    const int code =
+        tell_error(error, rank == 0 ? "" : fmt::format("rank {} on {}: ", rank, host_name()));
     std::fflush(stdout);
     function_of<mpi_module::Abort>(module_, mpi_module::abort_name)(code);
     std::_Exit(code);
