@@ -319,13 +319,15 @@ int run_share(const RunOptions& options, Ranks& others)
     if (writes(comm)) {
         filling = fill(scene);
         plan = make_plan(scene, filling);
+    }
+    watch_for_stop();
+    if (writes(comm)) {
         tell_warnings(options, plan);
         check_memory(plan);
     }
     if (comm != nullptr) {
         deal_plan(*comm, scene, filling, plan);
     }
-    watch_for_stop();
     std::optional<RankLog> ranks;
     if (comm != nullptr) {
         ranks.emplace(*comm, options.rebalance);
