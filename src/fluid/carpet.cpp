@@ -183,6 +183,7 @@ struct Lanes {
 
 // A row about a plane, as all ranks know it.
 struct NearRow {
+    std::int64_t number = 0; // of the particle
     int rank = 0;
     std::int32_t row = 0;
     int beside_body = 0;
@@ -191,16 +192,20 @@ struct NearRow {
     std::pair<int, std::int32_t> name() const { return {rank, row}; }
 };
 
+// In the order of their numbers, so that mirrored scenes round alike where a row is a tie.
 std::vector<NearRow> near_rows(const Fluid& fluid, const Carpet& carpet)
 {
     const auto x = fluid.particles.fluid[field::position];
+    const auto number = fluid.particles.fluid.id();
     const int rank = fluid.ghosts ? fluid.ghosts->comm.rank() : 0;
     std::vector<NearRow> own;
     for (std::size_t k = 0; k < carpet.near.size(); ++k) {
         const std::int32_t row = carpet.near[k];
-        own.push_back({rank, row, carpet.is_beside_body(k) ? 1 : 0, x[row]});
+        own.push_back({number[row], rank, row, carpet.is_beside_body(k) ? 1 : 0, x[row]});
     }
-    return terms_of_all(fluid, std::move(own));
+    std::vector<NearRow> all = terms_of_all(fluid, std::move(own));
+    std::ranges::sort(all, {}, &NearRow::number);
+    return all;
 }
 
 // Rows of all ranks that have left.

@@ -33,8 +33,15 @@ struct StripSums {
     real displaced = 0;         // sum of w V of what bodies displace
 };
 
-// Sums of the water in the strips of all stations, in the order of the rows.
-std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
+// What a particle adds to the sums of its station.
+struct StripTerm {
+    std::int64_t number = 0; // of the particle
+    int station = 0;
+    real volume = 0, moved = 0;
+};
+
+// The water in the strips of all stations, in the order of the rows.
+std::vector<StripTerm> strip_terms(const Fluid& fluid, const Carpet& carpet)
 {
     const OpenSide& side = carpet.side;
     const Store& store = fluid.particles.fluid;
@@ -42,11 +49,7 @@ std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
     const auto v = store[field::velocity];
     const auto rho = store[field::density];
     const real dp = fluid.parameters.spacing;
-    struct Term {
-        int station = 0;
-        real volume = 0, moved = 0;
-    };
-    std::vector<Term> own;
+    std::vector<StripTerm> own;
     for (std::size_t k = 0; k < carpet.near.size(); ++k) {
         const auto row = at(carpet.near[k]);
         const real s = side.distance(x[row]);
@@ -54,11 +57,17 @@ std::vector<StripSums> strip_sums(const Fluid& fluid, const Carpet& carpet)
         const int lane = side.lane(x[row], dp);
         if (w > 0 && lane >= 0 && lane < side.lanes()) {
             const real V = w * fluid.parameters.mass / rho[row];
-            own.push_back({lane / side.station_lanes, V, V * side.into * v[row][side.axis]});
+            own.push_back(
+                {store.id()[row], lane / side.station_lanes, V, V * side.into * v[row][side.axis]});
         }
     }
+    return terms_of_all(fluid, std::move(own));
+}
+
+std::vector<StripSums> strip_sums(const OpenSide& side, std::span<const StripTerm> terms)
+{
     std::vector<StripSums> sums(at(side.stations()));
-    for (const Term& term : terms_of_all(fluid, std::move(own))) {
+    for (const StripTerm& term : terms) {
         sums[at(term.station)].volume += term.volume;
         sums[at(term.station)].moved += term.moved;
     }
@@ -97,13 +106,6 @@ real strip_area(const Fluid& fluid, const OpenSide& side, int station)
     return strip_half * dp * width;
 }
 
-std::vector<StripSums> sums_of(const Fluid& fluid, const Carpet& carpet)
-{
-    std::vector<StripSums> sums = strip_sums(fluid, carpet);
-    add_displaced(fluid, carpet, sums);
-    return sums;
-}
-
 real depth_of(const StripSums& sums, real area)
 {
     return area > 0 ? (sums.volume + sums.displaced) / area : 0;
@@ -120,8 +122,13 @@ void measure_start(const Fluid& fluid, OpenBoundary& open)
 {
     constexpr int turns = 4; // the surface and what bodies displace below it depend on each other
     for (Carpet& carpet : open.carpets) {
+        // In the order in which the scene was filled, so that mirrored scenes round alike: whether
+        // a row of particles is wet is often a matter of rounding at the start.
+        std::vector<StripTerm> terms = strip_terms(fluid, carpet);
+        std::ranges::sort(terms, {}, &StripTerm::number);
         for (int turn = 0; turn < turns; ++turn) {
-            const auto sums = sums_of(fluid, carpet);
+            std::vector<StripSums> sums = strip_sums(carpet.side, terms);
+            add_displaced(fluid, carpet, sums);
             for (int c = 0; c < carpet.side.stations(); ++c) {
                 StationFlow& flow = carpet.stations[at(c)];
                 flow.depth = depth_of(sums[at(c)], strip_area(fluid, carpet.side, c));
@@ -135,7 +142,8 @@ void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt)
 {
     const real dp = fluid.parameters.spacing;
     for (Carpet& carpet : open.carpets) {
-        const auto sums = sums_of(fluid, carpet);
+        std::vector<StripSums> sums = strip_sums(carpet.side, strip_terms(fluid, carpet));
+        add_displaced(fluid, carpet, sums);
         for (int c = 0; c < carpet.side.stations(); ++c) {
             StationFlow& flow = carpet.stations[at(c)];
             const real tau =

@@ -118,7 +118,8 @@ void start_open(Simulation& sim)
         }
     }
     set_flows(sim, 0);
-    renew_rows(sim);
+    renew_carpets(fluid, open);
+    find_rows(fluid, open); // lists are made next, and must not make the carpets again
     open.impulse.setZero(); // the first carpets are part of the start
 }
 

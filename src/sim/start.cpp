@@ -175,7 +175,6 @@ void start_fluid(Simulation& sim)
     }
     fly_bodies(sim, 0);
     if (sim.plan.runs(OpenSides::name)) {
-        update_neighbours(*sim.fluid); // sums over strips are in the order of the tiles
         start_open(sim);
     }
     update_lists(sim);

@@ -24,8 +24,7 @@ struct OpenFlow {
 /// Extends the domain of the particles as far as the carpets reach; before any tiles are made.
 void extend_domain(const Scene& scene, Fluid& fluid);
 
-/// Makes the carpets of the scene with their first particles, and lists again; after the first
-/// lists.
+/// Makes the carpets of the scene with its first particles; before the first lists.
 void start_open(Simulation& sim);
 
 /// After the drift to the middle of a step: counts what crossed, and makes new lists where those
