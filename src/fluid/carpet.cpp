@@ -192,7 +192,7 @@ struct NearRow {
     std::pair<int, std::int32_t> name() const { return {rank, row}; }
 };
 
-// In the order of their numbers, so that mirrored scenes round alike where a row is a tie.
+// In the order of their numbers: before the first lists, rows of ranks are in no order of tiles.
 std::vector<NearRow> near_rows(const Fluid& fluid, const Carpet& carpet)
 {
     const auto x = fluid.particles.fluid[field::position];

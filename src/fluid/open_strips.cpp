@@ -122,8 +122,8 @@ void measure_start(const Fluid& fluid, OpenBoundary& open)
 {
     constexpr int turns = 4; // the surface and what bodies displace below it depend on each other
     for (Carpet& carpet : open.carpets) {
-        // In the order in which the scene was filled, so that mirrored scenes round alike: whether
-        // a row of particles is wet is often a matter of rounding at the start.
+        // In the order of the numbers, which is that of the filling: before the first lists, rows
+        // of ranks are in no order of tiles.
         std::vector<StripTerm> terms = strip_terms(fluid, carpet);
         std::ranges::sort(terms, {}, &StripTerm::number);
         for (int turn = 0; turn < turns; ++turn) {

@@ -65,21 +65,6 @@ void expect_room(const Simulation& sim)
     }
 }
 
-// The rows that open sides add and remove, and new lists of all.
-void renew_rows(Simulation& sim)
-{
-    Fluid& fluid = *sim.fluid;
-    OpenBoundary& open = sim.open.boundary;
-    let_bodies_leave(sim);
-    renew_carpets(fluid, open);
-    if (sim.clock.step > 0) { // the start is a state to go on from with more room
-        expect_room(sim);
-    }
-    make_lists(fluid);
-    find_rows(fluid, open);
-    mark_beside_bodies(fluid, open);
-}
-
 } // namespace
 
 void extend_domain(const Scene& scene, Fluid& fluid)
@@ -130,7 +115,14 @@ void renew_open(Simulation& sim)
     count_crossings(fluid, open);
     mark_beside_bodies(fluid, open);
     if (lists_are_due(fluid, carpets_due(fluid, open))) {
-        renew_rows(sim);
+        let_bodies_leave(sim);
+        renew_carpets(fluid, open);
+        if (sim.clock.step > 0) { // the start is a state to go on from with more room
+            expect_room(sim);
+        }
+        make_lists(fluid);
+        find_rows(fluid, open);
+        mark_beside_bodies(fluid, open);
     }
     set_densities(fluid, open);
     keep_velocities(fluid, open);
