@@ -241,6 +241,32 @@ density = 900
 position = [1.4, 0, 0.1001]
 )";
 
+// Of a river 0.4 m deep.
+inline const std::string crate_afloat = R"(
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.15, 1, 0.15]
+density = 400
+position = [1.1, 0, 0.4]
+)";
+
+// Without fluid.
+inline std::string falling_boxes()
+{
+    return R"(
+title = "boxes that fall"
+dimensions = 2
+[time]
+end = 1
+[particles]
+spacing = 0.04
+[[wall]]
+name = "ground"
+shape = "plane"
+)" + crates;
+}
+
 inline const std::string drop = R"(
 title = "a block of fluid that a shear tears"
 dimensions = 2

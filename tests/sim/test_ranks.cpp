@@ -189,17 +189,9 @@ TEST(Ranks, ACheckpointShowsNoRanksAndServesAnyNumberOfThem)
 
 TEST(Ranks, OpenSidesHaveTheBitsOfOneProcess)
 {
-    const std::string crate = R"(
-[[body]]
-name = "crate"
-shape = "box"
-size = [0.15, 1, 0.15]
-density = 400
-position = [1.1, 0, 0.4]
-)";
     const std::string river = case_of({.near = inflow(0.4, 0.3)});
-    expect_ranks_agree(river + crate, {}, {2, 5}, 300);
-    expect_ranks_agree(river + crate, {}, {3}, 150, Cutting::at_random);
+    expect_ranks_agree(river + crate_afloat, {}, {2, 5}, 300);
+    expect_ranks_agree(river + crate_afloat, {}, {3}, 150, Cutting::at_random);
     expect_ranks_agree(case_of({.dimensions = 3, .spacing = 0.08, .near = inflow(0.4, 0.5)}), {},
                        {3}, 100);
     expect_ranks_agree(case_of({.velocity = 1.2, .far = "kind = \"outflow\"\n"}), {}, {3}, 200);

@@ -28,18 +28,7 @@ min = [0.4, 0, 0.05]
 max = [0.6, 0, 0.25]
 )";
     expect_ranks_agree(puddle, {}, {13}, 300);
-    const std::string boxes = R"(
-title = "boxes that fall"
-dimensions = 2
-[time]
-end = 1
-[particles]
-spacing = 0.04
-[[wall]]
-name = "ground"
-shape = "plane"
-)" + crates;
-    expect_ranks_agree(boxes, {"body[0].position=[1,0,0.5]"}, {3}, 200);
+    expect_ranks_agree(falling_boxes(), {"body[0].position=[1,0,0.5]"}, {3}, 200);
 }
 
 TEST(RanksAtLimits, ARaftOverSeveralRanksHasTheBitsOfOneProcess)

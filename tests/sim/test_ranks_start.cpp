@@ -34,15 +34,7 @@ void expect_checkpoints_serve(const std::string& text, const std::vector<std::st
 
 TEST(RanksAtTheStart, CheckpointsWithOpenSidesServeAnyNumberOfRanks)
 {
-    const std::string crate = R"(
-[[body]]
-name = "crate"
-shape = "box"
-size = [0.15, 1, 0.15]
-density = 400
-position = [1.1, 0, 0.4]
-)";
-    expect_checkpoints_serve(case_of({.near = inflow(0.4, 0.3)}) + crate, {}, 70, 50);
+    expect_checkpoints_serve(case_of({.near = inflow(0.4, 0.3)}) + crate_afloat, {}, 70, 50);
     expect_checkpoints_serve(
         case_of({.velocity = 1.2, .near = inflow(0.4, 1.2), .far = "kind = \"outflow\"\n"}), {}, 90,
         60);
@@ -50,18 +42,7 @@ position = [1.1, 0, 0.4]
 
 TEST(RanksAtTheStart, CheckpointsOfBodiesAloneServeAnyNumberOfRanks)
 {
-    const std::string boxes = R"(
-title = "boxes that fall"
-dimensions = 2
-[time]
-end = 1
-[particles]
-spacing = 0.04
-[[wall]]
-name = "ground"
-shape = "plane"
-)" + crates;
-    expect_checkpoints_serve(boxes, {"body[0].position=[1,0,0.5]"}, 150, 50);
+    expect_checkpoints_serve(falling_boxes(), {"body[0].position=[1,0,0.5]"}, 150, 50);
 }
 
 TEST(RanksAtTheStart, CheckpointsOfPeriodicDomainsWithWallsThatMoveServeAnyNumberOfRanks)
