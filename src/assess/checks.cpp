@@ -15,11 +15,11 @@ namespace hyoryu {
 namespace {
 
 // In the order of `Measure`.
-constexpr std::array<std::string_view, 24> measures{
-    "at",     "first", "last",       "min",          "max",       "mean",
-    "sum",    "count", "range",      "drift",        "gain",      "growth",
-    "row",    "peak",  "peak_time",  "trough",       "crossing",  "integral",
-    "period", "decay", "reflection", "share_within", "rms_error", "largest_error"};
+constexpr std::array<std::string_view, 25> measures{
+    "at",         "first",        "last",      "min",          "max",    "mean",  "sum",
+    "count",      "range",        "drift",     "gain",         "growth", "row",   "peak",
+    "peak_time",  "trough",       "crossing",  "integral",     "period", "decay", "height",
+    "reflection", "share_within", "rms_error", "largest_error"};
 
 constexpr std::array<std::string_view, 5> against_names{"experiment", "analytic", "program",
                                                         "conservation", "itself"};
@@ -94,6 +94,22 @@ void find_same(Section& section, const Check& check, const Benchmark& benchmark)
     }
 }
 
+/// Two runs of the check must be draws of one result.
+void find_draws(Section& section, const Check& check, const std::vector<BenchmarkRun>& runs)
+{
+    for (const BenchmarkRun& run : runs) {
+        const auto is_draw = [&](const BenchmarkRun& other) {
+            return &other != &run && other.tier == run.tier && are_draws(check, other, run);
+        };
+        if (std::ranges::any_of(runs, is_draw)) {
+            return;
+        }
+    }
+    section.error("mean_over",
+                  fmt::format("no two runs of the check differ in \"{}\" alone", check.mean_over),
+                  "name a parameter of their grid, with two values or more");
+}
+
 /// The source of the expected number.
 std::optional<Against> read_against(Section& section, std::optional<Against> fallback)
 {
@@ -132,6 +148,12 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
     read_expected(section, check);
     read_tolerance(section, check);
     read_known_failure(section, runs, check);
+    check.mean_over = section.text("mean_over");
+    if (!check.mean_over.empty() && !check.same_as.empty()) {
+        section.error("mean_over", "cannot stand beside `same_as`");
+    } else if (!check.mean_over.empty()) {
+        find_draws(section, check, runs);
+    }
     check.against = read_against(section, check.same_as.empty() ? against : Against::itself);
     try {
         if (!check.same_as.empty()) {

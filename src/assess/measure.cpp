@@ -158,6 +158,22 @@ Measured decay(const Samples& s, double level)
     return {-fit_line(t, y).slope, ""};
 }
 
+double mean(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// A wave of height H has the standard deviation H / (2 sqrt 2).
+double height_of_waves(const std::vector<double>& values)
+{
+    const double level = mean(values);
+    double squares = 0;
+    for (const double value : values) {
+        squares += (value - level) * (value - level);
+    }
+    return std::sqrt(8 * squares / static_cast<double>(values.size()));
+}
+
 double largest_gain(const std::vector<double>& values)
 {
     double lowest = values.front();
@@ -187,11 +203,6 @@ Measured row_of(const Quantity& quantity, const Samples& s)
         return {none, fmt::format("there are only {} rows", s.values.size())};
     }
     return {s.values[row], ""};
-}
-
-double mean(const std::vector<double>& values)
-{
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 Measured error_of(Measure measure, const std::vector<double>& differences)
@@ -337,6 +348,8 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
         return period(s, level());
     case Measure::decay:
         return decay(s, level());
+    case Measure::height:
+        return {height_of_waves(values), ""};
     default:
         return {none, "does not measure a single series"};
     }

@@ -265,6 +265,24 @@ bool matches(const std::vector<std::string>& patterns, const std::string& name)
                        [&](const std::string& pattern) { return fits(pattern, name); });
 }
 
+bool are_draws(const Check& check, const BenchmarkRun& a, const BenchmarkRun& b)
+{
+    if (!matches(check.runs, a.name) || !matches(check.runs, b.name) ||
+        a.parameters.size() != b.parameters.size()) {
+        return false;
+    }
+    bool has = false;
+    for (std::size_t k = 0; k < a.parameters.size(); ++k) {
+        const bool over = a.parameters[k].first == check.mean_over;
+        has = has || over;
+        if (a.parameters[k].first != b.parameters[k].first ||
+            (!over && a.parameters[k].second != b.parameters[k].second)) {
+            return false;
+        }
+    }
+    return has;
+}
+
 const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name)
 {
     const auto at = std::find_if(benchmark.runs.begin(), benchmark.runs.end(),

@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace hyoryu {
@@ -106,7 +108,35 @@ std::string to_string(Verdict verdict)
     return names[static_cast<std::size_t>(verdict)];
 }
 
-CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
+namespace {
+
+/// The mean of a quantity over the draws before a run and that run, with their standard deviation
+/// in words; the expected value is that of the run.
+Compared compare_mean(const Check& check, MadeRun& made, std::vector<MadeRun>& before,
+                      std::string& because)
+{
+    Compared found = compare(check.quantity, check.expected, made, nullptr);
+    std::vector<double> values{found.got};
+    for (MadeRun& draw : before) {
+        const Compared one = compare(check.quantity, check.expected, draw, nullptr);
+        values.push_back(one.got);
+        found.why =
+            found.why.empty() && !one.why.empty() ? draw.run.name + ": " + one.why : found.why;
+    }
+    const auto n = static_cast<double>(values.size());
+    found.got = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double squares = 0;
+    for (const double value : values) {
+        squares += (value - found.got) * (value - found.got);
+    }
+    because += fmt::format("; the mean of {} runs, standard deviation {:.2g}", values.size(),
+                           std::sqrt(squares / (n - 1)));
+    return found;
+}
+
+} // namespace
+
+CheckResult judge(const Check& check, MadeRun& made, MadeRun* other, std::vector<MadeRun>* draws)
 {
     CheckResult result{.check = check.name,
                        .comparison = check.comparison,
@@ -114,7 +144,9 @@ CheckResult judge(const Check& check, MadeRun& made, MadeRun* other)
                        .against = check.against};
     // A check that cannot be evaluated as written does not count as a known failure.
     try {
-        const Compared found = compare(check.quantity, check.expected, made, other);
+        const Compared found = draws != nullptr
+                                   ? compare_mean(check, made, *draws, result.because)
+                                   : compare(check.quantity, check.expected, made, other);
         result.got = found.got;
         result.expected = found.expected;
         result.note = found.why;
@@ -157,6 +189,48 @@ MadeRun* other_of(const Check& check, const Benchmark& benchmark, const MadeRun&
     return &opened.try_emplace(name, std::move(other)).first->second;
 }
 
+// The draws of the check beside a run: made before it, with the same other parameters.
+std::vector<MadeRun> draws_before(const Check& check, const Benchmark& benchmark,
+                                  const BenchmarkRun& run, const std::filesystem::path& runs)
+{
+    std::vector<MadeRun> draws;
+    for (const BenchmarkRun& other : benchmark.runs) {
+        if (other.name == run.name) {
+            break;
+        }
+        if (are_draws(check, other, run)) {
+            draws.push_back({other,
+                             scope_of(benchmark.definitions, other),
+                             {runs / other.name, benchmark.folder}});
+        }
+    }
+    return draws;
+}
+
+bool has_draws_after(const Check& check, const Benchmark& benchmark, const BenchmarkRun& run)
+{
+    const auto* at = find_run(benchmark, run.name);
+    return at != nullptr &&
+           std::any_of(at + 1, benchmark.runs.data() + benchmark.runs.size(),
+                       [&](const BenchmarkRun& other) { return are_draws(check, other, run); });
+}
+
+// One check of a run that came to its end. Where draws follow, its value is only measured.
+CheckResult judge_in(const Benchmark& benchmark, const Check& check, MadeRun& made,
+                     const std::filesystem::path& runs, std::map<std::string, MadeRun>& others)
+{
+    if (check.mean_over.empty()) {
+        return judge(check, made, other_of(check, benchmark, made, runs, others));
+    }
+    if (has_draws_after(check, benchmark, made.run)) {
+        Check measured = check;
+        measured.judged.clear();
+        return judge(measured, made);
+    }
+    std::vector<MadeRun> draws = draws_before(check, benchmark, made.run, runs);
+    return judge(check, made, nullptr, draws.empty() ? nullptr : &draws);
+}
+
 // Whether a run that is to stop did, and said why.
 CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
 {
@@ -189,8 +263,8 @@ RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
             continue;
         }
         if (good) {
-            MadeRun* other = other_of(check, benchmark, made, results.parent_path(), others);
-            result.checks.push_back(judge(check, made, other));
+            result.checks.push_back(
+                judge_in(benchmark, check, made, results.parent_path(), others));
         } else {
             result.checks.push_back(unmade(check, error));
         }

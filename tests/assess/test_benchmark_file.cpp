@@ -51,6 +51,26 @@ TEST_F(BenchmarkFiles, AGridMakesEveryCombinationInTheOrderOfTheFile)
     EXPECT_EQ(scope_of(benchmark.definitions, benchmark.runs[3]).numbers.at("n"), 2);
 }
 
+TEST_F(BenchmarkFiles, AMeanIsOverAParameterThatTellsRunsApart)
+{
+    const std::string runs = "[[run]]\nname = \"${s}-${c}\"\ngrid = { s = [1, 2], c = [3, 4] }\n"
+                             "[[run]]\nname = \"one-${s}\"\ngrid = { s = [1], c = [5] }\n";
+    const std::string over = "mean_over = \"c\"\n";
+    const Benchmark good = read(head + runs + check + over + "runs = [\"*-3\", \"*-4\"]\n");
+    EXPECT_EQ(good.checks[0].mean_over, "c");
+    const std::string lonely = mistake(head + runs + check + over + "runs = [\"1-3\"]\n");
+    EXPECT_NE(lonely.find("no two runs of the check differ in \"c\" alone"), std::string::npos)
+        << lonely;
+    EXPECT_NE(mistake(head + runs + check + "mean_over = \"d\"\n"), "");
+    EXPECT_NE(mistake(head + check + over), "") << "without a grid";
+    EXPECT_NE(mistake(head + runs +
+                      "[[check]]\nname = \"y\"\nvalue = \"x\"\n"
+                      "measure = \"last\"\nsame_as = \"1-3\"\ntolerance = 1\n"
+                      "because = \"a test\"\nruns = [\"1-*\"]\n" +
+                      over),
+              "");
+}
+
 TEST_F(BenchmarkFiles, ACheckSaysWhatItIsHeldAgainst)
 {
     const std::string other = "[[check]]\nname = \"y\"\nvalue = \"x\"\nmeasure = \"last\"\n"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <random>
 
 namespace hyoryu {
 namespace {
@@ -147,6 +148,27 @@ TEST_F(Measures, PeriodAndDecayOfAnOscillation)
     EXPECT_NEAR(measure(quantity, {}, wave).value, 0.3, 1e-3);
     quantity.until = "0.5";
     EXPECT_NE(measure(quantity, {}, wave).why, "");
+}
+
+// Waves with a noise of a tenth of their height: its largest values make the range 10 to 20 % too
+// large, and count by the square here.
+TEST_F(Measures, HeightOfRegularWaves)
+{
+    for (const auto& [height, steps] : {std::pair(0.05, 200), {2.0, 17}, {0.3, 1000}}) {
+        Samples wave;
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> part(-0.05, 0.05);
+        for (int k = 0; k < 4 * steps; ++k) {
+            const double noise = height * part(random);
+            wave.t.push_back(k);
+            wave.values.push_back(
+                3 + height / 2 * std::sin(2 * 3.14159265358979 * k / steps + 0.4) + noise);
+        }
+        const double squared = 1 + 8 * 0.01 / 12; // of the sum, by the variance of the noise
+        EXPECT_NEAR(measure({.measure = Measure::height}, {}, wave).value / height,
+                    std::sqrt(squared), 0.01);
+        EXPECT_GT(measure({.measure = Measure::range}, {}, wave).value / height, 1.04);
+    }
 }
 
 TEST_F(Measures, ShareWithinABand)

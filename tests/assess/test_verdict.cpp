@@ -190,6 +190,51 @@ TEST_F(Verdicts, ARunIsHeldAgainstTheSameQuantityInAnother)
     EXPECT_EQ(results(1)[0].verdict, Verdict::fail) << "without its reference";
 }
 
+// Draws of two kinds: their means are 10 and 20, single ones are off by more than the tolerance.
+TEST_F(Verdicts, TheMeanOverDrawsIsJudgedAtTheLast)
+{
+    Benchmark benchmark;
+    benchmark.folder = folder;
+    for (const auto& [kind, draw, value] : {std::tuple(1.0, 0.5, 9.0),
+                                            {1.0, 0.6, 12.0},
+                                            {2.0, 0.5, 19.0},
+                                            {1.0, 0.7, 9.3},
+                                            {2.0, 0.6, 21.0},
+                                            {3.0, 0.6, 30.1}}) {
+        const std::string name = fmt::format("k={}_c={}", kind, draw);
+        benchmark.runs.push_back({.name = name, .parameters = {{"k", kind}, {"c", draw}}});
+        std::filesystem::create_directories(folder / name);
+        put_text_into(folder / name / "bodies.csv", fmt::format("time,x\n0,0\n1,{}\n", value));
+        put_text_into(folder / name / "summary.json", "{}");
+    }
+    Check mean = check("10*k", "0.2");
+    mean.mean_over = "c";
+    benchmark.checks = {mean};
+    const auto result = [&](std::size_t k, const std::string& error = "") {
+        return judge_run(benchmark, benchmark.runs[k], folder / benchmark.runs[k].name, error)
+            .checks[0];
+    };
+    for (const std::size_t early : {0, 1, 2}) {
+        EXPECT_EQ(result(early).verdict, Verdict::measured);
+    }
+    EXPECT_EQ(result(1).got, 12) << "of this run alone";
+    EXPECT_EQ(result(3).verdict, Verdict::pass);
+    EXPECT_NEAR(result(3).got, 10.1, 1e-12);
+    EXPECT_NE(result(3).because.find("the mean of 3 runs, standard deviation 1.7"),
+              std::string::npos)
+        << result(3).because;
+    EXPECT_EQ(result(4).verdict, Verdict::pass);
+    EXPECT_EQ(result(4).got, 20);
+    EXPECT_EQ(result(5).got, 30.1) << "it has no draws and is judged by itself";
+    EXPECT_EQ(result(5).verdict, Verdict::pass);
+    benchmark.checks[0].tolerance = "0.05";
+    EXPECT_EQ(result(3).verdict, Verdict::fail);
+    EXPECT_EQ(result(4).verdict, Verdict::pass);
+    EXPECT_EQ(result(4, "blew up").verdict, Verdict::fail);
+    std::filesystem::remove_all(folder / "k=2_c=0.5");
+    EXPECT_EQ(result(4).verdict, Verdict::fail) << "one of the draws is missing";
+}
+
 // A crest passes two gauges, 3 m apart, at a speed and with a distance between rows of many kinds.
 TEST_F(Verdicts, TheTimeBetweenTwoCrests)
 {

@@ -83,6 +83,7 @@ enum class Measure {
     integral,      // over time, by trapezoids
     period,        // [s] of an oscillation about `level`: mean time between passes
     decay,         // rate [1/s] at which its extrema fall, by least squares of their logarithms
+    height,        // of regular waves: 2 sqrt(2) times the standard deviation over whole periods
     reflection,    // height of the waves that go back over that of those that come
     share_within,  // of the rows of a band in which the run lies within the band
     rms_error,     // root mean square of the difference from a series
@@ -150,6 +151,9 @@ struct Check {
     /// A run whose value of the same quantity, with the parameters of that run, is the expected
     /// value; may contain `${...}` like the names of runs.
     std::string same_as;
+    /// Parameter of a grid that tells draws of one result apart: the mean over the runs that differ
+    /// in it alone is judged, at the last of them; empty: each run by itself.
+    std::string mean_over;
     std::string tolerance; // expression: absolute, in the unit of the value; empty: relative
     double relative = 0;   // part of the expected value
     std::string because;   // where the tolerance comes from
@@ -239,5 +243,8 @@ Series expanded(Series series, const BenchmarkRun& run, const Scope& scope);
 
 /// True if one of the patterns fits the name; `*` stands for any letters.
 bool matches(const std::vector<std::string>& patterns, const std::string& name);
+
+/// Whether the check takes the mean over both runs: they differ at most in its parameter of draws.
+bool are_draws(const Check& check, const BenchmarkRun& a, const BenchmarkRun& b);
 
 } // namespace hyoryu

@@ -61,8 +61,10 @@ struct BenchmarkResult {
 };
 
 /// Measures and judges one check in one run that came to its end. `other`: the run that
-/// `check.same_as` names; null where it names none.
-CheckResult judge(const Check& check, MadeRun& made, MadeRun* other = nullptr);
+/// `check.same_as` names; null where it names none. `draws`: other runs, the mean over which and
+/// `made` is judged; null where it is judged by itself.
+CheckResult judge(const Check& check, MadeRun& made, MadeRun* other = nullptr,
+                  std::vector<MadeRun>* draws = nullptr);
 
 /// All checks of a run from the results that it wrote to `results`, beside those of the runs before
 /// it; they fail if `error` says why it stopped. Throws IoError if the summary cannot be read, and
