@@ -160,6 +160,12 @@ void keys_of(auto& keys, Is<Sponge> auto& sponge, double gravity)
         "profile", sponge.parabolic, {"uniform", "parabolic"},
         "Velocity over z: \"parabolic\" is that of viscous flow between plates at the lower "
         "and the upper side of the box, of which `velocity` is the mean.");
+    keys.number(
+        "pressure", sponge.pressure, "Pa",
+        "Pressure at `min`, hydrostatic above it, to which the fluid in the box relaxes while "
+        "sound crosses the box. A periodic or closed domain without a surface needs it: its "
+        "mean density drifts.",
+        no_default);
     keys.rule(check_sponge, sponge, gravity);
 }
 

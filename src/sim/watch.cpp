@@ -141,8 +141,9 @@ void watch_bodies(const Simulation& sim)
 bool driven(const Simulation& sim)
 {
     const RigidSettings& contact = sim.rigid.settings;
-    const bool streams = std::ranges::any_of(
-        sim.scene.sponges, [](const Sponge& sponge) { return !sponge.velocity.isZero(0); });
+    const bool streams = std::ranges::any_of(sim.scene.sponges, [](const Sponge& sponge) {
+        return sponge.pressure || !sponge.velocity.isZero(0);
+    });
     return has_moving_walls(sim.scene) || streams || sim.open.runs() ||
            (sim.fluid && !sim.fluid->parameters.drive.isZero(0)) || sim.rigid.penalty ||
            contact.law != ImpactLaw::coupled;

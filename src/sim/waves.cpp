@@ -111,6 +111,28 @@ void absorb_waves(Simulation& sim, double dt)
     }
 }
 
+namespace {
+
+// Relaxes the density towards that of the pressure asked for, at the rate c0/L of a passage of
+// sound at the side of a sponge of length L. The mass of a particle stays, its volume changes.
+void relax_density(const Sponge& sponge, double dt, const Vec3& gravity, Fluid& fluid)
+{
+    const EquationOfState& eos = fluid.parameters.eos;
+    const auto x = fluid.particles.fluid[field::position];
+    const auto rho = fluid.particles.fluid[field::density];
+    const int axis = sponge.side / 2;
+    const double rate = eos.c0 / (sponge.max[axis] - sponge.min[axis]);
+    parallel_for(0, fluid.particles.fluid.size(), [&](Index i) {
+        if (holds(sponge, x[i], fluid.parameters.dimensions)) {
+            const double asked = *sponge.pressure + eos.rho0 * gravity.dot(x[i] - sponge.min);
+            const double share = -std::expm1(-dt * rate * sq(depth_in(sponge, x[i])));
+            rho[i] += share * (eos.density(asked) - rho[i]);
+        }
+    });
+}
+
+} // namespace
+
 void damp_in_sponges(Simulation& sim, double dt)
 {
     Fluid& fluid = *sim.fluid;
@@ -119,6 +141,9 @@ void damp_in_sponges(Simulation& sim, double dt)
     const FixedUnit unit = sum_units(fluid.parameters).velocity;
     sim.waves.sponge_impulse = Vec3::Zero();
     for (const Sponge& sponge : sim.scene.sponges) {
+        if (sponge.pressure) {
+            relax_density(sponge, dt, sim.scene.gravity, fluid);
+        }
         const double rate = strongest_rate(sponge, sim.scene.gravity.norm());
         // Each particle is in one tile, and so is damped once.
         const auto [px, py, pz] = sum_over_fluid<3>(fluid, {unit, unit, unit}, [&](Index i) {

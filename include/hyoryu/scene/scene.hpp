@@ -159,6 +159,7 @@ struct Sponge {
     std::optional<double> rate;  // of damping at the side [1/s]
     Vec3 velocity{0, 0, 0};      // of the fluid when it leaves the sponge, mean over z [m/s]
     bool parabolic = false;      // over z, between two plates at its lower and upper side
+    std::optional<double> pressure; // to which the fluid relaxes, at `min`, hydrostatic above [Pa]
     Place place;
 };
 

@@ -39,7 +39,9 @@ void absorb_waves(Simulation& sim, double dt);
 /// Brings the velocities in the sponges of the scene towards theirs, u, over dt: u + (v - u)
 /// exp(-r s^2 dt), s from 0 to 1 across a sponge, r its rate or, for waves in water of depth d,
 /// 10 sqrt(g/d) [1/s]. A parabolic u over z is 6 s (1 - s) times its mean, s from 0 to 1.
-/// `Waves::sponge_impulse` is what the fluid gained.
+/// `Waves::sponge_impulse` is what the fluid gained. A sponge with a pressure also relaxes the
+/// density towards that of it, hydrostatic above its lower side, at the rate c0 s^2/L, L its
+/// length.
 void damp_in_sponges(Simulation& sim, double dt);
 
 } // namespace hyoryu
