@@ -7,6 +7,7 @@
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace hyoryu {
 
@@ -18,7 +19,7 @@ constexpr double straight_on = 0.5;
 // The contacts of the last step with a normal impulse, by body.
 using Pressing = std::vector<std::vector<Contact>>;
 
-// Each seen from the body: the normal points towards it, the other one is b.
+// Each seen from the body: the normal points towards it, the other one is b; the deepest first.
 Pressing pressing_by_body(const Simulation& sim)
 {
     Pressing all(sim.rigid.bodies.size());
@@ -32,6 +33,9 @@ Pressing pressing_by_body(const Simulation& sim)
             }
         }
     }
+    for (std::vector<Contact>& of_body : all) {
+        std::ranges::stable_sort(of_body, std::greater<>(), &Contact::depth);
+    }
     return all;
 }
 
@@ -44,17 +48,17 @@ public:
     {
     }
 
-    // The deepest contact between the push and the solid at the end of a column, and that solid.
+    // The solid at the end of a column, and the room that is missing there: the overlaps along it.
     struct End {
         int against = 0;
-        double depth = 0; // [m]
+        double missing = 0; // [m]
     };
-    End deepest()
+    End worst()
     {
         if (speed_ > 0) {
             follow(push_.a, push_.depth);
         }
-        return deepest_;
+        return worst_;
     }
 
 private:
@@ -76,16 +80,16 @@ private:
         return locks[0] && locks[1] && locks[2];
     }
 
-    void follow(int body, double depth)
+    void follow(int body, double missing)
     {
         seen_[static_cast<std::size_t>(body)] = true;
         for (const Contact& c : pressing_[static_cast<std::size_t>(body)]) {
-            const double so_far = std::max(depth, c.depth);
+            const double so_far = missing + c.depth;
             if (c.normal.dot(push_.normal) > -straight_on) {
                 continue;
             }
             if (stands(c.b)) {
-                deepest_ = so_far > deepest_.depth ? End{c.b, so_far} : deepest_;
+                worst_ = so_far > worst_.missing ? End{c.b, so_far} : worst_;
             } else if (c.b >= 0 && !seen_[static_cast<std::size_t>(c.b)]) {
                 follow(c.b, so_far);
             }
@@ -97,7 +101,7 @@ private:
     const Contact& push_;
     double speed_;           // of the pushing wall, along the push [m/s]
     std::vector<bool> seen_; // by body
-    End deepest_;
+    End worst_;
 };
 
 } // namespace
@@ -106,8 +110,14 @@ std::optional<Crushed> crushed(const Simulation& sim)
 {
     const double deep = 0.25 * std::min(sim.scene.spacing, sim.thinnest);
     const auto& walls = sim.rigid.boundaries;
-    if (!has_moving_walls(sim.scene) ||
-        std::ranges::none_of(sim.contacts, [&](const Contact& c) { return c.depth > deep; })) {
+    if (!has_moving_walls(sim.scene)) {
+        return std::nullopt;
+    }
+    double all = 0;
+    for (const Contact& c : sim.contacts) {
+        all += c.depth;
+    }
+    if (all <= deep) {
         return std::nullopt;
     }
     const Pressing pressing = pressing_by_body(sim);
@@ -116,11 +126,11 @@ std::optional<Crushed> crushed(const Simulation& sim)
             !moves(walls[static_cast<std::size_t>(-1 - c.b)].motion)) {
             continue;
         }
-        const auto [against, depth] = PushedColumn(sim, pressing, c).deepest();
-        if (depth > deep) {
+        const auto [against, missing] = PushedColumn(sim, pressing, c).worst();
+        if (missing > deep) {
             return Crushed{sim.rigid.bodies[static_cast<std::size_t>(c.a)].name,
                            walls[static_cast<std::size_t>(-1 - c.b)].name, solid_name(sim, against),
-                           depth};
+                           missing};
         }
     }
     return std::nullopt;

@@ -15,12 +15,12 @@ struct Crushed {
     std::string name;    // of the body
     std::string from;    // the wall that pushes
     std::string against; // the solid that does not yield
-    double depth = 0;    // of the deepest contact of the column [m]
+    double missing = 0;  // room: the overlaps along the column of bodies in all [m]
 };
 
-/// The first such body, by the contacts of the last step, whose column has a contact deeper than
+/// The first such body, by the contacts of the last step, in whose column more room is missing than
 /// a quarter of a spacing or of the inner radius of the thinnest body. No search unless a wall
-/// moves and a contact of the step is so deep.
+/// moves and all overlaps of the step are that much together.
 std::optional<Crushed> crushed(const Simulation& sim);
 
 } // namespace hyoryu

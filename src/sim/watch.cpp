@@ -125,8 +125,8 @@ void watch_bodies(const Simulation& sim)
     }
     if (const auto body = crushed(sim)) {
         report(sim, fmt::format("body \"{}\"", body->name),
-               fmt::format("wall \"{}\" presses it against {}, overlaps are {:.4g} m deep",
-                           body->from, body->against, body->depth),
+               fmt::format("wall \"{}\" presses it against {}, {:.4g} m of room are missing",
+                           body->from, body->against, body->missing),
                "over-constrained: the moving wall leaves no space for it");
     }
     if (sim.rigid.counters.worst_penetration > sim.thinnest) {
