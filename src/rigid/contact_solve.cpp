@@ -221,6 +221,15 @@ bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
     return same;
 }
 
+void note_unsolved(ContactMemory& memory)
+{
+    std::size_t island = 0;
+    for (std::size_t k = 0; k < memory.rows.size(); ++k) {
+        island += k == memory.island_ends[island] ? 1 : 0;
+        memory.persistent[memory.rows[k].contact].unsolved = memory.solvers[island].unsolved;
+    }
+}
+
 // Solves for the impulses with the arms at the middle and the end of the paths as planned so far,
 // up to `ahead`, and plans the paths with them. Returns what is left [m/s]; plans nothing and
 // returns infinity where one of the contacts does not go on till there.
@@ -241,6 +250,7 @@ double solve_pass(const StepContext& context, const SubStep& sub, double ahead,
         push(row, p, memory.responses);
     }
     const double left = solve_islands(memory.rows, memory, effort);
+    note_unsolved(memory);
     if (ahead <= 0) {
         make_passive(memory);
     }

@@ -64,6 +64,7 @@ struct Persistent {
     Vec3 place{0, 0, 0};       // as of Remembered
     Vec3 rub{0, 0, 0};         // from the contact point to that of its friction, at the start [m]
     bool recalled = false;     // a force of the last sub-step is its first guess
+    bool unsolved = false;     // its impulse keeps nothing apart
     int stuck = 0;             // contacts of its patch, while none of them slides
     TwoTouches touches;        // at the middle and the end
     double effective_mass = 0; // [kg]

@@ -170,7 +170,9 @@ double solve_rows(std::span<Row> rows, std::vector<Response>& bodies, SolverWork
         !(rows.size() >= effort.stuck && solve_sticking(rows, bodies, work, enough))) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
     }
-    return solve_in_turns(rows, bodies, work, turns_for(rows, effort, enough));
+    const double left = solve_in_turns(rows, bodies, work, turns_for(rows, effort, enough));
+    work.unsolved = left > asked / 2;
+    return left;
 }
 
 // The contacts of one body.
@@ -186,6 +188,7 @@ double solve_alone(std::span<Row> rows, std::vector<Response>& bodies, SolverWor
 double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
              const Effort& effort)
 {
+    work.unsolved = false;
     if (rows.size() == 1) {
         gauss_seidel(rows, bodies, {1, 0});
         return 0;

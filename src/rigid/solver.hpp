@@ -66,6 +66,9 @@ struct SolverWork {
     // the round-off in how redundant contacts share their load is that of the numbers over this.
     double shift = small_shift;
     double updates = 0; // of rows, since this was set to zero: what solves cost, on any machine
+    /// Half of what was asked for is left: no impulses keep all contacts apart, as where two walls
+    /// press a body from both sides.
+    bool unsolved = false;
 };
 
 /// Islands of more contacts are piles. Of those that rattle nine in ten do not settle in a direct

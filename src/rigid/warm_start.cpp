@@ -78,12 +78,15 @@ void recall_forces(ContactMemory& memory, double h)
     }
 }
 
+// Impulses that keep nothing apart are no guess: taken up again and again they grow until they are
+// no numbers.
 void remember(ContactMemory& memory, double h)
 {
     memory.recent.clear();
     for (const Persistent& p : memory.persistent) {
         const Vec3 rub = memory.middle[p.candidate.feature.a].R.transpose() * p.touches.push_rub;
-        memory.recent.push_back({p.candidate.feature, p.impulse / h, p.place, rub, p.stuck});
+        const Vec3 force = p.unsolved ? Vec3(Vec3::Zero()) : Vec3(p.impulse / h);
+        memory.recent.push_back({p.candidate.feature, force, p.place, rub, p.stuck});
     }
     sort_by_feature(memory.recent);
     memory.known = memory.recent;

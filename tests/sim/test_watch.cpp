@@ -5,6 +5,8 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/sim/watch.hpp"
 
+#include "dice.hpp"
+
 namespace hyoryu {
 namespace {
 
@@ -166,6 +168,70 @@ TEST(Watch, WhatAMovingWallCrushesIsNamedWithWhatStandsInTheWay)
     EXPECT_LE(sim.clock.time, 0.4115);
     for (const Body& body : sim.rigid.bodies) {
         EXPECT_LE(body.position.x(), 0.9 + 0.25 * 0.0205) << "held by the side of the basin";
+    }
+}
+
+// One to five boxes before the ram, with the room that they leave.
+struct Column {
+    std::string text;
+    double speed = 0;    // of the ram [m/s]
+    double room = 0.6;   // between the ram and the side of the basin, less the boxes [m]
+    double thinnest = 0; // the spacing, or the inner radius of a box [m]
+};
+
+Column thrown(Dice& dice, const std::string& keys_of_boxes)
+{
+    Column column{.text = press.substr(0, press.find("[[body]]")), .speed = dice.between(0.2, 1)};
+    column.thinnest = dice.between(0.01, 0.03);
+    const auto put = [&](const std::string& old, const std::string& with) {
+        column.text.replace(column.text.find(old), old.size(), with);
+    };
+    put("spacing = 0.02", fmt::format("spacing = {}", column.thinnest));
+    put("velocity = [0.5, 0.0, 0.0]", fmt::format("velocity = [{}, 0.0, 0.0]", column.speed));
+    put("end = 1.0", "end = 10.0");
+    const int count = 1 + dice.below(5);
+    double used = 0.4;
+    for (int k = 0; k < count; ++k) {
+        const double width = dice.between(0.04, 0.08);
+        used += dice.between(0.005, 0.03) + width;
+        column.text += fmt::format("[[body]]\nname = \"box {0}\"\nshape = \"box\"\n"
+                                   "size = [{1}, 1.0, {1}]\ndensity = 500.0\n"
+                                   "position = [{2}, 0.0, {3}]\n{4}",
+                                   k, width, used - width / 2, width / 2, keys_of_boxes);
+        column.room -= width;
+        column.thinnest = std::min(column.thinnest, width / 2);
+    }
+    column.text += "[contact]\nfriction = 0.3\nrestitution = 0.2\n";
+    return column;
+}
+
+// The run stops when the ram has gone on by a quarter of a spacing, or of the inner radius of the
+// thinnest box, a step before or three after.
+TEST(Watch, ColumnsOfAnyNumberOfBodiesAreCrushedWhenTheirRoomIsGone)
+{
+    Dice dice(17);
+    for (int n = 0; n < 12; ++n) {
+        const Column column = thrown(dice, "locks = [\"z\", \"ry\"]\n");
+        Simulation sim = make(column.text);
+        const std::string told = said([&] { advance(sim, 10000); });
+        expect_words(told, {"wall \"ram\" presses it against wall \"basin\""});
+        const double gone = sim.clock.time * column.speed - column.room;
+        EXPECT_GT(gone, 0.25 * column.thinnest - 1e-3 * column.speed) << column.text;
+        EXPECT_LT(gone, 0.25 * column.thinnest + 3e-3 * column.speed) << column.text;
+    }
+}
+
+// Boxes that may rise are squeezed out of the column, one after the other: what is told in the end
+// is the wall, not a number that is none.
+TEST(Watch, WhatIsSqueezedOutEndsWithTheSameCause)
+{
+    Dice dice(17);
+    for (int n = 0; n < 12; ++n) {
+        const Column column = thrown(dice, "");
+        Simulation sim = make(column.text);
+        const std::string told = said([&] { advance(sim, 10000); });
+        expect_words(told, {"wall \"ram\" presses it against wall \"basin\""});
+        EXPECT_GT(sim.clock.time * column.speed, column.room) << column.text;
     }
 }
 
