@@ -152,13 +152,13 @@ struct Wall {
 /// A box in which the fluid is brought to a velocity, more and more towards one side. It has a
 /// depth or a rate.
 struct Sponge {
-    Vec3 min{0, 0, 0};           // [m]
-    Vec3 max{0, 0, 0};           // [m]
-    int side = 1;                // of the strongest damping: 0 -x, 1 +x, 2 -y, 3 +y
-    std::optional<double> depth; // of the water at rest, which gives the rate [m]
-    std::optional<double> rate;  // of damping at the side [1/s]
-    Vec3 velocity{0, 0, 0};      // of the fluid when it leaves the sponge, mean over z [m/s]
-    bool parabolic = false;      // over z, between two plates at its lower and upper side
+    Vec3 min{0, 0, 0};              // [m]
+    Vec3 max{0, 0, 0};              // [m]
+    int side = 1;                   // of the strongest damping: 0 -x, 1 +x, 2 -y, 3 +y
+    std::optional<double> depth;    // of the water at rest, which gives the rate [m]
+    std::optional<double> rate;     // of damping at the side [1/s]
+    Vec3 velocity{0, 0, 0};         // of the fluid when it leaves the sponge, mean over z [m/s]
+    bool parabolic = false;         // over z, between two plates at its lower and upper side
     std::optional<double> pressure; // to which the fluid relaxes, at `min`, hydrostatic above [Pa]
     Place place;
 };
