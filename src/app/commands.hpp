@@ -17,6 +17,7 @@ struct RunOptions {
     std::vector<std::string> overrides;
     int threads = 0;             // 0: all
     long long rebalance = 50;    // steps between checks of the balance of processes; 0: never
+    int parts = 64;              // of several processes: most files of a frame or checkpoint
     std::optional<double> until; // [s]
     bool resume = false;
     bool force = false;

@@ -59,6 +59,11 @@ void add_run(CLI::App& app, RunOptions& options)
                     "(default: 50)")
         ->type_name("STEPS")
         ->check(CLI::Range(0, 1000000));
+    run->add_option("--parts", options.parts,
+                    "with several processes: most files for the particles of a frame or a "
+                    "checkpoint (default: one a process, at most 64)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 9999));
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
         ->type_name("SECONDS")
         ->check(finite & CLI::NonNegativeNumber);

@@ -3,9 +3,6 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/state.hpp"
-#include "hyoryu/scene/moving_walls.hpp"
-#include "hyoryu/sim/checkpoint.hpp"
-#include "hyoryu/sim/frames.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "tables.hpp"
 
@@ -82,8 +79,7 @@ bool is_of(const Simulation& sim, const Contact& contact)
 
 } // namespace
 
-Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Bounds& domain)
-    : folder_(std::move(folder)), frames_(std::make_unique<FrameWriter>(folder_))
+Outputs::Outputs(std::filesystem::path folder, const Simulation& sim) : folder_(std::move(folder))
 {
     const int d = sim.scene.dimensions;
     if (!sim.scene.bodies.empty()) {
@@ -99,16 +95,10 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Boun
     if (!sim.scene.open.empty()) {
         open_.emplace(folder_, open_table(sim.scene));
     }
-    if (sim.fluid && sim.plan.counts.wall > 0) {
-        frames_->write_static(wall_cloud(sim));
-    }
-    if (!sim.scene.walls.empty()) {
-        frames_->write_static(wall_surface(sim.scene, domain, {}));
-    }
 }
 
 Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot& resumed)
-    : folder_(std::move(folder)), frames_(std::make_unique<FrameWriter>(folder_))
+    : folder_(std::move(folder))
 {
     const int d = sim.scene.dimensions;
     const double now = sim.clock.time;
@@ -129,7 +119,6 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
     if (!sim.scene.open.empty()) {
         open_.emplace(folder_, open_table(sim.scene), now, state.open);
     }
-    frames_->forget_after(now); // behind the histories, which may refuse
     for (RestingPair& rest : state.resting) {
         if (!is_of(sim, rest.sum)) {
             throw IoError("the checkpoint has a contact of an unknown body: it is damaged");
@@ -138,15 +127,6 @@ Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snap
         rest.sum.time = rest.time;
         resting_[{rest.sum.a, rest.sum.b}] = rest;
     }
-}
-
-void Outputs::write_frame(Simulation& sim)
-{
-    timer_.begin("frames");
-    write_resting(sim);
-    count_in_solids(sim);
-    write_clouds(sim);
-    timer_.end();
 }
 
 void Outputs::write_histories(const Simulation& sim, const Totals& now)
@@ -283,36 +263,17 @@ void Outputs::write_resting(const Simulation& sim)
     resting_.clear();
 }
 
-void Outputs::write_clouds(const Simulation& sim)
+void Outputs::save(Snapshot& state) const
 {
-    if (sim.fluid) {
-        frames_->write(fluid_cloud(sim));
-    }
-    if (!sim.scene.bodies.empty()) {
-        frames_->write(body_cloud(sim));
-        frames_->write(body_surface(sim));
-    }
-    if (has_moving_walls(sim.scene)) {
-        if (sim.fluid) {
-            frames_->write(wall_cloud(sim));
-        }
-        frames_->write(wall_surface(sim.scene, domain_of(sim.scene), sim.clock));
-    }
-}
-
-Snapshot Outputs::snapshot(const Simulation& sim) const
-{
-    Snapshot snapshot = save(sim);
     const auto rows = [](const auto& history) { return history ? history->rows() : 0; };
-    OutputState state{rows(bodies_),    rows(contacts_), rows(energy_),
-                      rows(gauges_),    rows(open_),     {},
-                      open_.has_value()};
+    OutputState output{rows(bodies_),    rows(contacts_), rows(energy_),
+                       rows(gauges_),    rows(open_),     {},
+                       open_.has_value()};
     for (const auto& [key, rest] : resting_) {
-        state.resting.push_back(rest);
+        output.resting.push_back(rest);
     }
-    StateWriter writer(snapshot);
-    describe_outputs(writer, state);
-    return snapshot;
+    StateWriter writer(state);
+    describe_outputs(writer, output);
 }
 
 void Outputs::settle()
@@ -322,18 +283,6 @@ void Outputs::settle()
             (*history)->flush();
         }
     }
-    frames_->finish();
-}
-
-void Outputs::write_checkpoint(Snapshot snapshot)
-{
-    settle(); // rows that the checkpoint counts as written must be on disk before it
-    hyoryu::write_checkpoint(folder_, std::move(snapshot));
-}
-
-void Outputs::close_interval(const Simulation& sim)
-{
-    write_resting(sim);
 }
 
 } // namespace hyoryu

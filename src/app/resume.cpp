@@ -175,10 +175,10 @@ std::map<std::string, std::string> texts_of_given_case(const RunOptions& options
 
 Resumption resumption_of(const RunOptions& options, const fs::path& folder, const Scene& scene)
 {
-    auto [state, passed_over] = read_newest_checkpoint(folder);
+    auto [state, parts, passed_over] = read_newest_checkpoint(folder);
     refuse_changed_files(state, scene);
     const Scene before = case_of(state);
-    Resumption found{.state = {}, .scene = scene, .passed_over = passed_over};
+    Resumption found{.state = {}, .parts = parts, .scene = scene, .passed_over = passed_over};
     if (leaves_frames_to_default(before) && leaves_frames_to_default(scene)) {
         found.scene.output.every = before.output.every;
     }
@@ -218,12 +218,22 @@ Resumption resumption_for_all(const RunOptions& options, const fs::path& folder,
             Parcel parcel;
             put(parcel, found.scene.output.every);
             put(parcel, found.changed);
+            put(parcel, found.parts.size());
+            for (const CheckpointPart& part : found.parts) {
+                put_text(parcel, part.name);
+                put(parcel, part.bytes);
+                put(parcel, part.checksum);
+            }
             std::ranges::fill(out, parcel);
         }
         const std::vector<Parcel> in = comm->exchange(std::move(out));
         Unpacking from(in.front());
         found.scene.output.every = from.take<double>();
         found.changed = from.take<bool>();
+        found.parts.resize(from.take<std::size_t>());
+        for (CheckpointPart& part : found.parts) {
+            part = {take_text(from), from.take<std::uint64_t>(), from.take<std::uint32_t>()};
+        }
     }
     return found;
 }

@@ -4,7 +4,7 @@
 
 #include "commands.hpp"
 
-#include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/io/results.hpp"
 #include "hyoryu/ranks/comm.hpp"
 #include "hyoryu/scene/scene.hpp"
 
@@ -16,10 +16,11 @@ namespace hyoryu {
 
 /// The scene and state with which a run resumes.
 struct Resumption {
-    Snapshot state;          // for the case as it is now; of the process that writes
-    Scene scene;             // the case, with defaults taken from the previous run
-    std::string passed_over; // why `checkpoint.h5` was not read; empty if it was
-    bool changed = false;    // whether the case is not the one that wrote the checkpoint
+    Snapshot state;                         // for the case as it is now; of the process that writes
+    std::vector<CheckpointPart> parts = {}; // with the particles; empty if the state has them
+    Scene scene;                            // the case, with defaults taken from the previous run
+    std::string passed_over;                // why `checkpoint.h5` was not read; empty if it was
+    bool changed = false; // whether the case is not the one that wrote the checkpoint
 };
 
 /// Texts for checkpoints beside the resolved case: hashes of the files that it names, by which a

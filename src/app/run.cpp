@@ -15,8 +15,8 @@
 #include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/dealing.hpp"
+#include "hyoryu/sim/state_parts.hpp"
 #include "hyoryu/sim/watch.hpp"
-#include "hyoryu/sim/whole.hpp"
 
 #include <fmt/format.h>
 
@@ -50,19 +50,42 @@ void check_memory(const Plan& plan)
     }
 }
 
-std::optional<RankSummary> summary_of_ranks(const Job& job)
+// Called by all processes.
+Closing closing_of(const Job& job)
 {
-    return job.ranks != nullptr ? std::optional(job.ranks->summary()) : std::nullopt;
+    Closing now{.totals = totals(job.sim), .ranks = {}};
+    if (job.sim.fluid) {
+        now.fluid = count_over_ranks(*job.sim.fluid, job.sim.fluid->particles.fluid.size());
+        now.in_solids = particles_in_solids(job.sim);
+    }
+    if (job.ranks != nullptr) {
+        now.ranks = job.ranks->summary();
+    }
+    return now;
 }
 
-// Called where results are written, while the simulation is whole.
-void write_closing(Job& job, const std::string& reason, const std::optional<RankSummary>& ranks)
+// What is on disk at the end, whatever its reason. `now`: the state of all processes.
+void write_closing(Job& job, const std::string& reason, const Closing& now)
 {
     write_text(job.folder / "summary.json",
-               summary_json(job.sim, reason, job.progress.wall_seconds(), job.first_step,
-                            job.outputs->timer(), job.outputs->frame_cost(),
-                            ranks ? &*ranks : nullptr));
+               summary_json(job.sim, now, reason, job.progress.wall_seconds(), job.first_step,
+                            job.outputs->timer(), job.frames->cost()));
     write_master(job.folder, job.case_text, std::string(build_info::version));
+}
+
+// The last good state, of which each process has its share.
+StateParts good_parts(const Job& job)
+{
+    StateParts state{.common = *job.last_good};
+    if (job.sim.fluid) {
+        const int ranks = job.comm->size();
+        state.count = ranks;
+        state.particles = [own = gather_particles(job.sim, *job.comm, group_ranks(ranks, ranks),
+                                                  take_particles(job.sim, state.common))](int) {
+            return own;
+        };
+    }
+    return state;
 }
 
 // Returns to the last frame and continues from there with half the step. Output written since is
@@ -72,7 +95,11 @@ void recover(Job& job, const NumericalError& error)
     const Scene& scene = job.sim.scene;
     const Filling filling = writes(job.comm) ? fill(scene) : Filling{};
     Simulation sim = make_simulation(scene, job.sim.plan, filling, job.comm);
-    restore(sim, job.comm, job.last_good ? &*job.last_good : nullptr);
+    if (job.comm == nullptr) {
+        restore(sim, *job.last_good);
+    } else {
+        restore(sim, job.comm, good_parts(job));
+    }
     sim.clock.share = 0.5 * job.sim.clock.share;
     job.sim.timer.end(); // of the failed stage
     sim.timer = job.sim.timer;
@@ -86,6 +113,7 @@ void recover(Job& job, const NumericalError& error)
         job.outputs.reset(); // all that it holds back is on disk before it is read again
         job.outputs.emplace(job.folder, sim, *job.last_good);
     }
+    job.frames->forget_after(sim.clock.time);
     job.sim = std::move(sim);
 }
 
@@ -165,7 +193,7 @@ void advance(Job& job)
 }
 
 // Warnings that a user should know before trusting the numbers.
-void tell_doubts(Job& job)
+void tell_doubts(Job& job, const Closing& now)
 {
     constexpr double noteworthy = 0.1; // ten times the variation that the sound speed aims at
     const double compression = job.sim.conservation.worst_density_error;
@@ -182,7 +210,7 @@ void tell_doubts(Job& job)
         job.progress.line(fmt::format(
             "note: up to {} fluid particles were more than a quarter of a spacing inside a wall or "
             "body at one time, {} at the end",
-            job.sim.conservation.worst_in_solids, particles_in_solids(job.sim)));
+            job.sim.conservation.worst_in_solids, now.in_solids));
     }
     if (const std::vector<int> outside = bodies_outside(job.sim); !outside.empty()) {
         const Body& first = job.sim.rigid.bodies[static_cast<std::size_t>(outside.front())];
@@ -216,19 +244,17 @@ int finish(Job& job)
     const bool stopped = !done && job.stopped;
     const std::string reason = done ? "done" : (stopped ? "interrupted" : "until");
     if (done && job.outputs) {
-        job.outputs->close_interval(job.sim);
+        job.outputs->write_resting(job.sim);
     }
-    with_whole(job.sim, job.comm, [&] { count_in_solids(job.sim); });
+    count_in_solids(job.sim);
     write_checkpoint(job);
-    const std::optional<RankSummary> ranks = summary_of_ranks(job);
-    with_whole(job.sim, job.comm, [&] {
-        write_closing(job, reason, ranks);
-        job.progress.end(job.sim);
-        tell_doubts(job);
-    });
+    const Closing now = closing_of(job);
     if (!writes(job.comm)) {
         return stopped ? exit_code::interrupted : exit_code::done;
     }
+    write_closing(job, reason, now);
+    job.progress.end(job.sim);
+    tell_doubts(job, now);
     if (stopped) {
         job.progress.line("interrupted; checkpoint written. Resume with: " + job.command_to_go_on);
         return exit_code::interrupted;
@@ -248,14 +274,14 @@ int finish(Job& job)
 // The state of the last frame was good; a run can go on from it with other settings.
 void give_up(Job& job, const std::string& error, const std::string& exit_reason)
 {
-    const std::optional<RankSummary> ranks = summary_of_ranks(job);
-    with_whole(job.sim, job.comm, [&] {
-        job.progress.abandon("error: " + error);
-        if (job.last_good && job.good_step > job.saved_step) {
-            job.outputs->write_checkpoint(std::move(*job.last_good));
-        }
-        write_closing(job, exit_reason, ranks);
-    });
+    const Closing now = closing_of(job);
+    job.progress.abandon("error: " + error);
+    if (job.last_good && job.good_step > job.saved_step) {
+        write_state(job, std::move(*job.last_good));
+    }
+    if (writes(job.comm)) {
+        write_closing(job, exit_reason, now);
+    }
 }
 
 int carry_out(Job& job)
@@ -282,9 +308,9 @@ std::vector<Common> what_processes_share(const RunOptions& options, const Scene&
     return {{"program", fmt::format("{} {}", build_info::version, build_info::commit)},
             {"case", to_toml(scene)},
             {"files of the case", files},
-            {"options",
-             fmt::format("{} {} {} {}", results_folder(options).string(),
-                         options.until.value_or(infinity), options.rebalance, options.resume)}};
+            {"options", fmt::format("{} {} {} {} {}", results_folder(options).string(),
+                                    options.until.value_or(infinity), options.rebalance,
+                                    options.parts, options.resume)}};
 }
 
 void tell_warnings(const RunOptions& options, const Plan& plan)

@@ -13,9 +13,8 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/disk.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
-#include "hyoryu/sim/dealing.hpp"
 #include "hyoryu/sim/gauges.hpp"
-#include "hyoryu/sim/whole.hpp"
+#include "hyoryu/sim/state_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -81,6 +80,11 @@ TimingBudget timing_budget(const RunOptions& options, const Scene& scene, const 
             .part_run = end / scene.time.end};
 }
 
+Groups groups_of(const Beginning& from)
+{
+    return from.comm == nullptr ? Groups{} : group_ranks(from.comm->size(), from.options.parts);
+}
+
 // What processes begin with that do not write.
 Job follower(const Beginning& from, Simulation sim)
 {
@@ -88,7 +92,8 @@ Job follower(const Beginning& from, Simulation sim)
             .case_text = {},
             .sim = std::move(sim),
             .comm = from.comm,
-            .ranks = from.ranks};
+            .ranks = from.ranks,
+            .groups = groups_of(from)};
 }
 
 Progress progress_of(const Beginning& from, double time)
@@ -140,41 +145,25 @@ void continue_folder(const Beginning& from, const Resumption& state)
     }
 }
 
-Snapshot state_of(const Job& job)
+// Puts the state of a checkpoint into the simulation, and returns what is not of the particles.
+Snapshot take_up(const Beginning& from, Resumption& found, Simulation& sim)
 {
-    Snapshot state = job.outputs->snapshot(job.sim);
-    state.texts["case"] = job.case_text;
-    state.texts.insert(job.given.begin(), job.given.end());
-    return state;
-}
-
-// The old state goes before the new one comes: a state is as large as that of the particles.
-void keep_good_state(Job& job)
-{
-    job.outputs->timer().begin("good state");
-    job.last_good.reset();
-    job.last_good = state_of(job);
-    job.outputs->timer().end();
-}
-
-// Writes a frame and keeps the state as the one to return to, for which the particles of all
-// processes are gathered once. Behind the first frame a checkpoint is written at once.
-void write_frame(Job& job)
-{
-    Clock clock = job.sim.clock;
-    clock.frame += 1;
-    with_whole(job.sim, job.comm, [&] {
-        job.outputs->write_frame(job.sim);
-        job.sim.clock = clock;
-        if (clock.step > 0 || job.sim.scene.time.recover) {
-            keep_good_state(job);
-        }
-    });
-    job.sim.clock = clock; // of all processes
-    job.good_step = clock.step;
-    if (job.ranks != nullptr) {
-        job.ranks->write(job.sim);
+    if (from.comm == nullptr && found.parts.empty()) {
+        restore(sim, found.state);
+        return std::move(found.state);
     }
+    StateParts state;
+    if (found.parts.empty()) {
+        state = one_part(sim, std::move(found.state));
+    } else {
+        state.common = std::move(found.state);
+        state.count = static_cast<int>(found.parts.size());
+        state.particles = [&](int part) {
+            return read_checkpoint_part(from.folder, found.parts[static_cast<std::size_t>(part)]);
+        };
+    }
+    restore(sim, from.comm, state);
+    return std::move(state.common);
 }
 
 } // namespace
@@ -189,16 +178,18 @@ Job start(const Beginning& from, Filling filling)
     Simulation sim = make_simulation(from.scene, from.plan, filling, from.comm);
     filling = {}; // as large as the state of the fluid, and no more needed
     Job job = follower(from, std::move(sim));
-    with_whole(job.sim, job.comm, [&] {
+    if (writes(from.comm)) {
         job.case_text = case_text;
         job.lock.emplace(std::move(*lock));
         job.progress = progress_of(from, 0);
-        job.outputs.emplace(from.folder, job.sim, domain_of(from.scene));
+        job.outputs.emplace(from.folder, job.sim);
         if (job.ranks != nullptr) {
             job.ranks->open(from.folder);
         }
         job.given = texts_of_given_case(from.options, from.scene);
-    });
+    }
+    job.frames.emplace(from.folder, job.comm, job.groups);
+    job.frames->write_static(job.sim, domain_of(from.scene));
     update_outputs(job);
     write_checkpoint(job);
     return job;
@@ -213,7 +204,7 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
     }
     Simulation sim = make_simulation(from.scene, from.plan, filling, from.comm);
     filling = {}; // as large as the state of the fluid, and no more needed
-    restore(sim, from.comm, &state.state);
+    const Snapshot common = take_up(from, state, sim);
     Job job = follower(from, std::move(sim));
     job.first_step = job.good_step = job.saved_step = job.sim.clock.step;
     if (writes(from.comm)) {
@@ -227,7 +218,7 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
             job.progress.line(
                 fmt::format("note: {}; using the previous checkpoint", state.passed_over));
         }
-        job.outputs.emplace(from.folder, job.sim, state.state);
+        job.outputs.emplace(from.folder, job.sim, common);
         if (job.ranks != nullptr) {
             job.ranks->open(from.folder);
         }
@@ -235,55 +226,16 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
             write_case(from.folder, from.scene, from.plan);
         }
         job.given = texts_of_given_case(from.options, from.scene);
-        if (from.scene.time.recover) {
-            job.last_good = std::move(state.state);
-        }
+    }
+    job.frames.emplace(from.folder, job.comm, job.groups);
+    job.frames->forget_after(job.sim.clock.time); // behind the histories, which may refuse
+    if (from.scene.time.recover) {
+        keep_good_state(job);
     }
     if (state.changed) { // or a kill would leave a checkpoint of the case before
         write_checkpoint(job);
     }
     return job;
-}
-
-void update_outputs(Job& job)
-{
-    Simulation& sim = job.sim;
-    if (job.outputs) {
-        job.outputs->log_contacts(sim);
-    }
-    if (history_due(sim.clock, sim.scene)) {
-        const Totals now = totals(sim); // of all processes
-        if (job.outputs) {
-            job.outputs->write_histories(sim, now);
-        }
-        sim.clock.history += 1;
-    }
-    if (!sim.scene.gauges.empty() && gauge_due(sim.clock, sim.scene)) {
-        sim.timer.begin("gauges");
-        const std::vector<double> readings = next_gauge_row(sim);
-        if (job.outputs) {
-            job.outputs->write_gauges(sim, readings);
-        }
-        sim.timer.end();
-        sim.clock.gauge += 1;
-    }
-    if (frame_due(sim.clock, sim.scene)) {
-        write_frame(job);
-    }
-}
-
-void write_checkpoint(Job& job)
-{
-    with_whole(job.sim, job.comm, [&] {
-        job.outputs->timer().begin("checkpoints");
-        if (!job.sim.scene.time.recover) {
-            job.last_good.reset();
-        }
-        job.outputs->settle(); // frames on their way are nearly as large as the state
-        job.outputs->write_checkpoint(state_of(job));
-        job.outputs->timer().end();
-    });
-    job.saved_step = job.sim.clock.step;
 }
 
 } // namespace hyoryu

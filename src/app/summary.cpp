@@ -2,7 +2,6 @@
 #include "summary.hpp"
 
 #include "build_info.hpp"
-#include "rank_log.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/sim/watch.hpp"
@@ -80,7 +79,7 @@ ordered_json names_outside(const Simulation& sim)
 }
 
 // Rows of fluid are a whole number: those of the start + made - dropped - lost.
-ordered_json open_sides(const Simulation& sim)
+ordered_json open_sides(const Simulation& sim, Index fluid)
 {
     ordered_json list = ordered_json::array();
     std::int64_t rows = sim.plan.counts.fluid - sim.fluid->lost.count;
@@ -99,7 +98,7 @@ ordered_json open_sides(const Simulation& sim)
     }
     return {{"sides", list},
             {"fluid_at_start", sim.plan.counts.fluid},
-            {"unaccounted_particles", sim.fluid->particles.fluid.size() - rows},
+            {"unaccounted_particles", fluid - rows},
             {"energy_in", sim.open.boundary.energy},
             {"bodies_left", bodies_left(sim)}};
 }
@@ -123,20 +122,16 @@ void add_run(ordered_json& json, const Simulation& sim, const std::string& exit_
     json["per_metre_of_width"] = sim.scene.dimensions == 2;
 }
 
-Index fluid_particles(const Simulation& sim)
-{
-    return sim.fluid ? sim.fluid->particles.fluid.size() : 0;
-}
-
 // Particle-steps and pairs per second of this call of the program, which made `steps` steps.
-void add_rates(ordered_json& json, const Simulation& sim, std::int64_t steps, double wall_seconds)
+void add_rates(ordered_json& json, const Simulation& sim, Index fluid, std::int64_t steps,
+               double wall_seconds)
 {
     const auto count = static_cast<double>(steps);
     json["particle_steps_per_second"] =
         wall_seconds > 0 ? static_cast<double>(sim.plan.counts.particles()) * count / wall_seconds
                          : 0;
     json["fluid_particle_steps_per_second"] =
-        wall_seconds > 0 ? static_cast<double>(fluid_particles(sim)) * count / wall_seconds : 0;
+        wall_seconds > 0 ? static_cast<double>(fluid) * count / wall_seconds : 0;
     json["pair_interactions"] = sim.pair_visits;
     json["pairs_per_second"] = wall_seconds > 0 ? sim.pair_visits / wall_seconds : 0;
 }
@@ -169,21 +164,20 @@ double peak_memory()
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-std::string summary_json(const Simulation& sim, const std::string& exit_reason, double wall_seconds,
-                         std::int64_t first_step, const StageTimer& output,
-                         const FrameWriter::Cost& frames, const RankSummary* ranks)
+std::string summary_json(const Simulation& sim, const Closing& now, const std::string& exit_reason,
+                         double wall_seconds, std::int64_t first_step, const StageTimer& output,
+                         const FrameWriter::Cost& frames)
 {
-    const Totals end = totals(sim);
     const auto& n = sim.plan.counts;
     ordered_json json;
     add_run(json, sim, exit_reason, wall_seconds);
-    add_rates(json, sim, sim.clock.step - first_step, wall_seconds);
+    add_rates(json, sim, now.fluid, sim.clock.step - first_step, wall_seconds);
     json["peak_memory_bytes"] = peak_memory();
-    if (ranks != nullptr) {
-        json["ranks"] = {{"count", ranks->count},
-                         {"imbalance", ranks->imbalance},
-                         {"waited_share", ranks->waited},
-                         {"rebalances", ranks->rebalances}};
+    if (now.ranks) {
+        json["ranks"] = {{"count", now.ranks->count},
+                         {"imbalance", now.ranks->imbalance},
+                         {"waited_share", now.ranks->waited},
+                         {"rebalances", now.ranks->rebalances}};
     }
     json["stages"] = seconds_by_stage(sim.timer);
     json["output"] = seconds_by_stage(output);
@@ -193,7 +187,7 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     json["steps_by_limit"] = ordered_json(sim.steps_by_limit);
     json["share_of_time_step"] = sim.clock.share; // below 1 after recoveries
     json["neighbour_builds"] = sim.fluid ? sim.fluid->neighbours.builds : 0;
-    json["counts"] = {{"fluid", fluid_particles(sim)},
+    json["counts"] = {{"fluid", now.fluid},
                       {"wall", n.wall},
                       {"body", n.body},
                       {"bodies", n.bodies},
@@ -203,19 +197,19 @@ std::string summary_json(const Simulation& sim, const std::string& exit_reason, 
     }
     json["particles_lost"] = sim.fluid ? sim.fluid->lost.count : 0;
     if (sim.open.runs()) {
-        json["open"] = open_sides(sim);
+        json["open"] = open_sides(sim, now.fluid);
     }
     if (sim.fluid) {
-        const Index in_solids = particles_in_solids(sim);
-        json["particles_in_solids"] = in_solids;
-        json["worst_particles_in_solids"] = std::max(in_solids, sim.conservation.worst_in_solids);
+        json["particles_in_solids"] = now.in_solids;
+        json["worst_particles_in_solids"] =
+            std::max(now.in_solids, sim.conservation.worst_in_solids);
         json["bodies_outside"] = names_outside(sim);
     }
     json["worst_density_error"] = sim.conservation.worst_density_error;
     json["energy"] = {{"start", energies(sim.conservation.start)},
-                      {"end", energies(end)},
+                      {"end", energies(now.totals)},
                       {"contact_loss", sim.conservation.contact_loss}};
-    json["momentum"] = momenta(sim, end);
+    json["momentum"] = momenta(sim, now.totals);
     json["contact"] = contact_counters(sim, sim.clock.step);
     return json.dump(2) + "\n";
 }

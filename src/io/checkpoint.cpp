@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // checkpoint.h5: a text header of 512 bytes (format, length, checksum), then an HDF5 file, which
 // HDF5 finds behind it by itself. The checksum covers every byte, so HDF5 never sees a damaged
-// file.
+// file. Of several processes the particles are in parts, files of the same form that are complete
+// before checkpoint.h5 names them, with length and checksum.
 #include "atomic_file.hpp"
 #include "hdf5.hpp"
 #include "hyoryu/core/error.hpp"
@@ -14,12 +15,18 @@
 
 #include <charconv>
 #include <fstream>
+#include <functional>
+#include <regex>
+#include <set>
+#include <sstream>
 
 namespace hyoryu {
 
 namespace {
 
 constexpr int format_version = 8;
+constexpr int format_with_parts = 9; // earlier versions would miss the particles
+constexpr const char* parts_text = "parts";
 constexpr std::size_t header_size = 512; // the first place after 0 where HDF5 looks for a file
 constexpr std::string_view magic = "hyoryu checkpoint";
 
@@ -33,10 +40,10 @@ std::filesystem::path previous_file(const std::filesystem::path& folder)
     return folder / "checkpoint.previous.h5";
 }
 
-std::string header(std::uintmax_t bytes, std::uint32_t checksum)
+std::string header(int format, std::uintmax_t bytes, std::uint32_t checksum)
 {
-    std::string text = fmt::format("{}\nformat {}\nbytes {}\ncrc32 {:08x}\n", magic, format_version,
-                                   bytes, checksum);
+    std::string text =
+        fmt::format("{}\nformat {}\nbytes {}\ncrc32 {:08x}\n", magic, format, bytes, checksum);
     text.resize(header_size, '\0');
     return text;
 }
@@ -157,8 +164,13 @@ void keep_as_previous(const std::filesystem::path& folder)
     }
 }
 
+bool begins_with_format(const std::string& stored, int format)
+{
+    return stored.starts_with(fmt::format("{}\nformat {}\n", magic, format));
+}
+
 /// Reads the whole file once and compares length and checksum with the header.
-void verify(const std::filesystem::path& file)
+CheckpointPart verified(const std::filesystem::path& file)
 {
     const std::string why = why_unreadable(file);
     if (!why.empty()) {
@@ -170,11 +182,11 @@ void verify(const std::filesystem::path& file)
     if (!stored.starts_with(magic)) {
         throw IoError(fmt::format("`{}` is not a checkpoint", file.string()));
     }
-    const std::string format = fmt::format("{}\nformat {}\n", magic, format_version);
-    if (!stored.starts_with(format)) {
-        throw IoError(
-            fmt::format("`{}` is a checkpoint of another format; this version reads format {}",
-                        file.string(), format_version));
+    const bool in_parts = begins_with_format(stored, format_with_parts);
+    if (!in_parts && !begins_with_format(stored, format_version)) {
+        throw IoError(fmt::format("`{}` is a checkpoint of another format; this version reads "
+                                  "formats {} and {}",
+                                  file.string(), format_version, format_with_parts));
     }
     std::uint32_t checksum = 0;
     std::uintmax_t bytes = 0;
@@ -185,44 +197,191 @@ void verify(const std::filesystem::path& file)
         checksum = libdeflate_crc32(checksum, block.data(), count);
         bytes += count;
     }
-    if (stored != header(bytes, checksum)) {
+    if (stored != header(in_parts ? format_with_parts : format_version, bytes, checksum)) {
         throw IoError(fmt::format("the checkpoint `{}` is damaged: its checksum or length is wrong",
                                   file.string()));
     }
+    return {file.filename().string(), bytes, checksum};
 }
 
-Snapshot read_generation(const std::filesystem::path& file)
+Snapshot read_verified(const std::filesystem::path& file)
 {
-    verify(file);
     const hdf5::Session session;
     return get_snapshot(hdf5::open_file(file));
 }
 
-} // namespace
-
-void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot)
+std::string text_of(const std::vector<CheckpointPart>& parts)
 {
-    AtomicFile atomic(checkpoint_file(folder));
+    std::string text;
+    for (const CheckpointPart& part : parts) {
+        text += fmt::format("{} {} {:08x}\n", part.name, part.bytes, part.checksum);
+    }
+    return text;
+}
+
+const std::regex& part_names()
+{
+    static const std::regex names(R"(checkpoint\.([0-9]{6,12})\.[0-9]{4,9}\.h5)");
+    return names;
+}
+
+/// Any other name would lead out of the folder.
+std::vector<CheckpointPart> parts_of(const std::string& text)
+{
+    std::vector<CheckpointPart> parts;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        CheckpointPart part;
+        words >> part.name >> part.bytes >> std::hex >> part.checksum;
+        if (!words || !std::regex_match(part.name, part_names())) {
+            throw IoError(fmt::format("the checkpoint is damaged: it names `{}`", line));
+        }
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+void expect_written(const std::filesystem::path& folder, const CheckpointPart& part)
+{
+    const CheckpointPart found = verified(folder / part.name);
+    if (found.bytes != part.bytes || found.checksum != part.checksum) {
+        throw IoError(fmt::format("`{}` belongs to another checkpoint than the one that names it",
+                                  (folder / part.name).string()));
+    }
+}
+
+NewestCheckpoint read_generation(const std::filesystem::path& file)
+{
+    verified(file);
+    NewestCheckpoint found{read_verified(file), {}, {}};
+    if (const auto text = found.snapshot.texts.extract(parts_text); !text.empty()) {
+        found.parts = parts_of(text.mapped());
+    }
+    for (const CheckpointPart& part : found.parts) {
+        expect_written(file.parent_path(), part);
+    }
+    return found;
+}
+
+/// Writes a file and calls `before` when its bytes are about to get their name.
+CheckpointPart write_file(const std::filesystem::path& file, int format, Snapshot snapshot,
+                          const std::function<void()>& before)
+{
+    AtomicFile atomic(file);
     const hdf5::Session session;
     hdf5::FileImage image(stored_bytes(snapshot));
     put_snapshot(image, std::move(snapshot));
     const std::span<const std::byte> bytes = image.bytes();
-    atomic.write(header(bytes.size(), libdeflate_crc32(0, bytes.data(), bytes.size())));
+    const std::uint32_t checksum = libdeflate_crc32(0, bytes.data(), bytes.size());
+    atomic.write(header(format, bytes.size(), checksum));
     atomic.write(bytes);
-    keep_as_previous(folder);
+    before();
     atomic.commit();
+    return {file.filename().string(), bytes.size(), checksum};
+}
+
+std::vector<std::string> part_files(const std::filesystem::path& folder)
+{
+    std::vector<std::string> names;
+    std::error_code fault;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, fault)) {
+        std::string name = entry.path().filename().string();
+        if (std::regex_match(name, part_names())) {
+            names.push_back(std::move(name));
+        }
+    }
+    return names;
+}
+
+/// Names in a checkpoint that may be damaged.
+void add_names(const std::filesystem::path& file, std::set<std::string>& names)
+{
+    try {
+        const hdf5::Session session;
+        const hdf5::Handle open = hdf5::open_file(file);
+        const hdf5::Handle texts = hdf5::open_group(open, "texts");
+        if (hdf5::has_link(texts, parts_text)) {
+            const Column column = get_column(texts, parts_text);
+            const auto& bytes = std::get<std::vector<std::uint8_t>>(column.values);
+            for (const CheckpointPart& part : parts_of(std::string(bytes.begin(), bytes.end()))) {
+                names.insert(part.name);
+            }
+        }
+    } catch (const std::exception&) {
+        return; // without names it needs no parts
+    }
+}
+
+void remove_other_parts(const std::filesystem::path& folder)
+{
+    const std::vector<std::string> files = part_files(folder);
+    if (files.empty()) {
+        return;
+    }
+    std::set<std::string> named;
+    add_names(checkpoint_file(folder), named);
+    add_names(previous_file(folder), named);
+    for (const std::string& name : files) {
+        std::error_code gone_already;
+        if (!named.contains(name)) {
+            std::filesystem::remove(folder / name, gone_already);
+        }
+    }
+}
+
+} // namespace
+
+std::int64_t next_part_set(const std::filesystem::path& folder)
+{
+    std::int64_t last = 0;
+    for (const std::string& name : part_files(folder)) {
+        std::smatch match;
+        std::regex_match(name, match, part_names());
+        last = std::max<std::int64_t>(last, std::stoll(match[1].str()));
+    }
+    return last + 1;
+}
+
+CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
+                                     int part, Snapshot snapshot)
+{
+    return write_file(folder / fmt::format("checkpoint.{:06}.{:04}.h5", set, part), format_version,
+                      std::move(snapshot), [] {});
+}
+
+void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot,
+                      const std::vector<CheckpointPart>& parts)
+{
+    if (!parts.empty()) {
+        snapshot.texts[parts_text] = text_of(parts);
+    }
+    write_file(checkpoint_file(folder), parts.empty() ? format_version : format_with_parts,
+               std::move(snapshot), [&] { keep_as_previous(folder); });
+    remove_other_parts(folder);
+}
+
+Snapshot read_checkpoint_part(const std::filesystem::path& folder, const CheckpointPart& part)
+{
+    expect_written(folder, part);
+    return read_verified(folder / part.name);
 }
 
 Snapshot read_checkpoint(const std::filesystem::path& folder)
 {
-    return read_generation(checkpoint_file(folder));
+    NewestCheckpoint found = read_generation(checkpoint_file(folder));
+    if (!found.parts.empty()) {
+        throw IoError(fmt::format("the checkpoint `{}` is in several files",
+                                  checkpoint_file(folder).string()));
+    }
+    return std::move(found.snapshot);
 }
 
 NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder)
 {
     std::string passed_over;
     try {
-        return {read_generation(checkpoint_file(folder)), {}};
+        return read_generation(checkpoint_file(folder));
     } catch (const IoError& error) {
         passed_over = error.what();
     }
@@ -231,7 +390,9 @@ NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder)
         throw IoError(passed_over + "; there is no older one");
     }
     try {
-        return {read_generation(previous_file(folder)), passed_over};
+        NewestCheckpoint older = read_generation(previous_file(folder));
+        older.passed_over = passed_over;
+        return older;
     } catch (const IoError& error) {
         throw IoError(fmt::format("{}; and of the older one: {}", passed_over, error.what()));
     }

@@ -8,6 +8,7 @@
 #include "hyoryu/io/convert.hpp"
 #include "packed_array.hpp"
 #include "virtual_array.hpp"
+#include "vtkhdf.hpp"
 
 #include <fmt/format.h>
 
@@ -87,14 +88,15 @@ std::vector<Step> steps_of(const fs::path& results, const std::vector<FrameSet>&
     std::vector<Part> still;
     for (const FrameSet& set : sets) {
         for (const SeriesEntry& entry : set.frames) {
-            const fs::path source = results / entry.file;
-            Part part = part_of(source, relative_name(source, index));
-            if (set.moves) {
-                Step& step = steps[frame_number(entry)];
-                step.time = entry.time;
-                step.parts.push_back(std::move(part));
-            } else {
-                still.push_back(std::move(part));
+            for (const fs::path& source : files_of_frame(results / entry.file)) {
+                Part part = part_of(source, relative_name(source, index));
+                if (set.moves) {
+                    Step& step = steps[frame_number(entry)];
+                    step.time = entry.time;
+                    step.parts.push_back(std::move(part));
+                } else {
+                    still.push_back(std::move(part));
+                }
             }
         }
     }

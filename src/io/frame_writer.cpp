@@ -16,6 +16,8 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <regex>
+#include <set>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -29,8 +31,9 @@ constexpr std::size_t frames_that_wait = 2;
 enum class Place { series, alone };
 
 struct Job {
-    std::variant<Cloud, Surface> content;
+    std::variant<Cloud, Surface, CloudOfParts> content;
     Place place = Place::series;
+    int part = -1; // none: the frame itself
 
     const std::string& name() const
     {
@@ -66,6 +69,12 @@ void insert(std::vector<SeriesEntry>& entries, const SeriesEntry& entry)
     entries.insert(std::upper_bound(entries.begin(), entries.end(), entry, later), entry);
 }
 
+bool is_part(const std::filesystem::path& file)
+{
+    static const std::regex pattern(R"([a-z]+_[0-9]{6,}\.[0-9]{4,9}\.hdf)");
+    return std::regex_match(file.filename().string(), pattern);
+}
+
 double thread_seconds()
 {
     timespec now{};
@@ -96,8 +105,11 @@ struct FrameWriter::State {
 
     void run();
     void write(const Job& job);
+    void wait_for_parts(const std::filesystem::path& file, const Job& job);
     void put(Job job);
     void wait_until_idle(std::unique_lock<std::mutex>& lock);
+    void remove_frame(const std::filesystem::path& file) const;
+    void remove_parts_of_no_frame() const;
     std::size_t waiting_frames() const;
 };
 
@@ -172,11 +184,38 @@ void FrameWriter::State::write(const Job& job)
         job.place == Place::alone ? std::filesystem::path(job.name() + ".hdf")
                                   : std::filesystem::path("frames") /
                                         fmt::format("{}_{:06}.hdf", job.name(), job.index());
+    if (job.part >= 0) {
+        write_vtkhdf(folder / part_of_frame(file, job.part), std::get<Cloud>(job.content));
+        return;
+    }
+    wait_for_parts(folder / file, job);
     std::visit([&](const auto& frame) { write_vtkhdf(folder / file, frame); }, job.content);
     if (job.place == Place::series) {
         std::vector<SeriesEntry>& entries = series[job.name()];
         insert(entries, {file, job.time()});
         write_series(series_file(folder, job.name()), entries);
+    }
+}
+
+/// Other processes rename their parts into place when they are complete.
+void FrameWriter::State::wait_for_parts(const std::filesystem::path& file, const Job& job)
+{
+    using Clock = std::chrono::steady_clock;
+    constexpr auto patience = std::chrono::minutes(10); // a part is written in seconds
+    const auto* const cloud = std::get_if<CloudOfParts>(&job.content);
+    const Clock::time_point asked = Clock::now();
+    for (std::size_t k = 0; cloud != nullptr && k < cloud->points.size();) {
+        const std::filesystem::path part = part_of_frame(file, static_cast<int>(k));
+        std::error_code fault;
+        if (std::filesystem::exists(part, fault)) {
+            ++k;
+            continue;
+        }
+        std::unique_lock lock(mutex);
+        changed.wait_for(lock, std::chrono::milliseconds(5), [&] { return closing; });
+        if (closing || Clock::now() - asked > patience) {
+            throw IoError(fmt::format("the part `{}` of a frame was not written", part.string()));
+        }
     }
 }
 
@@ -228,6 +267,50 @@ void FrameWriter::write_static(Surface surface)
     state_->put({std::move(surface), Place::alone});
 }
 
+void FrameWriter::write_part(Cloud cloud, int part)
+{
+    state_->put({std::move(cloud), Place::series, part});
+}
+
+void FrameWriter::write_static_part(Cloud cloud, int part)
+{
+    state_->put({std::move(cloud), Place::alone, part});
+}
+
+void FrameWriter::write(CloudOfParts cloud)
+{
+    state_->put({std::move(cloud), Place::series});
+}
+
+void FrameWriter::write_static(CloudOfParts cloud)
+{
+    state_->put({std::move(cloud), Place::alone});
+}
+
+void FrameWriter::State::remove_frame(const std::filesystem::path& file) const
+{
+    std::error_code gone_already;
+    std::filesystem::remove(folder / file, gone_already);
+}
+
+/// Parts whose frame no series names: of frames that were removed, or never finished.
+void FrameWriter::State::remove_parts_of_no_frame() const
+{
+    std::set<std::string> named;
+    for (const auto& [name, entries] : series) {
+        for (const SeriesEntry& entry : entries) {
+            named.insert(entry.file.stem().string());
+        }
+    }
+    std::error_code fault;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", fault)) {
+        const std::filesystem::path frame = entry.path().stem(); // "fluid_000012.0003"
+        if (is_part(entry.path()) && !named.contains(frame.stem().string())) {
+            remove_frame(entry.path().lexically_relative(folder));
+        }
+    }
+}
+
 void FrameWriter::forget_after(double time)
 {
     finish();
@@ -242,10 +325,10 @@ void FrameWriter::forget_after(double time)
         // The series first: it must never name a file that is gone.
         write_series(series_file(state_->folder, name), entries);
         for (const std::filesystem::path& file : forgotten) {
-            std::error_code gone_already;
-            std::filesystem::remove(state_->folder / file, gone_already);
+            state_->remove_frame(file);
         }
     }
+    state_->remove_parts_of_no_frame();
 }
 
 void FrameWriter::finish()

@@ -7,12 +7,14 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/results.hpp"
 #include "packed_array.hpp"
+#include "virtual_array.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <numeric>
 #include <span>
+#include <sstream>
 
 namespace hyoryu {
 
@@ -104,15 +106,11 @@ void put_grid(hid_t file, const Cells& cells, const Parts& parts)
     put_array(root, "Types", parts.types, "");
 }
 
-/// Point data, the time that VTK shows, and our own attributes.
+/// The time that VTK shows, and our own attributes.
 template <class Frame>
-void put_data(hid_t file, const Frame& frame, const Parts& parts)
+void put_time(hid_t file, const Frame& frame)
 {
     const hdf5::Handle root = hdf5::open_group(file, "VTKHDF");
-    const hdf5::Handle point_data = hdf5::create_group(root, "PointData");
-    for (std::size_t k = 0; k < frame.columns.size(); ++k) {
-        put_array(point_data, frame.columns[k].name, parts.columns[k], frame.columns[k].unit);
-    }
     const hdf5::Handle field_data = hdf5::create_group(root, "FieldData");
     const std::vector<double> time{frame.time};
     put_array(field_data, "TimeValue", raw(view_of(std::span(time), 1)), "s");
@@ -121,6 +119,20 @@ void put_data(hid_t file, const Frame& frame, const Parts& parts)
     hdf5::put_attribute(meta, "name", frame.name);
     hdf5::put_attribute(meta, "time", frame.time);
     hdf5::put_attribute(meta, "index", std::array<std::int64_t, 1>{frame.index});
+}
+
+/// Point data, the time, and our own attributes.
+template <class Frame>
+void put_data(hid_t file, const Frame& frame, const Parts& parts)
+{
+    {
+        const hdf5::Handle root = hdf5::open_group(file, "VTKHDF");
+        const hdf5::Handle point_data = hdf5::create_group(root, "PointData");
+        for (std::size_t k = 0; k < frame.columns.size(); ++k) {
+            put_array(point_data, frame.columns[k].name, parts.columns[k], frame.columns[k].unit);
+        }
+    }
+    put_time(file, frame);
 }
 
 std::size_t stored_bytes(const Parts& parts)
@@ -146,6 +158,59 @@ void write_frame(const std::filesystem::path& file, const Frame& frame)
     put_data(image, frame, parts);
     atomic.write(image.bytes());
     atomic.commit();
+}
+
+/// The parts of a cloud as the file names them: "NAME BYTES" on a line each.
+std::string text_of_parts(const std::filesystem::path& file, std::size_t parts)
+{
+    std::string text;
+    for (std::size_t k = 0; k < parts; ++k) {
+        const std::filesystem::path part = part_of_frame(file, static_cast<int>(k));
+        text += fmt::format("{} {}\n", part.filename().string(), std::filesystem::file_size(part));
+    }
+    return text;
+}
+
+/// An array over those of all parts; `more`: rows of each part beside one for each of its points.
+void put_virtual(hid_t parent, const std::string& path, const ArrayShape& shape,
+                 const std::filesystem::path& file, const std::vector<std::int64_t>& points,
+                 std::int64_t more)
+{
+    const auto rows = [&](std::size_t k) { return static_cast<hsize_t>(points[k] + more); };
+    hsize_t all = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        all += rows(k);
+    }
+    VirtualArray array(shape, all);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        array.append(part_of_frame(file, static_cast<int>(k)).filename().string(),
+                     "/VTKHDF/" + path, rows(k));
+    }
+    array.put(parent, path);
+}
+
+void put_virtual_grid(hid_t image, const std::filesystem::path& file, const CloudOfParts& cloud)
+{
+    const hdf5::Handle root = hdf5::create_group(image, "VTKHDF");
+    hdf5::put_attribute(root, "Version", std::array<std::int64_t, 2>{1, 0});
+    hdf5::put_fixed_attribute(root, "Type", "UnstructuredGrid");
+    const std::vector<std::int64_t>& points = cloud.points;
+    for (const char* const count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
+        put_array(root, count, raw(view_of(std::span(points), 1)), "");
+    }
+    const auto put = [&](const std::string& path, ArrayShape shape, std::int64_t more) {
+        put_virtual(root, path, shape, file, points, more);
+    };
+    put("Points", {0, 3, ElementType::float32, "m"}, 0);
+    put("Connectivity", {0, 0, ElementType::int64, ""}, 0);
+    put("Offsets", {0, 0, ElementType::int64, ""}, 1);
+    put("Types", {0, 0, ElementType::uint8, ""}, 0);
+    hdf5::create_group(root, "PointData");
+    for (const Column& column : cloud.columns) {
+        const ArrayView view = view_of(column);
+        const hsize_t components = view.dims.size() > 1 ? view.dims[1] : 0;
+        put("PointData/" + column.name, {0, components, view.type, column.unit}, 0);
+    }
 }
 
 std::vector<float> points_of(hid_t root)
@@ -214,12 +279,53 @@ std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
     return triangles;
 }
 
+/// What a frame says of its parts; empty if its arrays are its own.
+std::string parts_named_in(hid_t file)
+{
+    if (!hdf5::has_link(file, "meta")) {
+        return {};
+    }
+    const hdf5::Handle meta = hdf5::open_group(file, "meta");
+    return H5Aexists(meta, "parts") > 0 ? hdf5::text_attribute(meta, "parts") : std::string();
+}
+
+std::filesystem::path checked_part(const std::filesystem::path& frame, const std::string& line)
+{
+    std::istringstream words(line);
+    std::string name;
+    std::uintmax_t bytes = 0;
+    words >> name >> bytes;
+    const std::filesystem::path part = frame.parent_path() / name;
+    if (!words || std::filesystem::path(name).filename() != name) {
+        throw IoError(fmt::format("`{}` is damaged: it names the part `{}`", frame.string(), line));
+    }
+    std::error_code fault;
+    const std::uintmax_t found = std::filesystem::file_size(part, fault);
+    if (fault || found != bytes) {
+        throw IoError(fmt::format("the part `{}` of `{}` {}", part.string(), frame.string(),
+                                  fault ? "is missing"
+                                        : fmt::format("has {} bytes, expected {}", found, bytes)));
+    }
+    return part;
+}
+
+std::vector<std::filesystem::path> checked_parts(hid_t file, const std::filesystem::path& frame)
+{
+    std::vector<std::filesystem::path> parts;
+    std::istringstream lines(parts_named_in(file));
+    for (std::string line; std::getline(lines, line);) {
+        parts.push_back(checked_part(frame, line));
+    }
+    return parts;
+}
+
 /// Runs `read(file, root group)`; errors are reported with the name of the file.
 template <class Read>
 void read_vtkhdf(const std::filesystem::path& file, Read read)
 {
     const hdf5::Session session;
     const hdf5::Handle open = hdf5::open_file(file);
+    checked_parts(open, file);
     try {
         const hdf5::Handle root = hdf5::open_group(open, "VTKHDF");
         read(open, root);
@@ -239,6 +345,35 @@ void write_vtkhdf(const std::filesystem::path& file, const Cloud& cloud)
 void write_vtkhdf(const std::filesystem::path& file, const Surface& surface)
 {
     write_frame(file, surface);
+}
+
+void write_vtkhdf(const std::filesystem::path& file, const CloudOfParts& cloud)
+{
+    AtomicFile atomic(file);
+    const std::string parts = text_of_parts(file, cloud.points.size());
+    const hdf5::Session session;
+    hdf5::FileImage image(0);
+    put_virtual_grid(image, file, cloud);
+    put_time(image, cloud);
+    {
+        const hdf5::Handle meta = hdf5::open_group(image, "meta");
+        hdf5::put_attribute(meta, "parts", parts);
+    }
+    atomic.write(image.bytes());
+    atomic.commit();
+}
+
+std::filesystem::path part_of_frame(const std::filesystem::path& file, int part)
+{
+    std::filesystem::path name = file;
+    return name.replace_extension(fmt::format(".{:04}{}", part, file.extension().string()));
+}
+
+std::vector<std::filesystem::path> files_of_frame(const std::filesystem::path& file)
+{
+    const hdf5::Handle open = hdf5::open_file(file);
+    std::vector<std::filesystem::path> parts = checked_parts(open, file);
+    return parts.empty() ? std::vector{file} : parts;
 }
 
 Cloud read_frame(const std::filesystem::path& file)

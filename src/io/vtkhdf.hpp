@@ -12,4 +12,16 @@ namespace hyoryu {
 void write_vtkhdf(const std::filesystem::path& file, const Cloud& cloud);
 void write_vtkhdf(const std::filesystem::path& file, const Surface& surface);
 
+/// Writes a file whose arrays are virtual datasets over those of its parts, which are on disk. HDF5
+/// reads zeros where a part is missing: the file has the names and sizes of its parts, by which
+/// `read_frame` notices. Throws IoError.
+void write_vtkhdf(const std::filesystem::path& file, const CloudOfParts& cloud);
+
+/// `fluid_000012.hdf` -> `fluid_000012.0003.hdf`
+std::filesystem::path part_of_frame(const std::filesystem::path& file, int part);
+
+/// The files with the arrays of a frame: its parts, or itself. Needs a Session. Throws IoError if a
+/// part is missing or has another size.
+std::vector<std::filesystem::path> files_of_frame(const std::filesystem::path& file);
+
 } // namespace hyoryu

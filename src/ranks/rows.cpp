@@ -54,33 +54,4 @@ std::vector<std::int32_t> rows_from(Index first, Index count)
     return rows;
 }
 
-void put_tiles(Parcel& parcel, const Tiles& tiles)
-{
-    put(parcel, tiles.tiles());
-    put(parcel, std::span(tiles.tile));
-    put(parcel, std::span(tiles.start));
-    for (const std::vector<float>* column : {&tiles.x, &tiles.y, &tiles.z}) {
-        put(parcel, std::span(*column));
-    }
-}
-
-void append_tiles(Unpacking& from, std::span<const std::int32_t> rows, Tiles& all)
-{
-    const auto tiles = at(from.take<Index>());
-    const std::size_t before = all.tile.size();
-    all.tile.resize(before + tiles);
-    from.take(std::span(all.tile).subspan(before));
-    std::vector<std::int32_t> start(tiles + 1);
-    from.take(std::span(start));
-    const std::int32_t first = all.start.back();
-    for (std::size_t t = 1; t <= tiles; ++t) {
-        all.start.push_back(first + start[t]);
-    }
-    for (std::vector<float>* column : {&all.x, &all.y, &all.z}) {
-        column->resize(at(all.start.back()));
-        from.take(std::span(*column).subspan(at(first)));
-    }
-    all.row.insert(all.row.end(), rows.begin(), rows.end());
-}
-
 } // namespace hyoryu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/frames.hpp"
 
+#include "hyoryu/ranks/columns.hpp"
 #include "hyoryu/scene/triangles.hpp"
 
 #include <algorithm>
@@ -75,27 +76,33 @@ Cloud cloud_of(const Simulation& sim, std::string name, const Store& store, Kind
     return cloud;
 }
 
-// Takes the rows behind open sides out of a frame: they are not part of the domain.
-void leave_out_carpets(const Simulation& sim, Cloud& cloud)
+// The points of these numbers, ascending.
+void keep_points(Cloud& cloud, std::span<const std::int32_t> rows)
 {
-    const auto x = sim.fluid->particles.fluid[field::position];
-    std::vector<std::size_t> inside;
-    for (std::size_t row = 0; row < x.size(); ++row) {
-        if (!is_behind(sim.open.boundary, x[row], sim.scene.spacing)) {
-            inside.push_back(row);
-        }
-    }
     const auto keep = [&](auto& values, std::size_t width) {
-        for (std::size_t k = 0; k < inside.size(); ++k) {
-            std::copy_n(&values[inside[k] * width], width, &values[k * width]);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            std::copy_n(&values[at(rows[k]) * width], width, &values[k * width]);
         }
-        values.resize(inside.size() * width);
+        values.resize(rows.size() * width);
     };
     keep(cloud.points, 3);
     for (Column& column : cloud.columns) {
         std::visit([&](auto& values) { keep(values, static_cast<std::size_t>(column.components)); },
                    column.values);
     }
+}
+
+// Takes the rows behind open sides out of a frame: they are not part of the domain.
+void leave_out_carpets(const Simulation& sim, Cloud& cloud)
+{
+    const auto x = sim.fluid->particles.fluid[field::position];
+    std::vector<std::int32_t> inside;
+    for (std::size_t row = 0; row < x.size(); ++row) {
+        if (!is_behind(sim.open.boundary, x[row], sim.scene.spacing)) {
+            inside.push_back(static_cast<std::int32_t>(row));
+        }
+    }
+    keep_points(cloud, inside);
 }
 
 // The value that a column has for a wall particle without a row, which no fluid is near.
@@ -150,43 +157,90 @@ Cloud fluid_cloud(const Simulation& sim)
     return cloud;
 }
 
-// All particles of walls in the order of their numbers, with rows or without.
-Cloud wall_cloud(const Simulation& sim)
+Cloud wall_rows_cloud(const Simulation& sim)
 {
     const Fluid& fluid = *sim.fluid;
-    const Store& store = fluid.particles.wall;
-    const FixedWalls& fixed = fluid.fixed_walls;
-    const Index first = sim.plan.counts.fluid; // number of the first
-    const auto count = at(sim.plan.counts.wall);
-    std::vector<std::size_t> place(at(store.size()));
-    std::ranges::transform(store.id(), place.begin(),
-                           [&](std::int64_t number) { return at(number - first); });
-    Cloud cloud = cloud_of(sim, "walls", store, Kind::wall);
-    for (Column& column : cloud.columns) {
-        spread(column, place, count, dry_value(fluid, column.name));
-    }
-    std::vector<std::int64_t> numbers(count);
-    std::iota(numbers.begin(), numbers.end(), first);
-    cloud.columns.front().values = std::move(numbers);
-    Column points{"", "", 3, std::move(cloud.points)};
-    spread(points, place, count, 0);
-    cloud.points = std::move(std::get<std::vector<float>>(points.values));
-    for (const IndexRun& run : fixed.run) {
-        for (std::int32_t index = run.first; index < run.first + run.count; ++index) {
-            const Vec3 made = fixed.make(index).place;
-            for (Index axis = 0; axis < 3; ++axis) {
-                cloud.points[3 * at(index) + at(axis)] = static_cast<float>(made[axis]);
-            }
-        }
+    Cloud cloud = cloud_of(sim, "walls", fluid.particles.wall, Kind::wall);
+    if (fluid.ghosts) { // every rank has the rows of walls that move
+        std::vector<std::int32_t> own = fluid.neighbours.wall.row;
+        std::ranges::sort(own);
+        keep_points(cloud, own);
     }
     return cloud;
 }
 
-Cloud body_cloud(const Simulation& sim)
+NumberRange all_walls(const Simulation& sim)
+{
+    return {sim.plan.counts.fluid, sim.plan.counts.fluid + sim.plan.counts.wall};
+}
+
+std::vector<std::int64_t> numbers_in(const Cloud& cloud)
+{
+    return std::get<std::vector<std::int64_t>>(cloud.columns.front().values);
+}
+
+Cloud some_points(const Cloud& cloud, std::span<const std::int32_t> rows)
+{
+    Cloud some{cloud.name, cloud.time, cloud.index};
+    const Column points = some_rows({"", "", 3, cloud.points}, rows);
+    some.points = std::get<std::vector<float>>(points.values);
+    for (const Column& column : cloud.columns) {
+        some.columns.push_back(some_rows(column, rows));
+    }
+    return some;
+}
+
+void append_points(Cloud& all, const Cloud& more)
+{
+    all.points.insert(all.points.end(), more.points.begin(), more.points.end());
+    for (std::size_t k = 0; k < all.columns.size(); ++k) {
+        append_rows(all.columns[k], more.columns[k]);
+    }
+}
+
+// Those of fixed walls that have no row are made.
+Cloud wall_cloud(const Simulation& sim, Cloud rows, const NumberRange& range)
+{
+    const Fluid& fluid = *sim.fluid;
+    const auto count = at(range.end - range.begin);
+    const std::vector<std::int64_t> numbers = numbers_in(rows);
+    std::vector<std::size_t> place(numbers.size());
+    std::ranges::transform(numbers, place.begin(),
+                           [&](std::int64_t number) { return at(number - range.begin); });
+    for (Column& column : rows.columns) {
+        spread(column, place, count, dry_value(fluid, column.name));
+    }
+    std::vector<std::int64_t> all(count);
+    std::iota(all.begin(), all.end(), range.begin);
+    rows.columns.front().values = std::move(all);
+    Column points{"", "", 3, std::move(rows.points)};
+    spread(points, place, count, 0);
+    rows.points = std::move(std::get<std::vector<float>>(points.values));
+    const auto first = static_cast<std::int32_t>(range.begin - sim.plan.counts.fluid);
+    for (const IndexRun& run : fluid.fixed_walls.run) {
+        const std::int32_t begin = std::max(run.first, first);
+        const std::int32_t end =
+            std::min(run.first + run.count, first + static_cast<std::int32_t>(count));
+        for (std::int32_t index = begin; index < end; ++index) {
+            const Vec3 made = fluid.fixed_walls.make(index).place;
+            for (Index axis = 0; axis < 3; ++axis) {
+                rows.points[3 * at(index - first) + at(axis)] = static_cast<float>(made[axis]);
+            }
+        }
+    }
+    return rows;
+}
+
+Cloud wall_cloud(const Simulation& sim)
+{
+    return wall_cloud(sim, wall_rows_cloud(sim), all_walls(sim));
+}
+
+Cloud body_cloud(const Simulation& sim, const Store* particles)
 {
     Cloud cloud{"bodies", sim.clock.time, sim.clock.frame};
-    if (sim.fluid) {
-        cloud = cloud_of(sim, "bodies", sim.fluid->particles.body, Kind::body);
+    if (particles != nullptr) {
+        cloud = cloud_of(sim, "bodies", *particles, Kind::body);
         cloud.points.clear(); // the rows stand where the loads were taken, half a step back
     }
     std::vector<float> velocities;
@@ -202,7 +256,7 @@ Cloud body_cloud(const Simulation& sim)
         }
     }
     const std::size_t count = bodies.size();
-    if (sim.fluid) {
+    if (particles != nullptr) {
         cloud.columns[1].values = std::move(velocities);
         return cloud;
     }
@@ -216,6 +270,11 @@ Cloud body_cloud(const Simulation& sim)
         {"Kind", "", 1, std::vector<std::uint8_t>(count, static_cast<std::uint8_t>(Kind::body))},
         {"Body", "", 1, std::move(bodies)}};
     return cloud;
+}
+
+Cloud body_cloud(const Simulation& sim)
+{
+    return body_cloud(sim, sim.fluid ? &sim.fluid->particles.body : nullptr);
 }
 
 Surface body_surface(const Simulation& sim)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "solid_places.hpp"
 
+#include "hyoryu/fluid/ghosts.hpp"
+
 #include <algorithm>
 
 namespace hyoryu {
@@ -95,7 +97,7 @@ Index particles_in_solids(const Simulation& sim)
     // Rows that follow each other are near each other: together they meet few solids.
     constexpr Index group = 64;
     const Index rows = fluid.particles.fluid.size();
-    return sum(0, (rows + group - 1) / group, Index(0), [&](Index block) {
+    const Index own = sum(0, (rows + group - 1) / group, Index(0), [&](Index block) {
         const Index last = std::min(rows, (block + 1) * group);
         Bounds box;
         for (Index i = block * group; i < last; ++i) {
@@ -111,6 +113,7 @@ Index particles_in_solids(const Simulation& sim)
         }
         return count;
     });
+    return count_over_ranks(fluid, own);
 }
 
 Index count_in_solids(Simulation& sim)

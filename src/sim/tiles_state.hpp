@@ -7,6 +7,9 @@
 
 namespace hyoryu {
 
+/// Rows of fixed walls that a rank has, which the state of one process does not tell of.
+inline constexpr const char* rows_of_fixed_walls = "wall/fixed";
+
 /// Tiles: Tiles of the last list build, from which the lists are built again; constant for a
 /// writer.
 template <class State, class Tiles>
@@ -24,8 +27,8 @@ void describe_tiles(State& state, Tiles& tiles, const std::string& name)
 /// IoError if tiles do not fit the rows of their particles.
 void check_tiles(const Tiles& tiles, Rows rows);
 
-/// Throws IoError if a snapshot has more fluid particles than its case can have.
-void expect_particles_of_case(const Simulation& sim, const Snapshot& snapshot);
+/// Throws IoError if a state has more fluid particles than its case can have.
+void expect_particles_of_case(const Simulation& sim, double particles);
 
 /// Puts a state into a simulation: of a rank the fluid particles and tiles of its range, and all
 /// else as one process has it. Called by all ranks.

@@ -107,6 +107,101 @@ TEST_F(Checkpoint, ThatIsDamagedGivesWayToTheOneBefore)
     EXPECT_THROW(read_newest_checkpoint(folder), IoError);
 }
 
+// One in parts, of which each has its number and that of the checkpoint.
+void write_in_parts(const std::filesystem::path& folder, double number, int count)
+{
+    const std::int64_t set = next_part_set(folder);
+    std::vector<CheckpointPart> parts;
+    for (int part = 0; part < count; ++part) {
+        Snapshot own;
+        own.arrays["number"] = {"", "", 1, std::vector<double>{number, 1.0 * part}};
+        parts.push_back(write_checkpoint_part(folder, set, part, own));
+    }
+    write_checkpoint(folder, {{}, {{"step", std::to_string(number)}}}, parts);
+}
+
+// The number of a checkpoint, of which all parts must be.
+double number_of(const std::filesystem::path& folder, const NewestCheckpoint& newest)
+{
+    double number = -1;
+    for (std::size_t part = 0; part < newest.parts.size(); ++part) {
+        const Snapshot own = read_checkpoint_part(folder, newest.parts[part]);
+        const auto& values = std::get<std::vector<double>>(own.arrays.at("number").values);
+        EXPECT_EQ(values.at(1), static_cast<double>(part));
+        EXPECT_TRUE(part == 0 || values.at(0) == number);
+        number = values.at(0);
+    }
+    return number;
+}
+
+TEST_F(Checkpoint, InPartsKeepsTwoGenerationsAndNoOtherParts)
+{
+    for (const int count : {1, 4, 2, 3}) {
+        write_in_parts(folder, count, count);
+        const NewestCheckpoint newest = read_newest_checkpoint(folder);
+        EXPECT_EQ(newest.parts.size(), static_cast<std::size_t>(count));
+        EXPECT_EQ(number_of(folder, newest), count);
+        EXPECT_EQ(newest.snapshot.texts.size(), 1U);
+        EXPECT_THROW(read_checkpoint(folder), IoError); // its particles are elsewhere
+    }
+    EXPECT_EQ(testing::content_of(folder).size(), 2U + 2 + 3);
+    // Whatever a kill leaves of a set that was never named does not hinder the next one.
+    write_checkpoint_part(folder, next_part_set(folder), 0, {});
+    write_in_parts(folder, 7, 2);
+    EXPECT_EQ(number_of(folder, read_newest_checkpoint(folder)), 7);
+    EXPECT_EQ(testing::content_of(folder).size(), 2U + 3 + 2);
+    write_checkpoint(folder, make_snapshot());
+    write_checkpoint(folder, make_snapshot());
+    EXPECT_EQ(testing::content_of(folder).size(), 2U);
+}
+
+TEST_F(Checkpoint, WithAPartThatIsNotItsOwnGivesWayToTheOneBefore)
+{
+    const auto part_of = [&](int part) {
+        return folder /
+               read_newest_checkpoint(folder).parts.at(static_cast<std::size_t>(part)).name;
+    };
+    for (const char* const fault : {"missing", "torn", "of another checkpoint", "cut"}) {
+        for (int part = 0; part < 3; ++part) {
+            write_in_parts(folder, 1, 3);
+            const std::filesystem::path old = part_of(part);
+            write_in_parts(folder, 2, 3);
+            const std::filesystem::path bad = part_of(part);
+            if (std::string_view(fault) == "missing") {
+                std::filesystem::remove(bad);
+            } else if (std::string_view(fault) == "torn") {
+                put_text_into(bad, "torn");
+            } else if (std::string_view(fault) == "cut") {
+                std::filesystem::resize_file(bad, std::filesystem::file_size(bad) - 1);
+            } else {
+                std::filesystem::copy_file(old, bad,
+                                           std::filesystem::copy_options::overwrite_existing);
+            }
+            const NewestCheckpoint newest = read_newest_checkpoint(folder);
+            EXPECT_EQ(number_of(folder, newest), 1) << fault;
+            EXPECT_NE(newest.passed_over.find(bad.filename().string()), std::string::npos)
+                << newest.passed_over;
+        }
+    }
+}
+
+// Of names that lead elsewhere nothing is read.
+TEST_F(Checkpoint, NamesNoPartsOutOfItsFolder)
+{
+    for (const char* const name :
+         {"../checkpoint.000001.0000.h5", "/etc/passwd", "case.toml", ""}) {
+        write_checkpoint(folder, {}, {{name, 10, 1}});
+        try {
+            read_newest_checkpoint(folder);
+            ADD_FAILURE() << name;
+        } catch (const IoError& error) {
+            EXPECT_NE(std::string(error.what()).find("it names"), std::string::npos)
+                << error.what();
+        }
+        std::filesystem::remove(folder / "checkpoint.h5");
+    }
+}
+
 TEST_F(Checkpoint, NoticesAFlippedBitAnywhere)
 {
     write_checkpoint(folder, make_snapshot());

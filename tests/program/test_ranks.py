@@ -27,6 +27,7 @@ ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive
                "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 SHORT_DAM = DAM.replace("end = 0.4", "end = 0.12")
+PART = r"\.\d{4}\."  # in the name of a file with a part of a frame
 LONG_DAM = DAM.replace("end = 0.4", "end = 60.0")
 
 
@@ -76,15 +77,34 @@ class RanksTest(ProgramTest):
             time.sleep(0.005)
 
     def expect_equal(self, one, other):
-        """All that a run writes, except for what tells of the processes, of the machine and of times."""
+        """All that a run writes, except for what tells of the processes, of the machine and of times. Of frames in parts
+        the numbers of all particles, in their order."""
         def names(folder):
             return sorted(str(p.relative_to(self.dir / folder)) for p in (self.dir / folder).rglob("*")
-                          if p.suffix in (".hdf", ".csv", ".series") and p.name != "ranks.csv")
+                          if p.suffix in (".hdf", ".csv", ".series") and p.name != "ranks.csv"
+                          and p.parent.name != "csv" and not re.search(PART, p.name))
         self.assertEqual(names(one), names(other))
         self.assertIn("frames/fluid_000000.hdf", names(one))
         self.assertIn("energy.csv", names(one))
-        for name in names(one):
+        split = {re.sub(PART, ".", name) for folder in (one, other) for name in self.parts(folder)}
+        for name in set(names(one)) - split:
             self.assertEqual(self.read(one, name), self.read(other, name), name)
+        if split:
+            one_table, other_table = self.tables(one), self.tables(other)
+            self.assertEqual(list(one_table), list(other_table))
+            for name, text in one_table.items():
+                self.assertEqual(text, other_table[name], name)
+
+    def parts(self, folder):
+        """Files with a part of a frame."""
+        return sorted(str(p.relative_to(self.dir / folder)) for p in (self.dir / folder).rglob("*.hdf")
+                      if re.search(PART, p.name))
+
+    def tables(self, folder):
+        """The particles of all frames."""
+        done = self.call("convert", folder, "--to", "csv", "--force")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return {p.name: p.read_bytes() for p in sorted((self.dir / folder / "csv").glob("*.csv"))}
 
     def children(self, process):
         """The processes of a run by their rank."""
@@ -166,7 +186,7 @@ class Bits(RanksTest):
         self.run_by(3, "out")
         rows = list(csv.DictReader(line for line in (self.dir / "out/ranks.csv").read_text().splitlines()
                                    if not line.startswith("#")))
-        frames = len(list((self.dir / "out/frames").glob("fluid_*")))
+        frames = len(list((self.dir / "out/frames").glob("fluid_??????.hdf")))
         self.assertEqual([row["rank"] for row in rows], ["0", "1", "2"] * frames)
         fluid = json.loads((self.dir / "out/plan.json").read_text())["counts"]["fluid"]
         for frame in range(frames):
@@ -282,10 +302,98 @@ class Ends(RanksTest):
             self.run_by(ranks, "out", *(["--resume"] if until != "0.03" else []), "--until", until)
         self.expect_equal("whole", "out")
 
-    def test_a_checkpoint_has_the_contents_of_that_of_one_process(self):
-        for ranks in (1, 2):
-            self.run_by(ranks, f"by{ranks}", "--until", "0.06")
-        self.assertEqual(self.read("by1", "checkpoint.h5"), self.read("by2", "checkpoint.h5"))
+    def test_files_in_one_part_have_the_bytes_of_those_of_one_process(self):
+        self.run_by(1, "one", "--until", "0.06")
+        for ranks in (2, 3):
+            out = f"by{ranks}"
+            self.run_by(ranks, out, "--until", "0.06", "--parts", "1")
+            self.assertEqual(self.parts(out), [])
+            self.assertEqual(self.read("one", "checkpoint.h5"), self.read(out, "checkpoint.h5"))
+            self.expect_equal("one", out)
+
+    def test_a_checkpoint_in_parts_is_continued_by_any_number_of_processes(self):
+        self.run_by(1, "whole")
+        for ranks, most, parts in ((2, 64, 2), (5, 2, 2), (4, 3, 3), (3, 64, 3)):
+            self.run_by(ranks, "parts", "--force", "--until", "0.05", "--parts", most)
+            self.assertEqual(len(list((self.dir / "parts/frames").glob("fluid_000000.*.hdf"))), parts)
+            # Two generations, and nothing of those before.
+            files = [p.name for p in (self.dir / "parts").glob("checkpoint.0*.h5")]
+            self.assertEqual(sorted({name.split(".")[2] for name in files}), [f"{k:04}" for k in range(parts)])
+            self.assertLessEqual(len(files), 2 * parts)
+            for by in (1, 2, 5):
+                shutil.copytree(self.dir / "parts", self.dir / "out")
+                self.run_by(by, "out", "--resume")
+                self.expect_equal("whole", "out")
+                if by == 1:
+                    shutil.copytree(self.dir / "out", self.dir / "again")
+                    self.run_by(1, "again", "--resume", "--set", "time.end=0.13")
+                    self.assertEqual(list((self.dir / "again").glob("checkpoint.0*.h5")), [])
+                    shutil.rmtree(self.dir / "again")
+                shutil.rmtree(self.dir / "out")
+
+    def test_a_part_of_a_checkpoint_that_is_missing_or_wrong_is_named(self):
+        """And the checkpoint before goes on; without one, nothing is changed."""
+        self.run_by(1, "whole")
+        self.run_by(3, "good", "--until", "0.05")
+        self.run_by(3, "other", "--until", "0.06")
+        newest = max((self.dir / "good").glob("checkpoint.0*.0001.h5")).name
+
+        def cut(part):
+            part.write_bytes(part.read_bytes()[:-1000])
+
+        def flip(part):
+            content = bytearray(part.read_bytes())
+            content[len(content) // 2] ^= 1
+            part.write_bytes(content)
+
+        def of_another(part):
+            shutil.copy(max((self.dir / "other").glob("checkpoint.0*.0001.h5")), part)
+        for damage, told in ((lambda part: part.unlink(), "does not exist"), (cut, "damaged"), (flip, "damaged"),
+                             (of_another, "another checkpoint")):
+            for by in (1, 2):
+                for with_previous in (True, False):
+                    shutil.copytree(self.dir / "good", self.dir / "out")
+                    damage(self.dir / "out" / newest)
+                    if not with_previous:
+                        (self.dir / "out/checkpoint.previous.h5").unlink()
+                        message = self.run_by(by, "out", "--resume", code=4)
+                        self.assertIn(newest, message)
+                        self.assertIn(told, message)
+                    else:
+                        self.run_by(by, "out", "--resume")
+                        self.assertIn(newest, self.read("out", "run.log").decode())
+                        self.expect_equal("whole", "out")
+                    shutil.rmtree(self.dir / "out")
+
+    def test_a_part_of_a_frame_that_is_missing_or_wrong_is_named(self):
+        self.run_by(2, "out")
+        frames = self.dir / "out/frames"
+        good = (frames / "fluid_000001.0001.hdf").read_bytes()
+        for damage in ("missing", "cut"):
+            if damage == "missing":
+                (frames / "fluid_000001.0001.hdf").unlink()
+            else:
+                (frames / "fluid_000001.0001.hdf").write_bytes(good[:-8])
+            for arguments in (("convert", "out", "--to", "csv", "--force"),
+                              ("convert", "out", "--to", "vtkhdf", "--force")):
+                done = self.call(*arguments)
+                self.assertEqual(done.returncode, 4, (arguments, done.stdout, done.stderr))
+                self.assertIn("fluid_000001.0001.hdf", done.stderr)
+        (frames / "fluid_000001.0001.hdf").write_bytes(good)
+        self.assertEqual(self.call("convert", "out", "--to", "csv", "--force").returncode, 0)
+
+    def test_parts_of_frames_that_were_not_finished_are_removed(self):
+        self.run_by(1, "whole")
+        self.run_by(3, "out", "--until", "0.05")
+        frames = self.dir / "out/frames"
+        # As a kill may leave them: parts of a next frame, from more processes than go on.
+        last = max(frames.glob("fluid_*.0000.hdf")).name
+        number = int(last[6:12])
+        for k, part in ((number + 1, 0), (number + 1, 1), (number + 2, 7)):
+            shutil.copy(frames / last, frames / f"fluid_{k:06}.{part:04}.hdf")
+        self.run_by(2, "out", "--resume")
+        self.expect_equal("whole", "out")
+        self.assertEqual(list(frames.glob("*.0007.hdf")), [])
 
     def test_a_mistake_in_the_case_is_told_once(self):
         self.write(SHORT_DAM.replace("density = 400.0", "density = -400.0"))
@@ -359,7 +467,7 @@ class Ends(RanksTest):
             self.assertEqual(len(alone), 1)
             for ranks in (2, 3):
                 out = f"by{ranks}-{number}"
-                message = self.run_by(ranks, out, *settings, code=3)
+                message = self.run_by(ranks, out, *settings, "--parts", "1", code=3)
                 self.assertEqual(told.findall(message), alone, message)
                 self.expect_equal(one, out)
                 self.assertEqual(self.read(one, "checkpoint.h5"), self.read(out, "checkpoint.h5"))

@@ -7,7 +7,7 @@
 #include "runs.hpp"
 
 #include "hyoryu/sim/dealing.hpp"
-#include "hyoryu/sim/whole.hpp"
+#include "hyoryu/sim/state_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -353,10 +353,13 @@ inline Snapshot saved(const Case& of, int ranks, int steps, const Snapshot* befo
     testing::on_ranks(ranks, [&](Comm& comm) {
         Simulation sim = of.start(&comm);
         if (before != nullptr) {
-            restore(sim, &comm, comm.rank() == 0 ? before : nullptr);
+            restore(sim, &comm, one_part(sim, comm.rank() == 0 ? *before : Snapshot{}));
         }
         run(sim, steps);
-        with_whole(sim, &comm, [&] { state = save(sim); });
+        Snapshot whole = save_whole(sim, comm);
+        if (comm.rank() == 0) {
+            state = std::move(whole);
+        }
         run(sim, 1); // goes on as if nothing had been
     });
     return state;

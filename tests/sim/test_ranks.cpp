@@ -187,6 +187,85 @@ TEST(Ranks, ACheckpointShowsNoRanksAndServesAnyNumberOfThem)
     }
 }
 
+// The state of ranks in parts of groups of them, read by the ranks that take it up.
+struct SavedParts {
+    Snapshot common;
+    std::vector<Snapshot> parts;
+};
+
+SavedParts saved_in_parts(const Case& of, int ranks, int most, int steps)
+{
+    SavedParts saved;
+    const Groups groups = group_ranks(ranks, most);
+    saved.parts.resize(static_cast<std::size_t>(groups.count));
+    testing::on_ranks(ranks, [&](Comm& comm) {
+        Simulation sim = of.start(&comm);
+        run(sim, steps);
+        Snapshot state = save(sim);
+        Snapshot particles = gather_particles(sim, comm, groups, take_particles(sim, state));
+        if (groups.leads(comm.rank())) {
+            saved.parts[static_cast<std::size_t>(groups.of(comm.rank()))] = std::move(particles);
+        }
+        if (comm.rank() == 0) {
+            saved.common = std::move(state);
+        }
+    });
+    return saved;
+}
+
+Snapshot continued(const Case& of, const SavedParts& from, int ranks, int steps)
+{
+    const auto state_for = [&](int rank) {
+        return StateParts{.common = rank == 0 ? from.common : Snapshot{},
+                          .count = static_cast<int>(from.parts.size()),
+                          .particles = [&from, rank, ranks](int part) {
+                              EXPECT_EQ(part % ranks, rank);
+                              return from.parts[static_cast<std::size_t>(part)];
+                          }};
+    };
+    if (ranks == 1) {
+        Simulation sim = of.start(nullptr);
+        restore(sim, nullptr, state_for(0));
+        run(sim, steps);
+        return save(sim);
+    }
+    Snapshot state;
+    testing::on_ranks(ranks, [&](Comm& comm) {
+        Simulation sim = of.start(&comm);
+        restore(sim, &comm, state_for(comm.rank()));
+        run(sim, steps);
+        Snapshot whole = save_whole(sim, comm);
+        if (comm.rank() == 0) {
+            state = std::move(whole);
+        }
+    });
+    return state;
+}
+
+// Particles, walls that move, friction of the last step and bodies are in the parts: none is lost
+// or taken twice, whatever number of parts, of ranks that wrote and of ranks that read.
+TEST(Ranks, AStateInPartsServesAnyNumberOfThem)
+{
+    Dice dice(3);
+    for (const std::string& text : {dam + crates, tank, ring}) {
+        const Case of(text, {"fluid.walls=\"no_slip\"", "fluid.viscosity.model=\"laminar\"",
+                             "fluid.viscosity.kinematic=1e-3"});
+        Simulation one = of.start(nullptr);
+        run(one, 100);
+        const Snapshot end = save(one);
+        for (int k = 0; k < 5; ++k) {
+            const int ranks = 2 + dice.below(6);
+            const int most = 1 + dice.below(ranks);
+            const int readers = k == 0 ? 1 : 2 + dice.below(6);
+            SCOPED_TRACE(fmt::format("{}: {} ranks, at most {} parts, then {} ranks",
+                                     of.scene.title, ranks, most, readers));
+            const SavedParts saved = saved_in_parts(of, ranks, most, 60);
+            EXPECT_EQ(std::ssize(saved.parts), most);
+            expect_same_bits(continued(of, saved, readers, 40), end);
+        }
+    }
+}
+
 TEST(Ranks, OpenSidesHaveTheBitsOfOneProcess)
 {
     const std::string river = case_of({.near = inflow(0.4, 0.3)});

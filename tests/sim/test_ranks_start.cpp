@@ -125,7 +125,7 @@ std::string fault_of(const Case& of, const Snapshot& state)
     try {
         testing::on_ranks(3, [&](Comm& comm) {
             Simulation sim = of.start(&comm);
-            restore(sim, &comm, comm.rank() == 0 ? &state : nullptr);
+            restore(sim, &comm, one_part(sim, comm.rank() == 0 ? state : Snapshot{}));
         });
     } catch (const IoError& error) {
         return error.what();
@@ -160,7 +160,7 @@ TEST(RanksAtTheStart, DamagedCheckpointsAreTold)
     expect_fault("does not fit its tiles", [&](Snapshot& state) {
         std::get<std::vector<double>>(state.arrays.at("fluid/Density").values).resize(7);
     });
-    expect_fault("it belongs to another case", [&](Snapshot& state) {
+    expect_fault("belongs to another case", [&](Snapshot& state) {
         std::get<std::vector<std::int64_t>>(state.arrays.at("fluid/id").values).resize(1000000);
     });
     expect_fault("without a finite position", [&](Snapshot& state) {

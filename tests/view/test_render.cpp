@@ -10,6 +10,7 @@
 
 #include <vtkFieldData.h>
 #include <vtkHDFReader.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
@@ -227,6 +228,54 @@ TEST_F(Render, FramesAreWhatVtkReads)
     ASSERT_NE(surface, nullptr);
     EXPECT_EQ(surface->GetNumberOfCells(), 2);
     EXPECT_EQ(surface->GetCellType(1), VTK_TRIANGLE);
+}
+
+// Parts of different sizes, one of them empty; VTK reads the frame over them as any other.
+TEST_F(Render, FramesInPartsAreWhatVtkReads)
+{
+    FrameWriter writer(folder);
+    CloudOfParts whole{.name = "fluid", .time = 0.4, .index = 4, .points = {}, .columns = {}};
+    double last = 0;
+    for (const std::size_t points : {70000U, 0U, 3U, 500U}) {
+        Cloud part = testing::make_cloud("fluid", 4, points);
+        whole.columns = testing::make_cloud("fluid", 4, 0).columns;
+        last = points > 0 ? part.points[3 * points - 3] : last;
+        writer.write_part(std::move(part), static_cast<int>(whole.points.size()));
+        whole.points.push_back(static_cast<std::int64_t>(points));
+    }
+    writer.write(whole);
+    writer.finish();
+    vtkNew<vtkHDFReader> reader;
+    ASSERT_EQ(reader->CanReadFile((folder / "frames/fluid_000004.hdf").c_str()), 1);
+    reader->SetFileName((folder / "frames/fluid_000004.hdf").c_str());
+    reader->Update();
+    auto* cloud = vtkUnstructuredGrid::SafeDownCast(reader->GetOutput());
+    ASSERT_NE(cloud, nullptr);
+    ASSERT_EQ(cloud->GetNumberOfPoints(), 70503);
+    ASSERT_EQ(cloud->GetNumberOfCells(), 70503);
+    for (const vtkIdType cell : {0, 69999, 70000, 70002, 70003, 70502}) {
+        EXPECT_EQ(cloud->GetCellType(cell), VTK_VERTEX);
+        vtkNew<vtkIdList> of_cell;
+        cloud->GetCellPoints(cell, of_cell);
+        ASSERT_EQ(of_cell->GetNumberOfIds(), 1);
+        EXPECT_EQ(of_cell->GetId(0), cell);
+    }
+    EXPECT_DOUBLE_EQ(cloud->GetPoint(70502)[0], last);
+    const Cloud read = read_frame(folder / "frames/fluid_000004.hdf");
+    auto* velocity = cloud->GetPointData()->GetArray("Velocity");
+    ASSERT_EQ(velocity->GetNumberOfTuples(), 70503);
+    for (const Column& column : read.columns) {
+        if (column.name == "Velocity") {
+            const auto& values = std::get<std::vector<float>>(column.values);
+            for (const vtkIdType row : {0, 69999, 70000, 70002, 70003, 70502}) {
+                EXPECT_EQ(values.at(static_cast<std::size_t>(3 * row + 2)),
+                          static_cast<float>(velocity->GetComponent(row, 2)));
+            }
+        }
+    }
+    EXPECT_DOUBLE_EQ(cloud->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 0.4);
+    std::filesystem::resize_file(folder / "frames/fluid_000004.0003.hdf", 100);
+    EXPECT_THROW(read_frame(folder / "frames/fluid_000004.hdf"), IoError);
 }
 
 TEST_F(Render, OfNothingIsAnError)

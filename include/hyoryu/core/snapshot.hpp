@@ -30,6 +30,15 @@ struct Cloud {
     std::vector<Column> columns; // one value (or vector) a point
 };
 
+/// A cloud that several processes have written: a file each.
+struct CloudOfParts {
+    std::string name;
+    double time = 0;                  // [s]
+    std::int64_t index = 0;           // number of the frame
+    std::vector<std::int64_t> points; // of each part
+    std::vector<Column> columns;      // without values
+};
+
 /// Triangles at one moment: the surfaces of the bodies.
 struct Surface {
     std::string name = "surfaces";

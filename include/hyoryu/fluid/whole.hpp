@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: MIT
-// From the fluid of one of several processes to that of one, and back: what is read and written,
-// such as a checkpoint, is whole and shows neither that there were ranks nor how many.
+// What of the fluid of a rank differs from that of one process: which tiles and rows it has.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
 
 namespace hyoryu {
 
-/// The parts of a fluid in which the store of a rank differs from that of one process.
-struct WholeFluid {
-    Particles particles;
-    Tiles fluid, wall, body;
-};
-
-/// Gathers the particles and tiles of all ranks on rank 0, in the order of one process. Called by
-/// all ranks; empty on the others.
-WholeFluid gather_whole(const Fluid& fluid);
-
-/// Exchanges the parts of a fluid with those of another, and its ghosts.
-void swap_parts(Fluid& fluid, WholeFluid& whole, std::unique_ptr<Ghosts>& ghosts);
+/// The body particles as one process has them, on rank 0: each rank has set those in its tiles.
+/// Called by all ranks; the others get their own.
+Store whole_bodies(const Fluid& fluid);
 
 /// Cuts by which all ranks have about the same number of fluid particles.
 Cuts even_cuts(const TileLattice& lattice, std::span<const Vec3> fluid, int ranks);

@@ -66,8 +66,15 @@ public:
     /// A cloud or surface that never changes: `<name>.hdf` in the folder itself.
     void write_static(Cloud cloud);
     void write_static(Surface surface);
-    /// Removes every frame later than `time` and its place in the series: a resumed run writes them
-    /// again. Waits for frames on their way.
+    /// A part of a frame, `frames/<name>_000012.0003.hdf`, and of a cloud that never changes.
+    void write_part(Cloud cloud, int part);
+    void write_static_part(Cloud cloud, int part);
+    /// The frame, or the cloud that never changes, over its parts: written once all of them are on
+    /// disk, by whatever process. Of all parts at least one must have been given to this writer.
+    void write(CloudOfParts cloud);
+    void write_static(CloudOfParts cloud);
+    /// Removes every frame later than `time` and its place in the series, and parts of no frame: a
+    /// resumed run writes them again. Waits for frames on their way.
     void forget_after(double time);
     /// Waits until all data is on disk and throws the first error.
     void finish();
@@ -137,22 +144,44 @@ std::string cell(std::string_view text);
 void write_master(const std::filesystem::path& folder, const std::string& case_text,
                   const std::string& version);
 
+/// A file with a part of a checkpoint, which the checkpoint itself names.
+struct CheckpointPart {
+    std::string name;        // in the results folder
+    std::uint64_t bytes = 0; // of its content
+    std::uint32_t checksum = 0;
+};
+
+/// Number of a set of parts that the folder does not have yet: parts never replace each other,
+/// since the checkpoint before must stay whole until the new one is. Throws IoError.
+std::int64_t next_part_set(const std::filesystem::path& folder);
+
+/// Writes `checkpoint.SET.PART.h5`.
+CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
+                                     int part, Snapshot snapshot);
+
 /// Writes `checkpoint.h5`; the one that stood there becomes `checkpoint.previous.h5`. At every
 /// moment at least one of the two is whole. Arrays of the snapshot are freed as they are written.
-void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot);
+/// `parts`: what is in other files, all of which are on disk. Parts that neither of the two names
+/// are removed.
+void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot,
+                      const std::vector<CheckpointPart>& parts = {});
 
-/// Reads `checkpoint.h5`. Throws IoError if the file is missing, damaged (checksum), of another
-/// format version or of another program.
+/// Reads a part. Throws IoError if it is missing, damaged, or not the one that was written.
+Snapshot read_checkpoint_part(const std::filesystem::path& folder, const CheckpointPart& part);
+
+/// Reads `checkpoint.h5`, which has no parts. Throws IoError if the file is missing, damaged
+/// (checksum), of another format version or of another program.
 Snapshot read_checkpoint(const std::filesystem::path& folder);
 
 /// The newest checkpoint of a folder that can be read.
 struct NewestCheckpoint {
     Snapshot snapshot;
-    std::string passed_over; // why `checkpoint.h5` was not it; empty if it was
+    std::vector<CheckpointPart> parts; // that were checked, and are not read yet
+    std::string passed_over;           // why `checkpoint.h5` was not it; empty if it was
 };
 
-/// Reads `checkpoint.h5` or, if that cannot be read, `checkpoint.previous.h5`. Throws IoError with
-/// the reasons if neither can.
+/// Reads `checkpoint.h5` or, if that or one of its parts cannot be read,
+/// `checkpoint.previous.h5`. Throws IoError with the reasons if neither can.
 NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder);
 
 /// Puts `checkpoint.previous.h5` in the place of a `checkpoint.h5` that cannot be read, so that the

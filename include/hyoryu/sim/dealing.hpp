@@ -13,10 +13,4 @@ namespace hyoryu {
 /// rank 0; on the others the filling is not looked at and the plan is replaced.
 void deal_plan(Comm& comm, const Scene& scene, const Filling& filling, Plan& plan);
 
-/// Puts the state that rank 0 has into a simulation that was made from the same case for all ranks:
-/// each takes its fluid particles, and what all ranks hold, such as the bodies. `state`: of rank 0;
-/// not looked at on the others. `comm`: null for one process. Throws IoError, on rank 0 or on the
-/// rank that finds the fault, if the state does not fit the case.
-void restore(Simulation& sim, Comm* comm, const Snapshot* state);
-
 } // namespace hyoryu

@@ -100,7 +100,8 @@ std::size_t hits_of_step(const WallBarrier& barrier);
 
 /// Fluid particles that are deeper than a quarter of a spacing inside a wall or body, now. Looks at
 /// every particle and every solid near it, whatever the barrier has looked at; not at the carpets
-/// of open sides, whose ground is that of the window carried out.
+/// of open sides, whose ground is that of the window carried out. Those of all processes; called by
+/// all of them.
 Index particles_in_solids(const Simulation& sim);
 
 /// Counts them for a frame, or for the end of a run, and records the maximum so far.
