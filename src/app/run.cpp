@@ -93,8 +93,8 @@ StateParts good_parts(const Job& job)
 void recover(Job& job, const NumericalError& error)
 {
     const Scene& scene = job.sim.scene;
-    const Filling filling = writes(job.comm) ? fill(scene) : Filling{};
-    Simulation sim = make_simulation(scene, job.sim.plan, filling, job.comm);
+    Filling filling = writes(job.comm) ? fill(scene) : Filling{};
+    Simulation sim = make_simulation(scene, job.sim.plan, std::move(filling), job.comm);
     if (job.comm == nullptr) {
         restore(sim, *job.last_good);
     } else {

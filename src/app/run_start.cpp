@@ -175,8 +175,7 @@ Job start(const Beginning& from, Filling filling)
     if (writes(from.comm)) {
         lock.emplace(begin_folder(from, case_text, filling));
     }
-    Simulation sim = make_simulation(from.scene, from.plan, filling, from.comm);
-    filling = {}; // as large as the state of the fluid, and no more needed
+    Simulation sim = make_simulation(from.scene, from.plan, std::move(filling), from.comm);
     Job job = follower(from, std::move(sim));
     if (writes(from.comm)) {
         job.case_text = case_text;
@@ -202,8 +201,7 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
         lock.emplace(prepare_results(from.folder, Existing::extend));
         forget_stop_request(from.folder);
     }
-    Simulation sim = make_simulation(from.scene, from.plan, filling, from.comm);
-    filling = {}; // as large as the state of the fluid, and no more needed
+    Simulation sim = make_simulation(from.scene, from.plan, std::move(filling), from.comm);
     const Snapshot common = take_up(from, state, sim);
     Job job = follower(from, std::move(sim));
     job.first_step = job.good_step = job.saved_step = job.sim.clock.step;

@@ -147,7 +147,7 @@ void add_particles(Simulation& sim, const Filling& filling)
 }
 
 // The same of a rank; `filling`: of rank 0.
-void add_own_particles(Simulation& sim, const Filling& filling, Comm& comm)
+void add_own_particles(Simulation& sim, Filling filling, Comm& comm)
 {
     if (!sim.plan.fluid) {
         add_body_points(sim, deal_out(sim.scene, filling, nullptr, comm).filling.bodies);
@@ -156,6 +156,7 @@ void add_own_particles(Simulation& sim, const Filling& filling, Comm& comm)
     Fluid fluid = empty_fluid(sim.scene, sim.plan);
     const TileLattice lattice = lattice_of(fluid);
     Share own = deal_out(sim.scene, filling, &lattice, comm);
+    filling = {};
     add_body_points(sim, own.filling.bodies);
     fluid.fixed_walls = std::move(own.walls);
     share(fluid, comm, own.cuts);
@@ -187,7 +188,7 @@ void start_fluid(Simulation& sim)
 
 } // namespace
 
-Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling, Comm* comm)
+Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling, Comm* comm)
 {
     Simulation sim{.scene = scene, .plan = plan, .comm = comm};
     sim.rigid = make_rigid(scene);
@@ -205,8 +206,9 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& 
     }
     if (comm == nullptr) {
         add_particles(sim, filling);
+        filling = {}; // the lists take as much memory
     } else {
-        add_own_particles(sim, filling, *comm);
+        add_own_particles(sim, std::move(filling), *comm);
     }
     if (sim.fluid) {
         start_fluid(sim);

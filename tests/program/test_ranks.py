@@ -221,8 +221,8 @@ open = ["+z"]
             self.run_by(4, "out", *arguments)
             with open(self.dir / "out/ranks.csv") as file:
                 rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-            others = [float(row["memory"]) for row in rows if row["rank"] != "0"]
-            self.assertLess(max(others), 0.6 * one, (arguments, one, others))
+            largest = max(float(row["memory"]) for row in rows)
+            self.assertLess(largest, 0.65 * one, (arguments, one, rows))  # half are copies of others' particles, and MPI
 
     def test_the_report_shows_what_each_process_had_and_did(self):
         self.run_by(1, "alone")

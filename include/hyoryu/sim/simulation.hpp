@@ -52,8 +52,9 @@ struct Simulation {
 
 /// The scene at time 0 with the particles of `filling`. `comm`, null for one process, outlives the
 /// simulation; of a case that several processes share, `filling` is that of rank 0, which deals out
-/// its fluid, and is not looked at on the others.
-Simulation make_simulation(const Scene& scene, const Plan& plan, const Filling& filling,
+/// its fluid, and is not looked at on the others. It is as large as the state: move it in where it
+/// is no more needed.
+Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling,
                            Comm* comm = nullptr);
 
 /// Advances by one step, limited as the clock says. Throws NumericalError when the state after it
