@@ -46,8 +46,9 @@ Handle in_memory_access(std::size_t content)
     // Few reallocations, little waste: HDF5 fills a portion with zeros before anything is in it,
     // so equal portions are chosen that together hold what is expected.
     constexpr std::size_t around_content = std::size_t{64} << 10; // headers, groups, attributes
-    constexpr std::size_t largest = std::size_t{8} << 20;
+    constexpr std::size_t mebi = std::size_t{1} << 20;
     const std::size_t expected = content + around_content;
+    const std::size_t largest = std::clamp(expected / 32, mebi, 8 * mebi);
     const std::size_t portions = (expected + largest - 1) / largest;
     const std::size_t growth = (expected + portions - 1) / portions;
     check(H5Pset_fapl_core(access, growth, false), "prepare an HDF5 file");

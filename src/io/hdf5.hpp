@@ -53,7 +53,7 @@ void check(herr_t status, std::string_view action);
 class FileImage {
 public:
     /// `content`: expected size of the file in bytes. Memory for it is allocated in equal portions
-    /// of at most 8 MiB, and each portion is touched as a whole.
+    /// of 1 to 8 MiB, and each portion is touched as a whole.
     explicit FileImage(std::size_t content);
     operator hid_t() const { return file_; }
     /// The bytes of the finished file; they live as long as this object and no more may be added.
