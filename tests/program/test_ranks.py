@@ -449,6 +449,25 @@ class Ends(RanksTest):
             self.assertIn("memory", message)
             shutil.rmtree(self.dir / "out")
 
+    def test_a_disk_that_is_full_for_one_process_ends_the_run(self):
+        """Its limit on the size of a file stands for the disk."""
+        self.write(LONG_DAM.replace("spacing = 0.02", "spacing = 0.01"))
+        for rank in (0, 1, 2):
+            process = self.start(3, "run", self.case, "-o", "out", "--force")
+            self.wait_for(process, "checkpoint.previous.h5")
+            resource.prlimit(self.children(process)[rank], resource.RLIMIT_FSIZE, (20000, 20000))
+            code, message = self.finish(process)
+            self.assertEqual(code, 4, message)
+            self.assertEqual(message.count("error: "), 1, message)
+            self.assertIn("File too large", message)
+            self.run_by(2, "out", "--resume", "--set", f"time.end={self.time_of('out') + 0.004}")
+            shutil.rmtree(self.dir / "out")
+
+    def time_of(self, out):
+        """The time of a checkpoint [s]: what a refusal says of it."""
+        message = self.run_by(1, out, "--resume", "--set", "time.end=1e-9", code=2)
+        return float(re.search(r"which is at (\S+) s", message)[1])
+
     def test_existing_results_are_told_once_and_stay(self):
         self.run_by(1, "out", "--until", "0.01")
         before = self.read("out", "energy.csv")
