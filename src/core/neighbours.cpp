@@ -336,6 +336,17 @@ void PairList::mark_met(std::vector<std::uint8_t>& marks) const
     });
 }
 
+void PairList::mark_looked_at(std::vector<std::uint8_t>& marks, Index first) const
+{
+    for (const ListBlock& block : blocks_) {
+        for (const SourceChunk& chunk : std::span(block.chunk, at(block.chunks))) {
+            if (chunk.slot >= first) {
+                std::fill_n(marks.begin() + (chunk.slot - first), chunk.count, std::uint8_t(1));
+            }
+        }
+    }
+}
+
 std::int32_t PairList::most_chunks() const
 {
     std::int32_t most = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/fluid/ghosts.hpp"
 
+#include "lists.hpp"
 #include "sharing.hpp"
 #include "sweeps.hpp"
 
@@ -44,7 +45,12 @@ void share_places(Fluid& fluid)
     if (!fluid.ghosts || fluid.neighbours.builds == 0) {
         return;
     }
+    Ghosts& g = *fluid.ghosts;
+    FluidNeighbours& n = fluid.neighbours;
+    g.moved = measure_own(fluid);
     Delivery delivery;
+    delivery.add(g.fluid.halo.tiles, n.fluid_motion.box, g.fluid.motion.box);
+    delivery.add(g.body.halo.tiles, n.body_motion.box, g.body.motion.box);
     deliver_fluid(delivery, fluid,
                   Fields<Position, Density, Gap, GradientCorrection, MixedCorrection>{});
     if (fluid.moving_walls) {
@@ -130,9 +136,11 @@ using ReadOfGhosts = Fields<Position, Velocity, Density, Gap, GradientCorrection
 void make_ghosts(Ghosts& g, GhostsOfKind& kind, const Tiles& tiles, const Store& own, Store& ghosts)
 {
     kind.halo = share_tiles(g.comm, g.cuts, tiles, kind.tiles);
+    kind.motion.box.assign(kind.tiles.tile.size(), {Vec3(0, 0, 0), Vec3(0, 0, 0)});
+    kind.links = all_links(kind.halo);
     ghosts.reset_like(own, kind.halo.count());
     Delivery delivery;
-    deliver(delivery, kind, tiles, own, ghosts, ReadOfGhosts{});
+    deliver(delivery, kind.links, tiles, own, ghosts, ReadOfGhosts{});
     delivery.send(g.comm, g.outbox, g.inbox);
 }
 
@@ -165,6 +173,32 @@ void make_ghosts_of_bodies(Fluid& fluid)
         make_ghosts(g, g.body, fluid.neighbours.body, own, g.particles.body);
         share_owners(g.comm, g.body.halo, fluid.neighbours.body, own, g.particles.body);
     }
+}
+
+void choose_links(Fluid& fluid)
+{
+    if (!fluid.ghosts) {
+        return;
+    }
+    const FluidNeighbours& n = fluid.neighbours;
+    Ghosts& g = *fluid.ghosts;
+    const Index first = g.fluid.tiles.first_slot; // of all ghosts
+    std::vector<std::uint8_t> marks(
+        at(g.fluid.tiles.count() + g.wall.tiles.count() + g.body.tiles.count()), 0);
+    for (const PairList* const list : {&n.fluid_fluid, &n.fluid_solid, &n.wall_fluid, &n.body_fluid,
+                                       &n.body_solid, &n.wall_body}) {
+        list->mark_looked_at(marks, first);
+    }
+    std::vector<LookedAt> looked_at;
+    for (const GhostsOfKind* const kind : {&g.fluid, &g.wall, &g.body}) {
+        looked_at.push_back(
+            {&kind->halo, std::span<const std::uint8_t>(marks).subspan(
+                              at(kind->tiles.first_slot - first), at(kind->tiles.count()))});
+    }
+    std::vector<Links> links = needed_links(g.comm, looked_at);
+    g.fluid.links = std::move(links[0]);
+    g.wall.links = std::move(links[1]);
+    g.body.links = std::move(links[2]);
 }
 
 FrictionOnTheMove::FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice)

@@ -57,8 +57,6 @@ void add_motion_of_ghosts(Fluid& fluid, Displacement& motion)
     Ghosts& g = *fluid.ghosts;
     DisplacementSpace& f = g.fluid.motion;
     DisplacementSpace& b = g.body.motion;
-    bound_motion(g.fluid.tiles, g.particles.fluid[field::position], f.box);
-    bound_motion(g.body.tiles, g.particles.body[field::position], b.box);
     motion.fluid = std::max(motion.fluid, relative_motion(f.box, n.fluid_motion.box, f.fluid));
     motion.solid = std::max({motion.solid, relative_motion(f.box, n.wall_motion.box, f.wall),
                              relative_motion(f.box, n.body_motion.box, f.body),
@@ -68,17 +66,23 @@ void add_motion_of_ghosts(Fluid& fluid, Displacement& motion)
 
 } // namespace
 
-Displacement measure(Fluid& fluid)
+real measure_own(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
     const Particles& particles = fluid.particles;
+    return std::max(bound_motion(n.fluid, particles.fluid[field::position], n.fluid_motion.box),
+                    bound_motion(n.body, particles.body[field::position], n.body_motion.box));
+}
+
+// The boxes of ghosts came with their places.
+Displacement measure(Fluid& fluid)
+{
+    FluidNeighbours& n = fluid.neighbours;
     DisplacementSpace& f = n.fluid_motion;
     DisplacementSpace& w = n.wall_motion;
     DisplacementSpace& b = n.body_motion;
     Displacement motion;
-    motion.absolute = bound_motion(n.fluid, particles.fluid[field::position], f.box);
-    motion.absolute =
-        std::max(motion.absolute, bound_motion(n.body, particles.body[field::position], b.box));
+    motion.absolute = fluid.ghosts ? fluid.ghosts->moved : measure_own(fluid);
     if (fluid.moving_walls || n.steps == 1) { // fixed walls stay where they are
         measure_walls(fluid);
         for (const DisplacementBox& box : w.box) {

@@ -2,6 +2,8 @@
 // The lists of all pair kinds, from tiles that are in order.
 #include "lists.hpp"
 
+#include "sharing.hpp"
+
 #include <algorithm>
 
 namespace hyoryu {
@@ -188,6 +190,7 @@ void build_lists(Fluid& fluid)
     } else {
         clear_lists({&n.body_solid, &n.wall_body});
     }
+    choose_links(fluid);
     connect(fluid);
     count_entries(fluid);
     std::visit(

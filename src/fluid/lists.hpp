@@ -11,6 +11,8 @@ namespace hyoryu {
 const Tiles& measured_walls(const Fluid& fluid);
 /// Bounds of how far particles of walls have moved.
 void measure_walls(Fluid& fluid);
+/// Bounds of how far fluid and body particles of this rank have moved; the largest length.
+real measure_own(Fluid& fluid);
 /// The largest motions since the lists were made, of all ranks.
 Displacement measure(Fluid& fluid);
 

@@ -8,12 +8,12 @@ namespace hyoryu {
 
 /// Adds the listed columns to a delivery, where the store of a kind has them.
 template <class... F>
-void deliver(Delivery& delivery, const GhostsOfKind& kind, const Tiles& tiles, const Store& own,
+void deliver(Delivery& delivery, const Links& links, const Tiles& tiles, const Store& own,
              Store& ghosts, Fields<F...>)
 {
     const auto add = [&](auto field) {
         if (own.has(field)) {
-            delivery.add(kind.halo, tiles, own, ghosts, field);
+            delivery.add(links, tiles, own, ghosts, field);
         }
     };
     (add(F{}), ...);
@@ -23,21 +23,21 @@ template <class List>
 void deliver_fluid(Delivery& delivery, Fluid& fluid, List fields)
 {
     Ghosts& g = *fluid.ghosts;
-    deliver(delivery, g.fluid, fluid.neighbours.fluid, fluid.particles.fluid, g.particles.fluid,
-            fields);
+    deliver(delivery, g.fluid.links, fluid.neighbours.fluid, fluid.particles.fluid,
+            g.particles.fluid, fields);
 }
 template <class List>
 void deliver_walls(Delivery& delivery, Fluid& fluid, List fields)
 {
     Ghosts& g = *fluid.ghosts;
-    deliver(delivery, g.wall, fluid.neighbours.wall, fluid.particles.wall, g.particles.wall,
+    deliver(delivery, g.wall.links, fluid.neighbours.wall, fluid.particles.wall, g.particles.wall,
             fields);
 }
 template <class List>
 void deliver_bodies(Delivery& delivery, Fluid& fluid, List fields)
 {
     Ghosts& g = *fluid.ghosts;
-    deliver(delivery, g.body, fluid.neighbours.body, fluid.particles.body, g.particles.body,
+    deliver(delivery, g.body.links, fluid.neighbours.body, fluid.particles.body, g.particles.body,
             fields);
 }
 
@@ -63,6 +63,8 @@ void share_solids(Fluid& fluid, List fields)
     }
 }
 
+/// From now on values go to those ghosts alone that lists look at.
+void choose_links(Fluid& fluid);
 /// Sends the velocities of all particles that move.
 void share_velocities(Fluid& fluid);
 

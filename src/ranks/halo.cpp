@@ -96,10 +96,12 @@ Halo share_tiles(Comm& comm, const Cuts& cuts, const Tiles& own, Tiles& ghosts)
     const auto ranks = at(comm.size());
     Halo halo;
     halo.out.resize(ranks);
+    halo.tiles = {std::vector<std::vector<std::int32_t>>(ranks), {}};
     std::vector<TileBatch> batch(ranks);
     for (Index t = 0; t < own.tiles(); ++t) {
         for (const int rank : ranks_beside(cuts, own.lattice, own.tile[at(t)], comm.rank())) {
             batch[at(rank)].add(own, t);
+            halo.tiles.out[at(rank)].push_back(static_cast<std::int32_t>(t));
             for (std::int32_t k = own.start[at(t)]; k < own.start[at(t + 1)]; ++k) {
                 halo.out[at(rank)].push_back(k);
             }
@@ -113,13 +115,56 @@ Halo share_tiles(Comm& comm, const Cuts& cuts, const Tiles& own, Tiles& ghosts)
     ghosts = {.lattice = own.lattice};
     for (const Parcel& parcel : in) {
         const Index first = ghosts.start.back();
+        const Index first_tile = ghosts.tiles();
         halo.in.push_back({first, first + append_batch(ghosts, parcel)});
+        halo.tiles.in.push_back(rows_from(first_tile, ghosts.tiles() - first_tile));
     }
     for (std::int32_t k = 0; k < ghosts.start.back(); ++k) {
         ghosts.row.push_back(k);
     }
     bound_chunks(ghosts);
     return halo;
+}
+
+Links all_links(const Halo& halo)
+{
+    Links links{halo.out, {}};
+    for (const Rows& rows : halo.in) {
+        links.in.push_back(rows_from(rows.begin, rows.size()));
+    }
+    return links;
+}
+
+std::vector<Links> needed_links(Comm& comm, std::span<const LookedAt> ghosts)
+{
+    const auto ranks = at(comm.size());
+    std::vector<Links> links(ghosts.size());
+    std::vector<Parcel> out(ranks);
+    for (std::size_t k = 0; k < ghosts.size(); ++k) {
+        links[k] = {std::vector<std::vector<std::int32_t>>(ranks),
+                    std::vector<std::vector<std::int32_t>>(ranks)};
+        for (std::size_t r = 0; r < ranks; ++r) {
+            const Rows& rows = ghosts[k].halo->in[r];
+            put(out[r], ghosts[k].marks.subspan(at(rows.begin), at(rows.size())));
+            for (Index row = rows.begin; row < rows.end; ++row) {
+                if (ghosts[k].marks[at(row)] != 0) {
+                    links[k].in[r].push_back(static_cast<std::int32_t>(row));
+                }
+            }
+        }
+    }
+    const std::vector<Parcel> in = comm.exchange(std::move(out));
+    for (std::size_t r = 0; r < ranks; ++r) {
+        Unpacking from(in[r]);
+        for (std::size_t k = 0; k < ghosts.size(); ++k) {
+            for (const std::int32_t point : ghosts[k].halo->out[r]) {
+                if (from.take<std::uint8_t>() != 0) {
+                    links[k].out[r].push_back(point);
+                }
+            }
+        }
+    }
+    return links;
 }
 
 void share_owners(Comm& comm, const Halo& halo, const Tiles& tiles, const Store& own, Store& ghosts)
@@ -216,15 +261,16 @@ void Delivery::send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& i
         std::size_t sent = 0;
         std::size_t received = 0;
         for (const Part& part : parts_) {
-            sent += part.bytes * part.halo->out[r].size();
-            received += part.bytes * at(part.halo->in[r].size());
+            sent += part.bytes * part.links->out[r].size();
+            received += part.bytes * part.links->in[r].size();
         }
         out[r].resize(sent);
         in[r].resize(received);
         std::byte* next = out[r].data();
         for (const Part& part : parts_) {
-            for (const std::int32_t point : part.halo->out[r]) {
-                std::memcpy(next, part.from + part.bytes * at(part.row[point]), part.bytes);
+            for (const std::int32_t value : part.links->out[r]) {
+                const std::int32_t place = part.row == nullptr ? value : part.row[value];
+                std::memcpy(next, part.from + part.bytes * at(place), part.bytes);
                 next += part.bytes;
             }
         }
@@ -233,12 +279,10 @@ void Delivery::send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& i
     for (std::size_t r = 0; r < ranks; ++r) {
         const std::byte* next = in[r].data();
         for (const Part& part : parts_) {
-            const Rows rows = part.halo->in[r];
-            if (rows.size() > 0) {
-                std::memcpy(part.to + part.bytes * at(rows.begin), next,
-                            part.bytes * at(rows.size()));
+            for (const std::int32_t place : part.links->in[r]) {
+                std::memcpy(part.to + part.bytes * at(place), next, part.bytes);
+                next += part.bytes;
             }
-            next += part.bytes * at(rows.size());
         }
     }
 }

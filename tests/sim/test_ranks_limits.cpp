@@ -201,8 +201,9 @@ position = [0.4, 0, 0.62]
     }
 }
 
-// What a step sends, in double precision: of each copy of fluid its place, density and gap, then
-// its velocity; of each copy of a wall particle volume and pressure. Sums and maxima take 48 bytes
+// What a step sends, in double precision: of each copy of fluid that lists look at its place,
+// density and gap, then its velocity; of each such copy of a wall particle volume and pressure; of
+// each tile with copies of fluid the bounds of its motion. Sums and maxima take 48 bytes
 // a number: three displacements; momentum and its scale, a count and five maxima, and the force
 // on each wall.
 TEST(RanksAtLimits, AStepSendsWhatItsCopiesNeed)
@@ -210,17 +211,20 @@ TEST(RanksAtLimits, AStepSendsWhatItsCopiesNeed)
     const Case of(dam, {});
     testing::on_ranks(3, [&](CountedComm& comm) {
         look_at_steps(of, comm, [](const Simulation& sim, const Traffic& step) {
-            const auto copies = [](const GhostsOfKind& kind) {
+            const auto sent = [](const Links& links) {
                 std::size_t sum = 0;
-                for (const std::vector<std::int32_t>& points : kind.halo.out) {
+                for (const std::vector<std::int32_t>& points : links.out) {
                     sum += points.size();
                 }
                 return static_cast<long long>(sum);
             };
             const Ghosts& ghosts = *sim.fluid->ghosts;
             const auto walls = static_cast<long long>(sim.scene.walls.size());
-            EXPECT_EQ(step.bytes, (24 + 8 + 8 + 24) * copies(ghosts.fluid) +
-                                      16 * copies(ghosts.wall) + 48 * (3 + 10 + 3 * walls));
+            const long long copies = sent(ghosts.fluid.links);
+            EXPECT_LT(copies, sent(all_links(ghosts.fluid.halo)));
+            EXPECT_EQ(step.bytes, (24 + 8 + 8 + 24) * copies + 16 * sent(ghosts.wall.links) +
+                                      48 * sent(ghosts.fluid.halo.tiles) +
+                                      48 * (3 + 10 + 3 * walls));
         });
     });
 }

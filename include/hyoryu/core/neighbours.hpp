@@ -108,6 +108,9 @@ public:
                const Settings& settings, const ListChoice& choice = {});
     /// Which slots stand in any list; what has met nothing needs no list of its own.
     void mark_met(std::vector<std::uint8_t>& marks) const;
+    /// Marks the slots from `first` on that any block looks at, met or not; the first mark is that
+    /// of `first`.
+    void mark_looked_at(std::vector<std::uint8_t>& marks, Index first) const;
     void clear();
 
     std::span<const ListBlock> blocks() const { return blocks_; }

@@ -16,6 +16,7 @@ struct Fluid;
 /// The ghosts of one kind of particles.
 struct GhostsOfKind {
     Halo halo;
+    Links links; // of the points that lists look at, which alone are kept up to date
     Tiles tiles;
     DisplacementSpace motion; // of their tiles, and which own tiles touch them
 };
@@ -26,7 +27,8 @@ struct Ghosts {
     Cuts cuts;
     std::optional<Cuts> next_cuts; // from the next lists on; the same on all ranks
     GhostsOfKind fluid, wall, body;
-    Particles particles;                // row k is point k of the tiles of its kind
+    Particles particles; // row k is point k of the tiles of its kind
+    real moved = 0; // the farthest that own particles had moved when their places were shared [m]
     std::vector<std::uint8_t> wet_body; // by point: whether fluid is near
     std::vector<Parcel> outbox, inbox;  // memory of messages
 };

@@ -11,14 +11,32 @@
 
 namespace hyoryu {
 
+/// What goes where: values of a rank, by rank to which they are sent, and the places of those that
+/// come, by rank that sends them, in the order in which it does.
+struct Links {
+    std::vector<std::vector<std::int32_t>> out, in;
+};
+
 /// Who has copies of whom, for one kind of particles, until the tiles are made anew.
 struct Halo {
     std::vector<std::vector<std::int32_t>>
         out;              // by rank: points of own tiles of which it has copies
     std::vector<Rows> in; // by rank: its points among the ghosts
+    Links tiles;          // of their tiles
 
     Index count() const { return in.empty() ? 0 : in.back().end; }
 };
+
+/// All points of a halo.
+Links all_links(const Halo& halo);
+
+/// The points of some halos that any list looks at; `marks`: by ghost, those that lists of this
+/// rank look at. Called by all ranks, with as many halos.
+struct LookedAt {
+    const Halo* halo;
+    std::span<const std::uint8_t> marks;
+};
+std::vector<Links> needed_links(Comm& comm, std::span<const LookedAt> ghosts);
 
 /// Sends own tiles to the ranks that own a place beside them, and makes the tiles of the ghosts, of
 /// which point k has row k.
@@ -46,21 +64,28 @@ class Delivery {
 public:
     /// A field of a store of own particles, and of that of the ghosts of the same kind.
     template <Field F>
-    void add(const Halo& halo, const Tiles& tiles, const Store& own, Store& ghosts, F of)
+    void add(const Links& links, const Tiles& tiles, const Store& own, Store& ghosts, F of)
     {
         using T = typename F::type;
         const auto* const from = own[of].data();
         auto* const to = ghosts[of].data();
-        parts_.push_back({&halo, tiles.row.data(), reinterpret_cast<const std::byte*>(from),
+        parts_.push_back({&links, tiles.row.data(), reinterpret_cast<const std::byte*>(from),
                           reinterpret_cast<std::byte*>(to), sizeof(T)});
+    }
+    /// Values by tile.
+    template <class T>
+    void add(const Links& links, const std::vector<T>& own, std::vector<T>& ghosts)
+    {
+        parts_.push_back({&links, nullptr, reinterpret_cast<const std::byte*>(own.data()),
+                          reinterpret_cast<std::byte*>(ghosts.data()), sizeof(T)});
     }
     /// Sends and receives. The parcels are memory that may serve again.
     void send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const;
 
 private:
     struct Part {
-        const Halo* halo;
-        const std::int32_t* row; // of each own point
+        const Links* links;
+        const std::int32_t* row; // of each own point; null: the values are in their order
         const std::byte* from;
         std::byte* to;
         std::size_t bytes; // of a value
