@@ -5,12 +5,14 @@
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/ranks/counted.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace hyoryu::testing {
 
@@ -86,6 +88,21 @@ public:
         }
         in = std::move(arrived);
     }
+    // What arrives is not to be seen before the end.
+    void begin(const std::vector<Parcel>& out, std::vector<Parcel>& in) override
+    {
+        expects(to_ == nullptr);
+        arrived_ = exchange(out);
+        to_ = &in;
+        for (Parcel& parcel : in) {
+            std::ranges::fill(parcel, std::byte(0xff)); // not-a-number
+        }
+    }
+    void finish() override
+    {
+        expects(to_ != nullptr);
+        *std::exchange(to_, nullptr) = std::move(arrived_);
+    }
     void join(std::span<Joined> numbers) override
     {
         combine(numbers, [](Joined& a, const Joined& b) { a.join(b); });
@@ -114,6 +131,8 @@ private:
 
     Board& board_;
     int rank_;
+    std::vector<Parcel> arrived_; // between begin and finish
+    std::vector<Parcel>* to_ = nullptr;
 };
 
 /// Calls f(comm) on every rank, each in a thread of its own, and throws what the first rank that

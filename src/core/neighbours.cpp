@@ -347,6 +347,16 @@ void PairList::mark_looked_at(std::vector<std::uint8_t>& marks, Index first) con
     }
 }
 
+Index PairList::split(Index first)
+{
+    const auto rest = std::ranges::stable_partition(blocks_, [&](const ListBlock& block) {
+        return std::ranges::none_of(
+            std::span(block.chunk, at(block.chunks)),
+            [&](const SourceChunk& chunk) { return chunk.count > 0 && chunk.slot >= first; });
+    });
+    return std::ssize(blocks_) - std::ssize(rest);
+}
+
 std::int32_t PairList::most_chunks() const
 {
     std::int32_t most = 0;

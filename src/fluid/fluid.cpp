@@ -175,8 +175,8 @@ void extrapolate_pressure(Fluid& fluid)
             V_w[i] = stand_in_mass(fluid, owner[i]) / rho_w[i];
         };
     });
-    share_solids(fluid, Fields<Volume, Pressure>{});
-    load_solids(fluid, Fields<Volume, Pressure>{});
+    send_pressures(fluid);
+    load_own_solids(fluid, Fields<Volume, Pressure>{});
 }
 
 // p and V from rho.
@@ -266,6 +266,7 @@ void update_forces(Fluid& fluid, real dt)
     clear(store, Union<Fields<Force>, StageWrites<stage::Forces>>{});
     clear_wet_solids(fluid, Fields<Force>{});
     run<pass::FluidForces>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
+    receive_pressures(fluid);
     if (has_solids(fluid)) {
         add_solid_forces(fluid, terms);
     }

@@ -60,18 +60,44 @@ void share_places(Fluid& fluid)
     delivery.send(fluid.ghosts->comm, fluid.ghosts->outbox, fluid.ghosts->inbox);
 }
 
-void share_velocities(Fluid& fluid)
+void send_pressures(Fluid& fluid)
+{
+    if (fluid.ghosts) {
+        Delivery delivery;
+        deliver_walls(delivery, fluid, Fields<Volume, Pressure>{});
+        deliver_bodies(delivery, fluid, Fields<Volume, Pressure>{});
+        fluid.ghosts->solids.begin(fluid.ghosts->comm, std::move(delivery));
+    }
+}
+
+void receive_pressures(Fluid& fluid)
+{
+    if (fluid.ghosts && fluid.ghosts->solids.arrive(fluid.ghosts->comm)) {
+        load_ghost_solids(fluid, Fields<Volume, Pressure>{});
+    }
+}
+
+void send_velocities(Fluid& fluid)
 {
     if (!fluid.ghosts) {
         return;
     }
+    receive_pressures(fluid); // where no forces were wanted
     Delivery delivery;
     deliver_fluid(delivery, fluid, Fields<Velocity>{});
     if (fluid.moving_walls) {
         deliver_walls(delivery, fluid, Fields<Velocity>{});
     }
     deliver_bodies(delivery, fluid, Fields<Velocity>{});
-    delivery.send(fluid.ghosts->comm, fluid.ghosts->outbox, fluid.ghosts->inbox);
+    fluid.ghosts->velocities.begin(fluid.ghosts->comm, std::move(delivery));
+}
+
+void receive_velocities(Fluid& fluid)
+{
+    if (fluid.ghosts && fluid.ghosts->velocities.arrive(fluid.ghosts->comm)) {
+        load_ghost_fluid(fluid, Fields<Velocity>{});
+        load_ghost_solids(fluid, Fields<Velocity>{});
+    }
 }
 
 namespace {
@@ -180,9 +206,10 @@ void choose_links(Fluid& fluid)
     if (!fluid.ghosts) {
         return;
     }
-    const FluidNeighbours& n = fluid.neighbours;
+    FluidNeighbours& n = fluid.neighbours;
     Ghosts& g = *fluid.ghosts;
     const Index first = g.fluid.tiles.first_slot; // of all ghosts
+    g.inner = n.fluid_fluid.split(first);
     std::vector<std::uint8_t> marks(
         at(g.fluid.tiles.count() + g.wall.tiles.count() + g.body.tiles.count()), 0);
     for (const PairList* const list : {&n.fluid_fluid, &n.fluid_solid, &n.wall_fluid, &n.body_fluid,

@@ -131,28 +131,46 @@ void add_part(Store& store, auto part)
     }
 }
 
+// Pairs of the fluid: those of this rank while the velocities of ghosts are on their way.
+void run_fluid_rates(Fluid& fluid, const FluidTerms& terms)
+{
+    const PairList& pairs = fluid.neighbours.fluid_fluid;
+    if (!fluid.ghosts) {
+        run<pass::FluidRates>(fluid, pairs, to_fluid(fluid), terms);
+        return;
+    }
+    const Index inner = fluid.ghosts->inner;
+    run<pass::FluidRates>(fluid, {{pairs, to_fluid(fluid), Rows{0, inner}}}, terms);
+    receive_velocities(fluid);
+    const Rows outer{inner, std::ssize(pairs.blocks())};
+    run<pass::FluidRates>(fluid, {{pairs, to_fluid(fluid), outer}}, terms);
+}
+
 } // namespace
 
 void update_rates(Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;
     const FluidTerms terms = terms_of(fluid, 0);
-    share_velocities(fluid);
-    load_fluid(fluid, Fields<Velocity>{});
-    load_solids(fluid, Fields<Velocity>{});
+    send_velocities(fluid);
+    load_own_fluid(fluid, Fields<Velocity>{});
+    load_own_solids(fluid, Fields<Velocity>{});
     clear(store, Union<Continuity::Writes, StageWrites<stage::Rates>>{});
     const bool corrects = held<CorrectedGradient>(fluid.effects) != nullptr;
     if (corrects) {
         clear(store, Union<GradientMoments::Writes, CorrectedContinuity::Writes>{});
     }
     const bool sticks = sticks_to_solids(fluid) && has_solids(fluid);
+    if (sticks || held<EddyViscosity>(fluid.effects) != nullptr) {
+        receive_velocities(fluid);
+    }
     if (sticks) {
         mirror_velocities(fluid);
     }
     if (const auto* eddies = held<EddyViscosity>(fluid.effects)) {
         update_turbulence(fluid, *eddies, sticks);
     }
-    run<pass::FluidRates>(fluid, fluid.neighbours.fluid_fluid, to_fluid(fluid), terms);
+    run_fluid_rates(fluid, terms);
     if (sticks) {
         add_friction(fluid);
     }

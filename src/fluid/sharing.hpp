@@ -63,11 +63,17 @@ void share_solids(Fluid& fluid, List fields)
     }
 }
 
+/// Pressures and volumes of solids go on their way, while the fluid acts on itself.
+void send_pressures(Fluid& fluid);
+/// They are there. Nothing if none are on their way.
+void receive_pressures(Fluid& fluid);
+
+/// The velocities of all particles that move go on their way, and are there.
+void send_velocities(Fluid& fluid);
+void receive_velocities(Fluid& fluid);
+
 /// From now on values go to those ghosts alone that lists look at.
 void choose_links(Fluid& fluid);
-/// Sends the velocities of all particles that move.
-void share_velocities(Fluid& fluid);
-
 /// The fluid rows that left the range of this rank go to their owners, those that left the domain
 /// stay.
 void migrate_fluid(Fluid& fluid, const TileLattice& lattice);

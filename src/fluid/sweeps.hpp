@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 
 namespace hyoryu {
 
@@ -20,33 +21,59 @@ FluidTerms terms_of(const Fluid& fluid, real dt);
 /// D of the renormalised diffusion, from the pressures that the records hold.
 void add_renormalised_diffusion(Fluid& fluid);
 
-/// Copies fields of the fluid particles to the records of the pair loops.
-void load_fluid(Fluid& fluid, const auto& fields)
+/// Copies fields of the fluid particles of this rank to the records of the pair loops.
+void load_own_fluid(Fluid& fluid, const auto& fields)
 {
     std::visit(
         [&](auto& data) {
             data.records().load(fluid.particles.fluid, fluid.neighbours.fluid, fields);
-            if (const Ghosts* const g = fluid.ghosts.get()) {
-                data.records().load(g->particles.fluid, g->fluid.tiles, fields);
-            }
         },
         fluid.pair_data);
 }
 
 /// The same for the solid particles that fluid or a body may be near.
-void load_solids(Fluid& fluid, const auto& fields)
+void load_own_solids(Fluid& fluid, const auto& fields)
 {
     const FluidNeighbours& n = fluid.neighbours;
     std::visit(
         [&](auto& data) {
             data.records().load(fluid.particles.wall, n.wall, n.wet_walls, fields);
             data.records().load(fluid.particles.body, n.body, fields);
-            if (const Ghosts* const g = fluid.ghosts.get()) {
-                data.records().load(g->particles.wall, g->wall.tiles, fields);
-                data.records().load(g->particles.body, g->body.tiles, fields);
-            }
         },
         fluid.pair_data);
+}
+
+/// The same for ghosts.
+void load_ghost_fluid(Fluid& fluid, const auto& fields)
+{
+    if (const Ghosts* const g = fluid.ghosts.get()) {
+        std::visit(
+            [&](auto& data) { data.records().load(g->particles.fluid, g->fluid.tiles, fields); },
+            fluid.pair_data);
+    }
+}
+void load_ghost_solids(Fluid& fluid, const auto& fields)
+{
+    if (const Ghosts* const g = fluid.ghosts.get()) {
+        std::visit(
+            [&](auto& data) {
+                data.records().load(g->particles.wall, g->wall.tiles, fields);
+                data.records().load(g->particles.body, g->body.tiles, fields);
+            },
+            fluid.pair_data);
+    }
+}
+
+/// The same for all of a kind.
+void load_fluid(Fluid& fluid, const auto& fields)
+{
+    load_own_fluid(fluid, fields);
+    load_ghost_fluid(fluid, fields);
+}
+void load_solids(Fluid& fluid, const auto& fields)
+{
+    load_own_solids(fluid, fields);
+    load_ghost_solids(fluid, fields);
 }
 
 /// For the walls that fluid or a body may be near and for the bodies: `of_store(store)` is called
@@ -104,6 +131,7 @@ inline Destination to_bodies(Fluid& fluid)
 struct Sweep {
     const PairList& pairs;
     Destination to;
+    std::optional<Rows> blocks = {}; // of the list; none: all
 };
 
 /// The records that the terms of a pass read, and the bytes of one: the common ones, or wide ones
@@ -160,7 +188,8 @@ void run(Fluid& fluid, std::initializer_list<Sweep> sweeps, const FluidTerms& te
         const PassRecords records =
             records_of<Pass>(fluid, data, alone ? Among::fluid : Among::all, terms);
         data.local.resize(std::max(data.local.size(), at(thread_count())));
-        for (const auto& [pairs, to] : sweeps) {
+        for (const auto& [pairs, to, some] : sweeps) {
+            const Rows blocks = some.value_or(Rows{0, std::ssize(pairs.blocks())});
             for (RecordMemory& local : data.local) {
                 local.at_least(at(chunk_slots * pairs.most_chunks()) * records.bytes);
             }
@@ -171,7 +200,7 @@ void run(Fluid& fluid, std::initializer_list<Sweep> sweeps, const FluidTerms& te
                                             to.tiles.first_slot,
                                             to.tiles.lattice.edge,
                                             kernel};
-            parallel_blocks(0, static_cast<Index>(pairs.blocks().size()), [&](Index block) {
+            parallel_blocks(blocks.begin, blocks.end, [&](Index block) {
                 loop(view, block, data.local[at(worker())].data(), terms);
             });
         }

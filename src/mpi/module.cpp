@@ -79,9 +79,25 @@ public:
 
     void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) override
     {
+        post(out, in, requests_);
+        wait(requests_);
+    }
+    // Of two ranks messages with one tag arrive in the order in which they were posted.
+    void begin(const std::vector<Parcel>& out, std::vector<Parcel>& in) override
+    {
+        post(out, in, begun_);
+    }
+    void finish() override { wait(begun_); }
+
+    void join(std::span<Joined> numbers) override { reduce(numbers, joined_, join_); }
+    void add(std::span<std::int64_t> numbers) override { reduce(numbers, MPI_INT64_T, MPI_SUM); }
+
+private:
+    void post(const std::vector<Parcel>& out, std::vector<Parcel>& in,
+              std::vector<MPI_Request>& requests) const
+    {
         const auto self = static_cast<std::size_t>(rank_);
-        requests_.clear();
-        const auto request = [&]() -> MPI_Request* { return &requests_.emplace_back(); };
+        const auto request = [&]() -> MPI_Request* { return &requests.emplace_back(); };
         for (std::size_t r = 0; r < in.size(); ++r) {
             if (r != self) {
                 for_pieces(in[r].size(), [&](std::size_t first, int bytes, int tag) {
@@ -99,13 +115,12 @@ public:
             }
         }
         in[self] = out[self];
-        MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     }
-
-    void join(std::span<Joined> numbers) override { reduce(numbers, joined_, join_); }
-    void add(std::span<std::int64_t> numbers) override { reduce(numbers, MPI_INT64_T, MPI_SUM); }
-
-private:
+    static void wait(std::vector<MPI_Request>& requests)
+    {
+        MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+        requests.clear();
+    }
     template <class T>
     static void reduce(std::span<T> values, MPI_Datatype type, MPI_Op op)
     {
@@ -118,7 +133,7 @@ private:
     int thread_support_ = 0;
     MPI_Op join_ = MPI_OP_NULL;
     MPI_Datatype joined_ = MPI_DATATYPE_NULL;
-    std::vector<MPI_Request> requests_;
+    std::vector<MPI_Request> requests_, begun_;
 };
 
 std::unique_ptr<MpiComm> connection;

@@ -252,7 +252,7 @@ void move_rows(Comm& comm, Store& store, std::span<const int> owner, std::span<s
     }
 }
 
-void Delivery::send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const
+void Delivery::pack(const Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const
 {
     const auto ranks = at(comm.size());
     out.resize(ranks);
@@ -275,8 +275,11 @@ void Delivery::send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& i
             }
         }
     }
-    comm.exchange(out, in);
-    for (std::size_t r = 0; r < ranks; ++r) {
+}
+
+void Delivery::unpack(const std::vector<Parcel>& in) const
+{
+    for (std::size_t r = 0; r < in.size(); ++r) {
         const std::byte* next = in[r].data();
         for (const Part& part : parts_) {
             for (const std::int32_t place : part.links->in[r]) {

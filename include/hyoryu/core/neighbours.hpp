@@ -112,6 +112,8 @@ public:
     /// of `first`.
     void mark_looked_at(std::vector<std::uint8_t>& marks, Index first) const;
     void clear();
+    /// Puts blocks that look at no slot from `first` on before the others, and returns how many.
+    Index split(Index first);
 
     std::span<const ListBlock> blocks() const { return blocks_; }
     bool empty() const { return blocks_.empty(); }

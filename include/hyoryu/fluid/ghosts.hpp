@@ -31,6 +31,8 @@ struct Ghosts {
     real moved = 0; // the farthest that own particles had moved when their places were shared [m]
     std::vector<std::uint8_t> wet_body; // by point: whether fluid is near
     std::vector<Parcel> outbox, inbox;  // memory of messages
+    Underway solids, velocities;        // one at a time
+    Index inner = 0; // blocks of fluid pairs that look at no ghost, which come first
 };
 
 /// Makes the fluid that of one rank. Its store must then have the fluid particles of its range of

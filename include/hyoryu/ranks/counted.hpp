@@ -36,6 +36,17 @@ public:
         const Watch watch(traffic_);
         comm_.exchange(out, in);
     }
+    void begin(const std::vector<Parcel>& out, std::vector<Parcel>& in) override
+    {
+        count(out);
+        const Watch watch(traffic_);
+        comm_.begin(out, in);
+    }
+    void finish() override
+    {
+        const Watch watch(traffic_);
+        comm_.finish();
+    }
     void join(std::span<Joined> numbers) override { reduce(numbers, &Comm::join); }
     void add(std::span<std::int64_t> numbers) override { reduce(numbers, &Comm::add); }
 

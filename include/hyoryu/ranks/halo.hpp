@@ -9,6 +9,8 @@
 
 #include "hyoryu/core/particles.hpp"
 
+#include <optional>
+
 namespace hyoryu {
 
 /// What goes where: values of a rank, by rank to which they are sent, and the places of those that
@@ -79,8 +81,18 @@ public:
         parts_.push_back({&links, nullptr, reinterpret_cast<const std::byte*>(own.data()),
                           reinterpret_cast<std::byte*>(ghosts.data()), sizeof(T)});
     }
-    /// Sends and receives. The parcels are memory that may serve again.
-    void send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const;
+    /// Packs the values, and makes room for those that come. The parcels are memory that may serve
+    /// again.
+    void pack(const Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const;
+    /// Puts what came into its place.
+    void unpack(const std::vector<Parcel>& in) const;
+    /// Sends and receives.
+    void send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const
+    {
+        pack(comm, out, in);
+        comm.exchange(out, in);
+        unpack(in);
+    }
 
 private:
     struct Part {
@@ -91,6 +103,32 @@ private:
         std::size_t bytes; // of a value
     };
     std::vector<Part> parts_;
+};
+
+/// Values that are on their way while the rank goes on.
+class Underway {
+public:
+    void begin(Comm& comm, Delivery delivery)
+    {
+        delivery_ = std::move(delivery);
+        delivery_->pack(comm, out_, in_);
+        comm.begin(out_, in_);
+    }
+    /// Waits for them and puts them into their place; false if there are none.
+    bool arrive(Comm& comm)
+    {
+        if (!delivery_) {
+            return false;
+        }
+        comm.finish();
+        delivery_->unpack(in_);
+        delivery_.reset();
+        return true;
+    }
+
+private:
+    std::optional<Delivery> delivery_;
+    std::vector<Parcel> out_, in_;
 };
 
 } // namespace hyoryu
