@@ -65,7 +65,7 @@ void update_outputs(Job& job);
 /// run may return to that: a recovery must not depend on when checkpoints were written.
 void write_checkpoint(Job& job);
 /// Writes a state of which each process has its share.
-void write_state(Job& job, Snapshot state);
+void write_state(Job& job, StateOnDemand state);
 /// Waits until histories and frames so far are on disk.
 void settle(Job& job);
 

@@ -11,6 +11,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/core/state.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
@@ -277,7 +278,7 @@ void give_up(Job& job, const std::string& error, const std::string& exit_reason)
     const Closing now = closing_of(job);
     job.progress.abandon("error: " + error);
     if (job.last_good && job.good_step > job.saved_step) {
-        write_state(job, std::move(*job.last_good));
+        write_state(job, on_demand(std::move(*job.last_good)));
     }
     if (writes(job.comm)) {
         write_closing(job, exit_reason, now);

@@ -4,6 +4,7 @@
 
 #include "ranks.hpp"
 
+#include "hyoryu/core/state.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/state_parts.hpp"
@@ -34,16 +35,47 @@ private:
     Job& job_;
 };
 
-// Of this process.
-Snapshot state_of(const Job& job)
+// What the process that writes the histories adds to its state.
+Snapshot beside_simulation(const Job& job)
+{
+    Snapshot more;
+    if (job.outputs) {
+        job.outputs->save(more);
+        more.texts["case"] = job.case_text;
+        more.texts.insert(job.given.begin(), job.given.end());
+    }
+    return more;
+}
+
+// The present state of this process.
+Snapshot kept_state(const Job& job)
 {
     Snapshot state = save(job.sim);
-    if (job.outputs) {
-        job.outputs->save(state);
-        state.texts["case"] = job.case_text;
-        state.texts.insert(job.given.begin(), job.given.end());
-    }
+    Snapshot more = beside_simulation(job);
+    state.arrays.merge(more.arrays);
+    state.texts.merge(more.texts);
     return state;
+}
+
+// Arrays of two states as those of one.
+StateOnDemand merged(StateOnDemand one, StateOnDemand other)
+{
+    StateOnDemand both{.bytes = one.bytes, .array = {}, .texts = std::move(one.texts)};
+    both.bytes.insert(other.bytes.begin(), other.bytes.end());
+    both.texts.merge(other.texts);
+    both.array = [one = std::move(one), other = std::move(other)](const std::string& name) {
+        return one.bytes.contains(name) ? one.array(name) : other.array(name);
+    };
+    return both;
+}
+
+Snapshot made(const StateOnDemand& state)
+{
+    Snapshot snapshot;
+    for (const auto& [name, bytes] : state.bytes) {
+        snapshot.arrays[name] = state.array(name);
+    }
+    return snapshot;
 }
 
 // Writes a frame and keeps the state as the one to return to. Behind the first frame a checkpoint
@@ -69,7 +101,7 @@ void write_frame(Job& job)
 }
 
 // The parts that a leader writes are complete before the checkpoint names them.
-std::vector<CheckpointPart> write_parts(Job& job, Snapshot particles)
+std::vector<CheckpointPart> write_parts(Job& job, const StateOnDemand& particles)
 {
     Comm& comm = *job.comm;
     const int rank = comm.rank();
@@ -77,7 +109,7 @@ std::vector<CheckpointPart> write_parts(Job& job, Snapshot particles)
         value_of_root(comm, rank == 0 ? next_part_set(job.folder) : std::int64_t{0});
     CheckpointPart own;
     if (job.groups.leads(rank)) {
-        own = write_checkpoint_part(job.folder, set, job.groups.of(rank), std::move(particles));
+        own = write_checkpoint_part(job.folder, set, job.groups.of(rank), particles);
     }
     std::vector<Parcel> out(static_cast<std::size_t>(comm.size()));
     put_text(out.front(), own.name);
@@ -98,7 +130,7 @@ void keep_good_state(Job& job)
 {
     const Stage stage(job, "good state");
     job.last_good.reset(); // a state is as large as that of the particles
-    job.last_good = state_of(job);
+    job.last_good = kept_state(job);
 }
 
 void update_outputs(Job& job)
@@ -143,21 +175,25 @@ void write_checkpoint(Job& job)
         job.last_good.reset();
     }
     settle(job); // frames on their way are nearly as large as the state
-    write_state(job, state_of(job));
+    write_state(job, merged(state_of(job.sim), on_demand(beside_simulation(job))));
     job.saved_step = job.sim.clock.step;
 }
 
-void write_state(Job& job, Snapshot state)
+void write_state(Job& job, StateOnDemand state)
 {
     settle(job); // rows that the checkpoint counts as written must be on disk before it
     std::vector<CheckpointPart> parts;
     if (job.comm != nullptr && job.sim.fluid) {
-        Snapshot particles =
-            gather_particles(job.sim, *job.comm, job.groups, take_particles(job.sim, state));
+        StateOnDemand particles = take_particles(job.sim, state);
+        if (job.groups.count < job.groups.ranks) {
+            particles =
+                on_demand(gather_particles(job.sim, *job.comm, job.groups, made(particles)));
+        }
         if (job.groups.count == 1) {
-            put_particles(state, std::move(particles));
+            particles.bytes.erase(rows_of_fixed_walls);
+            state = merged(std::move(state), std::move(particles));
         } else {
-            parts = write_parts(job, std::move(particles));
+            parts = write_parts(job, particles);
         }
     }
     if (writes(job.comm)) {

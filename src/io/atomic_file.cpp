@@ -10,8 +10,10 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 namespace hyoryu {
 
@@ -21,7 +23,7 @@ constexpr mode_t everyone_reads = 0666; // restricted by the umask of the user
 
 int open_for_writing(const std::filesystem::path& file)
 {
-    return ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, everyone_reads);
+    return ::open(file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, everyone_reads);
 }
 
 /// A rename is on the disk only when its folder is. File systems that cannot do this (network,
@@ -81,6 +83,54 @@ void AtomicFile::write(std::span<const std::byte> bytes)
 void AtomicFile::write(std::string_view text)
 {
     write(std::as_bytes(std::span(text)));
+}
+
+void AtomicFile::reserve(std::uintmax_t bytes) const
+{
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+        bytes > limit.rlim_cur) {
+        errno = EFBIG;
+        throw_system_error("write", file_);
+    }
+    if (::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) != 0 &&
+        (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)) {
+        throw_system_error("write", file_);
+    }
+}
+
+void AtomicFile::write_at_start(std::string_view text) const
+{
+    std::size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t written =
+            ::pwrite(descriptor_, text.data() + done, text.size() - done, static_cast<off_t>(done));
+        if (written >= 0) {
+            done += static_cast<std::size_t>(written);
+        } else if (errno != EINTR) {
+            throw_system_error("write", file_);
+        }
+    }
+}
+
+void AtomicFile::read_from(std::uintmax_t place,
+                           const std::function<void(std::span<const std::byte>)>& f) const
+{
+    std::vector<std::byte> block(std::size_t{1} << 20);
+    while (true) {
+        const ssize_t count =
+            ::pread(descriptor_, block.data(), block.size(), static_cast<off_t>(place));
+        if (count < 0 && errno != EINTR) {
+            throw_system_error("read", file_);
+        }
+        if (count == 0) {
+            return;
+        }
+        if (count > 0) {
+            f(std::span(block).first(static_cast<std::size_t>(count)));
+            place += static_cast<std::uintmax_t>(count);
+        }
+    }
 }
 
 void AtomicFile::commit()

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -23,6 +25,16 @@ public:
 
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
+    /// Makes sure that the file may have so many bytes and that the disk has room for them, as far
+    /// as the file system can tell.
+    void reserve(std::uintmax_t bytes) const;
+    /// Where the bytes are meanwhile, for a library that writes by itself.
+    const std::filesystem::path& temporary() const { return temporary_; }
+    /// Writes over the first bytes.
+    void write_at_start(std::string_view text) const;
+    /// Calls f(bytes) for all bytes from a place on, block by block.
+    void read_from(std::uintmax_t place,
+                   const std::function<void(std::span<const std::byte>)>& f) const;
     /// Forces the bytes to the disk and gives the file its name.
     void commit();
 

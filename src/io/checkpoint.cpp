@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// checkpoint.h5: a text header of 512 bytes (format, length, checksum), then an HDF5 file, which
-// HDF5 finds behind it by itself. The checksum covers every byte, so HDF5 never sees a damaged
+// checkpoint.h5: a text header of 512 bytes (format, length, checksum), then an HDF5 file, for
+// which the header is a user block. The checksum covers every byte, so HDF5 never sees a damaged
 // file. Of several processes the particles are in parts, files of the same form that are complete
 // before checkpoint.h5 names them, with length and checksum.
 #include "atomic_file.hpp"
 #include "hdf5.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"
+#include "hyoryu/core/state.hpp"
 #include "hyoryu/io/results.hpp"
 #include "packed_array.hpp"
 
@@ -85,14 +86,12 @@ std::string name_of(std::string_view link)
 }
 
 /// Texts as bytes: a string type of HDF5 would lose zero bytes at their end.
-void put_snapshot(hid_t file, Snapshot snapshot)
+void put_state(hid_t file, const StateOnDemand& state)
 {
     const hdf5::Handle arrays = hdf5::create_group(file, "arrays");
-    // An array is freed once it is in the file: together they are as large as the state.
-    for (auto array = snapshot.arrays.begin(); array != snapshot.arrays.end();
-         array = snapshot.arrays.erase(array)) {
-        const auto& [name, column] = *array;
+    for (const auto& [name, bytes] : state.bytes) {
         expects(!name.empty());
+        const Column column = state.array(name);
         put_array(arrays, link_name(name), raw(view_of(column)), column.unit);
         const hdf5::Handle dataset(H5Dopen2(arrays, link_name(name).c_str(), H5P_DEFAULT), H5Dclose,
                                    "write a checkpoint");
@@ -101,20 +100,20 @@ void put_snapshot(hid_t file, Snapshot snapshot)
         hdf5::put_attribute(dataset, "components", components);
     }
     const hdf5::Handle texts = hdf5::create_group(file, "texts");
-    for (const auto& [name, text] : snapshot.texts) {
+    for (const auto& [name, text] : state.texts) {
         expects(!name.empty());
         const std::vector<std::uint8_t> bytes(text.begin(), text.end());
         put_array(texts, link_name(name), raw(view_of(std::span(bytes), 1)), "");
     }
 }
 
-std::size_t stored_bytes(const Snapshot& snapshot)
+std::size_t stored_bytes(const StateOnDemand& state)
 {
     std::size_t total = 0;
-    for (const auto& [name, column] : snapshot.arrays) {
-        total += view_of(column).bytes.size();
+    for (const auto& [name, bytes] : state.bytes) {
+        total += bytes;
     }
-    for (const auto& [name, text] : snapshot.texts) {
+    for (const auto& [name, text] : state.texts) {
         total += text.size();
     }
     return total;
@@ -264,21 +263,30 @@ NewestCheckpoint read_generation(const std::filesystem::path& file)
     return found;
 }
 
-/// Writes a file and calls `before` when its bytes are about to get their name.
-CheckpointPart write_file(const std::filesystem::path& file, int format, Snapshot snapshot,
+/// Writes a file and calls `before` when its bytes are about to get their name. The arrays go to
+/// the disk one by one: an image of the file would be as large as the state. HDF5 cannot close a
+/// file that it fails to write, so room is made for it first.
+CheckpointPart write_file(const std::filesystem::path& file, int format, const StateOnDemand& state,
                           const std::function<void()>& before)
 {
     AtomicFile atomic(file);
-    const hdf5::Session session;
-    hdf5::FileImage image(stored_bytes(snapshot));
-    put_snapshot(image, std::move(snapshot));
-    const std::span<const std::byte> bytes = image.bytes();
-    const std::uint32_t checksum = libdeflate_crc32(0, bytes.data(), bytes.size());
-    atomic.write(header(format, bytes.size(), checksum));
-    atomic.write(bytes);
+    {
+        const hdf5::Session session;
+        hdf5::DiskFile target(atomic.temporary(), header_size);
+        atomic.reserve(header_size + stored_bytes(state));
+        put_state(target, state);
+        target.close();
+    }
+    std::uint32_t checksum = 0;
+    std::uint64_t bytes = 0;
+    atomic.read_from(header_size, [&](std::span<const std::byte> block) {
+        checksum = libdeflate_crc32(checksum, block.data(), block.size());
+        bytes += block.size();
+    });
+    atomic.write_at_start(header(format, bytes, checksum));
     before();
     atomic.commit();
-    return {file.filename().string(), bytes.size(), checksum};
+    return {file.filename().string(), bytes, checksum};
 }
 
 std::vector<std::string> part_files(const std::filesystem::path& folder)
@@ -344,21 +352,33 @@ std::int64_t next_part_set(const std::filesystem::path& folder)
 }
 
 CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
-                                     int part, Snapshot snapshot)
+                                     int part, const StateOnDemand& state)
 {
     return write_file(folder / fmt::format("checkpoint.{:06}.{:04}.h5", set, part), format_version,
-                      std::move(snapshot), [] {});
+                      state, [] {});
+}
+
+CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
+                                     int part, Snapshot snapshot)
+{
+    return write_checkpoint_part(folder, set, part, on_demand(std::move(snapshot)));
+}
+
+void write_checkpoint(const std::filesystem::path& folder, StateOnDemand state,
+                      const std::vector<CheckpointPart>& parts)
+{
+    if (!parts.empty()) {
+        state.texts[parts_text] = text_of(parts);
+    }
+    write_file(checkpoint_file(folder), parts.empty() ? format_version : format_with_parts, state,
+               [&] { keep_as_previous(folder); });
+    remove_other_parts(folder);
 }
 
 void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot,
                       const std::vector<CheckpointPart>& parts)
 {
-    if (!parts.empty()) {
-        snapshot.texts[parts_text] = text_of(parts);
-    }
-    write_file(checkpoint_file(folder), parts.empty() ? format_version : format_with_parts,
-               std::move(snapshot), [&] { keep_as_previous(folder); });
-    remove_other_parts(folder);
+    write_checkpoint(folder, on_demand(std::move(snapshot)), parts);
 }
 
 Snapshot read_checkpoint_part(const std::filesystem::path& folder, const CheckpointPart& part)

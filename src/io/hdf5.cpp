@@ -161,6 +161,30 @@ std::span<const std::byte> FileImage::bytes()
     return {*static_cast<const std::byte* const*>(buffer), static_cast<std::size_t>(size)};
 }
 
+namespace {
+
+Handle created(const std::filesystem::path& file, std::size_t skip)
+{
+    const std::string action = fmt::format("write `{}`", file.string());
+    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, action);
+    check(H5Pset_userblock(creation, skip), action);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, action);
+    check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), action);
+    return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, action};
+}
+
+} // namespace
+
+DiskFile::DiskFile(const std::filesystem::path& file, std::size_t skip)
+    : file_((expect_memory(0), created(file, skip)))
+{
+}
+
+void DiskFile::close()
+{
+    check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write an HDF5 file");
+}
+
 Handle open_file(const std::filesystem::path& file)
 {
     const std::string why = why_unreadable(file);

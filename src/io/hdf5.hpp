@@ -64,6 +64,19 @@ private:
     Handle file_;
 };
 
+/// A file on the disk, for what is too large for a FileImage: there must be room for it. `skip`:
+/// bytes before it that are left free, 512 or a larger power of two.
+class DiskFile {
+public:
+    DiskFile(const std::filesystem::path& file, std::size_t skip);
+    operator hid_t() const { return file_; }
+    /// Writes what HDF5 holds back; no more may be added.
+    void close();
+
+private:
+    Handle file_;
+};
+
 Handle open_file(const std::filesystem::path& file);
 Handle open_group(hid_t parent, const std::string& name);
 Handle create_group(hid_t parent, const std::string& name);

@@ -3,6 +3,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/fluid/whole.hpp"
+#include "hyoryu/sim/state_parts.hpp"
 
 #include "state.hpp"
 #include "tiles_state.hpp"
@@ -85,7 +86,8 @@ void read_solids(StateReader& state, Fluid& fluid)
     }
 }
 
-void write_solids(StateWriter& state, const Fluid& fluid)
+template <class State>
+void write_solids(State& state, const Fluid& fluid)
 {
     const Store& wall = fluid.particles.wall;
     const Store& body = fluid.particles.body;
@@ -372,6 +374,20 @@ Snapshot save(const Simulation& sim)
     StateWriter state(snapshot);
     describe_all(state, sim);
     return snapshot;
+}
+
+StateOnDemand state_of(const Simulation& sim)
+{
+    StateSizes all;
+    describe_all(all, sim);
+    return {.bytes = std::move(all.bytes),
+            .array =
+                [&sim](const std::string& name) {
+                    StateArray one(name);
+                    describe_all(one, sim);
+                    return std::move(one.column);
+                },
+            .texts = {}};
 }
 
 void restore(Simulation& sim, const Snapshot& snapshot)

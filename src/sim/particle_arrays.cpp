@@ -171,6 +171,20 @@ Snapshot take_particles(const Simulation& sim, Snapshot& state)
     return particles;
 }
 
+StateOnDemand take_particles(const Simulation& sim, StateOnDemand& state)
+{
+    StateOnDemand particles{.bytes = {}, .array = state.array, .texts = {}};
+    const std::set<std::string> of_fluid = fluid_columns(sim);
+    for (auto array = state.bytes.begin(); array != state.bytes.end();) {
+        const auto next = std::next(array);
+        if (is_of_particles(array->first, of_fluid)) {
+            particles.bytes.insert(state.bytes.extract(array));
+        }
+        array = next;
+    }
+    return particles;
+}
+
 void append_particles(const Simulation& sim, Snapshot& all, Snapshot next)
 {
     if (all.arrays.empty()) {

@@ -7,9 +7,6 @@
 
 namespace hyoryu {
 
-/// Rows of fixed walls that a rank has, which the state of one process does not tell of.
-inline constexpr const char* rows_of_fixed_walls = "wall/fixed";
-
 /// Tiles: Tiles of the last list build, from which the lists are built again; constant for a
 /// writer.
 template <class State, class Tiles>

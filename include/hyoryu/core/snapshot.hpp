@@ -4,6 +4,7 @@
 
 #include "hyoryu/core/types.hpp"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <variant>
@@ -62,6 +63,13 @@ struct Table {
 /// Everything that a bit-exact restart needs: named arrays and named texts.
 struct Snapshot {
     std::map<std::string, Column> arrays;
+    std::map<std::string, std::string> texts;
+};
+
+/// A state that is not in memory as a whole: its arrays are made one by one.
+struct StateOnDemand {
+    std::map<std::string, std::size_t> bytes;        // of each array, by its name [B]
+    std::function<Column(const std::string&)> array; // makes the array of a name; once each
     std::map<std::string, std::string> texts;
 };
 

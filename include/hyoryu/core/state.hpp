@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // State as named datasets. A function template `describe(state, part)` names each quantity once,
 // with its unit and its place; a StateWriter in `state` stores them, a StateReader takes them back.
+// A StateArray makes one of them alone, where all together would not fit in memory.
 // No quantity depends on the order or the number of others.
 #pragma once
 
@@ -61,44 +62,45 @@ template <class Range, class Member>
 using MemberOf =
     std::remove_cvref_t<std::invoke_result_t<Member, decltype(*std::declval<Range&>().begin())>>;
 
-/// Stores a state in a snapshot.
-class StateWriter {
+/// A member of each element of a range, as it is stored.
+template <class Range, class Member>
+Column stored_column(const std::string& name, const std::string& unit, const Range& range,
+                     Member member)
+{
+    using Value = Encoded<MemberOf<const Range, Member>>;
+    std::vector<typename Value::Number> numbers;
+    numbers.reserve(range.size() * Value::components);
+    for (const auto& element : range) {
+        const auto some = Value::put(std::invoke(member, element));
+        numbers.insert(numbers.end(), some.begin(), some.end());
+    }
+    return {name, unit, Value::components, std::move(numbers)};
+}
+
+/// What those that look at a state have in common; `Visitor` has the function `each`.
+template <class Visitor>
+class StateVisitor {
 public:
     static constexpr bool reads = false;
-
-    explicit StateWriter(Snapshot& snapshot) : snapshot_(&snapshot) {}
 
     /// One value.
     template <class T>
     void operator()(const std::string& name, const std::string& unit, const T& value)
     {
-        each(name, unit, std::span(&value, 1), std::identity());
-    }
-    /// A member of each element of a range whose length the case gives.
-    template <class Range, class Member>
-    void each(const std::string& name, const std::string& unit, const Range& range, Member member)
-    {
-        using Value = Encoded<MemberOf<const Range, Member>>;
-        std::vector<typename Value::Number> numbers;
-        numbers.reserve(range.size() * Value::components);
-        for (const auto& element : range) {
-            const auto some = Value::put(std::invoke(member, element));
-            numbers.insert(numbers.end(), some.begin(), some.end());
-        }
-        snapshot_->arrays[name] = {name, unit, Value::components, std::move(numbers)};
+        self().each(name, unit, std::span(&value, 1), std::identity());
     }
     /// The values of a range whose length the case gives.
     template <class T>
     void values(const std::string& name, const std::string& unit, std::span<T> range)
     {
-        each(name, unit, range, std::identity());
+        self().each(name, unit, range, std::identity());
     }
     /// A list whose length is part of the state.
     template <class T, class Allocator>
     void list(const std::string& name, const std::string& unit,
               const std::vector<T, Allocator>& list)
     {
-        each(name, unit, list, std::identity());
+        self().each(name, unit, list, std::identity());
     }
     /// Before the members of a list whose length is part of the state: one of them.
     template <class Range, class Member>
@@ -107,8 +109,70 @@ public:
     }
 
 private:
+    Visitor& self() { return static_cast<Visitor&>(*this); }
+};
+
+/// Stores a state in a snapshot.
+class StateWriter : public StateVisitor<StateWriter> {
+public:
+    explicit StateWriter(Snapshot& snapshot) : snapshot_(&snapshot) {}
+
+    /// A member of each element of a range whose length the case gives.
+    template <class Range, class Member>
+    void each(const std::string& name, const std::string& unit, const Range& range, Member member)
+    {
+        snapshot_->arrays[name] = stored_column(name, unit, range, member);
+    }
+
+private:
     Snapshot* snapshot_;
 };
+
+/// Collects how large the datasets of a state are.
+class StateSizes : public StateVisitor<StateSizes> {
+public:
+    template <class Range, class Member>
+    void each(const std::string& name, const std::string&, const Range& range, Member)
+    {
+        using Value = Encoded<MemberOf<const Range, Member>>;
+        bytes[name] = range.size() * Value::components * sizeof(typename Value::Number);
+    }
+
+    std::map<std::string, std::size_t> bytes; // by name [B]
+};
+
+/// Makes one dataset of a state.
+class StateArray : public StateVisitor<StateArray> {
+public:
+    explicit StateArray(const std::string& name) : name_(&name) {}
+
+    template <class Range, class Member>
+    void each(const std::string& name, const std::string& unit, const Range& range, Member member)
+    {
+        if (name == *name_) {
+            column = stored_column(name, unit, range, member);
+        }
+    }
+
+    Column column;
+
+private:
+    const std::string* name_;
+};
+
+/// The arrays of a snapshot, each of which is gone once it was asked for.
+inline StateOnDemand on_demand(Snapshot snapshot)
+{
+    StateOnDemand state{.bytes = {}, .array = {}, .texts = std::move(snapshot.texts)};
+    for (const auto& [name, column] : snapshot.arrays) {
+        state.bytes[name] = std::visit(
+            [](const auto& values) { return values.size() * sizeof(values[0]); }, column.values);
+    }
+    state.array = [arrays = std::move(snapshot.arrays)](const std::string& name) mutable {
+        return std::move(arrays.extract(name).mapped());
+    };
+    return state;
+}
 
 /// Takes a state from a snapshot. Throws IoError if a dataset is missing or has another type or
 /// length than the case needs.

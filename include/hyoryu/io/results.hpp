@@ -157,12 +157,16 @@ std::int64_t next_part_set(const std::filesystem::path& folder);
 
 /// Writes `checkpoint.SET.PART.h5`.
 CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
+                                     int part, const StateOnDemand& state);
+CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
                                      int part, Snapshot snapshot);
 
 /// Writes `checkpoint.h5`; the one that stood there becomes `checkpoint.previous.h5`. At every
-/// moment at least one of the two is whole. Arrays of the snapshot are freed as they are written.
-/// `parts`: what is in other files, all of which are on disk. Parts that neither of the two names
-/// are removed.
+/// moment at least one of the two is whole. Arrays are made, or those of the snapshot freed, as
+/// they are written. `parts`: what is in other files, all of which are on disk. Parts that neither
+/// of the two names are removed.
+void write_checkpoint(const std::filesystem::path& folder, StateOnDemand state,
+                      const std::vector<CheckpointPart>& parts = {});
 void write_checkpoint(const std::filesystem::path& folder, Snapshot snapshot,
                       const std::vector<CheckpointPart>& parts = {});
 

@@ -10,6 +10,10 @@ namespace hyoryu {
 /// The whole mutable state between two steps.
 Snapshot save(const Simulation& sim);
 
+/// The same, made array by array when it is asked for, from a simulation that lives as long and
+/// does not change.
+StateOnDemand state_of(const Simulation& sim);
+
 /// Puts the state into a simulation that was made from the same case. Throws IoError if the
 /// snapshot does not fit it.
 void restore(Simulation& sim, const Snapshot& snapshot);

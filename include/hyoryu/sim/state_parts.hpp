@@ -12,8 +12,14 @@
 
 namespace hyoryu {
 
+/// The dataset with the rows of fixed walls that a part has. A whole state has none.
+inline constexpr const char* rows_of_fixed_walls = "wall/fixed";
+
 /// Takes the particles of a rank out of its state.
 Snapshot take_particles(const Simulation& sim, Snapshot& state);
+
+/// The same for a state whose arrays are made on demand.
+StateOnDemand take_particles(const Simulation& sim, StateOnDemand& state);
 
 /// Appends the particles of the next part; `all` is empty before the first. Throws IoError if they
 /// do not belong together.
