@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -64,6 +65,12 @@ AtomicFile::AtomicFile(std::filesystem::path file)
 {
     if (descriptor_ < 0) {
         throw_system_error("create", file_);
+    }
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
+        ::close(std::exchange(descriptor_, -1));
+        throw IoError(fmt::format("cannot create `{}`: `{}` is not a file", file_.string(),
+                                  temporary_.string()));
     }
 }
 

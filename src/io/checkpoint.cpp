@@ -220,7 +220,7 @@ std::string text_of(const std::vector<CheckpointPart>& parts)
 
 const std::regex& part_names()
 {
-    static const std::regex names(R"(checkpoint\.([0-9]{6,12})\.[0-9]{4,9}\.h5)");
+    static const std::regex names(R"(checkpoint\.([0-9]{6,12})\.[0-9]{4}\.h5)");
     return names;
 }
 

@@ -27,10 +27,12 @@ namespace fs = std::filesystem;
 /// folder.
 constexpr std::array our_files{
     R"(case\.toml|plan\.json|summary\.json|run\.log|stop|report\.html|results\.h5|all\.vtkhdf)",
-    R"(checkpoint(\.previous|\.[0-9]{6,12}\.[0-9]{4,9})?\.h5)",
+    R"(checkpoint(\.previous|\.[0-9]{6,12}\.[0-9]{4})?\.h5)",
     R"((bodies|contacts|energy|gauges|open|ranks)(_[0-9]+)?\.csv)",
-    R"((fluid|bodies|surfaces|walls|structures)(\.[0-9]{4,9})?\.(hdf|hdf\.series))",
-    R"(frames/[a-z]+_[0-9]{6,}(\.[0-9]{4,9})?\.hdf)",
+    R"((fluid|bodies|surfaces|walls|structures)\.(hdf|hdf\.series))",
+    R"(walls\.[0-9]{4}\.hdf)",
+    R"(frames/(fluid|bodies|surfaces|walls|structures)_[0-9]{6,}\.hdf)",
+    R"(frames/(fluid|walls)_[0-9]{6,}\.[0-9]{4}\.hdf)",
     R"((vtp|csv)/([a-z]+_[0-9]{6,}\.(vtp|csv)|[a-z]+\.(pvd|csv)|\.hyoryu-convert))",
     R"(pictures/(frame_[0-9]{6,}\.png|animation\.mp4))",
 };

@@ -71,7 +71,7 @@ void insert(std::vector<SeriesEntry>& entries, const SeriesEntry& entry)
 
 bool is_part(const std::filesystem::path& file)
 {
-    static const std::regex pattern(R"([a-z]+_[0-9]{6,}\.[0-9]{4,9}\.hdf)");
+    static const std::regex pattern(R"((fluid|walls)_[0-9]{6,}\.[0-9]{4}\.hdf)");
     return std::regex_match(file.filename().string(), pattern);
 }
 

@@ -14,15 +14,10 @@
 #include <array>
 #include <numeric>
 #include <span>
-#include <sstream>
 
 namespace hyoryu {
 
 namespace {
-
-// Cell types of VTK.
-constexpr std::uint8_t vertex_cell = 1;
-constexpr std::uint8_t triangle_cell = 5;
 
 /// Which points make which cell, as VTK stores it.
 struct Cells {
@@ -213,128 +208,6 @@ void put_virtual_grid(hid_t image, const std::filesystem::path& file, const Clou
     }
 }
 
-std::vector<float> points_of(hid_t root)
-{
-    Column column = get_column(root, "Points");
-    auto* points = std::get_if<std::vector<float>>(&column.values);
-    if (points == nullptr || column.components != 3) {
-        throw IoError("its points are not rows of three single-precision numbers");
-    }
-    return std::move(*points);
-}
-
-std::size_t size_of(const Column& column)
-{
-    return std::visit([](const auto& values) { return values.size(); }, column.values);
-}
-
-/// Throws IoError if an array has not one row a point.
-template <class Frame>
-void expect_whole(const Frame& frame)
-{
-    for (const Column& column : frame.columns) {
-        if (3 * size_of(column) !=
-            frame.points.size() * static_cast<std::size_t>(column.components)) {
-            throw IoError(
-                fmt::format("its array `{}` does not have one row per point", column.name));
-        }
-    }
-}
-
-template <class Frame>
-void get_data(hid_t file, hid_t root, Frame& frame)
-{
-    frame.points = points_of(root);
-    const hdf5::Handle point_data = hdf5::open_group(root, "PointData");
-    for (const std::string& name : hdf5::link_names(point_data)) {
-        frame.columns.push_back(get_column(point_data, name));
-    }
-    expect_whole(frame);
-    const hdf5::Handle meta = hdf5::open_group(file, "meta");
-    frame.name = hdf5::text_attribute(meta, "name");
-    frame.time = hdf5::number_attribute(meta, "time");
-    frame.index = static_cast<std::int64_t>(hdf5::number_attribute(meta, "index"));
-}
-
-std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
-{
-    const Column types = get_column(root, "Types");
-    for (const std::uint8_t type : std::get<std::vector<std::uint8_t>>(types.values)) {
-        if (type != triangle_cell) {
-            throw IoError("it contains cells that are not triangles");
-        }
-    }
-    const Column connectivity = get_column(root, "Connectivity");
-    const auto& corners = std::get<std::vector<std::int64_t>>(connectivity.values);
-    std::vector<std::int32_t> triangles(corners.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (corners[i] < 0 || corners[i] >= static_cast<std::int64_t>(points)) {
-            throw IoError("a triangle has a corner that is not a point");
-        }
-        triangles[i] = static_cast<std::int32_t>(corners[i]);
-    }
-    if (triangles.size() % 3 != 0) {
-        throw IoError("its last triangle is incomplete");
-    }
-    return triangles;
-}
-
-/// What a frame says of its parts; empty if its arrays are its own.
-std::string parts_named_in(hid_t file)
-{
-    if (!hdf5::has_link(file, "meta")) {
-        return {};
-    }
-    const hdf5::Handle meta = hdf5::open_group(file, "meta");
-    return H5Aexists(meta, "parts") > 0 ? hdf5::text_attribute(meta, "parts") : std::string();
-}
-
-std::filesystem::path checked_part(const std::filesystem::path& frame, const std::string& line)
-{
-    std::istringstream words(line);
-    std::string name;
-    std::uintmax_t bytes = 0;
-    words >> name >> bytes;
-    const std::filesystem::path part = frame.parent_path() / name;
-    if (!words || std::filesystem::path(name).filename() != name) {
-        throw IoError(fmt::format("`{}` is damaged: it names the part `{}`", frame.string(), line));
-    }
-    std::error_code fault;
-    const std::uintmax_t found = std::filesystem::file_size(part, fault);
-    if (fault || found != bytes) {
-        throw IoError(fmt::format("the part `{}` of `{}` {}", part.string(), frame.string(),
-                                  fault ? "is missing"
-                                        : fmt::format("has {} bytes, expected {}", found, bytes)));
-    }
-    return part;
-}
-
-std::vector<std::filesystem::path> checked_parts(hid_t file, const std::filesystem::path& frame)
-{
-    std::vector<std::filesystem::path> parts;
-    std::istringstream lines(parts_named_in(file));
-    for (std::string line; std::getline(lines, line);) {
-        parts.push_back(checked_part(frame, line));
-    }
-    return parts;
-}
-
-/// Runs `read(file, root group)`; errors are reported with the name of the file.
-template <class Read>
-void read_vtkhdf(const std::filesystem::path& file, Read read)
-{
-    const hdf5::Session session;
-    const hdf5::Handle open = hdf5::open_file(file);
-    checked_parts(open, file);
-    try {
-        const hdf5::Handle root = hdf5::open_group(open, "VTKHDF");
-        read(open, root);
-    } catch (const std::exception& error) {
-        throw IoError(fmt::format("`{}` is not a frame of Hyoryu, or is damaged: {}", file.string(),
-                                  error.what()));
-    }
-}
-
 } // namespace
 
 void write_vtkhdf(const std::filesystem::path& file, const Cloud& cloud)
@@ -367,30 +240,6 @@ std::filesystem::path part_of_frame(const std::filesystem::path& file, int part)
 {
     std::filesystem::path name = file;
     return name.replace_extension(fmt::format(".{:04}{}", part, file.extension().string()));
-}
-
-std::vector<std::filesystem::path> files_of_frame(const std::filesystem::path& file)
-{
-    const hdf5::Handle open = hdf5::open_file(file);
-    std::vector<std::filesystem::path> parts = checked_parts(open, file);
-    return parts.empty() ? std::vector{file} : parts;
-}
-
-Cloud read_frame(const std::filesystem::path& file)
-{
-    Cloud cloud;
-    read_vtkhdf(file, [&](hid_t open, hid_t root) { get_data(open, root, cloud); });
-    return cloud;
-}
-
-Surface read_surface(const std::filesystem::path& file)
-{
-    Surface surface;
-    read_vtkhdf(file, [&](hid_t open, hid_t root) {
-        get_data(open, root, surface);
-        surface.triangles = triangles_of(root, surface.points.size() / 3);
-    });
-    return surface;
 }
 
 } // namespace hyoryu

@@ -4,9 +4,15 @@
 
 #include "hyoryu/core/snapshot.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace hyoryu {
+
+/// Cell types of VTK.
+inline constexpr std::uint8_t vertex_cell = 1;
+inline constexpr std::uint8_t triangle_cell = 5;
 
 /// Writes the file whole (temporary name, then renamed). Throws IoError.
 void write_vtkhdf(const std::filesystem::path& file, const Cloud& cloud);

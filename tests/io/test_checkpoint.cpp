@@ -66,7 +66,7 @@ TEST_F(Checkpoint, KeepsEveryBit)
 TEST_F(Checkpoint, IsReplacedWhole)
 {
     write_checkpoint(folder, make_snapshot());
-    write_checkpoint(folder, {{}, {{"step", "2"}}});
+    write_checkpoint(folder, Snapshot{{}, {{"step", "2"}}});
     EXPECT_EQ(read_checkpoint(folder).texts.at("step"), "2");
     EXPECT_EQ(testing::content_of(folder),
               (std::vector<std::string>{"checkpoint.h5", "checkpoint.previous.h5"}));
@@ -75,7 +75,7 @@ TEST_F(Checkpoint, IsReplacedWhole)
 TEST_F(Checkpoint, KeepsTwoGenerations)
 {
     for (const char* step : {"1", "2", "3"}) {
-        write_checkpoint(folder, {{}, {{"step", step}}});
+        write_checkpoint(folder, Snapshot{{}, {{"step", step}}});
     }
     const NewestCheckpoint newest = read_newest_checkpoint(folder);
     EXPECT_EQ(newest.snapshot.texts.at("step"), "3");
@@ -88,15 +88,15 @@ TEST_F(Checkpoint, KeepsTwoGenerations)
 
 TEST_F(Checkpoint, ThatIsDamagedGivesWayToTheOneBefore)
 {
-    write_checkpoint(folder, {{}, {{"step", "1"}}});
-    write_checkpoint(folder, {{}, {{"step", "2"}}});
+    write_checkpoint(folder, Snapshot{{}, {{"step", "1"}}});
+    write_checkpoint(folder, Snapshot{{}, {{"step", "2"}}});
     put_text_into(folder / "checkpoint.h5", "torn");
     const NewestCheckpoint newest = read_newest_checkpoint(folder);
     EXPECT_EQ(newest.snapshot.texts.at("step"), "1");
     EXPECT_NE(newest.passed_over.find("is not a checkpoint"), std::string::npos);
     // Without this the next checkpoint would keep the torn one as the older generation.
     take_previous_checkpoint(folder);
-    write_checkpoint(folder, {{}, {{"step", "3"}}});
+    write_checkpoint(folder, Snapshot{{}, {{"step", "3"}}});
     put_text_into(folder / "checkpoint.h5", "torn");
     EXPECT_EQ(read_newest_checkpoint(folder).snapshot.texts.at("step"), "1");
     std::filesystem::remove(folder / "checkpoint.h5");
@@ -117,7 +117,7 @@ void write_in_parts(const std::filesystem::path& folder, double number, int coun
         own.arrays["number"] = {"", "", 1, std::vector<double>{number, 1.0 * part}};
         parts.push_back(write_checkpoint_part(folder, set, part, own));
     }
-    write_checkpoint(folder, {{}, {{"step", std::to_string(number)}}}, parts);
+    write_checkpoint(folder, Snapshot{{}, {{"step", std::to_string(number)}}}, parts);
 }
 
 // The number of a checkpoint, of which all parts must be.
@@ -146,7 +146,7 @@ TEST_F(Checkpoint, InPartsKeepsTwoGenerationsAndNoOtherParts)
     }
     EXPECT_EQ(testing::content_of(folder).size(), 2U + 2 + 3);
     // Whatever a kill leaves of a set that was never named does not hinder the next one.
-    write_checkpoint_part(folder, next_part_set(folder), 0, {});
+    write_checkpoint_part(folder, next_part_set(folder), 0, Snapshot{});
     write_in_parts(folder, 7, 2);
     EXPECT_EQ(number_of(folder, read_newest_checkpoint(folder)), 7);
     EXPECT_EQ(testing::content_of(folder).size(), 2U + 3 + 2);
@@ -190,7 +190,7 @@ TEST_F(Checkpoint, NamesNoPartsOutOfItsFolder)
 {
     for (const char* const name :
          {"../checkpoint.000001.0000.h5", "/etc/passwd", "case.toml", ""}) {
-        write_checkpoint(folder, {}, {{name, 10, 1}});
+        write_checkpoint(folder, Snapshot{}, {{name, 10, 1}});
         try {
             read_newest_checkpoint(folder);
             ADD_FAILURE() << name;

@@ -29,8 +29,8 @@ protected:
              {"case.toml", "plan.json", "summary.json", "run.log", "report.html"}) {
             write_text(folder / name, "x");
         }
-        write_checkpoint(folder, {});
-        write_checkpoint(folder, {});
+        write_checkpoint(folder, Snapshot{});
+        write_checkpoint(folder, Snapshot{});
         write_master(folder, "", "0");
         put_text_into(folder / "pictures/frame_000000.png", "");
         put_text_into(folder / "pictures/animation.mp4", "");

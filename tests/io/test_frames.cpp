@@ -132,7 +132,7 @@ TEST_F(Frames, ThatAreMissingOrForeignAreErrors)
     EXPECT_THROW(read_frame(folder / "foreign.hdf"), IoError);
     testing::put_text_into(folder / "foreign.hdf.series", "{\"files\": 3}");
     EXPECT_THROW(read_series(folder / "foreign.hdf.series"), IoError);
-    write_checkpoint(folder, {});
+    write_checkpoint(folder, Snapshot{});
     EXPECT_THROW(read_frame(folder / "checkpoint.h5"), IoError);
 }
 

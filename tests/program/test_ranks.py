@@ -368,19 +368,41 @@ class Ends(RanksTest):
     def test_a_part_of_a_frame_that_is_missing_or_wrong_is_named(self):
         self.run_by(2, "out")
         frames = self.dir / "out/frames"
-        good = (frames / "fluid_000001.0001.hdf").read_bytes()
-        for damage in ("missing", "cut"):
-            if damage == "missing":
-                (frames / "fluid_000001.0001.hdf").unlink()
-            else:
-                (frames / "fluid_000001.0001.hdf").write_bytes(good[:-8])
-            for arguments in (("convert", "out", "--to", "csv", "--force"),
-                              ("convert", "out", "--to", "vtkhdf", "--force")):
-                done = self.call(*arguments)
-                self.assertEqual(done.returncode, 4, (arguments, done.stdout, done.stderr))
+        part = frames / "fluid_000001.0001.hdf"
+        good = part.read_bytes()
+        same_size = [p for p in frames.glob("fluid_*.0001.hdf") if p != part and p.stat().st_size == len(good)]
+        self.assertGreater(len(same_size), 0)
+        for damage in (None, good[:-8], bytes(len(good)), same_size[0].read_bytes(),
+                       (frames / "fluid_000001.0000.hdf").read_bytes()):
+            part.unlink(missing_ok=True)
+            if damage is not None:
+                part.write_bytes(damage)
+            for to in ("csv", "vtp", "vtkhdf"):
+                done = self.call("convert", "out", "--to", to, "--force")
+                self.assertEqual(done.returncode, 4, (to, done.stdout, done.stderr))
                 self.assertIn("fluid_000001.0001.hdf", done.stderr)
-        (frames / "fluid_000001.0001.hdf").write_bytes(good)
+        part.write_bytes(good)
         self.assertEqual(self.call("convert", "out", "--to", "csv", "--force").returncode, 0)
+
+    def test_force_removes_parts_and_nothing_that_is_only_named_alike(self):
+        self.run_by(3, "out", "--until", "0.03")
+        self.assertGreater(len(self.parts("out")), 3)
+        for mine in ("frames/foo_000012.0003.hdf", "frames/bodies_000001.0001.hdf", "fluid.0001.hdf", "walls.12345.hdf",
+                     "checkpoint.000007.00003.h5", "frames/fluid_000012.00003.hdf", "frames/foo_000001.hdf"):
+            (self.dir / "out" / mine).write_text("mine")
+            for ranks in (1, 2):
+                self.assertIn(mine, self.run_by(ranks, "out", "--force", code=2))
+            (self.dir / "out" / mine).unlink()
+        self.run_by(1, "out", "--force", "--until", "0.03")
+        self.assertEqual(self.parts("out"), [])
+        self.assertEqual(list((self.dir / "out").glob("checkpoint.0*")), [])
+
+    def test_a_pipe_in_the_place_of_a_file_is_told(self):
+        for ranks, name in ((1, "checkpoint.h5.tmp"), (2, "checkpoint.h5.tmp"), (2, "frames/fluid_000002.0001.hdf.tmp")):
+            self.run_by(2, "out", "--force", "--until", "0.015")
+            os.mkfifo(self.dir / "out" / name)
+            self.assertIn(name, self.run_by(ranks, "out", "--resume", code=4))
+            (self.dir / "out" / name).unlink()
 
     def test_parts_of_frames_that_were_not_finished_are_removed(self):
         self.run_by(1, "whole")
