@@ -21,8 +21,7 @@ constexpr double mesh_reader = 31e6;
 // cells [B].
 constexpr double of_particle = 64 + 24 + 16 + 12;
 
-// Of a fluid particle: the last good state, which becomes the image of a checkpoint; and two frames
-// on their way to the disk [B].
+// Of a fluid particle: the last good state, and two frames on their way to the disk [B].
 constexpr double good_state = 150;
 constexpr double on_its_way = 2 * 62;
 

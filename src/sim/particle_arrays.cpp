@@ -157,31 +157,35 @@ void refuse_rows(const std::string& name)
                               name));
 }
 
+namespace {
+
+// Moves what is of particles from one map, by name, to another.
+template <class Map>
+void move_particles(const Simulation& sim, Map& from, Map& to)
+{
+    const std::set<std::string> of_fluid = fluid_columns(sim);
+    for (auto entry = from.begin(); entry != from.end();) {
+        const auto next = std::next(entry);
+        if (is_of_particles(entry->first, of_fluid)) {
+            to.insert(from.extract(entry));
+        }
+        entry = next;
+    }
+}
+
+} // namespace
+
 Snapshot take_particles(const Simulation& sim, Snapshot& state)
 {
     Snapshot particles;
-    const std::set<std::string> of_fluid = fluid_columns(sim);
-    for (auto array = state.arrays.begin(); array != state.arrays.end();) {
-        const auto next = std::next(array);
-        if (is_of_particles(array->first, of_fluid)) {
-            particles.arrays.insert(state.arrays.extract(array));
-        }
-        array = next;
-    }
+    move_particles(sim, state.arrays, particles.arrays);
     return particles;
 }
 
 StateOnDemand take_particles(const Simulation& sim, StateOnDemand& state)
 {
     StateOnDemand particles{.bytes = {}, .array = state.array, .texts = {}};
-    const std::set<std::string> of_fluid = fluid_columns(sim);
-    for (auto array = state.bytes.begin(); array != state.bytes.end();) {
-        const auto next = std::next(array);
-        if (is_of_particles(array->first, of_fluid)) {
-            particles.bytes.insert(state.bytes.extract(array));
-        }
-        array = next;
-    }
+    move_particles(sim, state.bytes, particles.bytes);
     return particles;
 }
 

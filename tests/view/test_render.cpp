@@ -199,6 +199,17 @@ TEST_F(Render, ShowsAPlaneCaseFromItsSide)
     expect_picture(result.pictures[0]);
 }
 
+// What VTK reads from a file; null if it does not read such files.
+vtkUnstructuredGrid* grid_of(vtkHDFReader* reader, const std::filesystem::path& file)
+{
+    if (reader->CanReadFile(file.c_str()) != 1) {
+        return nullptr;
+    }
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    return vtkUnstructuredGrid::SafeDownCast(reader->GetOutput());
+}
+
 // The same reader as in ParaView 5.10: chunks of our own compressor, vertices, arrays, the time.
 TEST_F(Render, FramesAreWhatVtkReads)
 {
@@ -208,10 +219,7 @@ TEST_F(Render, FramesAreWhatVtkReads)
     writer.write(testing::make_surface(4));
     writer.finish();
     vtkNew<vtkHDFReader> reader;
-    ASSERT_EQ(reader->CanReadFile((folder / "frames/fluid_000004.hdf").c_str()), 1);
-    reader->SetFileName((folder / "frames/fluid_000004.hdf").c_str());
-    reader->Update();
-    auto* cloud = vtkUnstructuredGrid::SafeDownCast(reader->GetOutput());
+    auto* const cloud = grid_of(reader, folder / "frames/fluid_000004.hdf");
     ASSERT_NE(cloud, nullptr);
     ASSERT_EQ(cloud->GetNumberOfPoints(), static_cast<vtkIdType>(points));
     ASSERT_EQ(cloud->GetNumberOfCells(), static_cast<vtkIdType>(points));
@@ -222,9 +230,7 @@ TEST_F(Render, FramesAreWhatVtkReads)
     EXPECT_DOUBLE_EQ(cloud->GetPointData()->GetArray("Pressure")->GetComponent(1, 0), 0.5);
     EXPECT_EQ(cloud->GetPointData()->GetNumberOfArrays(), 5);
     EXPECT_DOUBLE_EQ(cloud->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), 0.4);
-    reader->SetFileName((folder / "frames/surfaces_000004.hdf").c_str());
-    reader->Update();
-    auto* surface = vtkUnstructuredGrid::SafeDownCast(reader->GetOutput());
+    auto* const surface = grid_of(reader, folder / "frames/surfaces_000004.hdf");
     ASSERT_NE(surface, nullptr);
     EXPECT_EQ(surface->GetNumberOfCells(), 2);
     EXPECT_EQ(surface->GetCellType(1), VTK_TRIANGLE);
@@ -246,10 +252,7 @@ TEST_F(Render, FramesInPartsAreWhatVtkReads)
     writer.write(whole);
     writer.finish();
     vtkNew<vtkHDFReader> reader;
-    ASSERT_EQ(reader->CanReadFile((folder / "frames/fluid_000004.hdf").c_str()), 1);
-    reader->SetFileName((folder / "frames/fluid_000004.hdf").c_str());
-    reader->Update();
-    auto* cloud = vtkUnstructuredGrid::SafeDownCast(reader->GetOutput());
+    auto* const cloud = grid_of(reader, folder / "frames/fluid_000004.hdf");
     ASSERT_NE(cloud, nullptr);
     ASSERT_EQ(cloud->GetNumberOfPoints(), 70503);
     ASSERT_EQ(cloud->GetNumberOfCells(), 70503);
