@@ -111,6 +111,10 @@ std::mutex& lock_with_memory()
 
 Session::Session() : lock_(lock_with_memory())
 {
+    // All files are closed by those who opened them, but for one that HDF5 could not write, which
+    // it would try to close again at the end of the program, and crash.
+    static const herr_t once = H5dont_atexit();
+    static_cast<void>(once);
     H5Eget_auto2(H5E_DEFAULT, &printer_, &printer_data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
