@@ -3,6 +3,7 @@
 #include "vtkhdf.hpp"
 
 #include "hdf5.hpp"
+#include "hyoryu/core/columns.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/results.hpp"
 #include "packed_array.hpp"
@@ -84,25 +85,6 @@ std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
 std::string damaged_frame(const std::filesystem::path& file, const std::string& why)
 {
     return fmt::format("`{}` is not a frame of Hyoryu, or is damaged: {}", file.string(), why);
-}
-
-void append(Cloud& all, const Cloud& more)
-{
-    if (all.columns.size() != more.columns.size()) {
-        throw IoError("its parts have different arrays");
-    }
-    all.points.insert(all.points.end(), more.points.begin(), more.points.end());
-    for (std::size_t k = 0; k < all.columns.size(); ++k) {
-        std::visit(
-            [&]<class T>(std::vector<T>& values) {
-                const auto* others = std::get_if<std::vector<T>>(&more.columns[k].values);
-                if (others == nullptr || all.columns[k].name != more.columns[k].name) {
-                    throw IoError("its parts have different arrays");
-                }
-                values.insert(values.end(), others->begin(), others->end());
-            },
-            all.columns[k].values);
-    }
 }
 
 /// What a frame says of its parts; empty if its arrays are its own.
@@ -199,8 +181,8 @@ void read_vtkhdf(const std::filesystem::path& file, Read read)
     }
 }
 
-/// The arrays of a cloud, from its parts: where HDF5 cannot read one, it would hand over what
-/// stands for nothing.
+/// Reads the arrays of a cloud from its parts. Through the virtual datasets HDF5 would return fill
+/// values, without an error, where it cannot read a part.
 void get_cloud(hid_t file, hid_t root, const std::filesystem::path& frame, Cloud& cloud)
 {
     const std::vector<std::filesystem::path> parts = checked_parts(file, frame);
@@ -216,7 +198,7 @@ void get_cloud(hid_t file, hid_t root, const std::filesystem::path& frame, Cloud
         if (part == parts.front()) {
             cloud = std::move(next);
         } else {
-            append(cloud, next);
+            append_points(cloud, next);
         }
     }
 }

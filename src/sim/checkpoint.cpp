@@ -356,12 +356,12 @@ void check_tiles(const Tiles& tiles, Rows rows)
     }
 }
 
-void expect_particles_of_case(const Simulation& sim, double particles)
+void expect_particles_of_case(const Simulation& sim, Index particles)
 {
     if (!sim.fluid || sim.open.runs()) { // which may have added any number
         return;
     }
-    if (particles > static_cast<double>(sim.plan.counts.fluid)) {
+    if (particles > sim.plan.counts.fluid) {
         throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
                                   "{} of this case: it belongs to another case",
                                   particles, sim.plan.counts.fluid));
@@ -396,7 +396,7 @@ void restore(Simulation& sim, const Snapshot& snapshot)
     if (sim.fluid) {
         StateReader(snapshot).list("fluid/id", "", numbers);
     }
-    expect_particles_of_case(sim, static_cast<double>(numbers.size()));
+    expect_particles_of_case(sim, std::ssize(numbers));
     restore_share(sim, snapshot);
 }
 

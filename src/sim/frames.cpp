@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/frames.hpp"
 
-#include "hyoryu/ranks/columns.hpp"
+#include "hyoryu/core/columns.hpp"
 #include "hyoryu/scene/triangles.hpp"
 
 #include <algorithm>
@@ -76,22 +76,6 @@ Cloud cloud_of(const Simulation& sim, std::string name, const Store& store, Kind
     return cloud;
 }
 
-// The points of these numbers, ascending.
-void keep_points(Cloud& cloud, std::span<const std::int32_t> rows)
-{
-    const auto keep = [&](auto& values, std::size_t width) {
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            std::copy_n(&values[at(rows[k]) * width], width, &values[k * width]);
-        }
-        values.resize(rows.size() * width);
-    };
-    keep(cloud.points, 3);
-    for (Column& column : cloud.columns) {
-        std::visit([&](auto& values) { keep(values, static_cast<std::size_t>(column.components)); },
-                   column.values);
-    }
-}
-
 // Takes the rows behind open sides out of a frame: they are not part of the domain.
 void leave_out_carpets(const Simulation& sim, Cloud& cloud)
 {
@@ -102,7 +86,7 @@ void leave_out_carpets(const Simulation& sim, Cloud& cloud)
             inside.push_back(static_cast<std::int32_t>(row));
         }
     }
-    keep_points(cloud, inside);
+    cloud = some_points(cloud, inside);
 }
 
 // The value that a column has for a wall particle without a row, which no fluid is near.
@@ -164,7 +148,7 @@ Cloud wall_rows_cloud(const Simulation& sim)
     if (fluid.ghosts) { // every rank has the rows of walls that move
         std::vector<std::int32_t> own = fluid.neighbours.wall.row;
         std::ranges::sort(own);
-        keep_points(cloud, own);
+        cloud = some_points(cloud, own);
     }
     return cloud;
 }
@@ -188,14 +172,6 @@ Cloud some_points(const Cloud& cloud, std::span<const std::int32_t> rows)
         some.columns.push_back(some_rows(column, rows));
     }
     return some;
-}
-
-void append_points(Cloud& all, const Cloud& more)
-{
-    all.points.insert(all.points.end(), more.points.begin(), more.points.end());
-    for (std::size_t k = 0; k < all.columns.size(); ++k) {
-        append_rows(all.columns[k], more.columns[k]);
-    }
 }
 
 // Those of fixed walls that have no row are made.

@@ -147,7 +147,8 @@ Cuts cuts_of(const Simulation& sim, Comm& comm, const StateParts& state)
         tiles.push_back(weight.tile);
         weights.push_back(weight.particles);
     }
-    expect_particles_of_case(sim, std::accumulate(weights.begin(), weights.end(), 0.0));
+    const double particles = std::accumulate(weights.begin(), weights.end(), 0.0);
+    expect_particles_of_case(sim, static_cast<Index>(particles));
     return cut_evenly(tiles, weights, comm.size());
 }
 

@@ -25,7 +25,7 @@ void describe_tiles(State& state, Tiles& tiles, const std::string& name)
 void check_tiles(const Tiles& tiles, Rows rows);
 
 /// Throws IoError if a state has more fluid particles than its case can have.
-void expect_particles_of_case(const Simulation& sim, double particles);
+void expect_particles_of_case(const Simulation& sim, Index particles);
 
 /// Puts a state into a simulation: of a rank the fluid particles and tiles of its range, and all
 /// else as one process has it. Called by all ranks.

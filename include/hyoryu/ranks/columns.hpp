@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Columns of values in messages, and put together from those of several ranks.
+// Named arrays in messages.
 #pragma once
 
-#include "hyoryu/core/snapshot.hpp"
+#include "hyoryu/core/columns.hpp"
 #include "hyoryu/ranks/comm.hpp"
 
 namespace hyoryu {
 
-std::size_t rows_of(const Column& column);
-
-/// The rows of these numbers, in their order.
-Column some_rows(const Column& column, std::span<const std::int32_t> rows);
-
-/// Appends rows. Throws IoError if the two differ in type or components.
-void append_rows(Column& all, const Column& more);
-
 void put_column(Parcel& parcel, const Column& column);
 Column take_column(Unpacking& from);
 
+/// All arrays of a snapshot; its texts are not sent.
 void put_arrays(Parcel& parcel, const Snapshot& snapshot);
 Snapshot take_arrays(Unpacking& from);
 

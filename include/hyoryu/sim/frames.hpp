@@ -32,8 +32,6 @@ Cloud wall_cloud(const Simulation& sim, Cloud rows, const NumberRange& range);
 std::vector<std::int64_t> numbers_in(const Cloud& cloud);
 /// The points of these indices.
 Cloud some_points(const Cloud& cloud, std::span<const std::int32_t> rows);
-/// Appends the points of a cloud with the same columns.
-void append_points(Cloud& all, const Cloud& more);
 
 /// Surfaces of all bodies at their present pose, with Body and Velocity at the corners.
 Surface body_surface(const Simulation& sim);
