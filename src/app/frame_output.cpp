@@ -100,8 +100,8 @@ void FrameOutput::write_walls(const Simulation& sim, Life life)
     write_cloud(comm_ == nullptr ? wall_cloud(sim) : share_of_walls(sim), life);
 }
 
-// Which process has values of a wall particle depends on the water near it; a file has those of a
-// range of numbers.
+// A wall particle belongs to the process of its tile, but a file contains a range of particle
+// numbers: each process sends its particles to the process that writes their range.
 Cloud FrameOutput::share_of_walls(const Simulation& sim) const
 {
     const Cloud own = wall_rows_cloud(sim);

@@ -17,7 +17,7 @@ public:
     /// `comm`: null for one process. `groups`: of processes that write a file together.
     FrameOutput(const std::filesystem::path& folder, Comm* comm, const Groups& groups);
 
-    /// What never changes: walls, and surfaces of the structures.
+    /// Writes what does not change during the run: wall particles and surfaces of structures.
     void write_static(const Simulation& sim, const Bounds& domain);
     void write(const Simulation& sim);
     /// Removes every frame later than `time` [s].

@@ -55,7 +55,7 @@ int main(int argc, char** argv)
     using namespace hyoryu;
     std::set_terminate(end_without_memory);
     return_large_memory();
-    std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error as a full disk is
+    std::signal(SIGXFSZ, SIG_IGN); // a file-size limit then gives an error message
     try {
         const int code = run_command_line(argc, argv);
         if (std::fflush(stdout) != 0) {

@@ -63,16 +63,19 @@ void share_solids(Fluid& fluid, List fields)
     }
 }
 
-/// Pressures and volumes of solids go on their way, while the fluid acts on itself.
+/// Starts sending the pressures and volumes of solid particles to the ranks that have ghosts of
+/// them.
 void send_pressures(Fluid& fluid);
-/// They are there. Nothing if none are on their way.
+/// Waits for the pressures of ghosts and loads them into the records. Does nothing if none were
+/// sent.
 void receive_pressures(Fluid& fluid);
 
-/// The velocities of all particles that move go on their way, and are there.
+/// The same for the velocities of all particles that move.
 void send_velocities(Fluid& fluid);
 void receive_velocities(Fluid& fluid);
 
-/// From now on values go to those ghosts alone that lists look at.
+/// Restricts what is sent to the ghosts that the neighbour lists read. Called after each list
+/// build.
 void choose_links(Fluid& fluid);
 /// The fluid rows that left the range of this rank go to their owners, those that left the domain
 /// stay.

@@ -25,14 +25,14 @@ public:
 
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text);
-    /// Makes sure that the file may have so many bytes and that the disk has room for them, as far
-    /// as the file system can tell.
+    /// Reserves disk space for the file. Throws IoError if its size exceeds the limit of the
+    /// process or the free space. Does nothing on a file system that cannot reserve space.
     void reserve(std::uintmax_t bytes) const;
-    /// Where the bytes are meanwhile, for a library that writes by itself.
+    /// The temporary file, for a library that writes to a path.
     const std::filesystem::path& temporary() const { return temporary_; }
-    /// Writes over the first bytes.
+    /// Overwrites the first bytes of the file.
     void write_at_start(std::string_view text) const;
-    /// Calls f(bytes) for all bytes from a place on, block by block.
+    /// Reads the file from an offset [B] to its end and calls f(block) for each block.
     void read_from(std::uintmax_t place,
                    const std::function<void(std::span<const std::byte>)>& f) const;
     /// Forces the bytes to the disk and gives the file its name.

@@ -263,9 +263,9 @@ NewestCheckpoint read_generation(const std::filesystem::path& file)
     return found;
 }
 
-/// Writes a file and calls `before` when its bytes are about to get their name. The arrays go to
-/// the disk one by one: an image of the file would be as large as the state. HDF5 cannot close a
-/// file that it fails to write, so room is made for it first.
+/// Writes a file; `before` is called just before the file is renamed. The arrays are written one by
+/// one, since an image of the file would need as much memory as the state. The disk space is
+/// reserved first, since HDF5 cannot close a file that it failed to write.
 CheckpointPart write_file(const std::filesystem::path& file, int format, const StateOnDemand& state,
                           const std::function<void()>& before)
 {

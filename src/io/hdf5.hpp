@@ -64,13 +64,14 @@ private:
     Handle file_;
 };
 
-/// A file on the disk, for what is too large for a FileImage: there must be room for it. `skip`:
-/// bytes before it that are left free, 512 or a larger power of two.
+/// A new HDF5 file on the disk, for data that must not be held in memory as a whole. Reserve the
+/// disk space first: HDF5 cannot close a file that it failed to write. `skip`: size of the user
+/// block, which HDF5 leaves free at the beginning of the file: 512 B or a larger power of two.
 class DiskFile {
 public:
     DiskFile(const std::filesystem::path& file, std::size_t skip);
     operator hid_t() const { return file_; }
-    /// Writes what HDF5 holds back; no more may be added.
+    /// Flushes all buffers of HDF5 to the file. Throws IoError. Nothing may be added afterwards.
     void close();
 
 private:

@@ -108,11 +108,12 @@ public:
                const Settings& settings, const ListChoice& choice = {});
     /// Which slots stand in any list; what has met nothing needs no list of its own.
     void mark_met(std::vector<std::uint8_t>& marks) const;
-    /// Marks the slots from `first` on that any block looks at, met or not; the first mark is that
-    /// of `first`.
+    /// Marks the slots >= `first` in the chunks of any block, whether they are neighbours or not.
+    /// `marks[k]` belongs to slot `first` + k.
     void mark_looked_at(std::vector<std::uint8_t>& marks, Index first) const;
     void clear();
-    /// Puts blocks that look at no slot from `first` on before the others, and returns how many.
+    /// Reorders the blocks: those without a chunk at or behind slot `first` come first. Returns the
+    /// number of these.
     Index split(Index first);
 
     std::span<const ListBlock> blocks() const { return blocks_; }

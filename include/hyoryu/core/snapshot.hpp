@@ -31,13 +31,13 @@ struct Cloud {
     std::vector<Column> columns; // one value (or vector) a point
 };
 
-/// A cloud that several processes have written: a file each.
+/// Description of a cloud whose points are in several files, one for each part.
 struct CloudOfParts {
     std::string name;
     double time = 0;                  // [s]
     std::int64_t index = 0;           // number of the frame
     std::vector<std::int64_t> points; // of each part
-    std::vector<Column> columns;      // without values
+    std::vector<Column> columns;      // name, unit and type of each; no values
 };
 
 /// Triangles at one moment: the surfaces of the bodies.
@@ -66,10 +66,10 @@ struct Snapshot {
     std::map<std::string, std::string> texts;
 };
 
-/// A state that is not in memory as a whole: its arrays are made one by one.
+/// A state whose arrays are created one at a time, so that it is never in memory as a whole.
 struct StateOnDemand {
-    std::map<std::string, std::size_t> bytes;        // of each array, by its name [B]
-    std::function<Column(const std::string&)> array; // makes the array of a name; once each
+    std::map<std::string, std::size_t> bytes;        // size of each array, by name [B]
+    std::function<Column(const std::string&)> array; // creates an array; call once for each name
     std::map<std::string, std::string> texts;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // State as named datasets. A function template `describe(state, part)` names each quantity once,
 // with its unit and its place; a StateWriter in `state` stores them, a StateReader takes them back.
-// A StateArray makes one of them alone, where all together would not fit in memory.
-// No quantity depends on the order or the number of others.
+// A StateArray creates a single dataset; with it a state is written without being copied as a
+// whole. No quantity depends on the order or the number of others.
 #pragma once
 
 #include "hyoryu/core/error.hpp"
@@ -62,7 +62,7 @@ template <class Range, class Member>
 using MemberOf =
     std::remove_cvref_t<std::invoke_result_t<Member, decltype(*std::declval<Range&>().begin())>>;
 
-/// A member of each element of a range, as it is stored.
+/// The dataset with a member of each element of a range.
 template <class Range, class Member>
 Column stored_column(const std::string& name, const std::string& unit, const Range& range,
                      Member member)
@@ -77,7 +77,8 @@ Column stored_column(const std::string& name, const std::string& unit, const Ran
     return {name, unit, Value::components, std::move(numbers)};
 }
 
-/// What those that look at a state have in common; `Visitor` has the function `each`.
+/// Base of the classes that read a state through `describe`. `Visitor` is the derived class; it
+/// defines `each(name, unit, range, member)`, which handles one dataset.
 template <class Visitor>
 class StateVisitor {
 public:
@@ -128,7 +129,7 @@ private:
     Snapshot* snapshot_;
 };
 
-/// Collects how large the datasets of a state are.
+/// Collects the sizes of all datasets of a state.
 class StateSizes : public StateVisitor<StateSizes> {
 public:
     template <class Range, class Member>
@@ -141,7 +142,7 @@ public:
     std::map<std::string, std::size_t> bytes; // by name [B]
 };
 
-/// Makes one dataset of a state.
+/// Creates the dataset with the given name.
 class StateArray : public StateVisitor<StateArray> {
 public:
     explicit StateArray(const std::string& name) : name_(&name) {}
@@ -160,7 +161,7 @@ private:
     const std::string* name_;
 };
 
-/// The arrays of a snapshot, each of which is gone once it was asked for.
+/// A snapshot as a StateOnDemand: each array is moved out when it is requested.
 inline StateOnDemand on_demand(Snapshot snapshot)
 {
     StateOnDemand state{.bytes = {}, .array = {}, .texts = std::move(snapshot.texts)};

@@ -16,7 +16,7 @@ struct Fluid;
 /// The ghosts of one kind of particles.
 struct GhostsOfKind {
     Halo halo;
-    Links links; // of the points that lists look at, which alone are kept up to date
+    Links links; // of the ghosts that neighbour lists read; only these are updated in a step
     Tiles tiles;
     DisplacementSpace motion; // of their tiles, and which own tiles touch them
 };
@@ -31,8 +31,8 @@ struct Ghosts {
     real moved = 0; // the farthest that own particles had moved when their places were shared [m]
     std::vector<std::uint8_t> wet_body; // by point: whether fluid is near
     std::vector<Parcel> outbox, inbox;  // memory of messages
-    Underway solids, velocities;        // one at a time
-    Index inner = 0; // blocks of fluid pairs that look at no ghost, which come first
+    Underway solids, velocities;        // at most one of them is begun at a time
+    Index inner = 0; // number of blocks of fluid pairs without ghosts; they come first
 };
 
 /// Makes the fluid that of one rank. Its store must then have the fluid particles of its range of

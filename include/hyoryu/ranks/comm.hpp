@@ -49,8 +49,9 @@ public:
     /// The same where a rank knows how long the messages to it are: `in[r]` has the size of what
     /// rank r sends. The sizes need not be exchanged first.
     virtual void exchange(const std::vector<Parcel>& out, std::vector<Parcel>& in) = 0;
-    /// That in two halves, between which a rank works and may make other calls, but no second
-    /// `begin`. The parcels stay as they are until `finish`, after which `in` is there.
+    /// The same exchange without waiting: `begin` starts it, `finish` waits for its end. In between
+    /// a rank may compute and make other calls, but no second `begin`; `out` and `in` must not be
+    /// touched. `in` is valid after `finish`.
     virtual void begin(const std::vector<Parcel>& out, std::vector<Parcel>& in) = 0;
     virtual void finish() = 0;
 

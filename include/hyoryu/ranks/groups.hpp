@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranks that write files together: a file for each rank would be too many of them.
+// Groups of ranks that write one file together, which bounds the number of files.
 #pragma once
 
 #include "hyoryu/ranks/comm.hpp"
@@ -8,7 +8,7 @@
 
 namespace hyoryu {
 
-/// Groups of ranks that follow each other. The first of a group is its leader.
+/// `ranks` ranks in `count` groups of consecutive ranks. The first rank of a group is its leader.
 struct Groups {
     int ranks = 1;
     int count = 1;
@@ -24,11 +24,12 @@ struct Groups {
     bool leads(int rank) const { return leader(of(rank)) == rank; }
 };
 
-/// About equal groups, at most as many as asked for.
+/// Groups of about equal size, at most `most` of them.
 Groups group_ranks(int ranks, int most);
 
-/// Gives the leader of each group what its members have, one after the other in their order, its
-/// own first: it never holds two of them. `pack` is called once on each rank, `take` on leaders.
+/// Sends the parcel of each rank to the leader of its group. `pack` creates the parcel, once on
+/// each rank; `take` is called on the leader for each member, in the order of the ranks. A leader
+/// holds one parcel at a time.
 void gather_in_groups(Comm& comm, const Groups& groups, const std::function<Parcel()>& pack,
                       const std::function<void(Unpacking)>& take);
 

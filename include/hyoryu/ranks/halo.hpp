@@ -13,8 +13,8 @@
 
 namespace hyoryu {
 
-/// What goes where: values of a rank, by rank to which they are sent, and the places of those that
-/// come, by rank that sends them, in the order in which it does.
+/// Which values are exchanged. `out[r]`: indices of the own values that go to rank r; `in[r]`:
+/// indices at which the values from rank r are stored, in the order in which that rank sends them.
 struct Links {
     std::vector<std::vector<std::int32_t>> out, in;
 };
@@ -24,7 +24,7 @@ struct Halo {
     std::vector<std::vector<std::int32_t>>
         out;              // by rank: points of own tiles of which it has copies
     std::vector<Rows> in; // by rank: its points among the ghosts
-    Links tiles;          // of their tiles
+    Links tiles;          // indices of the tiles of these points
 
     Index count() const { return in.empty() ? 0 : in.back().end; }
 };
@@ -32,12 +32,13 @@ struct Halo {
 /// All points of a halo.
 Links all_links(const Halo& halo);
 
-/// The points of some halos that any list looks at; `marks`: by ghost, those that lists of this
-/// rank look at. Called by all ranks, with as many halos.
+/// Ghosts of one kind, and by ghost whether a neighbour list of this rank reads it.
 struct LookedAt {
     const Halo* halo;
     std::span<const std::uint8_t> marks;
 };
+/// Of each halo the links of the ghosts that neighbour lists read. Collective: all ranks call it
+/// with the same number of halos.
 std::vector<Links> needed_links(Comm& comm, std::span<const LookedAt> ghosts);
 
 /// Sends own tiles to the ranks that own a place beside them, and makes the tiles of the ghosts, of
@@ -105,7 +106,7 @@ private:
     std::vector<Part> parts_;
 };
 
-/// Values that are on their way while the rank goes on.
+/// A delivery that is sent while the rank computes.
 class Underway {
 public:
     void begin(Comm& comm, Delivery delivery)
@@ -114,7 +115,7 @@ public:
         delivery_->pack(comm, out_, in_);
         comm.begin(out_, in_);
     }
-    /// Waits for them and puts them into their place; false if there are none.
+    /// Waits for the values and stores them. Returns false if nothing was begun.
     bool arrive(Comm& comm)
     {
         if (!delivery_) {

@@ -52,8 +52,8 @@ struct Simulation {
 
 /// The scene at time 0 with the particles of `filling`. `comm`, null for one process, outlives the
 /// simulation; of a case that several processes share, `filling` is that of rank 0, which deals out
-/// its fluid, and is not looked at on the others. It is as large as the state: move it in where it
-/// is no more needed.
+/// its fluid, and is ignored on the others. `filling` is freed before the lists are built; pass it
+/// with std::move unless the caller needs it afterwards, since it is as large as the state.
 Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling,
                            Comm* comm = nullptr);
 

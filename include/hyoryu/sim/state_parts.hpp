@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A state in parts: what all ranks of a run have alike, and the particles, of which each part has
-// those of a range of tiles. Parts in the order of their ranges, put together, are the state of one
-// process; so a state can be taken up by any number of ranks, whatever number has left it.
+// A state in parts: the data that is the same on all ranks, and the particles, of which each part
+// has those of a range of tiles. The parts, concatenated in the order of their ranges, are the
+// state of one process. Therefore any number of ranks can restore a state that any other number has
+// saved.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"
@@ -12,10 +13,10 @@
 
 namespace hyoryu {
 
-/// The dataset with the rows of fixed walls that a part has. A whole state has none.
+/// Name of the dataset with the number of rows of fixed walls in a part. A whole state has none.
 inline constexpr const char* rows_of_fixed_walls = "wall/fixed";
 
-/// Takes the particles of a rank out of its state.
+/// Moves the datasets of particles out of the state of a rank.
 Snapshot take_particles(const Simulation& sim, Snapshot& state);
 
 /// The same for a state whose arrays are made on demand.
@@ -25,7 +26,7 @@ StateOnDemand take_particles(const Simulation& sim, StateOnDemand& state);
 /// do not belong together.
 void append_particles(const Simulation& sim, Snapshot& all, Snapshot next);
 
-/// Puts particles, all of them, back into a state.
+/// Moves the particles of all parts back into a state.
 void put_particles(Snapshot& state, Snapshot particles);
 
 /// The particles of each group of ranks, on its leader. Called by all ranks.
@@ -34,15 +35,16 @@ Snapshot gather_particles(const Simulation& sim, Comm& comm, const Groups& group
 /// The state of all ranks as that of one process, on rank 0. Called by all ranks.
 Snapshot save_whole(const Simulation& sim, Comm& comm);
 
-/// A state that ranks take up.
+/// A state to restore.
 struct StateParts {
-    Snapshot common; // of rank 0; not looked at on the others
-    int count = 0;   // parts of particles
-    /// Reads a part. Rank r of n is asked for the parts r, r + n, ..., for some of them twice.
+    Snapshot common; // data of all ranks; used on rank 0 only
+    int count = 0;   // number of parts
+    /// Reads the particles of a part. Rank r of n reads the parts r, r + n, ..., each of them
+    /// twice.
     std::function<Snapshot(int part)> particles;
 };
 
-/// A state of one process; not looked at on other ranks than 0.
+/// The state of one process as a single part; used on rank 0 only.
 StateParts one_part(const Simulation& sim, Snapshot state);
 
 /// Puts a state into a simulation that was made from the same case. Called by all ranks: each
