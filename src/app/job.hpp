@@ -10,6 +10,7 @@
 #include "rank_log.hpp"
 #include "resume.hpp"
 
+#include "hyoryu/io/kept_state.hpp"
 #include "hyoryu/io/results.hpp"
 
 #include <limits>
@@ -33,7 +34,7 @@ struct Job {
     std::int64_t saved_step = 0; // of the last checkpoint
     /// At the last frame, of this process; none while the checkpoint on disk is newer and no
     /// recovery needs it.
-    std::optional<Snapshot> last_good = {};
+    std::optional<KeptState> last_good = {};
     double until = infinity;
     bool stopped = false;              // on request
     std::string command_to_go_on = {}; // for the user, where the run stops before its end

@@ -77,7 +77,7 @@ void write_closing(Job& job, const std::string& reason, const Closing& now)
 // The last good state, of which each process has its share.
 StateParts good_parts(const Job& job)
 {
-    StateParts state{.common = *job.last_good};
+    StateParts state{.common = job.last_good->snapshot()};
     if (job.sim.fluid) {
         const int ranks = job.comm->size();
         state.count = ranks;
@@ -97,7 +97,7 @@ void recover(Job& job, const NumericalError& error)
     Filling filling = writes(job.comm) ? fill(scene) : Filling{};
     Simulation sim = make_simulation(scene, job.sim.plan, std::move(filling), job.comm);
     if (job.comm == nullptr) {
-        restore(sim, *job.last_good);
+        restore(sim, job.last_good->snapshot());
     } else {
         restore(sim, job.comm, good_parts(job));
     }
@@ -112,7 +112,7 @@ void recover(Job& job, const NumericalError& error)
         sim.clock.time, sim.clock.share));
     if (job.outputs) {
         job.outputs.reset(); // all that it holds back is on disk before it is read again
-        job.outputs.emplace(job.folder, sim, *job.last_good);
+        job.outputs.emplace(job.folder, sim, job.last_good->snapshot());
     }
     job.frames->forget_after(sim.clock.time);
     job.sim = std::move(sim);
@@ -278,7 +278,7 @@ void give_up(Job& job, const std::string& error, const std::string& exit_reason)
     const Closing now = closing_of(job);
     job.progress.abandon("error: " + error);
     if (job.last_good && job.good_step > job.saved_step) {
-        write_state(job, on_demand(std::move(*job.last_good)));
+        write_state(job, job.last_good->on_demand());
     }
     if (writes(job.comm)) {
         write_closing(job, exit_reason, now);

@@ -47,16 +47,6 @@ Snapshot beside_simulation(const Job& job)
     return more;
 }
 
-// The present state of this process.
-Snapshot kept_state(const Job& job)
-{
-    Snapshot state = save(job.sim);
-    Snapshot more = beside_simulation(job);
-    state.arrays.merge(more.arrays);
-    state.texts.merge(more.texts);
-    return state;
-}
-
 // Arrays of two states as those of one.
 StateOnDemand merged(StateOnDemand one, StateOnDemand other)
 {
@@ -67,6 +57,12 @@ StateOnDemand merged(StateOnDemand one, StateOnDemand other)
         return one.bytes.contains(name) ? one.array(name) : other.array(name);
     };
     return both;
+}
+
+// The present state of this process.
+StateOnDemand present_state(const Job& job)
+{
+    return merged(state_of(job.sim), on_demand(beside_simulation(job)));
 }
 
 Snapshot made(const StateOnDemand& state)
@@ -129,8 +125,8 @@ std::vector<CheckpointPart> write_parts(Job& job, const StateOnDemand& particles
 void keep_good_state(Job& job)
 {
     const Stage stage(job, "good state");
-    job.last_good.reset(); // a state is as large as that of the particles
-    job.last_good = kept_state(job);
+    job.last_good.reset(); // frees the disk before the next one is written
+    job.last_good.emplace(job.folder, present_state(job));
 }
 
 void update_outputs(Job& job)
@@ -175,7 +171,7 @@ void write_checkpoint(Job& job)
         job.last_good.reset();
     }
     settle(job); // frames on their way are nearly as large as the state
-    write_state(job, merged(state_of(job.sim), on_demand(beside_simulation(job))));
+    write_state(job, present_state(job));
     job.saved_step = job.sim.clock.step;
 }
 

@@ -21,13 +21,12 @@ constexpr double mesh_reader = 31e6;
 // cells [B].
 constexpr double of_particle = 64 + 24 + 16 + 12;
 
-// Of a fluid particle: the last good state, and two frames on their way to the disk [B].
-constexpr double good_state = 150;
-constexpr double on_its_way = 2 * 62;
+// Of a fluid particle: two frames on their way to the disk, and the largest array of the state that
+// is copied there [B].
+constexpr double on_its_way = 2 * 62 + 24;
 
 // A solid particle of a frame: numbers and cells, and where it was placed; that of a frame of what
-// moves, which wait two at a time and have tiles that lists are made from [B]. The first are
-// written before there is a good state.
+// moves, which wait two at a time and have tiles that lists are made from [B].
 constexpr double drawn_once = 100;
 constexpr double drawn_always = 2 * 62 + 30;
 
@@ -96,8 +95,7 @@ double memory_bytes(const Scene& scene, const Plan& plan, const Course& course)
     }
     const bool moving = has_moving_walls(scene);
     const double at_start = drawn_once * (wall + drawn);
-    const double between =
-        (good_state + on_its_way) * fluid + drawn_always * (drawn + (moving ? wall : 0));
+    const double between = on_its_way * fluid + drawn_always * (drawn + (moving ? wall : 0));
     const double at_end = closing(histories(scene, plan, course));
     return lasting + std::max({at_start, between, at_end});
 }
