@@ -4,6 +4,7 @@
 #include "machine_load.hpp"
 #include "stop_request.hpp"
 
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/moving_walls.hpp"
@@ -147,10 +148,14 @@ std::optional<StepCost> time_case(const CaseSource& source, const Scene& scene, 
 {
     const CoreWatch watch;
     std::optional<StepCost> cost;
-    if (plan.fluid && budget.steps > 0) {
-        cost = time_fluid(source, scene, plan, filling, budget);
-    } else if (!plan.fluid && plan.counts.bodies > 0) {
-        cost = time_bodies(scene, plan, filling, budget);
+    try {
+        if (plan.fluid && budget.steps > 0) {
+            cost = time_fluid(source, scene, plan, filling, budget);
+        } else if (!plan.fluid && plan.counts.bodies > 0) {
+            cost = time_bodies(scene, plan, filling, budget);
+        }
+    } catch (const NumericalError&) {
+        return {}; // the run itself tells where it becomes unstable
     }
     if (cost) {
         cost->output = output_of_step(scene, plan, *cost, budget.file);

@@ -142,7 +142,7 @@ json info_of(const fs::path& folder)
             {"run", run_of(folder)},
             {"frames", frames_of(folder)},
             {"histories", histories_of(folder)},
-            {"checkpoint", fs::exists(folder / "checkpoint.h5")}};
+            {"checkpoint", find_checkpoint(folder) != UsableCheckpoint::none}};
 }
 
 std::string run_lines(const json& run)

@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -54,10 +55,15 @@ void check_memory(const Plan& plan)
 // Called by all processes.
 Closing closing_of(const Job& job)
 {
-    Closing now{.totals = totals(job.sim), .ranks = {}};
+    Closing now{.totals = totals(job.sim), .pair_visits = job.sim.pair_visits, .ranks = {}};
     if (job.sim.fluid) {
         now.fluid = count_over_ranks(*job.sim.fluid, job.sim.fluid->particles.fluid.size());
         now.in_solids = particles_in_solids(job.sim);
+    }
+    if (job.comm != nullptr) {
+        const std::vector<double> visits =
+            gather(*job.comm, std::span<const double>(&job.sim.pair_visits, 1)).all;
+        now.pair_visits = std::reduce(visits.begin(), visits.end());
     }
     if (job.ranks != nullptr) {
         now.ranks = job.ranks->summary();

@@ -123,7 +123,7 @@ void add_run(ordered_json& json, const Simulation& sim, const std::string& exit_
 }
 
 // Particle-steps and pairs per second of this call of the program, which made `steps` steps.
-void add_rates(ordered_json& json, const Simulation& sim, Index fluid, std::int64_t steps,
+void add_rates(ordered_json& json, const Simulation& sim, const Closing& now, std::int64_t steps,
                double wall_seconds)
 {
     const auto count = static_cast<double>(steps);
@@ -131,9 +131,9 @@ void add_rates(ordered_json& json, const Simulation& sim, Index fluid, std::int6
         wall_seconds > 0 ? static_cast<double>(sim.plan.counts.particles()) * count / wall_seconds
                          : 0;
     json["fluid_particle_steps_per_second"] =
-        wall_seconds > 0 ? static_cast<double>(fluid) * count / wall_seconds : 0;
-    json["pair_interactions"] = sim.pair_visits;
-    json["pairs_per_second"] = wall_seconds > 0 ? sim.pair_visits / wall_seconds : 0;
+        wall_seconds > 0 ? static_cast<double>(now.fluid) * count / wall_seconds : 0;
+    json["pair_interactions"] = now.pair_visits;
+    json["pairs_per_second"] = wall_seconds > 0 ? now.pair_visits / wall_seconds : 0;
 }
 
 ordered_json momenta(const Simulation& sim, const Totals& end)
@@ -171,7 +171,7 @@ std::string summary_json(const Simulation& sim, const Closing& now, const std::s
     const auto& n = sim.plan.counts;
     ordered_json json;
     add_run(json, sim, exit_reason, wall_seconds);
-    add_rates(json, sim, now.fluid, sim.clock.step - first_step, wall_seconds);
+    add_rates(json, sim, now, sim.clock.step - first_step, wall_seconds);
     json["peak_memory_bytes"] = peak_memory();
     if (now.ranks) {
         json["ranks"] = {{"count", now.ranks->count},

@@ -209,6 +209,20 @@ Snapshot read_verified(const std::filesystem::path& file)
     return get_snapshot(hdf5::open_file(file));
 }
 
+/// Whether the length of a file is that in its header.
+bool has_its_length(const std::filesystem::path& file)
+{
+    if (!why_unreadable(file).empty()) {
+        return false;
+    }
+    std::string stored(header_size, '\0');
+    std::ifstream(file, std::ios::binary).read(stored.data(), header_size);
+    std::error_code fault;
+    const std::uintmax_t size = std::filesystem::file_size(file, fault);
+    return !fault && stored.starts_with(magic) &&
+           stored.find(fmt::format("\nbytes {}\n", size - header_size)) != std::string::npos;
+}
+
 std::string text_of(const std::vector<CheckpointPart>& parts)
 {
     std::string text;
@@ -302,22 +316,21 @@ std::vector<std::string> part_files(const std::filesystem::path& folder)
     return names;
 }
 
-/// Names in a checkpoint that may be damaged.
-void add_names(const std::filesystem::path& file, std::set<std::string>& names)
+/// The parts that a checkpoint names; none if it cannot be read.
+std::vector<CheckpointPart> named_parts(const std::filesystem::path& file)
 {
     try {
         const hdf5::Session session;
         const hdf5::Handle open = hdf5::open_file(file);
         const hdf5::Handle texts = hdf5::open_group(open, "texts");
-        if (hdf5::has_link(texts, parts_text)) {
-            const Column column = get_column(texts, parts_text);
-            const auto& bytes = std::get<std::vector<std::uint8_t>>(column.values);
-            for (const CheckpointPart& part : parts_of(std::string(bytes.begin(), bytes.end()))) {
-                names.insert(part.name);
-            }
+        if (!hdf5::has_link(texts, parts_text)) {
+            return {};
         }
+        const Column column = get_column(texts, parts_text);
+        const auto& bytes = std::get<std::vector<std::uint8_t>>(column.values);
+        return parts_of(std::string(bytes.begin(), bytes.end()));
     } catch (const std::exception&) {
-        return; // without names it needs no parts
+        return {};
     }
 }
 
@@ -328,8 +341,11 @@ void remove_other_parts(const std::filesystem::path& folder)
         return;
     }
     std::set<std::string> named;
-    add_names(checkpoint_file(folder), named);
-    add_names(previous_file(folder), named);
+    for (const auto& file : {checkpoint_file(folder), previous_file(folder)}) {
+        for (const CheckpointPart& part : named_parts(file)) {
+            named.insert(part.name);
+        }
+    }
     for (const std::string& name : files) {
         std::error_code gone_already;
         if (!named.contains(name)) {
@@ -397,15 +413,34 @@ Snapshot read_checkpoint(const std::filesystem::path& folder)
     return std::move(found.snapshot);
 }
 
+UsableCheckpoint find_checkpoint(const std::filesystem::path& folder)
+{
+    const auto is_whole = [&](const std::filesystem::path& file) {
+        return has_its_length(file) &&
+               std::ranges::all_of(named_parts(file), [&](const CheckpointPart& part) {
+                   return has_its_length(folder / part.name);
+               });
+    };
+    if (is_whole(checkpoint_file(folder))) {
+        return UsableCheckpoint::newest;
+    }
+    return is_whole(previous_file(folder)) ? UsableCheckpoint::previous : UsableCheckpoint::none;
+}
+
 NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder)
 {
+    std::error_code fault;
+    if (std::filesystem::is_directory(checkpoint_file(folder), fault)) {
+        throw IoError(fmt::format("`{}` is a folder, but the name belongs to the checkpoint of the "
+                                  "run: move it away to resume",
+                                  checkpoint_file(folder).string()));
+    }
     std::string passed_over;
     try {
         return read_generation(checkpoint_file(folder));
     } catch (const IoError& error) {
         passed_over = error.what();
     }
-    std::error_code fault;
     if (!std::filesystem::exists(previous_file(folder), fault)) {
         throw IoError(passed_over + "; there is no older one");
     }

@@ -63,6 +63,23 @@ void read_wall_tiles(StateReader& state, Fluid& fluid, const WallRows& rows)
     check_tiles(tiles, fluid.particles.wall.rows());
 }
 
+// All ranks have the rows of walls that move; each has the friction on those in its tiles.
+void forget_friction_of_others(Fluid& fluid)
+{
+    Store& wall = fluid.particles.wall;
+    if (!fluid.ghosts || !wall.has(field::viscous_force)) {
+        return;
+    }
+    std::vector<bool> is_own(static_cast<std::size_t>(wall.size()), false);
+    for (const std::int32_t row : fluid.neighbours.wall.row) {
+        is_own[static_cast<std::size_t>(row)] = true;
+    }
+    const auto F = wall[field::viscous_force];
+    for (Index row = 0; row < fluid.fixed_walls.moving_rows; ++row) {
+        F[row] = is_own[static_cast<std::size_t>(row)] ? Vec3(F[row]) : Vec3(0, 0, 0);
+    }
+}
+
 // Which fixed walls have rows follows from the tiles of fluid and bodies.
 void read_solids(StateReader& state, Fluid& fluid)
 {
@@ -83,6 +100,7 @@ void read_solids(StateReader& state, Fluid& fluid)
     });
     if (fluid.moving_walls) {
         read_wall_tiles(state, fluid, rows);
+        forget_friction_of_others(fluid);
     }
 }
 

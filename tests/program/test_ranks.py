@@ -3,7 +3,7 @@
 
 Usage: test_ranks.py PATH_TO_HYORYU [NAME...]. No call may take long, since processes that wait for each other for ever are the
 fault to find: HYORYU_LONGEST seconds (default 25), more on a machine that is busy with other work. HYORYU_KILLS (default 4; 20 nightly) is how
-many processes are lost at random moments, drawn by HYORYU_SEED.
+many processes are lost at random moments, drawn by HYORYU_SEED; HYORYU_DRAWS (default 3) how many scenes are drawn for a test.
 """
 import contextlib
 import csv
@@ -29,6 +29,58 @@ ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive
 SHORT_DAM = DAM.replace("end = 0.4", "end = 0.12")
 PART = r"\.\d{4}\."  # in the name of a file with a part of a frame
 LONG_DAM = DAM.replace("end = 0.4", "end = 60.0")
+
+
+DRAWS = int(os.environ.get("HYORYU_DRAWS", "3"))
+
+
+def drawn_tank_with_moving_wall(rng):
+    """A tank in which walls that move and a body drag water along; forces on all of them."""
+    model = rng.choice(('"laminar"\nkinematic = 1e-3', '"sps"\nkinematic = 1e-4'))
+    u, w = rng.uniform(-1.5, 1.5), rng.uniform(-0.4, 0.4)
+    shape = rng.choice(('"box"\nsize = [0.16, 0.0, 0.12]', '"sphere"\nradius = 0.08'))
+    return f"""title = "walls that drag water along"
+dimensions = 2
+[time]
+end = 0.06
+[particles]
+spacing = {rng.choice((0.02, 0.017))}
+[fluid]
+walls = "no_slip"
+[fluid.viscosity]
+model = {model}
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.8, 0.0, 0.4]
+velocity = [{rng.uniform(-1, 1)}, 0.0, 0.0]
+[[wall]]
+name = "basin"
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [1.6, 0.0, 0.6]
+open = ["+z"]
+[[wall]]
+name = "first"
+shape = {shape}
+position = [{rng.uniform(0.3, 0.7)}, 0.0, {rng.uniform(0.15, 0.25)}]
+[wall.motion]
+velocity = [{u}, 0.0, {w}]
+[[wall]]
+name = "second"
+shape = "box"
+size = [0.1, 0.0, 0.1]
+position = [1.2, 0.0, 0.05]
+[wall.motion]
+velocity = [-1.0, 0.0, 0.0]
+[[body]]
+name = "crate"
+shape = "box"
+size = [0.16, 0.0, 0.12]
+density = 500.0
+position = [0.4, 0.0, 0.47]
+""" + "".join(f'[[gauge]]\nname = "on_{on}"\ntype = "force"\non = "{on}"\n'
+              for on in ("basin", "first", "second", "crate"))
 
 
 class RanksTest(ProgramTest):
@@ -106,6 +158,10 @@ class RanksTest(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         return {p.name: p.read_bytes() for p in sorted((self.dir / folder / "csv").glob("*.csv"))}
 
+    def pairs(self, folder):
+        """Pairs of particles that all processes have evaluated."""
+        return json.loads((self.dir / folder / "summary.json").read_text())["pair_interactions"]
+
     def children(self, process):
         """The processes of a run by their rank."""
         found = {}
@@ -127,6 +183,7 @@ class Bits(RanksTest):
         for ranks in (2, 3):
             self.run_by(ranks, f"by{ranks}")
             self.expect_equal("one", f"by{ranks}")
+            self.assertEqual(self.pairs("one"), self.pairs(f"by{ranks}"))
 
     def test_results_of_a_flood_in_three_dimensions_do_not_depend_on_the_processes(self):
         self.write(FLOOD)
@@ -302,6 +359,19 @@ class Ends(RanksTest):
             self.run_by(ranks, "out", *(["--resume"] if until != "0.03" else []), "--until", until)
         self.expect_equal("whole", "out")
 
+    def test_forces_on_walls_that_move_go_on_with_other_numbers_of_processes(self):
+        """The friction on walls that move is in the state: only the process in whose tiles a particle is counts it."""
+        for draw in range(DRAWS):
+            with self.subTest(draw=draw):
+                rng = random.Random(f"friction {draw}")
+                self.write(drawn_tank_with_moving_wall(rng))
+                self.run_by(1, f"one{draw}")
+                chain = sorted(rng.uniform(0.005, 0.055) for _ in range(3))
+                for k, until in enumerate([*chain, 1]):
+                    self.run_by(rng.choice((1, 2, 3, 5)), f"out{draw}", *(["--resume"] if k else []),
+                                "--until", str(until), "--parts", str(rng.choice((1, 2, 64))))
+                self.expect_equal(f"one{draw}", f"out{draw}")
+
     def test_files_in_one_part_have_the_bytes_of_those_of_one_process(self):
         self.run_by(1, "one", "--until", "0.06")
         for ranks in (2, 3):
@@ -364,6 +434,32 @@ class Ends(RanksTest):
                         self.assertIn(newest, self.read("out", "run.log").decode())
                         self.expect_equal("whole", "out")
                     shutil.rmtree(self.dir / "out")
+
+    def test_a_folder_in_the_place_of_the_checkpoint_is_named(self):
+        def usable():
+            return json.loads(self.call("info", "out", "--json").stdout)["checkpoint"]
+        self.run_by(1, "whole", "--until", "0.08")
+        self.run_by(3, "out", "--until", "0.05")
+        self.assertTrue(usable())
+        newest = self.dir / "out/checkpoint.h5"
+        newest.rename(self.dir / "kept.h5")
+        newest.mkdir()
+        for ranks in (1, 2):
+            message = self.run_by(ranks, "out", "--resume", code=4)
+            self.assertIn("checkpoint.h5` is a folder", message)
+        newest.rmdir()
+        self.assertTrue(usable(), "the previous one")
+        (self.dir / "out/checkpoint.previous.h5").unlink()
+        self.assertFalse(usable())
+        (self.dir / "kept.h5").rename(newest)
+        part = min((self.dir / "out").glob("checkpoint.0*.0001.h5"), key=lambda p: -p.stat().st_mtime)
+        content = part.read_bytes()
+        part.write_bytes(content[:-1])
+        self.assertFalse(usable())
+        part.write_bytes(content)
+        self.assertTrue(usable())
+        self.run_by(2, "out", "--resume", "--until", "0.08")
+        self.expect_equal("whole", "out")
 
     def test_a_part_of_a_frame_that_is_missing_or_wrong_is_named(self):
         self.run_by(2, "out")
@@ -500,12 +596,15 @@ class Ends(RanksTest):
 
     def test_an_unstable_run_ends_with_one_message_and_its_last_good_state(self):
         told = re.compile("^error: the simulation became unstable: .*$", re.M)
-        settings = ("--set", "time.cfl=3", "--set", "output.checkpoint_every=1000")  # by no clock
-        for number, text in enumerate((DAM, FLOOD)):
+        often = ("--set", "output.checkpoint_every=1000")  # by no clock
+        long_step = ("--set", "time.cfl=3", *often)
+        fast = ("--set", "fluid.block[0].velocity=[1e5,0,0]", "--set", "fluid.sound_speed=50", *often)
+        for number, (text, settings) in enumerate(((DAM, long_step), (FLOOD, long_step), (FLOOD, fast))):
             self.write(text)
             one = f"one{number}"
             alone = told.findall(self.run_by(1, one, *settings, code=3))
             self.assertEqual(len(alone), 1)
+            self.assertNotIn("nan", alone[0])
             for ranks in (2, 3):
                 out = f"by{ranks}-{number}"
                 message = self.run_by(ranks, out, *settings, "--parts", "1", code=3)

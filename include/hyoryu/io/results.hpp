@@ -184,8 +184,14 @@ struct NewestCheckpoint {
     std::string passed_over;           // why `checkpoint.h5` was not it; empty if it was
 };
 
+/// The checkpoint of a folder that can be resumed, by the lengths of its files; checksums are not
+/// compared.
+enum class UsableCheckpoint { none, newest, previous };
+UsableCheckpoint find_checkpoint(const std::filesystem::path& folder);
+
 /// Reads `checkpoint.h5` or, if that or one of its parts cannot be read,
-/// `checkpoint.previous.h5`. Throws IoError with the reasons if neither can.
+/// `checkpoint.previous.h5`. Throws IoError with the reasons if neither can, and if `checkpoint.h5`
+/// is a folder.
 NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder);
 
 /// Puts `checkpoint.previous.h5` in the place of a `checkpoint.h5` that cannot be read, so that the
