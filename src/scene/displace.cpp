@@ -185,22 +185,20 @@ void move_out(const Scene& scene, const std::vector<CutCell>& cut, const std::ve
 
 void drop(const std::vector<bool>& gone, Filling& filling)
 {
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
-        if (!gone[k]) {
-            filling.fluid[kept] = filling.fluid[k];
-            filling.fluid_velocity[kept] = filling.fluid_velocity[k];
-            filling.fluid_depth[kept] = filling.fluid_depth[k];
-            filling.fluid_pressure[kept] = filling.fluid_pressure[k];
-            filling.fluid_cut[kept] = filling.fluid_cut[k];
-            ++kept;
+    const auto keep = [&](auto& values) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            if (!gone[k]) {
+                values[kept++] = values[k];
+            }
         }
-    }
-    filling.fluid.resize(kept);
-    filling.fluid_velocity.resize(kept);
-    filling.fluid_depth.resize(kept);
-    filling.fluid_pressure.resize(kept);
-    filling.fluid_cut.resize(kept);
+        values.resize(kept);
+    };
+    keep(filling.fluid);
+    keep(filling.fluid_velocity);
+    keep(filling.fluid_depth);
+    keep(filling.fluid_pressure);
+    keep(filling.fluid_cut);
 }
 
 // About the cut cells, whether they keep their particle or not.

@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace hyoryu {
 
@@ -89,6 +90,8 @@ public:
         }
     }
 
+    bool is_at_rest() const { return velocity_.empty() && uniform_ == Vec3(0, 0, 0); }
+    bool has_pressure() const { return pressure_.has_value(); }
     Vec3 velocity(const Vec3& p) const
     {
         if (velocity_.empty()) {
@@ -127,11 +130,9 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
 }
 
 // Fields are the user's formulas: a division by zero must not reach the first step.
-void check_start(const Scene& scene, std::size_t block, const Filling& filling)
+void check_start(const Scene& scene, std::size_t block, const Vec3& p, const Vec3& v,
+                 double pressure)
 {
-    const Vec3& p = filling.fluid.back();
-    const Vec3& v = filling.fluid_velocity.back();
-    const double pressure = filling.fluid_pressure.back();
     const bool speed_fits = v.norm() <= largest_value("m/s"); // false for NaN
     if (speed_fits && std::isfinite(pressure)) {
         return;
@@ -146,26 +147,49 @@ void check_start(const Scene& scene, std::size_t block, const Filling& filling)
         "the formula must give a finite number at every particle of the block")});
 }
 
+// Appends points, without a copy if they are the first.
+void append(std::vector<Vec3>& all, std::vector<Vec3> points)
+{
+    if (all.empty()) {
+        all = std::move(points);
+    } else {
+        all.insert(all.end(), points.begin(), points.end());
+    }
+}
+
 void fill_fluid(const Scene& scene, Filling& filling)
 {
     std::vector<BlockPoints> blocks;
+    std::vector<StartField> starts;
     for (std::size_t b = 0; b < scene.fluid->blocks.size(); ++b) {
         blocks.push_back(points_of(scene, b));
+        starts.emplace_back(scene.fluid->blocks[b], scene.dimensions);
     }
+    const bool moves = !std::ranges::all_of(starts, &StartField::is_at_rest);
+    const bool presses = std::ranges::any_of(starts, &StartField::has_pressure);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const BlockParticles& particles = blocks[b].particles;
+        BlockParticles& particles = blocks[b].particles;
         filling.fluid_volume += static_cast<double>(particles.points.size()) * particles.cell;
-        const StartField start(scene.fluid->blocks[b], scene.dimensions);
+        const std::size_t count = filling.fluid.size() + particles.points.size();
+        filling.fluid_cut.resize(count, particles.cut ? 1 : 0);
+        filling.fluid_depth.reserve(count);
+        filling.fluid_velocity.reserve(moves ? count : 0);
+        filling.fluid_pressure.reserve(presses ? count : 0);
         for (const Vec3& p : particles.points) {
-            const double surface = surface_above(scene, blocks, b, p);
-            filling.fluid.push_back(p);
-            filling.fluid_cut.push_back(particles.cut ? 1 : 0);
-            filling.fluid_velocity.push_back(start.velocity(p));
-            filling.fluid_pressure.push_back(start.pressure(p));
-            check_start(scene, b, filling);
-            filling.fluid_depth.push_back(scene.gravity.norm() > 0 ? surface - height(scene, p)
-                                                                   : 0);
+            const Vec3 velocity = starts[b].velocity(p);
+            const double pressure = starts[b].pressure(p);
+            check_start(scene, b, p, velocity, pressure);
+            if (moves) {
+                filling.fluid_velocity.push_back(velocity);
+            }
+            if (presses) {
+                filling.fluid_pressure.push_back(pressure);
+            }
+            filling.fluid_depth.push_back(
+                scene.gravity.norm() > 0 ? surface_above(scene, blocks, b, p) - height(scene, p)
+                                         : 0);
         }
+        append(filling.fluid, std::exchange(particles.points, {}));
         if (particles.in_walls > 0) {
             warn_about_walls(scene, b, particles, filling);
         }

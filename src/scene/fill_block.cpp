@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace hyoryu {
 
@@ -104,18 +105,21 @@ struct Fit {
     bool fits = true;
 };
 
-Fit fit(const FreeSpace& space, const std::vector<Vec3>& points, double edge)
+Fit fit(const FreeSpace& space, std::vector<Vec3> points, double edge)
 {
     std::vector<double> clearance(points.size());
     parallel_for(0, static_cast<Index>(points.size()),
                  [&](Index k) { clearance[at(k)] = space.clearance(points[at(k)]); });
     Fit result;
+    std::size_t kept = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
         result.fits = result.fits && std::abs(clearance[k]) >= fitting * edge;
         if (clearance[k] >= 0) {
-            result.points.push_back(points[k]);
+            points[kept++] = points[k];
         }
     }
+    points.resize(kept);
+    result.points = std::move(points);
     return result;
 }
 
@@ -174,15 +178,16 @@ BlockParticles fill_block(const Scene& scene, std::size_t block)
     const FreeSpace space(scene, block);
     const int d = scene.dimensions;
     const Cells plain = plain_cells(bounds(shape), scene.spacing, d);
-    const Aggregate first = own.layers ? layers_of(scene, own)
-                                       : Aggregate{.points = middles_in(shape, plain),
-                                                   .particle_volume = volume_of(plain, d)};
-    const std::vector<Vec3>& all = first.points;
-    BlockParticles result{.all = static_cast<Index>(all.size()), .cell = first.particle_volume};
+    Aggregate first = own.layers ? layers_of(scene, own)
+                                 : Aggregate{.points = middles_in(shape, plain),
+                                             .particle_volume = volume_of(plain, d)};
+    BlockParticles result{.all = static_cast<Index>(first.points.size()),
+                          .cell = first.particle_volume};
     result.in_walls =
-        std::ranges::count_if(all, [&](const Vec3& p) { return space.is_in_wall(p); });
+        std::ranges::count_if(first.points, [&](const Vec3& p) { return space.is_in_wall(p); });
     const double cube = std::pow(scene.spacing, d);
-    Fit found = fit(space, all, own.layers ? scene.spacing : shortest_edge(plain, d));
+    Fit found =
+        fit(space, std::move(first.points), own.layers ? scene.spacing : shortest_edge(plain, d));
     if (!found.fits || (!own.layers && std::abs(volume_of(plain, d) / cube - 1) > as_asked)) {
         const Bounds box = uncovered(scene, space, bounds(shape));
         if (box.empty()) {

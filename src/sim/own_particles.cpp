@@ -117,9 +117,11 @@ template <class T>
 void put_some(Parcel& parcel, const std::vector<T>& values, const std::vector<std::int64_t>& which)
 {
     std::vector<T> some;
-    some.reserve(which.size());
-    for (const std::int64_t k : which) {
-        some.push_back(values[at(k)]);
+    if (!values.empty()) { // else nothing has them
+        some.reserve(which.size());
+        for (const std::int64_t k : which) {
+            some.push_back(values[at(k)]);
+        }
     }
     put_list(parcel, some);
 }

@@ -35,9 +35,10 @@ void fill_fluid_rows(const Filling& filling, const Numbers& numbers, Fluid& flui
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
         store.id()[k] = numbers.of_fluid(k);
         x[k] = filling.fluid[k];
-        v[k] = filling.fluid_velocity[k];
+        v[k] = filling.fluid_velocity.empty() ? Vec3(0, 0, 0) : filling.fluid_velocity[k];
+        const double pressure = filling.fluid_pressure.empty() ? 0 : filling.fluid_pressure[k];
         rho[k] = hydrostatic_density(fluid.parameters, filling.fluid_depth[k]) +
-                 filling.fluid_pressure[k] / sq(fluid.parameters.eos.c0);
+                 pressure / sq(fluid.parameters.eos.c0);
     }
 }
 

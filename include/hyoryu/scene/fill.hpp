@@ -27,9 +27,9 @@ struct WallRun {
 /// All particles of a scene at the start.
 struct Filling {
     std::vector<Vec3> fluid;              // [m]
-    std::vector<Vec3> fluid_velocity;     // [m/s]
+    std::vector<Vec3> fluid_velocity;     // [m/s]; empty if all fluid is at rest
     std::vector<double> fluid_depth;      // below the free surface above it, along gravity [m]
-    std::vector<double> fluid_pressure;   // above the hydrostatic one [Pa]
+    std::vector<double> fluid_pressure;   // above the hydrostatic one [Pa]; empty without any
     double fluid_volume = 0;              // that the fluid particles stand for [m^d]
     std::vector<std::uint8_t> fluid_cut;  // 1 about cells that surfaces cut or the block stretches
     std::vector<Vec3> wall;               // [m]; empty without fluid
