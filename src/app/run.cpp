@@ -101,7 +101,7 @@ void recover(Job& job, const NumericalError& error)
 {
     const Scene& scene = job.sim.scene;
     Filling filling = writes(job.comm) ? fill(scene) : Filling{};
-    Simulation sim = make_simulation(scene, job.sim.plan, std::move(filling), job.comm);
+    Simulation sim = make_to_restore(scene, job.sim.plan, std::move(filling), job.comm);
     if (job.comm == nullptr) {
         restore(sim, job.last_good->snapshot());
     } else {

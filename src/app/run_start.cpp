@@ -201,7 +201,7 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
         lock.emplace(prepare_results(from.folder, Existing::extend));
         forget_stop_request(from.folder);
     }
-    Simulation sim = make_simulation(from.scene, from.plan, std::move(filling), from.comm);
+    Simulation sim = make_to_restore(from.scene, from.plan, std::move(filling), from.comm);
     const Snapshot common = take_up(from, state, sim);
     Job job = follower(from, std::move(sim));
     job.first_step = job.good_step = job.saved_step = job.sim.clock.step;

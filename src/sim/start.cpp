@@ -167,8 +167,8 @@ void add_own_particles(Simulation& sim, Filling filling, Comm& comm)
 // A step of a fluid particle costs as much as ten updates of a contact, on one thread.
 constexpr double updates_of_particle = 10;
 
-// Lists, pressures and rates of time 0.
-void start_fluid(Simulation& sim)
+// Joints, bodies and open sides before the first lists.
+void prepare_fluid(Simulation& sim)
 {
     if (sim.plan.runs("seepage")) {
         for (const BodySettings& body : sim.scene.bodies) {
@@ -179,17 +179,25 @@ void start_fluid(Simulation& sim)
     if (sim.plan.runs(OpenSides::name)) {
         start_open(sim);
     }
+}
+
+// Lists, pressures and rates of time 0.
+void start_fluid(Simulation& sim)
+{
     update_lists(sim);
     update_pressure(*sim.fluid);
     // Initial rates, so that the first half step compresses the fluid like all later ones.
     update_rates(*sim.fluid);
+}
+
+void add_wave_terms(Simulation& sim)
+{
     sim.waves = make_waves(sim);
     sim.bed = make_bed_friction(sim);
 }
 
-} // namespace
-
-Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling, Comm* comm)
+// The scene with its particles, before the first lists.
+Simulation make_unlisted(const Scene& scene, const Plan& plan, Filling filling, Comm* comm)
 {
     Simulation sim{.scene = scene, .plan = plan, .comm = comm};
     sim.rigid = make_rigid(scene);
@@ -212,9 +220,30 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling
         add_own_particles(sim, std::move(filling), *comm);
     }
     if (sim.fluid) {
+        prepare_fluid(sim);
+    }
+    return sim;
+}
+
+} // namespace
+
+Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling, Comm* comm)
+{
+    Simulation sim = make_unlisted(scene, plan, std::move(filling), comm);
+    if (sim.fluid) {
         start_fluid(sim);
+        add_wave_terms(sim);
     }
     sim.conservation.start = totals(sim);
+    return sim;
+}
+
+Simulation make_to_restore(const Scene& scene, const Plan& plan, Filling filling, Comm* comm)
+{
+    Simulation sim = make_unlisted(scene, plan, std::move(filling), comm);
+    if (sim.fluid) {
+        add_wave_terms(sim);
+    }
     return sim;
 }
 

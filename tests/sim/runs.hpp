@@ -20,6 +20,15 @@ inline Simulation make(const std::string& text, const std::vector<std::string>& 
     return make_simulation(scene, make_plan(scene, filling), filling);
 }
 
+/// The same before the first lists, to be restored.
+inline Simulation make_blank(const std::string& text,
+                             const std::vector<std::string>& overrides = {})
+{
+    const Scene scene = parse_case(text, "test.toml", overrides);
+    const Filling filling = fill(scene);
+    return make_to_restore(scene, make_plan(scene, filling), filling);
+}
+
 /// One step; frames are taken note of as a run does.
 inline void step_on(Simulation& sim)
 {

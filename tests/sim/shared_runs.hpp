@@ -79,16 +79,21 @@ struct Case {
           plan(make_plan(scene, filling))
     {
     }
+    Simulation start(Comm* comm) const { return make(comm, make_simulation); }
+    // To be restored.
+    Simulation blank(Comm* comm) const { return make(comm, make_to_restore); }
+
+private:
     // Only rank 0 knows plan and filling.
-    Simulation start(Comm* comm) const
+    Simulation make(Comm* comm, const auto& make_of) const
     {
         if (comm == nullptr) {
-            return make_simulation(scene, plan, filling);
+            return make_of(scene, plan, filling, nullptr);
         }
         const bool root = comm->rank() == 0;
         Plan own = root ? plan : Plan{};
         deal_plan(*comm, scene, root ? filling : Filling{}, own);
-        return make_simulation(scene, own, root ? filling : Filling{}, comm);
+        return make_of(scene, own, root ? filling : Filling{}, comm);
     }
 };
 
@@ -351,7 +356,7 @@ inline Snapshot saved(const Case& of, int ranks, int steps, const Snapshot* befo
 {
     Snapshot state;
     testing::on_ranks(ranks, [&](Comm& comm) {
-        Simulation sim = of.start(&comm);
+        Simulation sim = before != nullptr ? of.blank(&comm) : of.start(&comm);
         if (before != nullptr) {
             restore(sim, &comm, one_part(sim, comm.rank() == 0 ? *before : Snapshot{}));
         }

@@ -144,7 +144,7 @@ TEST(BedFriction, AnyNumberOfThreadsAndARestartGiveTheSameBits)
     const Snapshot middle = save(three);
     advance(three, 20);
     expect_same_bits(save(one), save(three));
-    Simulation again = make(dam);
+    Simulation again = make_blank(dam);
     restore(again, middle);
     advance(again, 20);
     expect_same_bits(save(one), save(again));

@@ -108,7 +108,7 @@ TEST(Cavitation, ARestartKeepsTheVoids)
     const Snapshot middle = save(whole);
     advance(whole, 50);
 
-    Simulation resumed = make(square, {"fluid.cavitation.model=void"});
+    Simulation resumed = make_blank(square, {"fluid.cavitation.model=void"});
     restore(resumed, middle);
     advance(resumed, 50);
     expect_same_bits(save(whole), save(resumed));

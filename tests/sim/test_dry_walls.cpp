@@ -148,7 +148,7 @@ TEST_P(DryWalls, ResumeWithTheSameBits)
         Simulation begun = make(to_toml(whole.scene));
         advance(whole, 170);
         advance(begun, 83);
-        Simulation resumed = make(to_toml(whole.scene));
+        Simulation resumed = make_blank(to_toml(whole.scene));
         restore(resumed, save(begun));
         advance(resumed, 87);
         EXPECT_EQ(resumed.fluid->particles.wall.size(), whole.fluid->particles.wall.size());

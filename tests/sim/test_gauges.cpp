@@ -199,7 +199,7 @@ TEST(Gauges, AResumedRunReadsTheSameBits)
     rows(whole, 60);
     const Snapshot middle = save(whole);
     const auto rest = rows(whole, 40);
-    Simulation resumed = make(text);
+    Simulation resumed = make_blank(text);
     restore(resumed, middle);
     EXPECT_EQ(resumed.clock.gauge, 60);
     EXPECT_EQ(rows(resumed, 40), rest);

@@ -77,7 +77,7 @@ TEST(Paddle, RestartContinuesWithTheSameBits)
     for (int k = 0; k < 40; ++k) {
         step_on(whole);
     }
-    Simulation second = make(flume);
+    Simulation second = make_blank(flume);
     restore(second, save(whole));
     for (int k = 0; k < 15; ++k) {
         step_on(whole);

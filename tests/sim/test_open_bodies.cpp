@@ -284,7 +284,7 @@ TEST(OpenBodies, LeaveWithTheSameBitsForAnyThreadsAndOverARestart)
     for (const std::int64_t before : {at / 4, reached + 1, across, at - 1, at}) {
         Simulation first = make(text);
         advance(first, static_cast<int>(before));
-        Simulation resumed = make(text);
+        Simulation resumed = make_blank(text);
         restore(resumed, before == at ? after : save(first));
         advance(resumed, static_cast<int>(at - before) + 150);
         expect_same_bits(save(one), save(resumed));

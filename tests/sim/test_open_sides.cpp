@@ -349,7 +349,7 @@ TEST(OpenSides, HaveTheSameBitsForAnyThreadsAndOverARestart)
             advance(more, before + 60);
             expect_same_bits(save(one), save(more));
         }
-        Simulation resumed = make(case_of(reach));
+        Simulation resumed = make_blank(case_of(reach));
         restore(resumed, middle);
         advance(resumed, 60);
         expect_same_bits(save(one), save(resumed));

@@ -66,7 +66,7 @@ TEST(Promises, AResumedRunContinuesWithTheSameBits)
     const Snapshot middle = save(whole);
     advance(whole, 85);
 
-    Simulation resumed = make(flood);
+    Simulation resumed = make_blank(flood);
     restore(resumed, middle);
     advance(resumed, 85);
     expect_same_bits(save(whole), save(resumed));
@@ -82,7 +82,7 @@ TEST(Promises, PenaltyMethodResumesWithTheSameBitsAndClosesMomentum)
     const Snapshot middle = save(whole);
     advance(whole, 40);
 
-    Simulation resumed = make(text);
+    Simulation resumed = make_blank(text);
     restore(resumed, middle);
     advance(resumed, 40);
     expect_same_bits(save(whole), save(resumed));

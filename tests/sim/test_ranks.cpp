@@ -224,14 +224,14 @@ Snapshot continued(const Case& of, const SavedParts& from, int ranks, int steps)
                           }};
     };
     if (ranks == 1) {
-        Simulation sim = of.start(nullptr);
+        Simulation sim = of.blank(nullptr);
         restore(sim, nullptr, state_for(0));
         run(sim, steps);
         return save(sim);
     }
     Snapshot state;
     testing::on_ranks(ranks, [&](Comm& comm) {
-        Simulation sim = of.start(&comm);
+        Simulation sim = of.blank(&comm);
         restore(sim, &comm, state_for(comm.rank()));
         run(sim, steps);
         Snapshot whole = save_whole(sim, comm);

@@ -124,7 +124,7 @@ std::string fault_of(const Case& of, const Snapshot& state)
 {
     try {
         testing::on_ranks(3, [&](Comm& comm) {
-            Simulation sim = of.start(&comm);
+            Simulation sim = of.blank(&comm);
             restore(sim, &comm, one_part(sim, comm.rank() == 0 ? state : Snapshot{}));
         });
     } catch (const IoError& error) {

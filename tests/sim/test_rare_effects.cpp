@@ -95,7 +95,7 @@ TEST(RareEffects, SameBitsForAnyThreadCountAndAcrossARestart)
         advance(whole, 90);
 
         set_threads(2);
-        Simulation resumed = make(text);
+        Simulation resumed = make_blank(text);
         restore(resumed, middle);
         advance(resumed, 90);
         expect_same_bits(save(whole), save(resumed));

@@ -122,7 +122,7 @@ TEST(Restart, GoesOnWithTheSameBitsInEveryCombinationAtAnyStep)
         hit += whole.contacts.empty() ? 0 : 1;
         const Snapshot middle = save(whole);
         const auto rest = rows(whole, after);
-        Simulation resumed = make(text);
+        Simulation resumed = make_blank(text);
         restore(resumed, middle);
         EXPECT_EQ(rows(resumed, after), rest);
         expect_same_bits(save(whole), save(resumed));
@@ -145,7 +145,7 @@ TEST(Restart, FramesOfMovingWallsAreTheSame)
         while (whole.clock.time < before) {
             step_on(whole);
         }
-        Simulation resumed = make(text);
+        Simulation resumed = make_blank(text);
         restore(resumed, save(whole));
         for (int after = 1; after < 6; ++after) {
             step_on(whole);

@@ -362,7 +362,7 @@ TEST(Seepage, SameBitsForOneTwoAndThreeThreadsAndAcrossARestart)
         expect_same_bits(save(one), save(more));
     }
     set_threads(1);
-    Simulation resumed = make(text);
+    Simulation resumed = make_blank(text);
     restore(resumed, middle);
     advance(resumed, 60);
     expect_same_bits(save(one), save(resumed));
@@ -380,7 +380,7 @@ TEST(Seepage, AJointThatIsOpenGoesOnAfterARestart)
     const Snapshot middle = save(whole);
     advance(whole, 40);
     EXPECT_FALSE(whole.seepage.joined.empty());
-    Simulation resumed = make(crate.text());
+    Simulation resumed = make_blank(crate.text());
     restore(resumed, middle);
     advance(resumed, 40);
     expect_same_bits(save(whole), save(resumed));

@@ -57,6 +57,11 @@ struct Simulation {
 Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling,
                            Comm* comm = nullptr);
 
+/// The same without lists, pressures and rates, for a state to be restored; not to be advanced before
+/// that.
+Simulation make_to_restore(const Scene& scene, const Plan& plan, Filling filling,
+                           Comm* comm = nullptr);
+
 /// Advances by one step, limited as the clock says. Throws NumericalError when the state after it
 /// is not finite or out of bounds.
 void step(Simulation& sim);
