@@ -87,10 +87,8 @@ StateParts good_parts(const Job& job)
     if (job.sim.fluid) {
         const int ranks = job.comm->size();
         state.count = ranks;
-        state.particles = [own = gather_particles(job.sim, *job.comm, group_ranks(ranks, ranks),
-                                                  take_particles(job.sim, state.common))](int) {
-            return own;
-        };
+        state.particles = given_twice(gather_particles(
+            job.sim, *job.comm, group_ranks(ranks, ranks), take_particles(job.sim, state.common)));
     }
     return state;
 }

@@ -44,7 +44,10 @@ struct StateParts {
     std::function<Snapshot(int part)> particles;
 };
 
-/// The state of one process as a single part; used on rank 0 only.
+/// A part as restore() reads it: a copy first, then the part itself, which is not kept.
+std::function<Snapshot(int part)> given_twice(Snapshot part);
+
+/// The state of one process as a single part; used on rank 0 only, for one restore().
 StateParts one_part(const Simulation& sim, Snapshot state);
 
 /// Puts a state into a simulation that was made from the same case. Called by all ranks: each
