@@ -125,8 +125,11 @@ std::vector<CheckpointPart> write_parts(Job& job, const StateOnDemand& particles
 void keep_good_state(Job& job)
 {
     const Stage stage(job, "good state");
-    job.last_good.reset(); // frees the disk before the next one is written
-    job.last_good.emplace(job.folder, present_state(job));
+    if (job.last_good) {
+        job.last_good->replace(present_state(job));
+    } else {
+        job.last_good.emplace(job.folder, present_state(job));
+    }
 }
 
 void update_outputs(Job& job)

@@ -54,7 +54,13 @@ public:
     File(const File&) = delete;
     File& operator=(const File&) = delete;
 
-    void append(std::span<const std::byte> bytes) const { write_all(descriptor_, bytes, name_); }
+    void write(std::span<const std::byte> bytes, std::uintmax_t offset) const
+    {
+        if (::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0) {
+            throw_system_error("write", name_);
+        }
+        write_all(descriptor_, bytes, name_);
+    }
 
     void read(std::span<std::byte> bytes, std::uintmax_t offset) const
     {
@@ -78,8 +84,15 @@ private:
 };
 
 KeptState::KeptState(const fs::path& folder, const StateOnDemand& state)
-    : file_(std::make_unique<File>(folder)), texts_(state.texts)
+    : file_(std::make_unique<File>(folder))
 {
+    replace(state);
+}
+
+void KeptState::replace(const StateOnDemand& state)
+{
+    arrays_.clear();
+    texts_ = state.texts;
     std::uintmax_t offset = 0;
     for (const auto& [name, size] : state.bytes) {
         Column column = state.array(name);
@@ -87,7 +100,7 @@ KeptState::KeptState(const fs::path& folder, const StateOnDemand& state)
         std::visit(
             [&](auto& values) {
                 const auto bytes = std::as_bytes(std::span(values));
-                file_->append(bytes);
+                file_->write(bytes, offset);
                 offset += bytes.size();
                 place.count = values.size();
                 std::remove_reference_t<decltype(values)>().swap(values); // frees the memory

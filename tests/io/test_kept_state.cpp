@@ -63,7 +63,8 @@ TEST_F(KeptStates, GiveBackEveryBitAnyNumberOfTimes)
 {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const Snapshot given = random_snapshot(seed);
-        KeptState first(folder, on_demand(given));
+        KeptState first(folder, on_demand(random_snapshot(100 + seed)));
+        first.replace(on_demand(given));
         const KeptState kept = std::move(first);
         const StateOnDemand state = kept.on_demand();
         EXPECT_EQ(state.texts, given.texts);

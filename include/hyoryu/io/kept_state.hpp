@@ -21,6 +21,10 @@ public:
     KeptState(KeptState&&) noexcept;
     KeptState& operator=(KeptState&&) noexcept;
 
+    /// Writes another state over this one, which is lost also if it throws: nothing else may use
+    /// the object after an IoError.
+    void replace(const StateOnDemand& state);
+
     /// The state, whose arrays are read when they are requested, any number of times. Valid for as
     /// long as this object. Throws IoError if an array cannot be read.
     StateOnDemand on_demand() const;
