@@ -240,20 +240,26 @@ private:
     // Water that enters through the rim while the faces separate is accelerated: by Bernoulli's law
     // the pressure falls by rho u^2 / 2, u the flow divided by the wet section of the rim; the dry
     // part admits air. The section counts as at least a spacing high: the unevenness of real
-    // joints. Implicit in the speed of separation, which is taken to act on the mass alone, so that
-    // the pressure drop never reverses it.
+    // joints. Implicit in the speed of separation, to which the pressure of the joint, less the
+    // weight, adds within the step: that of a light body doubles in one step, and a drop by the
+    // speed before it would leave a joint that presses with water that cannot have entered.
     double inflow_drop()
     {
         double flow = 0;
         double area = 0;
         double section = 0;
+        double push = 0;  // of the joint, without the drop [N]
+        double apart = 0; // flow that the weight adds in a second
         double mass = infinity;
+        const Vec3 gravity = fluid_.weight / fluid_.density;
         for (int c = face_.first; c < face_.last; ++c) {
             if (!joined(c)) {
                 continue;
             }
             flow += cell(c).area * node(c).opening;
             area += cell(c).area;
+            push += cell(c).area * pressure_[at(c - face_.first)];
+            apart -= node(c).other < 0 ? cell(c).area * gravity.dot(node(c).normal) : 0;
             mass = std::min(mass, node(c).mass);
             for (int edge = 0; edge < edges_; ++edge) {
                 const double length = edge < 2 ? face_.dv : face_.du;
@@ -263,10 +269,10 @@ private:
         if (!(flow > 0) || !(section > 0)) {
             return 0;
         }
-        // m v' = -k v^2, k = rho A^3 / (2 section^2)
+        const double v = flow / area + fluid_.dt * std::max(push / mass + apart / area, 0.0);
+        // m v' = max(P - m g, 0) - k v^2, k = rho A^3 / (2 section^2)
         const double k = fluid_.density * area * sq(area / section) / 2;
         const double rate = 2 * k * fluid_.dt / mass;
-        const double v = flow / area;
         const double later = rate * v > 1e-12 ? (std::sqrt(1 + 2 * rate * v) - 1) / rate : v;
         return k * sq(later) / area;
     }
