@@ -9,12 +9,12 @@
 #include "hyoryu/core/input_file.hpp"
 #include "hyoryu/core/state.hpp"
 #include "hyoryu/io/results.hpp"
+#include "link_names.hpp"
 #include "packed_array.hpp"
 
 #include <fmt/format.h>
 #include <libdeflate.h>
 
-#include <charconv>
 #include <fstream>
 #include <functional>
 #include <regex>
@@ -47,42 +47,6 @@ std::string header(int format, std::uintmax_t bytes, std::uint32_t checksum)
         fmt::format("{}\nformat {}\nbytes {}\ncrc32 {:08x}\n", magic, format, bytes, checksum);
     text.resize(header_size, '\0');
     return text;
-}
-
-/// Names may hold any letter; a link of HDF5 may hold no `/` and must not be `.`.
-std::string link_name(std::string_view name)
-{
-    if (name == ".") {
-        return "%2E";
-    }
-    std::string link;
-    for (const char letter : name) {
-        if (letter == '/' || letter == '%') {
-            link += letter == '/' ? "%2F" : "%25";
-        } else {
-            link += letter;
-        }
-    }
-    return link;
-}
-
-std::string name_of(std::string_view link)
-{
-    std::string name;
-    for (std::size_t i = 0; i < link.size(); ++i) {
-        if (link[i] == '%' && i + 2 < link.size()) {
-            int code = 0;
-            const char* const end = link.data() + i + 3;
-            if (std::from_chars(link.data() + i + 1, end, code, 16).ptr != end) {
-                throw IoError(fmt::format("the checkpoint is damaged: it names `{}`", link));
-            }
-            name += static_cast<char>(code);
-            i += 2;
-        } else {
-            name += link[i];
-        }
-    }
-    return name;
 }
 
 /// Texts as bytes: a string type of HDF5 would lose zero bytes at their end.

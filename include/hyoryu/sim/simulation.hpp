@@ -57,8 +57,8 @@ struct Simulation {
 Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling,
                            Comm* comm = nullptr);
 
-/// The same without lists, pressures and rates, for a state to be restored; not to be advanced before
-/// that.
+/// The same without lists, pressures and rates, for a state to be restored; not to be advanced
+/// before that.
 Simulation make_to_restore(const Scene& scene, const Plan& plan, Filling filling,
                            Comm* comm = nullptr);
 
