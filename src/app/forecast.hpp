@@ -26,7 +26,7 @@ double seconds_to_write(const std::filesystem::path& file, const std::string& te
 
 /// Times the case on simulations of their own, which are gone afterwards. With fluid: some of the
 /// first steps, and the whole with fewer particles. Bodies alone: as many steps as the budget
-/// allows. None if no prediction is possible.
+/// allows. None if no prediction is possible, as of a scene that becomes unstable at once.
 std::optional<StepCost> time_case(const CaseSource& source, const Scene& scene, const Plan& plan,
                                   const Filling& filling, const TimingBudget& budget);
 
