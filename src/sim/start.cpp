@@ -190,7 +190,7 @@ void start_fluid(Simulation& sim)
     update_rates(*sim.fluid);
 }
 
-void add_wave_terms(Simulation& sim)
+void add_waves_and_beds(Simulation& sim)
 {
     sim.waves = make_waves(sim);
     sim.bed = make_bed_friction(sim);
@@ -232,7 +232,7 @@ Simulation make_simulation(const Scene& scene, const Plan& plan, Filling filling
     Simulation sim = make_unlisted(scene, plan, std::move(filling), comm);
     if (sim.fluid) {
         start_fluid(sim);
-        add_wave_terms(sim);
+        add_waves_and_beds(sim);
     }
     sim.conservation.start = totals(sim);
     return sim;
@@ -242,7 +242,7 @@ Simulation make_to_restore(const Scene& scene, const Plan& plan, Filling filling
 {
     Simulation sim = make_unlisted(scene, plan, std::move(filling), comm);
     if (sim.fluid) {
-        add_wave_terms(sim);
+        add_waves_and_beds(sim);
     }
     return sim;
 }
