@@ -3,7 +3,7 @@
 
 #include "free_space.hpp"
 #include "near_points.hpp"
-#include "packing_lists.hpp"
+#include "packing_grid.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 
@@ -15,43 +15,49 @@ namespace hyoryu {
 namespace {
 
 // In spacings.
-constexpr double least = 0.46;    // distance of a particle from a surface
-constexpr double skin = 0.5;      // by which listed pairs may come nearer
-constexpr double longest = 0.1;   // way of a particle in a round
-constexpr double farthest = 1;    // that a particle is moved in all
-constexpr double beside = 2;      // farther from a surface than that none comes too near
-constexpr double looked = 1;      // distance to which surfaces are looked for
+constexpr double least = 0.46;  // distance of a particle from a surface
+constexpr double strays = 0.15; // by which particles may leave the cells that they are sorted into
+constexpr double longest = 0.1; // way of a particle in a round
+constexpr double farthest = 1;  // that a particle is moved in all
+constexpr double beside = 2;    // farther from a surface than that none comes too near
+constexpr double looked = 1;    // distance to which surfaces are looked for
 constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
 
-// A want of water spreads by a layer in about ten rounds; what deeper water than this keeps of it,
-// the run evens out.
-constexpr int rounds_of_layer = 10;
+// With this momentum the missing water of a bed spreads by a layer in four rounds. In deeper water
+// than this its rest evens out while the case runs.
+constexpr int rounds_of_layer = 4;
 constexpr int least_rounds = 100;
-constexpr int most_rounds = 1000;
-constexpr double gain = 0.1;     // of the descent, at twice of which it is unstable
-constexpr double momentum = 0.9; // share of a way that the next round goes on with
-// Places are rounded to so much, from the middle of the fluid on, after every round, which would
-// otherwise make the rounding of numbers grow: that depends on where the scene lies and how it is
-// turned.
-constexpr double unit = 0x1p-20; // spacings
+constexpr int most_rounds = 400;
+constexpr double gain = 0.1; // of the descent, at twice of which it is unstable
+// Share of a way that the next round goes on with, and less where the force has turned against it:
+// a particle that has swung past its place stops.
+constexpr double momentum = 0.97;
+constexpr double momentum_against = 0.7;
+constexpr Index block_slots = 256; // dealt out together
 
 std::size_t at(Index row)
 {
     return static_cast<std::size_t>(row);
 }
 
-// The particles that take part: those that move, then fluid that stays, then solids.
+// A particle that may come too near to solids.
+struct Beside {
+    std::vector<int> solids;
+    // Way that it may go before it can be too near to one [m]; less: unknown.
+    double room = 0;
+};
+
+// The fluid particles that take part, those that move first, then those that stay.
 struct Packing {
-    std::vector<std::size_t> rows;        // of the fluid, for those that move and stay
-    std::vector<Vec3> points;             // [m]
-    std::vector<double> depth;            // of the fluid, below its surface [m]
-    std::vector<Vec3> start;              // of those that move [m]
-    std::vector<Vec3> way;                // that those that move went in the last round [m]
-    std::vector<std::vector<int>> solids; // that each of them may come too near to
-    // Way that each of them may go before it can be too near to a solid [m]; less: unknown.
-    std::vector<double> room;
+    std::vector<std::int32_t> rows;          // of the fluid
+    std::vector<Vec3> points;                // [m]
+    std::vector<Eigen::Vector3f> way;        // that those that move went last [units]
+    std::vector<std::uint8_t> sees_solids;   // whether those that move may
+    std::vector<std::int32_t> beside_number; // in `beside`, of those that move; -1: none
+    std::vector<Beside> beside;
     Index moving = 0;
-    PackingLists lists; // of those that move
+    PackingUnits units;
+    PackingGrid grid, solids;
 };
 
 std::vector<Vec3> solid_points(const Scene& scene, const Filling& filling)
@@ -141,59 +147,49 @@ void add_fluid(const Filling& filling, std::span<const std::uint8_t> rows, Packi
 {
     for (std::size_t k = 0; k < rows.size(); ++k) {
         if (rows[k] != 0) {
-            packing.rows.push_back(k);
+            packing.rows.push_back(static_cast<std::int32_t>(k));
             packing.points.push_back(filling.fluid[k]);
-            packing.depth.push_back(filling.fluid_depth[k]);
         }
     }
 }
 
 // Those that some particle that moves may see.
-void add_solids(std::span<const Vec3> solids, double seen, Packing& packing)
+void add_solids(std::span<const Vec3> solids, double seen, double reach, Packing& packing)
 {
     CellGrid grid;
     build(grid, std::span(packing.points).first(at(packing.moving)), 0, seen);
+    std::vector<UnitPlace> places;
     for (const Vec3& p : solids) {
         bool near = false;
         for_cells_about(grid, p, [&](std::size_t) { near = true; });
         if (near) {
-            packing.points.push_back(p);
+            places.push_back(packing.units.whole(p));
         }
     }
-}
-
-Packing packing_of(const Scene& scene, const Filling& filling, double support)
-{
-    const double dp = scene.spacing;
-    const std::vector<Vec3> solids = solid_points(scene, filling);
-    const std::vector<std::uint8_t> moves = free_to_move(scene, filling, solids, support);
-    Packing packing;
-    add_fluid(filling, moves, packing);
-    packing.moving = static_cast<Index>(packing.points.size());
-    packing.start = packing.points;
-    packing.way.assign(packing.points.size(), Vec3::Zero());
-    if (packing.moving == 0) {
-        return packing;
-    }
-    const double seen = support + (skin + 1) * dp;
-    std::vector<std::uint8_t> stays = marks_about(filling.fluid, moves, seen);
-    std::ranges::transform(stays, moves, stays.begin(), std::minus<>());
-    add_fluid(filling, stays, packing);
-    add_solids(solids, seen, packing);
-    return packing;
+    packing.solids = packing_grid(places, reach);
+    packing.sees_solids.resize(at(packing.moving));
+    parallel_for(0, packing.moving, [&](Index i) {
+        const UnitPlace place = packing.units.whole(packing.points[at(i)]);
+        const double sight = seen / packing.units.size;
+        packing.sees_solids[at(i)] = any_within(packing.solids, place, sight) ? 1 : 0;
+    });
 }
 
 void find_surfaces(const Scene& scene, const FreeSpace& space, Packing& packing)
 {
     const double reach = beside * scene.spacing;
-    packing.solids.resize(at(packing.moving));
-    packing.room.assign(at(packing.moving), 0);
+    std::vector<std::uint8_t> near(at(packing.moving), 0);
     parallel_for(0, packing.moving, [&](Index i) {
-        const std::vector<int> near = space.about(packing.points[at(i)], reach);
-        if (space.nearest(packing.points[at(i)], near).distance < reach) {
-            packing.solids[at(i)] = near;
-        }
+        const Vec3& p = packing.points[at(i)];
+        near[at(i)] = space.nearest(p, space.about(p, reach)).distance < reach ? 1 : 0;
     });
+    packing.beside_number.assign(at(packing.moving), -1);
+    for (Index i = 0; i < packing.moving; ++i) {
+        if (near[at(i)] != 0) {
+            packing.beside_number[at(i)] = static_cast<std::int32_t>(packing.beside.size());
+            packing.beside.push_back({space.about(packing.points[at(i)], reach)});
+        }
+    }
 }
 
 Vec3 middle_of_blocks(const Scene& scene)
@@ -205,64 +201,139 @@ Vec3 middle_of_blocks(const Scene& scene)
     return (box.min + box.max) / 2;
 }
 
-Vec3 rounded(const Vec3& place, const Vec3& origin, double dp)
+// The particles that move, with all that they may see; none if none moves.
+Packing packing_of(const Scene& scene, const Filling& filling, double support)
 {
-    const Vec3 units = (place - origin) / (unit * dp);
-    return origin + unit * dp * units.array().round().matrix();
+    const double dp = scene.spacing;
+    const std::vector<Vec3> solids = solid_points(scene, filling);
+    const std::vector<std::uint8_t> moves = free_to_move(scene, filling, solids, support);
+    Packing packing;
+    add_fluid(filling, moves, packing);
+    packing.moving = static_cast<Index>(packing.points.size());
+    if (packing.moving == 0) {
+        return packing;
+    }
+    packing.way.assign(packing.points.size(), Eigen::Vector3f::Zero());
+    const double seen = support + (strays + 2 * farthest) * dp;
+    std::vector<std::uint8_t> stays = marks_about(filling.fluid, moves, seen);
+    std::ranges::transform(stays, moves, stays.begin(), std::minus<>());
+    add_fluid(filling, stays, packing);
+    Bounds box;
+    for (const Vec3& p : packing.points) {
+        box.add(p);
+    }
+    packing.units = packing_units(middle_of_blocks(scene), dp, box.min, box.max);
+    add_solids(solids, seen, support / packing.units.size, packing);
+    return packing;
+}
+
+// Depth of a particle below the surface where it is now [spacings].
+float depth_of(const Filling& filling, const Packing& packing, const Vec3& down, double dp,
+               std::size_t k)
+{
+    const auto row = static_cast<std::size_t>(packing.rows[k]);
+    const double sunk = down.dot(packing.points[k] - filling.fluid[row]);
+    return static_cast<float>((filling.fluid_depth[row] + sunk) / dp);
 }
 
 // Keeps the way of a particle off the surfaces: its end, or where it began if that is a corner.
 // Surfaces are looked at again only where it may have come too near since the last look, as no way
 // changes a distance by more than its length.
-Vec3 off_surfaces(const FreeSpace& space, double dp, std::span<const int> solids, const Vec3& from,
-                  const Vec3& to, double& room)
+Vec3 off_surfaces(const FreeSpace& space, double dp, const PackingUnits& units, const Vec3& from,
+                  const Vec3& to, Beside& particle)
 {
-    if (solids.empty()) {
-        return to;
-    }
-    room -= (to - from).norm() + unit * dp; // places are rounded
-    if (room > 0) {
+    particle.room -= (to - from).norm() + units.size; // places are rounded
+    if (particle.room > 0) {
         return to;
     }
     Vec3 p = to;
-    const double distance = space.nearest(p, solids, looked * dp).distance;
-    room = std::min(distance, looked * dp) - least * dp;
-    if (room < 0) {
-        step_off(space, solids, (least + 1e-6) * dp, p, looked * dp);
-        const bool in_corner = space.nearest(p, solids, looked * dp).distance < least * dp;
+    const double distance = space.nearest(p, particle.solids, looked * dp).distance;
+    particle.room = std::min(distance, looked * dp) - least * dp;
+    if (particle.room < 0) {
+        step_off(space, particle.solids, (least + 1e-6) * dp, p, looked * dp);
+        const bool in_corner = space.nearest(p, particle.solids, looked * dp).distance < least * dp;
         p = in_corner ? from : p;
     }
     return p;
 }
 
-int rounds_for(const Packing& packing, double dp)
+// The place of one particle after a round, which begins at `from` with a force [weights].
+Vec3 next_place(Packing& packing, const FreeSpace& space, double dp, std::size_t k,
+                const Vec3& force, double depth, const Vec3& start)
 {
-    double deepest = 0;
-    for (Index k = 0; k < packing.moving; ++k) {
-        deepest = std::max(deepest, packing.depth[at(k)]);
+    const Vec3& from = packing.points[k];
+    const double stiffness = (2 * std::max(depth, 0.0) + 1) / dp;
+    const Vec3 last = packing.units.size * packing.way[k].cast<double>();
+    Vec3 way =
+        (last.dot(force) > 0 ? momentum : momentum_against) * last + gain / stiffness * force;
+    const double length = way.norm();
+    way *= length > longest * dp ? longest * dp / length : 1.0;
+    Vec3 to = from + way;
+    if (const std::int32_t number = packing.beside_number[k]; number >= 0) {
+        to = off_surfaces(space, dp, packing.units, from, to, packing.beside[at(number)]);
     }
-    return static_cast<int>(
-        std::clamp<double>(rounds_of_layer * deepest / dp, least_rounds, most_rounds));
+    to = packing.units.rounded(to);
+    return (to - start).norm() > farthest * dp ? from : to;
 }
 
-// Where one round takes the particles that move, with the fluid in cells of this volume.
-void descend(Packing& packing, const FreeSpace& space, const PackingPressure& pressure, double dp,
-             double volume, const Vec3& origin, std::vector<Vec3>& moved)
+// One round; the longest way of a particle [m].
+double descend(const Filling& filling, const PackingPressure& pressure, const FreeSpace& space,
+               double dp, Packing& packing)
 {
-    parallel_for(0, packing.moving, [&](Index i) {
-        const Vec3& from = packing.points[at(i)];
-        const Vec3 force =
-            pressure.down - volume * pressure_sum(packing.lists, packing.points, pressure, at(i));
-        const double stiffness = (2 * std::max(packing.depth[at(i)], 0.0) + dp) / sq(dp);
-        Vec3 way = momentum * packing.way[at(i)] + gain / stiffness * force;
-        const double length = way.norm();
-        way *= length > longest * dp ? longest * dp / length : 1.0;
-        const Vec3 free =
-            off_surfaces(space, dp, packing.solids[at(i)], from, from + way, packing.room[at(i)]);
-        const Vec3 p = rounded(free, origin, dp);
-        const bool strays = (p - packing.start[at(i)]).norm() > farthest * dp;
-        moved[at(i)] = strays ? from : p;
+    const auto all = static_cast<Index>(packing.points.size());
+    const PackingUnits& units = packing.units;
+    PackingGrid& grid = packing.grid;
+    // All see the places of the grid, which are those before the round.
+    const auto move = [&](Index slot) {
+        const auto k = at(grid.order[at(slot)]);
+        if (static_cast<Index>(k) >= packing.moving) {
+            return;
+        }
+        const UnitPlace place{grid.x[at(slot)], grid.y[at(slot)], grid.z[at(slot)]};
+        const float depth = grid.depth[at(slot)];
+        const PackingGrid* solids = packing.sees_solids[k] != 0 ? &packing.solids : nullptr;
+        const Vec3 force = pressure.down - pressure_sum(grid, solids, pressure, place, depth);
+        const Vec3 to =
+            next_place(packing, space, dp, k, force, depth, filling.fluid[at(packing.rows[k])]);
+        packing.way[k] = ((to - packing.points[k]) / units.size).array().round().cast<float>();
+        packing.points[k] = to;
+    };
+    parallel_blocks(0, (all + block_slots - 1) / block_slots, [&](Index block) {
+        const Index end = std::min(all, (block + 1) * block_slots);
+        for (Index slot = block * block_slots; slot < end; ++slot) {
+            move(slot);
+        }
     });
+    parallel_for(0, all, [&](Index slot) {
+        const auto k = at(grid.order[at(slot)]);
+        const UnitPlace place = units.whole(packing.points[k]);
+        grid.x[at(slot)] = place[0];
+        grid.y[at(slot)] = place[1];
+        grid.z[at(slot)] = place[2];
+        grid.depth[at(slot)] = depth_of(filling, packing, pressure.down, dp, k);
+    });
+    return units.size * largest(0, packing.moving, 0.0, [&](Index k) {
+               return static_cast<double>(packing.way[at(k)].norm());
+           });
+}
+
+void sort(const Filling& filling, const Vec3& down, double dp, double reach, Packing& packing)
+{
+    std::vector<UnitPlace> places(packing.points.size());
+    parallel_for(0, static_cast<Index>(places.size()),
+                 [&](Index k) { places[at(k)] = packing.units.whole(packing.points[at(k)]); });
+    packing.grid = packing_grid(places, reach);
+    packing.grid.depth.assign(packing.grid.x.size(), 0);
+    parallel_for(0, static_cast<Index>(places.size()), [&](Index slot) {
+        packing.grid.depth[at(slot)] =
+            depth_of(filling, packing, down, dp, at(packing.grid.order[at(slot)]));
+    });
+}
+
+double deepest_of(const Filling& filling, const Packing& packing)
+{
+    return largest(0, packing.moving, 0.0,
+                   [&](Index k) { return filling.fluid_depth[at(packing.rows[at(k)])]; });
 }
 
 } // namespace
@@ -275,37 +346,36 @@ void relax_packing(const Scene& scene, Filling& filling)
         return;
     }
     const double dp = scene.spacing;
-    const Kernel kernel = make_kernel(scene.fluid->smoothing_ratio * dp, dp, scene.dimensions);
-    Packing packing = packing_of(scene, filling, kernel.support);
+    const Kernel kernel = make_kernel(scene.fluid->smoothing_ratio, 1, scene.dimensions);
+    Packing packing = packing_of(scene, filling, kernel.support * dp);
+    if (packing.moving == 0) {
+        return;
+    }
     const FreeSpace space(scene);
     find_surfaces(scene, space, packing);
-    const Vec3 down = scene.gravity.normalized();
-    const Vec3 middle = middle_of_blocks(scene);
-    const double volume = particle_volume(scene, filling);
-    const PackingPressure pressure{packing.depth, kernel, down,
-                                   std::pow(dp, scene.dimensions) / volume};
-    std::vector<Vec3> moved(at(packing.moving));
-    std::vector<Vec3> listed;
-    const int rounds = rounds_for(packing, dp);
+    const double unit = packing.units.size / dp;
+    const double layers = deepest_of(filling, packing) / dp;
+    const PackingPressure pressure{.kernel = kernel,
+                                   .down = scene.gravity.normalized(),
+                                   .unit = unit,
+                                   .reach = (kernel.support + strays) / unit,
+                                   .volume = particle_volume(scene, filling) /
+                                             std::pow(dp, scene.dimensions),
+                                   .deepest = layers + 1};
+    const int rounds =
+        static_cast<int>(std::clamp<double>(rounds_of_layer * layers, least_rounds, most_rounds));
+    double gone = infinity; // since the last sorting, at most [m]
     for (int round = 0; round < rounds; ++round) {
-        double since = listed.empty() ? infinity : 0; // since the lists were made
-        for (std::size_t k = 0; k < listed.size(); ++k) {
-            since = std::max(since, (packing.points[k] - listed[k]).norm());
+        if (gone > (strays - longest) * dp) {
+            sort(filling, pressure.down, dp, pressure.reach, packing);
+            gone = 0;
         }
-        if (since > (skin / 2 - longest) * dp) {
-            make_lists(packing.points, packing.moving, kernel.support + skin * dp, packing.lists);
-            listed.assign(packing.points.begin(), packing.points.begin() + packing.moving);
-        }
-        descend(packing, space, pressure, dp, volume, middle, moved);
-        for (std::size_t k = 0; k < moved.size(); ++k) {
-            packing.way[k] = moved[k] - packing.points[k];
-            packing.depth[k] += down.dot(packing.way[k]);
-            packing.points[k] = moved[k];
-        }
+        gone += descend(filling, pressure, space, dp, packing);
     }
-    for (std::size_t k = 0; k < moved.size(); ++k) {
-        filling.fluid[packing.rows[k]] = packing.points[k];
-        filling.fluid_depth[packing.rows[k]] = packing.depth[k];
+    for (Index k = 0; k < packing.moving; ++k) {
+        const auto row = at(packing.rows[at(k)]);
+        filling.fluid_depth[row] += pressure.down.dot(packing.points[at(k)] - filling.fluid[row]);
+        filling.fluid[row] = packing.points[at(k)];
     }
 }
 
