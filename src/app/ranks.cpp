@@ -17,6 +17,7 @@
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -172,9 +173,15 @@ void Ranks::together(const std::function<void()>& f)
 void Ranks::end(const std::exception_ptr& error)
 {
     // What all processes meet, rank 0 tells: it ends the others within the time that they wait.
-    constexpr auto head_start = std::chrono::seconds(1); // of what it may have met as well
-    if (comm_->rank() > 0) {
-        std::this_thread::sleep_for(is_of_all(error) ? patience : head_start);
+    // What some of them may meet, as a full disk, the first of those: each waits longer than those
+    // before it take to end the run.
+    constexpr auto head_start = std::chrono::milliseconds(1000);
+    constexpr auto each_later = std::chrono::milliseconds(200);
+    if (const int rank = comm_->rank(); rank > 0) {
+        std::signal(SIGTERM, SIG_DFL); // the launcher's when another one has told: nothing to save
+        const auto turn =
+            std::min<std::chrono::milliseconds>(head_start + (rank - 1) * each_later, patience);
+        std::this_thread::sleep_for(is_of_all(error) ? patience : turn);
     }
     tell(error);
 }

@@ -577,13 +577,14 @@ class Ends(RanksTest):
             self.assertIn("memory", message)
             shutil.rmtree(self.dir / "out")
 
-    def test_a_disk_that_is_full_for_one_process_ends_the_run(self):
-        """Its limit on the size of a file stands for the disk."""
+    def test_a_disk_that_is_full_for_some_processes_ends_the_run_with_one_message(self):
+        """Their limit on the size of a file stands for the disk."""
         self.write(LONG_DAM.replace("spacing = 0.02", "spacing = 0.01"))
-        for rank in (0, 1, 2):
+        for ranks in ((0,), (1,), (2,), (1, 2), (0, 1, 2)):
             process = self.start(3, "run", self.case, "-o", "out", "--force")
             self.wait_for(process, "checkpoint.previous.h5")
-            resource.prlimit(self.children(process)[rank], resource.RLIMIT_FSIZE, (20000, 20000))
+            for rank in ranks:
+                resource.prlimit(self.children(process)[rank], resource.RLIMIT_FSIZE, (20000, 20000))
             code, message = self.finish(process)
             self.assertEqual(code, 4, message)
             self.assertEqual(message.count("error: "), 1, message)
