@@ -197,7 +197,7 @@ double mean_fluid(const Plan& plan)
     return std::max(start, (start + static_cast<double>(plan.most_fluid)) / 2);
 }
 
-double untimed_step(const Plan& plan)
+double untimed_step(const Plan& plan, int processes)
 {
     const double bodies = static_cast<double>(plan.counts.bodies) * body_seconds;
     if (!plan.fluid) {
@@ -207,12 +207,12 @@ double untimed_step(const Plan& plan)
     const double particles =
         of_fluid * mean_fluid(plan) + wall_seconds * static_cast<double>(plan.counts.wall);
     const double set = widest_instruction_set() == InstructionSet::avx512 ? 1.0 : without_avx512;
-    return step_seconds + set * particles / thread_count() + bodies;
+    return step_seconds + set * particles / (thread_count() * processes) + bodies;
 }
 
-double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed)
+double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed, int processes)
 {
-    double step = timed ? seconds_of_run(*timed) : untimed_step(plan);
+    double step = timed ? seconds_of_run(*timed) : untimed_step(plan, processes);
     if (timed && plan.fluid && !timed->development) { // which would hold what enters
         const auto wall = static_cast<double>(plan.counts.wall);
         step *= (mean_fluid(plan) + wall) / (static_cast<double>(plan.counts.fluid) + wall);

@@ -381,7 +381,7 @@ ordered_json time_step_json(const Scene& scene, const Plan& plan,
 }
 
 ordered_json forecast_json(const Scene& scene, const Plan& plan,
-                           const std::optional<StepCost>& timed)
+                           const std::optional<StepCost>& timed, int processes)
 {
     const double memory = memory_of(scene, plan, timed);
     const auto fluid = static_cast<double>(plan.counts.fluid);
@@ -392,12 +392,14 @@ ordered_json forecast_json(const Scene& scene, const Plan& plan,
             {"frames", plan.frames},
             {"disk_bytes", disk_bytes(scene, plan, expected_course(plan, timed))},
             {"disk_bytes_uncompressed", plan.frames * plan.frame_bytes},
-            {"wall_seconds", wall_forecast(plan, timed)}};
+            {"processes", processes},
+            {"wall_seconds", wall_forecast(plan, timed, processes)}};
 }
 
 } // namespace
 
-std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
+std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed,
+                      int processes)
 {
     ordered_json json;
     json["title"] = scene.title;
@@ -436,7 +438,7 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
         json["instruction_set"] = name(widest_instruction_set());
     }
     add_scale(plan, json);
-    json["forecast"] = forecast_json(scene, plan, timed);
+    json["forecast"] = forecast_json(scene, plan, timed, processes);
     if (timed) {
         json["cost"] = cost_json(*timed);
     }

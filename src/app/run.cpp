@@ -14,6 +14,7 @@
 #include "hyoryu/core/state.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/machine_memory.hpp"
+#include "hyoryu/scene/memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
 #include "hyoryu/sim/dealing.hpp"
 #include "hyoryu/sim/state_parts.hpp"
@@ -40,15 +41,21 @@ fs::path results_folder(const RunOptions& options)
                                   : options.folder;
 }
 
-void check_memory(const Plan& plan)
+// Tells what needs the memory: particles, or the histories of very many steps.
+void check_memory(const Scene& scene, const Plan& plan)
 {
     const double memory = machine_memory();
     if (plan.memory > memory) {
+        const bool by_steps = memory_bytes(scene, plan, {}) < memory / 2;
         throw CaseError(
             fmt::format(
                 "the run needs about {} of memory, but only {} are available to this process",
                 readable_bytes(plan.memory), readable_bytes(memory)),
-            "increase `particles.spacing`");
+            by_steps
+                ? fmt::format("the histories of {:.2g} steps need it, of {:.2g} s each: `hyoryu "
+                              "check` tells what limits the step",
+                              plan.expected_steps, plan.first_step)
+                : "increase `particles.spacing`");
     }
 }
 
@@ -354,7 +361,7 @@ int run_share(const RunOptions& options, Ranks& others)
     watch_for_stop();
     if (writes(comm)) {
         tell_warnings(options, plan);
-        check_memory(plan);
+        check_memory(scene, plan);
     }
     if (comm != nullptr) {
         deal_plan(*comm, scene, filling, plan);

@@ -116,7 +116,8 @@ FolderLock begin_folder(const Beginning& from, const std::string& case_text, con
         timed = time_case({from.options.case_file, from.options.overrides}, from.scene, from.plan,
                           filling, budget);
     }
-    write_text(from.folder / "plan.json", plan_json(from.scene, from.plan, timed));
+    const int processes = from.comm == nullptr ? 1 : from.comm->size();
+    write_text(from.folder / "plan.json", plan_json(from.scene, from.plan, timed, processes));
     return lock;
 }
 

@@ -5,6 +5,8 @@
 #include "sharing.hpp"
 #include "sweeps.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 namespace hyoryu {
@@ -40,12 +42,47 @@ real largest_of_all(const Fluid& fluid, real number)
     return number;
 }
 
+namespace {
+
+void poison(Store& store)
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    store.for_each_column([&]<class T>(const FieldInfo& of, ColumnValues<T>& values) {
+        if (&of == &Velocity::info) {
+            return;
+        }
+        if constexpr (std::is_same_v<T, Vec3>) {
+            std::ranges::fill(values, Vec3::Constant(nan));
+        } else {
+            std::ranges::fill(values, nan);
+        }
+    });
+}
+
+} // namespace
+
+void poison_ghosts(Ghosts& ghosts, const Fluid& fluid)
+{
+    Particles& particles = ghosts.particles;
+    poison(particles.fluid);
+    poison(particles.body);
+    if (!fluid.moving_walls) {
+        const auto of_walls = particles.wall[field::position];
+        const ColumnValues<Vec3> places(of_walls.begin(), of_walls.end());
+        poison(particles.wall);
+        std::ranges::copy(places, of_walls.begin());
+    }
+}
+
 void share_places(Fluid& fluid)
 {
     if (!fluid.ghosts || fluid.neighbours.builds == 0) {
         return;
     }
     Ghosts& g = *fluid.ghosts;
+    if constexpr (debug_build) {
+        poison_ghosts(g, fluid);
+    }
     FluidNeighbours& n = fluid.neighbours;
     g.moved = measure_own(fluid);
     Delivery delivery;

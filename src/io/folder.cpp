@@ -34,6 +34,7 @@ constexpr std::array our_files{
     R"(frames/(fluid|bodies|surfaces|walls|structures)_[0-9]{6,}\.hdf)",
     R"(frames/(fluid|walls)_[0-9]{6,}\.[0-9]{4}\.hdf)",
     R"((vtp|csv)/([a-z]+_[0-9]{6,}\.(vtp|csv)|[a-z]+\.(pvd|csv)|\.hyoryu-convert))",
+    R"(\.hyoryu-kept-[A-Za-z0-9]{6})", // of a run that was killed before it took the name away
     R"(pictures/(frame_[0-9]{6,}\.png|animation\.mp4))",
 };
 constexpr std::array our_folders{"frames", "pictures", "vtp", "csv"};

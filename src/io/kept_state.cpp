@@ -24,7 +24,7 @@ constexpr mode_t only_owner = 0600;
 // For a file system that has no files without names, such as NFS.
 int open_and_remove(const fs::path& folder)
 {
-    std::string name = (folder / ".kept-XXXXXX").string();
+    std::string name = (folder / ".hyoryu-kept-XXXXXX").string();
     const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
     if (descriptor >= 0) {
         ::unlink(name.c_str());

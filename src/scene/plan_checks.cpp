@@ -6,6 +6,7 @@
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
+#include "plan_leaks.hpp"
 #include "plan_open.hpp"
 #include "plan_waves.hpp"
 #include "walls.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 
 namespace hyoryu {
 
@@ -260,39 +260,37 @@ void warn_about_round_walls(const Scene& scene, Plan& plan)
     }
 }
 
-// Fluid columns with nothing solid below them fall out of the scene.
-void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
+// Cells of the fluid are of the spacing, or one where less than one fits.
+void warn_about_narrow_basins(const Scene& scene, Plan& plan)
 {
-    if (scene.gravity.normalized().dot(-Vec3::UnitZ()) < 0.99) {
-        return;
-    }
-    const auto column = [&](const Vec3& p) {
-        return std::pair{std::llround(std::floor(p.x() / scene.spacing)),
-                         std::llround(std::floor(p.y() / scene.spacing))};
-    };
-    std::map<std::pair<long long, long long>, double> floor;
-    for (const Vec3& p : filling.wall) {
-        const auto at = floor.try_emplace(column(p), p.z()).first;
-        at->second = std::min(at->second, p.z());
-    }
-    // The particles of a bed that does not follow the lattice leave columns out.
-    const auto has_floor = [&](const Vec3& p) {
-        const auto [x, y] = column(p);
-        for (long long k = 0; k < 9; ++k) {
-            const auto below = floor.find({x + k % 3 - 1, y + k / 3 - 1});
-            if (below != floor.end() && below->second <= p.z()) {
-                return true;
+    constexpr double least = 3; // spacings
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        const auto* basin = std::get_if<BasinWall>(&scene.walls[w].geometry);
+        for (const int axis : {0, 1}) {
+            if (basin == nullptr || (scene.dimensions == 2 && axis == 1)) {
+                continue;
+            }
+            const double across = basin->max[axis] - basin->min[axis];
+            if (across < least * scene.spacing * (1 - 1e-9)) {
+                warn(scene, scene.walls[w].place, fmt::format("wall[{}]", w),
+                     fmt::format("the basin \"{}\" is {:.3g} m wide along {}, {:.2g} spacings: the "
+                                 "water in it is not resolved",
+                                 scene.walls[w].name, across, "xy"[axis], across / scene.spacing),
+                     fmt::format("use a `particles.spacing` of at most {:.3g}", across / least),
+                     plan);
             }
         }
-        return false;
-    };
-    const auto open = std::ranges::count_if(filling.fluid, std::not_fn(has_floor));
-    if (open > 0) {
-        warn(
-            scene, {}, "wall",
-            fmt::format(
-                "{} fluid particles have no wall below them and will fall out of the domain", open),
-            "add a floor: a wall of shape \"plane\" or \"basin\"", plan);
+    }
+}
+
+void warn_about_cfl(const Scene& scene, Plan& plan)
+{
+    if (!scene.time.step && scene.time.cfl > stable_cfl) {
+        warn(scene, {}, "time.cfl",
+             fmt::format("{:.4g} makes steps longer than the stability limit of the fluid, which "
+                         "is at {:.2g}",
+                         scene.time.cfl, stable_cfl),
+             "omit it, for the default", plan);
     }
 }
 
@@ -369,6 +367,8 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     warn_about_waves(scene, filling, plan);
     if (scene.fluid) {
         warn_about_sound(scene, plan);
+        warn_about_cfl(scene, plan);
+        warn_about_narrow_basins(scene, plan);
         warn_about_room(scene, plan);
         warn_about_leaks(scene, filling, plan);
         warn_about_gaps(scene, filling, plan);

@@ -88,7 +88,9 @@ void look_at_density(const Scene& scene, PlanWarnings& slips)
             slips.add(
                 place, key,
                 fmt::format("{} kg/m3 is lower than the density of any solid or liquid", density),
-                fmt::format("if it is a ratio to water, write {}", density * 1000));
+                density * 1000 >= least_density
+                    ? fmt::format("if it is a ratio to water, write {:.6g}", density * 1000)
+                    : "densities are in kg/m3; water has 1000");
         }
     };
     if (scene.fluid) {

@@ -23,16 +23,16 @@ constexpr double beside = 2;    // farther from a surface than that none comes t
 constexpr double looked = 1;    // distance to which surfaces are looked for
 constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
 
-// With this momentum the missing water of a bed spreads by a layer in four rounds. In deeper water
+// With this momentum the missing water of a bed spreads by a layer in six rounds. In deeper water
 // than this its rest evens out while the case runs.
-constexpr int rounds_of_layer = 4;
+constexpr int rounds_of_layer = 6;
 constexpr int least_rounds = 100;
-constexpr int most_rounds = 400;
+constexpr int most_rounds = 600;
 constexpr double gain = 0.1; // of the descent, at twice of which it is unstable
 // Share of a way that the next round goes on with, and less where the force has turned against it:
 // a particle that has swung past its place stops.
-constexpr double momentum = 0.97;
-constexpr double momentum_against = 0.7;
+constexpr double momentum = 0.95;
+constexpr double momentum_against = 0.8;
 constexpr Index block_slots = 256; // dealt out together
 
 std::size_t at(Index row)
@@ -145,6 +145,9 @@ std::vector<std::uint8_t> free_to_move(const Scene& scene, const Filling& fillin
 
 void add_fluid(const Filling& filling, std::span<const std::uint8_t> rows, Packing& packing)
 {
+    const auto all = packing.rows.size() + static_cast<std::size_t>(std::ranges::count(rows, 1));
+    packing.rows.reserve(all);
+    packing.points.reserve(all);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         if (rows[k] != 0) {
             packing.rows.push_back(static_cast<std::int32_t>(k));

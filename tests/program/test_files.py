@@ -223,6 +223,22 @@ class Convert(Results):
         self.assertFalse((self.dir / "out/vtp").exists())
         self.assertFalse((self.dir / "out/all.vtkhdf").exists())
 
+    def test_a_run_may_replace_what_a_killed_one_left_behind(self):
+        """Where a file system has no files without names, the state to return to had one for a moment."""
+        left = self.dir / "out/.hyoryu-kept-aB3xY9"
+        mine = self.dir / "out/.hyoryu-kept-list"
+        left.write_text("")
+        mine.write_text("mine")
+        case = self.write(FLOOD)
+        done = self.call("run", case, "-o", "out", "--until", "0.01", "--force", "--quiet")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn(mine.name, done.stderr)
+        self.assertNotIn(left.name, done.stderr)
+        mine.unlink()
+        done = self.call("run", case, "-o", "out", "--until", "0.01", "--force", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse(left.exists())
+
     def test_damaged_frames_are_told_and_those_before_stay(self):
         frame = self.dir / "out/frames/fluid_000002.hdf"
         frame.write_bytes(frame.read_bytes()[:1000])

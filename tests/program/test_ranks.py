@@ -252,6 +252,17 @@ class Bits(RanksTest):
             self.assertGreater(float(row["memory"]), 1e6)
             self.assertGreaterEqual(float(row["busy"]), 0)
 
+    def test_more_processes_are_foretold_to_take_less_time(self):
+        """From recorded rates, with a part of each step that is the same for any number."""
+        seconds = {}
+        for count in (2, 4):
+            self.run_by(count, "out", "--until", "0.001", "--force")
+            forecast = json.loads((self.dir / "out/plan.json").read_text())["forecast"]
+            self.assertEqual(forecast["processes"], count)
+            seconds[count] = forecast["wall_seconds"]
+        self.assertLess(seconds[4], seconds[2])
+        self.assertGreater(seconds[4], seconds[2] / 2)
+
     def test_processes_hold_their_parts_and_not_the_whole_case(self):
         column = """title = "column"
 [time]

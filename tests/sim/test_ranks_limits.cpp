@@ -65,29 +65,8 @@ TEST(RanksAtLimits, NothingIsReadOfGhostsThatWasNotSent)
         std::mutex one_at_a_time;
         testing::on_ranks(3, [&](Comm& comm) {
             Simulation sim = of.start(&comm);
-            const auto poison = [](Store& store) {
-                const double nan = std::numeric_limits<double>::quiet_NaN();
-                store.for_each_column([&]<class T>(const FieldInfo& f, ColumnValues<T>& values) {
-                    if (&f == &Velocity::info) {
-                        return;
-                    }
-                    if constexpr (std::is_same_v<T, Vec3>) {
-                        std::ranges::fill(values, Vec3::Constant(nan));
-                    } else {
-                        std::ranges::fill(values, nan);
-                    }
-                });
-            };
             for (int k = 0; k < 150; ++k) {
-                Particles& ghosts = sim.fluid->ghosts->particles;
-                poison(ghosts.fluid);
-                if (!sim.fluid->moving_walls) { // fixed walls stay where they are
-                    const ColumnValues<Vec3> places(ghosts.wall[field::position].begin(),
-                                                    ghosts.wall[field::position].end());
-                    poison(ghosts.wall);
-                    std::ranges::copy(places, ghosts.wall[field::position].begin());
-                }
-                poison(ghosts.body);
+                poison_ghosts(*sim.fluid->ghosts, *sim.fluid);
                 step_on(sim);
             }
             Outcome own = rest_of(sim);

@@ -70,7 +70,10 @@ struct IoError : std::runtime_error {
 };
 
 #ifndef NDEBUG
+inline constexpr bool debug_build = true;
 [[noreturn]] void fail_expectation(const std::source_location& place);
+#else
+inline constexpr bool debug_build = false;
 #endif
 
 /// A precondition that only a programming mistake can break: aborts with the place in debug builds,

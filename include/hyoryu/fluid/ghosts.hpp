@@ -43,6 +43,11 @@ void share(Fluid& fluid, Comm& comm, const Cuts& cuts);
 /// of neighbours before new velocities are known. Nothing before the first lists.
 void share_places(Fluid& fluid);
 
+/// Makes every value of a ghost that a step sends anew not-a-number: one that is read though it was
+/// not sent shows in the results. Velocities hold until new ones are known, and places of walls
+/// that do not move hold for good. Debug builds do so in every step.
+void poison_ghosts(Ghosts& ghosts, const Fluid& fluid);
+
 /// Gives all ranks the pressures and kernel sums of all body particles, as joints need them.
 void replicate_body_pressures(Fluid& fluid);
 

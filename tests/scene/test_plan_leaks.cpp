@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Warnings of water and bodies that nothing holds, in tanks drawn at random with one side open.
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/plan.hpp"
+
+#include "dice.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyoryu {
+namespace {
+
+constexpr std::array sides{"-x", "+x", "-y", "+y"};
+
+// A tank whose side lies anywhere on the lattice, with water up to a distance from each side.
+struct Tank {
+    int dimensions = 3;
+    double dp = 0.05;
+    Vec3 low{0, 0, 0}, high{0, 0, 0};
+    std::string open;              // sides without a wall
+    std::array<double, 4> clear{}; // of water at -x, +x, -y, +y [m]
+    std::string more;              // of the case
+
+    std::string text() const
+    {
+        const bool flat = dimensions == 2;
+        return fmt::format(
+            "dimensions = {}\n[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n"
+            "[[fluid.block]]\nshape = \"box\"\nmin = [{}, {}, 0]\nmax = [{}, {}, 0.3]\n[[wall]]\n"
+            "name = \"tank\"\nshape = \"basin\"\nmin = [{}, {}, 0]\nmax = [{}, {}, 1]\n"
+            "open = [\"+z\"{}]\n{}",
+            dimensions, dp, low.x() + clear[0], flat ? 0 : low.y() + clear[2], high.x() - clear[1],
+            flat ? 0 : high.y() - clear[3], low.x(), flat ? 0 : low.y(), high.x(),
+            flat ? 0 : high.y(), open, more);
+    }
+};
+
+Tank drawn(Dice& dice, int dimensions)
+{
+    Tank tank{.dimensions = dimensions, .dp = dice.chance(0.5) ? 0.05 : 0.07};
+    tank.low = Vec3(dice.between(-1, 1), dice.between(-1, 1), 0);
+    tank.high = tank.low + Vec3(dice.between(0.6, 1.2), dice.between(0.5, 0.9), 0);
+    return tank;
+}
+
+std::vector<std::string> warnings_of(const std::string& text)
+{
+    const Scene scene = parse_case(text, "case.toml");
+    std::vector<std::string> said;
+    for (const Diagnostic& warning : make_plan(scene, fill(scene)).warnings) {
+        said.push_back(warning.what);
+    }
+    return said;
+}
+
+bool warns(const std::string& text, const std::string& words)
+{
+    return std::ranges::any_of(warnings_of(text), [&](const std::string& what) {
+        return what.find(words) != std::string::npos;
+    });
+}
+
+const std::string drop = "water stands beside a drop";
+
+TEST(PlanLeaks, WaterAtAnOpenSideIsToldWithItsDirection)
+{
+    Dice dice(71);
+    for (int n = 0; n < 32; ++n) {
+        const int dimensions = n % 4 == 0 ? 2 : 3;
+        Tank tank = drawn(dice, dimensions);
+        const int side = dice.below(dimensions == 2 ? 2 : 4);
+        EXPECT_FALSE(warns(tank.text(), drop)) << "closed\n" << tank.text();
+        tank.open = fmt::format(", \"{}\"", sides[static_cast<std::size_t>(side)]);
+        EXPECT_TRUE(warns(tank.text(),
+                          fmt::format("in direction {} of", sides[static_cast<std::size_t>(side)])))
+            << tank.text();
+        EXPECT_EQ(std::ranges::count_if(
+                      warnings_of(tank.text()),
+                      [](const std::string& what) { return what.find(drop) != std::string::npos; }),
+                  1)
+            << tank.text();
+    }
+}
+
+TEST(PlanLeaks, WaterThatIsHeldIsNot)
+{
+    Dice dice(72);
+    for (int n = 0; n < 16; ++n) {
+        Tank tank = drawn(dice, 3);
+        const int side = dice.below(4);
+        tank.open = fmt::format(", \"{}\"", sides[static_cast<std::size_t>(side)]);
+        Tank away = tank; // as a column that breaks: it has floor beside it
+        away.clear[static_cast<std::size_t>(side)] = dice.between(4, 5) * tank.dp;
+        EXPECT_FALSE(warns(away.text(), drop)) << away.text();
+        Tank ground = tank;
+        ground.more = "[[wall]]\nname = \"ground\"\nshape = \"plane\"\n";
+        EXPECT_FALSE(warns(ground.text(), drop)) << ground.text();
+        Tank shut = tank; // a thick wall of its own
+        const int axis = side / 2;
+        const double plane = side % 2 == 0 ? tank.low[axis] : tank.high[axis];
+        const double wide = 3 * tank.dp;
+        Vec3 from(tank.low.x() - 1, tank.low.y() - 1, -0.2);
+        Vec3 to(tank.high.x() + 1, tank.high.y() + 1, 1);
+        from[axis] = side % 2 == 0 ? plane - wide : plane;
+        to[axis] = from[axis] + wide;
+        shut.more = fmt::format("[[wall]]\nname = \"gate\"\nshape = \"box\"\nmin = [{}, {}, {}]\n"
+                                "max = [{}, {}, {}]\n",
+                                from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
+        EXPECT_FALSE(warns(shut.text(), drop)) << shut.text();
+    }
+}
+
+TEST(PlanLeaks, AreNotToldWhereWaterMayLeave)
+{
+    Dice dice(73);
+    for (int n = 0; n < 8; ++n) {
+        Tank tank = drawn(dice, 3);
+        tank.high.x() = tank.low.x() + tank.dp * (12 + dice.below(12)); // a period is of whole ones
+        tank.open = ", \"-x\", \"+x\"";
+        EXPECT_TRUE(warns(tank.text(), drop));
+        tank.more = fmt::format("[domain]\nmin = [{0}, {1}, -1]\nmax = [{2}, {3}, 2]\nperiodic = "
+                                "[\"x\"]\n",
+                                tank.low.x(), tank.low.y() - 1, tank.high.x(), tank.high.y() + 1);
+        EXPECT_FALSE(warns(tank.text(), drop)) << tank.text();
+    }
+}
+
+TEST(PlanLeaks, ABodyBesideTheTankIsTold)
+{
+    Dice dice(74);
+    for (int n = 0; n < 24; ++n) {
+        Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
+        const bool flat = tank.dimensions == 2;
+        const double edge = dice.between(0.1, 0.2);
+        const auto with_body_at = [&](const Vec3& place, const std::string& more) {
+            Tank with = tank;
+            with.more = fmt::format("[[body]]\nshape = \"box\"\nsize = [{0}, {0}, {0}]\ndensity = "
+                                    "500\nposition = [{1}, {2}, {3}]\n{4}",
+                                    edge, place.x(), flat ? 0 : place.y(), place.z(), more);
+            return warns(with.text(), "neither wall nor water below");
+        };
+        const Vec3 middle = (tank.low + tank.high) / 2 + Vec3(0, 0, dice.between(0.3, 0.8));
+        EXPECT_FALSE(with_body_at(middle, "")) << tank.text();
+        const int axis = flat ? 0 : dice.below(2);
+        const double way = dice.chance(0.5) ? 1 : -1;
+        const Vec3 beside = middle + way * (0.6 + dice.between(0.5, 3)) * Vec3::Unit(axis);
+        EXPECT_TRUE(with_body_at(beside, "")) << tank.text() << beside.transpose();
+        EXPECT_FALSE(with_body_at(beside, "fixed = true\n"));
+        EXPECT_FALSE(with_body_at(beside, "[[wall]]\nshape = \"plane\"\n"));
+    }
+}
+
+TEST(PlanLeaks, ABasinOfFewSpacingsIsNotResolved)
+{
+    Dice dice(75);
+    for (int n = 0; n < 16; ++n) {
+        Tank tank = drawn(dice, 3);
+        EXPECT_FALSE(warns(tank.text(), "is not resolved")) << tank.text();
+        const int axis = dice.below(2);
+        tank.dp = (tank.high - tank.low)[axis] / dice.between(0.5, 2.95);
+        EXPECT_TRUE(warns(tank.text(), fmt::format("along {},", "xy"[axis]))) << tank.text();
+    }
+}
+
+TEST(PlanLeaks, ACourantNumberBeyondStabilityIsTold)
+{
+    for (const double cfl : {0.2, 0.6, 1.15, 1.25, 3.0, 50.0}) {
+        const std::string text = Tank{.high = {1, 1, 0},
+                                      .more = fmt::format("[domain]\nmin = [-1, -1, -1]\nmax = "
+                                                          "[2, 2, 2]\n")}
+                                     .text();
+        const std::string with = fmt::format("{}cfl = {}\n{}", text.substr(0, text.find("[part")),
+                                             cfl, text.substr(text.find("[part")));
+        EXPECT_EQ(warns(with, "longer than the stability limit"), cfl > 1.2) << cfl;
+    }
+}
+
+} // namespace
+} // namespace hyoryu
