@@ -335,11 +335,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json effects_json(const std::vector<Plan::Effect>& effects)
+// Effects, or kinds of pairs.
+ordered_json reasons_json(const auto& things)
 {
     ordered_json array = ordered_json::array();
-    for (const auto& effect : effects) {
-        array.push_back({{"name", effect.name}, {"why", effect.why}});
+    for (const auto& thing : things) {
+        array.push_back({{"name", thing.name}, {"why", thing.why}});
     }
     return array;
 }
@@ -404,13 +405,10 @@ std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<
     ordered_json json;
     json["title"] = scene.title;
     json["dimensions"] = scene.dimensions;
-    json["on"] = effects_json(plan.on);
-    json["off"] = effects_json(plan.off);
+    json["on"] = reasons_json(plan.on);
+    json["off"] = reasons_json(plan.off);
     json["fields"] = fields_json(plan);
-    json["pair_kinds"] = ordered_json::array();
-    for (const auto& kind : plan.pair_kinds) {
-        json["pair_kinds"].push_back({{"name", kind.name}, {"why", kind.why}});
-    }
+    json["pair_kinds"] = reasons_json(plan.pair_kinds);
     if (plan.contact) {
         json["contact"] = material_json(scene, plan);
     }

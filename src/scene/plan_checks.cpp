@@ -8,6 +8,7 @@
 #include "plan_gauges.hpp"
 #include "plan_leaks.hpp"
 #include "plan_open.hpp"
+#include "plan_warnings.hpp"
 #include "plan_waves.hpp"
 #include "walls.hpp"
 
@@ -157,15 +158,6 @@ void check_step(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& e
                         *scene.time.step, limit),
             "omit `time.step` for an adaptive step"));
     }
-}
-
-void warn(const Scene& scene, const Place& place, std::string key, std::string what,
-          std::string hint, Plan& plan)
-{
-    Diagnostic note =
-        diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint));
-    note.severity = Diagnostic::Severity::warning;
-    plan.warnings.push_back(std::move(note));
 }
 
 // A body that is not convex and has no lattice of its own meets others by one.

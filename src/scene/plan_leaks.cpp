@@ -3,6 +3,7 @@
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/fill.hpp"
+#include "plan_warnings.hpp"
 #include "units.hpp"
 
 #include <fmt/format.h>
@@ -54,15 +55,6 @@ private:
     double spacing_;
     std::map<Number, Vec3> lowest_;
 };
-
-void warn(const Scene& scene, const Place& place, std::string key, std::string what,
-          std::string hint, Plan& plan)
-{
-    Diagnostic note =
-        diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint));
-    note.severity = Diagnostic::Severity::warning;
-    plan.warnings.push_back(std::move(note));
-}
 
 void warn_about_bottoms(const Scene& scene, const Filling& filling, const Columns& walls,
                         Plan& plan)

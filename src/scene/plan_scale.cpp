@@ -4,6 +4,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/flotation.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
+#include "plan_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -26,15 +27,6 @@ constexpr double sudden = 1.25;
 constexpr double upright = 0.5 * std::numbers::pi / 180;
 // A mesh of more triangles is not searched for the side that it turns up.
 constexpr std::size_t most_triangles = 20000;
-
-void warn(const Scene& scene, const Place& place, std::string key, std::string what,
-          std::string hint, Plan& plan)
-{
-    Diagnostic note =
-        diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint));
-    note.severity = Diagnostic::Severity::warning;
-    plan.warnings.push_back(std::move(note));
-}
 
 bool is_too_fine(const Shape& shape)
 {

@@ -9,6 +9,16 @@
 
 namespace hyoryu {
 
+/// Adds a warning to a plan: `key` as a user writes it, what is wrong, and a hint.
+inline void warn(const Scene& scene, const Place& place, std::string key, std::string what,
+                 std::string hint, Plan& plan)
+{
+    Diagnostic note =
+        diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint));
+    note.severity = Diagnostic::Severity::warning;
+    plan.warnings.push_back(std::move(note));
+}
+
 /// Adds to the warnings of a plan.
 class PlanWarnings {
 public:
@@ -17,10 +27,7 @@ public:
     /// `key` as a user writes it; `what` is wrong, and a hint.
     void add(const Place& place, std::string key, std::string what, std::string hint)
     {
-        Diagnostic note = diagnostic_without_line(scene_, place, std::move(key), std::move(what),
-                                                  std::move(hint));
-        note.severity = Diagnostic::Severity::warning;
-        plan_.warnings.push_back(std::move(note));
+        warn(scene_, place, std::move(key), std::move(what), std::move(hint), plan_);
     }
 
 private:
