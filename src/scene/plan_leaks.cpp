@@ -12,22 +12,30 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <queue>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace hyoryu {
 
 namespace {
 
-// Columns of a spacing, by their numbers along x and y, with the lowest of some points in each.
+// Columns of a spacing, by their numbers along x and y, with the lowest and the highest of some
+// points in each.
 class Columns {
 public:
     using Number = std::array<long long, 2>;
+    struct Span {
+        double lowest = infinity, highest = -infinity; // [m]
+    };
 
     Columns(double spacing, const std::vector<Vec3>& points) : spacing_(spacing)
     {
         for (const Vec3& p : points) {
-            const auto at = lowest_.try_emplace(number_of(p), p).first;
-            at->second = p.z() < at->second.z() ? p : at->second;
+            Span& span = spans_[number_of(p)];
+            span.lowest = std::min(span.lowest, p.z());
+            span.highest = std::max(span.highest, p.z());
         }
     }
 
@@ -36,31 +44,39 @@ public:
         return {std::llround(std::floor(p.x() / spacing_)),
                 std::llround(std::floor(p.y() / spacing_))};
     }
-    const std::map<Number, Vec3>& lowest() const { return lowest_; }
-    bool has(const Number& column) const { return lowest_.contains(column); }
-    /// Whether a column or one of those about it has a point that is not above a height. Walls that
-    /// do not follow the lattice leave columns out.
-    bool has_about(const Number& column, double height) const
+    Vec3 middle_of(const Number& column) const
     {
+        return {(static_cast<double>(column[0]) + 0.5) * spacing_,
+                (static_cast<double>(column[1]) + 0.5) * spacing_, 0};
+    }
+    const std::map<Number, Span>& spans() const { return spans_; }
+    bool has(const Number& column) const { return spans_.contains(column); }
+    /// The span of a column and of those about it. Walls that do not follow the lattice leave
+    /// columns out.
+    Span about(const Number& column) const
+    {
+        Span all;
         for (long long k = 0; k < 9; ++k) {
-            const auto below = lowest_.find({column[0] + k % 3 - 1, column[1] + k / 3 - 1});
-            if (below != lowest_.end() && below->second.z() <= height) {
-                return true;
+            const auto found = spans_.find({column[0] + k % 3 - 1, column[1] + k / 3 - 1});
+            if (found != spans_.end()) {
+                all.lowest = std::min(all.lowest, found->second.lowest);
+                all.highest = std::max(all.highest, found->second.highest);
             }
         }
-        return false;
+        return all;
     }
 
 private:
     double spacing_;
-    std::map<Number, Vec3> lowest_;
+    std::map<Number, Span> spans_;
 };
 
 void warn_about_bottoms(const Scene& scene, const Filling& filling, const Columns& walls,
                         Plan& plan)
 {
-    const auto open = std::ranges::count_if(
-        filling.fluid, [&](const Vec3& p) { return !walls.has_about(walls.number_of(p), p.z()); });
+    const auto open = std::ranges::count_if(filling.fluid, [&](const Vec3& p) {
+        return walls.about(walls.number_of(p)).lowest > p.z();
+    });
     if (open > 0) {
         warn(
             scene, {}, "wall",
@@ -70,61 +86,111 @@ void warn_about_bottoms(const Scene& scene, const Filling& filling, const Column
     }
 }
 
-// Whether water may leave along an axis by design.
-bool lets_out(const Scene& scene, int axis)
+// Where water leaves by design: beyond a period, or through the plane of an open side.
+bool lets_out(const Scene& scene, const Vec3& from, const Vec3& to)
 {
-    const bool repeats = scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)];
-    return repeats || std::ranges::any_of(scene.open, [&](const OpenSettings& open) {
-               return open.axis() == axis;
-           });
-}
-
-// The lowest water of a side beside which nothing lies, neither water nor wall, at two and three
-// spacings: on that side of it, how many columns.
-struct Drop {
-    Vec3 place{0, 0, 0};
-    Index columns = 0;
-};
-
-std::optional<Drop> drop_beside(const Columns& fluid, const Columns& walls, int axis, int way)
-{
-    const auto a = static_cast<std::size_t>(axis);
-    std::optional<Drop> drop;
-    for (const auto& [column, place] : fluid.lowest()) {
-        Columns::Number beside = column;
-        bool empty = true;
-        for (int step = 1; step <= 3; ++step) {
-            beside[a] += way;
-            empty =
-                empty && !fluid.has(beside) && (step == 1 || !walls.has_about(beside, infinity));
+    for (const int axis : {0, 1}) {
+        const auto crosses = [&](double plane) {
+            return (from[axis] < plane) != (to[axis] < plane);
+        };
+        if (scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)] &&
+            (crosses(scene.domain->min[axis]) || crosses(scene.domain->max[axis]))) {
+            return true;
         }
-        if (empty) {
-            drop = drop ? drop : Drop{place};
-            drop->columns += 1;
+        if (std::ranges::any_of(scene.open, [&](const OpenSettings& open) {
+                return open.axis() == axis && crosses(open.plane());
+            })) {
+            return true;
         }
     }
-    return drop;
+    return false;
+}
+
+// The carpet of an open side, whose water the side itself puts there.
+bool is_in_carpet(const Scene& scene, const Vec3& place)
+{
+    return std::ranges::any_of(scene.open, [&](const OpenSettings& open) {
+        return (place[open.axis()] - open.plane()) * open.sign() < 0;
+    });
+}
+
+// Its particles end where the domain does, but it does not.
+bool has_endless_ground(const Scene& scene)
+{
+    return std::ranges::any_of(scene.walls, [](const Wall& wall) {
+        const auto* plane = std::get_if<PlaneWall>(&wall.geometry);
+        return plane != nullptr && plane->normal.z() > 0.5;
+    });
+}
+
+// Columns without a wall next to those that water reaches, by direction: -x, +x, -y, +y.
+struct Drops {
+    std::array<Vec3, 4> first{};
+    std::array<Index, 4> columns{};
+};
+
+// Height to which the water of a column may rise elsewhere: its own, less what it falls at first.
+double level_of(const Columns::Span& water, double ground, double spacing)
+{
+    const double fall = ground < water.lowest ? water.lowest - ground - 2 * spacing : 0;
+    return water.highest - std::max(fall, 0.0);
+}
+
+// Spreads from each column of the fluid over walls that are lower than its water, the highest
+// first. What waves reach beyond that is not found, nor what passes below a wall.
+Drops drops_of(const Scene& scene, const Columns& fluid, const Columns& walls)
+{
+    std::set<Columns::Number> reached;
+    std::priority_queue<std::pair<double, Columns::Number>> front;
+    for (const auto& [column, span] : fluid.spans()) {
+        reached.insert(column);
+        if (is_in_carpet(scene, fluid.middle_of(column))) {
+            continue;
+        }
+        front.emplace(level_of(span, walls.about(column).highest, scene.spacing), column);
+    }
+    Drops drops;
+    const std::size_t ways = scene.dimensions == 2 ? 2 : 4;
+    while (!front.empty()) {
+        const auto [level, column] = front.top();
+        front.pop();
+        for (std::size_t way = 0; way < ways; ++way) {
+            Columns::Number beside = column;
+            beside[way / 2] += way % 2 == 0 ? -1 : 1;
+            if (reached.contains(beside) ||
+                lets_out(scene, fluid.middle_of(column), fluid.middle_of(beside))) {
+                continue;
+            }
+            const double top = walls.about(beside).highest;
+            if (top == -infinity) {
+                drops.first[way] =
+                    drops.columns[way] == 0 ? fluid.middle_of(column) : drops.first[way];
+                drops.columns[way] += 1;
+            } else if (top < level) {
+                reached.insert(beside);
+                front.emplace(level, beside);
+            }
+        }
+    }
+    return drops;
 }
 
 void warn_about_sides(const Scene& scene, const Filling& filling, const Columns& walls, Plan& plan)
 {
-    const Columns fluid(scene.spacing, filling.fluid);
-    for (const int axis : {0, 1}) {
-        if ((scene.dimensions == 2 && axis == 1) || lets_out(scene, axis)) {
-            continue;
-        }
-        for (const int way : {-1, 1}) {
-            const std::optional<Drop> drop = drop_beside(fluid, walls, axis, way);
-            if (!drop) {
-                continue;
-            }
+    if (has_endless_ground(scene)) {
+        return;
+    }
+    constexpr std::array directions{"-x", "+x", "-y", "+y"};
+    const Drops drops = drops_of(scene, Columns(scene.spacing, filling.fluid), walls);
+    for (std::size_t way = 0; way < directions.size(); ++way) {
+        if (drops.columns[way] > 0) {
             warn(
                 scene, {}, "wall",
-                fmt::format("water stands beside a drop: in direction {}{} of {} columns of fluid "
-                            "particles, as at ({:.4g}, {:.4g}, {:.4g}) m, there is no wall at any "
-                            "height, and it flows out of the domain",
-                            way < 0 ? '-' : '+', "xy"[axis], drop -> columns, drop -> place.x(),
-                            drop->place.y(), drop->place.z()),
+                fmt::format("water can flow to a drop: in direction {} of {} columns of a spacing, "
+                            "as at ({:.4g}, {:.4g}) m, there is no wall at any height, and what "
+                            "passes there leaves the scene",
+                            directions[way], drops.columns[way], drops.first[way].x(),
+                            drops.first[way].y()),
                 "close that side, or add a floor beyond it; an `[[open]]` side lets water out in a "
                 "measured way",
                 plan);
@@ -141,7 +207,7 @@ bool has_support(const Scene& scene, const BodySettings& body, const Columns& wa
     const Columns::Number last = walls.number_of(box.max);
     for (Columns::Number column = first; column[1] <= last[1]; ++column[1]) {
         for (column[0] = first[0]; column[0] <= last[0]; ++column[0]) {
-            if (fluid.has(column) || walls.has_about(column, box.max.z())) {
+            if (fluid.has(column) || walls.about(column).lowest <= box.max.z()) {
                 return true;
             }
         }
@@ -151,7 +217,8 @@ bool has_support(const Scene& scene, const BodySettings& body, const Columns& wa
 
 bool may_fall(const BodySettings& body)
 {
-    return !body.fixed && !body.locks[2];
+    const bool thrown = body.velocity != Vec3(0, 0, 0); // perhaps over the walls, or up from below
+    return !body.fixed && !body.locks[2] && !thrown;
 }
 
 // A body below is as good as a wall: it has a warning of its own.

@@ -24,6 +24,7 @@ struct Tank {
     std::string open;              // sides without a wall
     std::array<double, 4> clear{}; // of water at -x, +x, -y, +y [m]
     std::string more;              // of the case
+    double top = 1;                // of the sides [m]
 
     std::string text() const
     {
@@ -31,11 +32,11 @@ struct Tank {
         return fmt::format(
             "dimensions = {}\n[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n"
             "[[fluid.block]]\nshape = \"box\"\nmin = [{}, {}, 0]\nmax = [{}, {}, 0.3]\n[[wall]]\n"
-            "name = \"tank\"\nshape = \"basin\"\nmin = [{}, {}, 0]\nmax = [{}, {}, 1]\n"
+            "name = \"tank\"\nshape = \"basin\"\nmin = [{}, {}, 0]\nmax = [{}, {}, {}]\n"
             "open = [\"+z\"{}]\n{}",
             dimensions, dp, low.x() + clear[0], flat ? 0 : low.y() + clear[2], high.x() - clear[1],
             flat ? 0 : high.y() - clear[3], low.x(), flat ? 0 : low.y(), high.x(),
-            flat ? 0 : high.y(), open, more);
+            flat ? 0 : high.y(), top, open, more);
     }
 };
 
@@ -64,7 +65,7 @@ bool warns(const std::string& text, const std::string& words)
     });
 }
 
-const std::string drop = "water stands beside a drop";
+const std::string drop = "water can flow to a drop";
 
 TEST(PlanLeaks, WaterAtAnOpenSideIsToldWithItsDirection)
 {
@@ -93,9 +94,9 @@ TEST(PlanLeaks, WaterThatIsHeldIsNot)
         Tank tank = drawn(dice, 3);
         const int side = dice.below(4);
         tank.open = fmt::format(", \"{}\"", sides[static_cast<std::size_t>(side)]);
-        Tank away = tank; // as a column that breaks: it has floor beside it
-        away.clear[static_cast<std::size_t>(side)] = dice.between(4, 5) * tank.dp;
-        EXPECT_FALSE(warns(away.text(), drop)) << away.text();
+        Tank away = tank; // a column that breaks has floor beside it, but that ends
+        away.clear[static_cast<std::size_t>(side)] = dice.between(1, 5) * tank.dp;
+        EXPECT_TRUE(warns(away.text(), drop)) << away.text();
         Tank ground = tank;
         ground.more = "[[wall]]\nname = \"ground\"\nshape = \"plane\"\n";
         EXPECT_FALSE(warns(ground.text(), drop)) << ground.text();
@@ -111,6 +112,28 @@ TEST(PlanLeaks, WaterThatIsHeldIsNot)
                                 "max = [{}, {}, {}]\n",
                                 from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
         EXPECT_FALSE(warns(shut.text(), drop)) << shut.text();
+    }
+}
+
+// A drop that falls into the tank has no more head than its own height.
+TEST(PlanLeaks, WaterAboveItsSidesIsToldAndADropAboveATankIsNot)
+{
+    Dice dice(76);
+    for (int n = 0; n < 16; ++n) {
+        Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
+        const bool flat = tank.dimensions == 2;
+        const Vec3 middle = (tank.low + tank.high) / 2;
+        tank.more =
+            fmt::format("[[fluid.block]]\nshape = \"box\"\nmin = [{}, {}, 1.2]\nmax = [{}, {}, "
+                        "1.5]\n",
+                        middle.x() - 0.1, flat ? 0 : middle.y() - 0.1, middle.x() + 0.1,
+                        flat ? 0 : middle.y() + 0.1);
+        EXPECT_FALSE(warns(tank.text(), drop)) << tank.text();
+        tank.more.clear();
+        tank.top = dice.between(0.45, 0.6);
+        EXPECT_FALSE(warns(tank.text(), drop)) << tank.text();
+        tank.top = dice.between(0.08, 0.2);
+        EXPECT_TRUE(warns(tank.text(), drop)) << tank.text();
     }
 }
 
