@@ -71,12 +71,15 @@ private:
     std::map<Number, Span> spans_;
 };
 
-void warn_about_bottoms(const Scene& scene, const Filling& filling, const Columns& walls,
-                        Plan& plan)
+void warn_about_bottoms(const Scene& scene, const Filling& filling, const Columns& fluid,
+                        const Columns& walls, Plan& plan)
 {
-    const auto open = std::ranges::count_if(filling.fluid, [&](const Vec3& p) {
-        return walls.about(walls.number_of(p)).lowest > p.z();
-    });
+    std::map<Columns::Number, double> floor; // of the columns of the fluid [m]
+    for (const auto& [column, span] : fluid.spans()) {
+        floor.emplace(column, walls.about(column).lowest);
+    }
+    const auto open = std::ranges::count_if(
+        filling.fluid, [&](const Vec3& p) { return floor.at(fluid.number_of(p)) > p.z(); });
     if (open > 0) {
         warn(
             scene, {}, "wall",
@@ -175,22 +178,23 @@ Drops drops_of(const Scene& scene, const Columns& fluid, const Columns& walls)
     return drops;
 }
 
-void warn_about_sides(const Scene& scene, const Filling& filling, const Columns& walls, Plan& plan)
+void warn_about_sides(const Scene& scene, const Columns& fluid, const Columns& walls, Plan& plan)
 {
     if (has_endless_ground(scene)) {
         return;
     }
     constexpr std::array directions{"-x", "+x", "-y", "+y"};
-    const Drops drops = drops_of(scene, Columns(scene.spacing, filling.fluid), walls);
+    const Drops drops = drops_of(scene, fluid, walls);
     for (std::size_t way = 0; way < directions.size(); ++way) {
         if (drops.columns[way] > 0) {
             warn(
                 scene, {}, "wall",
-                fmt::format("water can flow to a drop: in direction {} of {} columns of a spacing, "
-                            "as at ({:.4g}, {:.4g}) m, there is no wall at any height, and what "
-                            "passes there leaves the scene",
-                            directions[way], drops.columns[way], drops.first[way].x(),
-                            drops.first[way].y()),
+                fmt::format(
+                    "water can flow to a drop: in direction {} of {} columns of a spacing, "
+                    "as at ({:.4g}, {:.4g}) m, there is no wall at any height, and water that "
+                    "passes there leaves the scene",
+                    directions[way], drops.columns[way], drops.first[way].x(),
+                    drops.first[way].y()),
                 "close that side, or add a floor beyond it; an `[[open]]` side lets water out in a "
                 "measured way",
                 plan);
@@ -233,9 +237,8 @@ bool is_over_another(const Scene& scene, const BodySettings& body)
     });
 }
 
-void warn_about_bodies(const Scene& scene, const Filling& filling, const Columns& walls, Plan& plan)
+void warn_about_bodies(const Scene& scene, const Columns& fluid, const Columns& walls, Plan& plan)
 {
-    const Columns fluid(scene.spacing, filling.fluid);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const bool copy = b > 0 && body.place.line == scene.bodies[b - 1].place.line;
@@ -258,9 +261,10 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
         return;
     }
     const Columns walls(scene.spacing, filling.wall);
-    warn_about_bottoms(scene, filling, walls, plan);
-    warn_about_sides(scene, filling, walls, plan);
-    warn_about_bodies(scene, filling, walls, plan);
+    const Columns fluid(scene.spacing, filling.fluid);
+    warn_about_bottoms(scene, filling, fluid, walls, plan);
+    warn_about_sides(scene, fluid, walls, plan);
+    warn_about_bodies(scene, fluid, walls, plan);
 }
 
 } // namespace hyoryu
