@@ -12,7 +12,7 @@ namespace hyoryu {
 
 namespace {
 
-// As many lanes whatever the machine: no sum depends on them, but the number of runs does.
+// Sixteen lanes on every machine. The sums are of whole numbers, so that they do not depend on it.
 using Lanes = Pack<float, 64>;
 constexpr Index lanes = Lanes::lanes;
 using Whole = std::int32_t __attribute__((vector_size(64)));
@@ -126,11 +126,12 @@ std::array<Index, 3> counts(const UnitPlace& low, const UnitPlace& high, const U
     return count;
 }
 
-// Cells of at most so many for each point: where fluid is sparse in its box, longer ones.
+// At most two cells for each point: where the fluid fills a small part of its bounding box, the
+// cells are enlarged.
 void lay_out(PackingGrid& grid, const UnitPlace& low, const UnitPlace& high, double reach,
              std::size_t points)
 {
-    constexpr double most = 2;
+    constexpr double most = 2; // cells for each point
     grid.origin = low;
     grid.edge = edges(reach);
     grid.count = counts(low, high, grid.edge);

@@ -109,7 +109,7 @@ bool lets_out(const Scene& scene, const Vec3& from, const Vec3& to)
     return false;
 }
 
-// The carpet of an open side, whose water the side itself puts there.
+// Whether a place lies outside of an open side, in its buffer particles.
 bool is_in_carpet(const Scene& scene, const Vec3& place)
 {
     return std::ranges::any_of(scene.open, [&](const OpenSettings& open) {
@@ -117,7 +117,7 @@ bool is_in_carpet(const Scene& scene, const Vec3& place)
     });
 }
 
-// Its particles end where the domain does, but it does not.
+// Whether a plane extends below the scene: its particles end at the bounds of the domain.
 bool has_endless_ground(const Scene& scene)
 {
     return std::ranges::any_of(scene.walls, [](const Wall& wall) {

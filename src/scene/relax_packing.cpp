@@ -15,12 +15,12 @@ namespace hyoryu {
 namespace {
 
 // In spacings.
-constexpr double least = 0.46;  // distance of a particle from a surface
-constexpr double strays = 0.15; // by which particles may leave the cells that they are sorted into
-constexpr double longest = 0.1; // way of a particle in a round
-constexpr double farthest = 1;  // that a particle is moved in all
-constexpr double beside = 2;    // farther from a surface than that none comes too near
-constexpr double looked = 1;    // distance to which surfaces are looked for
+constexpr double least = 0.46;    // distance of a particle from a surface
+constexpr double strays = 0.15;   // distance that particles may move before they are sorted again
+constexpr double longest = 0.1;   // way of a particle in a round
+constexpr double farthest = 1;    // that a particle is moved in all
+constexpr double beside = 2;      // farther from a surface than that none comes too near
+constexpr double looked = 1;      // distance to which surfaces are looked for
 constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
 
 // With this momentum the missing water of a bed spreads by a layer in six rounds. In deeper water
@@ -29,8 +29,9 @@ constexpr int rounds_of_layer = 6;
 constexpr int least_rounds = 100;
 constexpr int most_rounds = 600;
 constexpr double gain = 0.1; // of the descent, at twice of which it is unstable
-// Share of a way that the next round goes on with, and less where the force has turned against it:
-// a particle that has swung past its place stops.
+// Heavy-ball descent (Polyak 1964): the share of the last step that the next round repeats. It is
+// smaller for a particle whose force points against its last step, so that it does not swing about
+// its place (after the restarts of O'Donoghue and Candes 2015, here for each particle alone).
 constexpr double momentum = 0.95;
 constexpr double momentum_against = 0.8;
 constexpr Index block_slots = 256; // dealt out together
