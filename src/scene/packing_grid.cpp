@@ -87,6 +87,16 @@ std::int64_t total(const Whole& lanes_of)
     return all;
 }
 
+// By how much more than the kernel has it two particles repel each other, so that the force grows
+// below the distance and is not zero at none.
+Lanes repulsion(const Lanes& distance)
+{
+    constexpr float far = PackingPressure::apart;
+    constexpr float near = 1e-3F; // [spacings]
+    const Lanes at_least = near + positive(Lanes(distance - near));
+    return 1 + positive(Lanes(far / at_least - 1));
+}
+
 // `depths(k, r)`: of the points from k on, as long as they count.
 void add(const PackingGrid& grid, const PackingPressure& pressure, const UnitPlace& place,
          double weight, const auto& depths, ForceSum& force)
@@ -100,7 +110,8 @@ void add(const PackingGrid& grid, const PackingPressure& pressure, const UnitPla
             const Vec<Lanes> r{lengths(grid.x, k, place[0], pressure),
                                lengths(grid.y, k, place[1], pressure),
                                lengths(grid.z, k, place[2], pressure)};
-            const Lanes f = Lanes(weight) * depths(k, r) * pressure.kernel(r).f;
+            const auto pair = pressure.kernel(r);
+            const Lanes f = Lanes(weight) * depths(k, r) * pair.f * repulsion(pair.distance);
             const Whole counts = lane < static_cast<std::int32_t>(end - k);
             force.x += counts & __builtin_convertvector((f * r.x).value, Whole);
             force.y += counts & __builtin_convertvector((f * r.y).value, Whole);

@@ -51,6 +51,12 @@ bool any_within(const PackingGrid& grid, const UnitPlace& place, double reach);
 
 /// The pressure that particles see, lengths in spacings.
 struct PackingPressure {
+    /// Nearer than this the force F r of a pair is divided by their distance over `apart`
+    /// [spacings]. That of the kernel falls to zero with the distance, by which particles in
+    /// corners would come to lie in one place (pairing, Dehnen & Aly 2012). Nearer than 1e-3 it is
+    /// divided by no more.
+    static constexpr float apart = 0.6F;
+
     Kernel kernel; // of a spacing of 1
     Vec3 down{0, 0, -1};
     double unit = 1;    // [spacings]
@@ -59,10 +65,10 @@ struct PackingPressure {
     double deepest = 1; // depth of a particle, about [spacings]
 };
 
-/// sum V_j (d_i + d_j) F r over the fluid and the solids (null: none near) about a place, r = x_i -
-/// x_j, in weights of a particle. A solid has the volume of a cube and the depth that i sees there,
-/// d_i - r . down. Depths below zero count as zero. The sum is of whole numbers: the same in any
-/// order.
+/// sum V_j (d_i + d_j) R F r over the fluid and the solids (null: none near) about a place, r = x_i
+/// - x_j, in weights of a particle; R = max(1, apart/|r|). A solid has the volume of a cube and the
+/// depth that i sees there, d_i - r . down. Depths below zero count as zero. The sum is of whole
+/// numbers: the same in any order.
 Vec3 pressure_sum(const PackingGrid& fluid, const PackingGrid* solids,
                   const PackingPressure& pressure, const UnitPlace& place, float depth);
 

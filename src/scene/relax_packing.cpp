@@ -15,6 +15,7 @@ namespace hyoryu {
 namespace {
 
 // In spacings.
+constexpr double rounding = 2e-6; // of places
 constexpr double least = 0.46;    // distance of a particle from a surface
 constexpr double strays = 0.15;   // distance that particles may move before they are sorted again
 constexpr double longest = 0.1;   // way of a particle in a round
@@ -44,6 +45,7 @@ std::size_t at(Index row)
 // A particle that may come too near to solids.
 struct Beside {
     std::vector<int> solids;
+    double least = 0; // distance that it keeps from them [m]
     // Way that it may go before it can be too near to one [m]; less: unknown.
     double room = 0;
 };
@@ -179,6 +181,19 @@ void add_solids(std::span<const Vec3> solids, double seen, double reach, Packing
     });
 }
 
+// The distance that a particle keeps from surfaces [m]: less where it was filled into a corner
+// without the room.
+double least_of(const FreeSpace& space, double dp, std::span<const int> solids, const Vec3& filled)
+{
+    const auto distance = [&](const Vec3& p) {
+        return space.nearest(p, solids, looked * dp).distance;
+    };
+    Vec3 p = filled;
+    step_off(space, solids, (least + 1e-6) * dp, p, looked * dp);
+    return distance(p) < least * dp ? std::min(least, distance(filled) / dp - rounding) * dp
+                                    : least * dp;
+}
+
 void find_surfaces(const Scene& scene, const FreeSpace& space, Packing& packing)
 {
     const double reach = beside * scene.spacing;
@@ -191,7 +206,9 @@ void find_surfaces(const Scene& scene, const FreeSpace& space, Packing& packing)
     for (Index i = 0; i < packing.moving; ++i) {
         if (near[at(i)] != 0) {
             packing.beside_number[at(i)] = static_cast<std::int32_t>(packing.beside.size());
-            packing.beside.push_back({space.about(packing.points[at(i)], reach)});
+            const Vec3& p = packing.points[at(i)];
+            const std::vector<int> solids = space.about(p, reach);
+            packing.beside.push_back({solids, least_of(space, scene.spacing, solids, p)});
         }
     }
 }
@@ -203,6 +220,22 @@ Vec3 middle_of_blocks(const Scene& scene)
         box.add(bounds({&block.shape, block.centre, block.rotation, scene.dimensions}));
     }
     return (box.min + box.max) / 2;
+}
+
+// Particles that were filled into one place, a corner of three surfaces, do not repel each other:
+// they are put one above the other.
+void part_coincident(const Vec3& down, double dp, Packing& packing)
+{
+    std::vector<std::pair<UnitPlace, Index>> places;
+    for (Index i = 0; i < packing.moving; ++i) {
+        places.emplace_back(packing.units.whole(packing.points[at(i)]), i);
+    }
+    std::ranges::sort(places);
+    Index above = 0;
+    for (std::size_t k = 1; k < places.size(); ++k) {
+        above = places[k].first == places[k - 1].first ? above + 1 : 0;
+        packing.points[at(places[k].second)] -= longest * static_cast<double>(above) * dp * down;
+    }
 }
 
 // The particles that move, with all that they may see; none if none moves.
@@ -227,6 +260,7 @@ Packing packing_of(const Scene& scene, const Filling& filling, double support)
         box.add(p);
     }
     packing.units = packing_units(middle_of_blocks(scene), dp, box.min, box.max);
+    part_coincident(scene.gravity.normalized(), dp, packing);
     add_solids(solids, seen, support / packing.units.size, packing);
     return packing;
 }
@@ -240,7 +274,23 @@ float depth_of(const Filling& filling, const Packing& packing, const Vec3& down,
     return static_cast<float>((filling.fluid_depth[row] + sunk) / dp);
 }
 
-// Keeps the way of a particle off the surfaces: its end, or where it began if that is a corner.
+// The end of a way that leads into a corner of two surfaces: it goes along both.
+Vec3 along_corner(const FreeSpace& space, double dp, const Beside& particle, const Vec3& from,
+                  const Vec3& to)
+{
+    constexpr double parallel = 0.01; // sine of the angle between normals that span no corner
+    const auto nearest = [&](const Vec3& p) {
+        return space.nearest(p, particle.solids, looked * dp);
+    };
+    const NearestPlace first = nearest(to);
+    const Vec3 off_first = to + (particle.least - first.distance) * first.normal;
+    const Vec3 edge = first.normal.cross(nearest(off_first).normal);
+    const Vec3 p = from + edge.dot(to - from) / std::max(edge.squaredNorm(), sq(parallel)) * edge;
+    return nearest(p).distance < particle.least ? from : p;
+}
+
+// Keeps the way of a particle off the surfaces. A particle that was filled nearer to them than
+// others may come, in a corner, comes no nearer.
 // Surfaces are looked at again only where it may have come too near since the last look, as no way
 // changes a distance by more than its length.
 Vec3 off_surfaces(const FreeSpace& space, double dp, const PackingUnits& units, const Vec3& from,
@@ -252,11 +302,12 @@ Vec3 off_surfaces(const FreeSpace& space, double dp, const PackingUnits& units, 
     }
     Vec3 p = to;
     const double distance = space.nearest(p, particle.solids, looked * dp).distance;
-    particle.room = std::min(distance, looked * dp) - least * dp;
+    particle.room = std::min(distance, looked * dp) - particle.least;
     if (particle.room < 0) {
-        step_off(space, particle.solids, (least + 1e-6) * dp, p, looked * dp);
-        const bool in_corner = space.nearest(p, particle.solids, looked * dp).distance < least * dp;
-        p = in_corner ? from : p;
+        step_off(space, particle.solids, particle.least + 1e-6 * dp, p, looked * dp);
+        const bool in_corner =
+            space.nearest(p, particle.solids, looked * dp).distance < particle.least;
+        p = in_corner ? along_corner(space, dp, particle, from, to) : p;
     }
     return p;
 }

@@ -89,28 +89,31 @@ std::vector<Vec3> forces_by_cells(const Cloud& cloud)
     return forces;
 }
 
-// By the formula of the kernel (Wendland C2), over all.
+// By the formula of the kernel (Wendland C2), over all. Places are those that the units can hold,
+// since rounding changes the direction between particles that nearly coincide.
 Vec3 force_by_pairs(const Cloud& cloud, std::size_t i)
 {
+    const PackingUnits units = units_of(cloud);
+    const Vec3 own_place = units.rounded(cloud.fluid[i]);
     Vec3 force = Vec3::Zero();
     const double own = std::max<double>(cloud.depth[i], 0);
     const auto add = [&](double volume, const Vec3& r, double its) {
         const double q = r.norm() / cloud.kernel.h;
-        const double f = q < 2 ? cloud.kernel.f_scale * std::pow(1 - q / 2, 3) : 0;
+        const double repulsion = std::max(1.0, 0.6 / std::max(r.norm(), 1e-3));
+        const double f = q < 2 ? repulsion * cloud.kernel.f_scale * std::pow(1 - q / 2, 3) : 0;
         force += volume * (own + std::max(its, 0.0)) * f * r;
     };
     for (std::size_t j = 0; j < cloud.fluid.size(); ++j) {
-        add(cloud.volume, cloud.fluid[i] - cloud.fluid[j], cloud.depth[j]);
+        add(cloud.volume, own_place - units.rounded(cloud.fluid[j]), cloud.depth[j]);
     }
     for (const Vec3& solid : cloud.solids) {
-        const Vec3 r = cloud.fluid[i] - solid;
+        const Vec3 r = own_place - units.rounded(solid);
         add(1, r, cloud.depth[i] + r.z());
     }
     return force;
 }
 
-// Places are rounded to 2^-21 spacings, 2^-19 where the clouds lie 10,000 apart, and the forces of
-// some 200 pairs of a weight of up to 60 follow; single precision adds as much.
+// The forces of some 200 pairs of a weight of up to 60, in single precision.
 TEST(PackingGrid, PressureIsThatOfAllPairs)
 {
     Dice dice(61);

@@ -103,6 +103,53 @@ TEST(RelaxPacking, BalancesWeightOverSlopesThatCutTheLattice)
     }
 }
 
+// A tank with two walls turned about z by other angles, whose corners with its sides and with each
+// other are narrower than a particle.
+Scene drawn_wedge(Dice& dice)
+{
+    const double dp = dice.chance(0.5) ? 0.02 : 0.025;
+    const double length = dice.between(12, 22) * dp;
+    const double width = dice.between(9, 14) * dp;
+    const double depth = dice.between(5, 9) * dp;
+    const auto wall = [&](double x, double y) {
+        return fmt::format("[[wall]]\nshape = \"box\"\nsize = [3, {:.17g}, 3]\nposition = "
+                           "[{:.17g}, {:.17g}, 0]\nrotation_deg = {{ axis = [0, 0, 1], angle = "
+                           "{:.17g} }}\n",
+                           8 * dp, x, y, dice.between(5, 45));
+    };
+    const std::string first = wall(dice.between(0.3, 0.7) * length, 0);
+    const std::string second = wall(dice.between(0.3, 0.7) * length, width);
+    return parse_case(
+        fmt::format("dimensions = 3\n[time]\nend = 1\n[particles]\nspacing = {0}\n[fluid]\n"
+                    "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [{1:.17g}, {2:.17g}, "
+                    "{3:.17g}]\n[[wall]]\nshape = \"basin\"\nmin = [0, 0, 0]\nmax = [{1:.17g}, "
+                    "{2:.17g}, {4:.17g}]\nopen = [\"+z\"]\n{5}{6}",
+                    dp, length, width, depth, 2 * depth, first, second),
+        "wedge.toml");
+}
+
+// Particles in a corner are put off two walls, by which two of them may come to one place. Nearer
+// than 0.3 spacings a pair hardly repels, and water would start with a particle too few.
+TEST(RelaxPacking, NoTwoParticlesStartInOnePlace)
+{
+    Dice dice(25);
+    const int draws = number_from("HYORYU_DRAWS", 20);
+    int filled = 0;
+    for (int n = 0; n < draws; ++n) {
+        const Scene scene = drawn_wedge(dice);
+        const std::vector<Vec3> fluid = fill(scene).fluid;
+        filled += fluid.size() > 100 ? 1 : 0; // in some the walls take nearly all
+        double nearest = infinity; // [spacings]
+        for (std::size_t i = 0; i < fluid.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                nearest = std::min(nearest, (fluid[i] - fluid[j]).norm() / scene.spacing);
+            }
+        }
+        EXPECT_GT(nearest, 0.3) << "draw " << n;
+    }
+    EXPECT_GT(filled, draws / 2);
+}
+
 // Rows are shared out from 4,096 on.
 TEST(RelaxPacking, GivesTheSameBitsForAnyNumberOfThreads)
 {
