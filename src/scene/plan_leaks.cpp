@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan_leaks.hpp"
 
+#include "free_space.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/fill.hpp"
 #include "plan_warnings.hpp"
@@ -71,6 +72,54 @@ private:
     std::map<Number, Span> spans_;
 };
 
+// The ground of columns: the top of the lowest of their wall particles that follow each other. What
+// is farther above stands over a gap, by which water passes, unless that is the inside of a wall,
+// which has particles behind its surface only.
+class Grounds {
+public:
+    Grounds(const Scene& scene, const Columns& columns, const std::vector<Vec3>& walls)
+        : space_(scene), columns_(columns), spacing_(scene.spacing)
+    {
+        for (const Vec3& p : walls) {
+            heights_.emplace_back(columns.number_of(p), p.z());
+        }
+        std::ranges::sort(heights_);
+    }
+
+    /// Of a column and those about it [m]; -infinity without walls.
+    double about(const Columns::Number& column) const
+    {
+        constexpr double gap = 2.5; // between particles with room for water [spacings]
+        const std::vector<double> heights = heights_about(column);
+        Vec3 middle = columns_.middle_of(column);
+        const auto top = std::ranges::adjacent_find(heights, [&](double low, double high) {
+            middle.z() = (low + high) / 2;
+            return high - low > gap * spacing_ && !space_.is_in_wall(middle);
+        });
+        return heights.empty() ? -infinity : top != heights.end() ? *top : heights.back();
+    }
+
+private:
+    std::vector<double> heights_about(const Columns::Number& column) const
+    {
+        std::vector<double> all;
+        for (long long k = 0; k < 9; ++k) {
+            const Columns::Number beside{column[0] + k % 3 - 1, column[1] + k / 3 - 1};
+            auto height = std::ranges::lower_bound(heights_, std::pair(beside, -infinity));
+            for (; height != heights_.end() && height->first == beside; ++height) {
+                all.push_back(height->second);
+            }
+        }
+        std::ranges::sort(all);
+        return all;
+    }
+
+    FreeSpace space_;
+    const Columns& columns_;
+    double spacing_;
+    std::vector<std::pair<Columns::Number, double>> heights_; // ascending
+};
+
 void warn_about_bottoms(const Scene& scene, const Filling& filling, const Columns& fluid,
                         const Columns& walls, Plan& plan)
 {
@@ -139,9 +188,9 @@ double level_of(const Columns::Span& water, double ground, double spacing)
     return water.highest - std::max(fall, 0.0);
 }
 
-// Spreads from each column of the fluid over walls that are lower than its water, the highest
-// first. What waves reach beyond that is not found, nor what passes below a wall.
-Drops drops_of(const Scene& scene, const Columns& fluid, const Columns& walls)
+// Spreads from each column of the fluid over walls that are lower than its water, and below walls
+// over a gap, the highest first. What waves reach beyond that is not found.
+Drops drops_of(const Scene& scene, const Columns& fluid, const Grounds& grounds)
 {
     std::set<Columns::Number> reached;
     std::priority_queue<std::pair<double, Columns::Number>> front;
@@ -150,7 +199,7 @@ Drops drops_of(const Scene& scene, const Columns& fluid, const Columns& walls)
         if (is_in_carpet(scene, fluid.middle_of(column))) {
             continue;
         }
-        front.emplace(level_of(span, walls.about(column).highest, scene.spacing), column);
+        front.emplace(level_of(span, grounds.about(column), scene.spacing), column);
     }
     Drops drops;
     const std::size_t ways = scene.dimensions == 2 ? 2 : 4;
@@ -164,7 +213,7 @@ Drops drops_of(const Scene& scene, const Columns& fluid, const Columns& walls)
                 lets_out(scene, fluid.middle_of(column), fluid.middle_of(beside))) {
                 continue;
             }
-            const double top = walls.about(beside).highest;
+            const double top = grounds.about(beside);
             if (top == -infinity) {
                 drops.first[way] =
                     drops.columns[way] == 0 ? fluid.middle_of(column) : drops.first[way];
@@ -178,13 +227,13 @@ Drops drops_of(const Scene& scene, const Columns& fluid, const Columns& walls)
     return drops;
 }
 
-void warn_about_sides(const Scene& scene, const Columns& fluid, const Columns& walls, Plan& plan)
+void warn_about_sides(const Scene& scene, const Columns& fluid, const Grounds& grounds, Plan& plan)
 {
     if (has_endless_ground(scene)) {
         return;
     }
     constexpr std::array directions{"-x", "+x", "-y", "+y"};
-    const Drops drops = drops_of(scene, fluid, walls);
+    const Drops drops = drops_of(scene, fluid, grounds);
     for (std::size_t way = 0; way < directions.size(); ++way) {
         if (drops.columns[way] > 0) {
             warn(
@@ -263,7 +312,9 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
     const Columns walls(scene.spacing, filling.wall);
     const Columns fluid(scene.spacing, filling.fluid);
     warn_about_bottoms(scene, filling, fluid, walls, plan);
-    warn_about_sides(scene, fluid, walls, plan);
+    if (!filling.fluid.empty()) {
+        warn_about_sides(scene, fluid, Grounds(scene, walls, filling.wall), plan);
+    }
     warn_about_bodies(scene, fluid, walls, plan);
 }
 

@@ -7,10 +7,10 @@
 namespace hyoryu {
 
 /// Warns of fluid that has no wall below it, of a drop that it may flow to over walls that are
-/// lower than its surface, as beyond the open side of a basin without ground, and of bodies with
-/// neither wall nor water in their columns: all of them fall out of the scene. Water that leaves by
-/// an
-/// `[[open]]` side or a period is not meant. Nothing unless gravity points down along z.
+/// lower than its surface or below walls over a gap, as beyond the open side of a basin without
+/// ground, and of bodies with neither wall nor water in their columns: all of them fall out of the
+/// scene. Water that leaves by an `[[open]]` side or a period is not meant. Nothing unless gravity
+/// points down along z.
 void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan);
 
 } // namespace hyoryu

@@ -115,6 +115,32 @@ TEST(PlanLeaks, WaterThatIsHeldIsNot)
     }
 }
 
+// A gate on a floor that goes on for a while beyond it, and ends.
+TEST(PlanLeaks, WaterThatPassesBelowAGateIsTold)
+{
+    Dice dice(77);
+    for (int n = 0; n < 16; ++n) {
+        Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
+        const bool flat = tank.dimensions == 2;
+        tank.open = ", \"+x\"";
+        const double gate = tank.high.x() - dice.between(0.1, 0.3); // its face towards the water
+        tank.clear[1] = tank.high.x() - gate;
+        const auto over = [&](double gap) {
+            Tank with = tank;
+            with.more = fmt::format(
+                "[[wall]]\nname = \"gate\"\nshape = \"box\"\nmin = [{}, {}, {}]\nmax = [{}, {}, "
+                "1]\n",
+                gate, flat ? 0 : tank.low.y() - 1, gap, gate + dice.between(1.1, 3) * tank.dp,
+                flat ? 0 : tank.high.y() + 1);
+            return with.text();
+        };
+        const std::string shut = over(dice.between(-0.1, 0));
+        EXPECT_FALSE(warns(shut, drop)) << shut;
+        const std::string lifted = over(dice.between(2.1, 3) * tank.dp);
+        EXPECT_TRUE(warns(lifted, drop)) << lifted;
+    }
+}
+
 // A drop that falls into the tank has no more head than its own height.
 TEST(PlanLeaks, WaterAboveItsSidesIsToldAndADropAboveATankIsNot)
 {
