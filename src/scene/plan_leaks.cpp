@@ -51,7 +51,6 @@ public:
                 (static_cast<double>(column[1]) + 0.5) * spacing_, 0};
     }
     const std::map<Number, Span>& spans() const { return spans_; }
-    bool has(const Number& column) const { return spans_.contains(column); }
     /// The span of a column and of those about it. Walls that do not follow the lattice leave
     /// columns out.
     Span about(const Number& column) const
@@ -260,7 +259,10 @@ bool has_support(const Scene& scene, const BodySettings& body, const Columns& wa
     const Columns::Number last = walls.number_of(box.max);
     for (Columns::Number column = first; column[1] <= last[1]; ++column[1]) {
         for (column[0] = first[0]; column[0] <= last[0]; ++column[0]) {
-            if (fluid.has(column) || walls.about(column).lowest <= box.max.z()) {
+            const auto water = fluid.spans().find(column);
+            const bool floats = water != fluid.spans().end() &&
+                                water->second.lowest <= box.max.z() + 1.5 * scene.spacing;
+            if (floats || walls.about(column).lowest <= box.max.z()) {
                 return true;
             }
         }

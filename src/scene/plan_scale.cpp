@@ -120,27 +120,32 @@ double top_of(const Filling& filling)
     return top;
 }
 
-// The highest particles of the water at the start, in columns of a spacing.
-class WaterTops {
+// The lowest and highest particles of the water at the start, in columns of a spacing.
+class WaterColumns {
 public:
-    WaterTops(const Filling& filling, double spacing) : spacing_(spacing)
+    WaterColumns(const Filling& filling, double spacing) : spacing_(spacing)
     {
         for (const Vec3& p : filling.fluid) {
-            double& top = tops_.try_emplace(column(p), -infinity).first->second;
-            top = std::max(top, p.z());
+            Span& span = spans_[column(p)];
+            span.low = std::min(span.low, p.z());
+            span.high = std::max(span.high, p.z());
         }
     }
 
-    /// The highest particle in the columns that a box covers, -infinity without one [m].
+    /// The highest particle in the columns that a box covers, -infinity without one [m]. Water that
+    /// ends above the box, as in a tank over it, does not count.
     double over(const Bounds& box) const
     {
+        constexpr double beside = 1.5; // from a body to the particles on it [spacings]
         const Column low = column(box.min);
         const Column high = column(box.max);
         double top = -infinity;
         for (Index i = low[0]; i <= high[0]; ++i) {
-            const auto end = tops_.upper_bound({i, high[1]});
-            for (auto at = tops_.lower_bound({i, low[1]}); at != end; ++at) {
-                top = std::max(top, at->second);
+            const auto end = spans_.upper_bound({i, high[1]});
+            for (auto at = spans_.lower_bound({i, low[1]}); at != end; ++at) {
+                if (at->second.low <= box.max.z() + beside * spacing_) {
+                    top = std::max(top, at->second.high);
+                }
             }
         }
         return top;
@@ -148,6 +153,9 @@ public:
 
 private:
     using Column = std::array<Index, 2>;
+    struct Span {
+        double low = infinity, high = -infinity; // [m]
+    };
 
     Column column(const Vec3& p) const
     {
@@ -156,7 +164,7 @@ private:
     }
 
     double spacing_;
-    std::map<Column, double> tops_;
+    std::map<Column, Span> spans_;
 };
 
 // Time from its start until a gate has risen to the water level; 0 if it is none.
@@ -224,7 +232,7 @@ void check_submerged(const Scene& scene, const Filling& filling, Plan& plan)
     if (!scene.fluid || scene.bodies.empty()) {
         return;
     }
-    const WaterTops water(filling, scene.spacing);
+    const WaterColumns water(filling, scene.spacing);
     std::size_t count = 0;
     std::size_t first = 0;
     double deepest = 0; // of the water over the first one [m]

@@ -203,6 +203,29 @@ TEST(PlanLeaks, ABodyBesideTheTankIsTold)
     }
 }
 
+TEST(PlanLeaks, ABodyBelowTheTankFallsAndDoesNotFloatUp)
+{
+    Dice dice(78);
+    for (int n = 0; n < 16; ++n) {
+        Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
+        const Vec3 middle = (tank.low + tank.high) / 2;
+        const auto with_body_at = [&](double z) {
+            Tank with = tank;
+            with.more =
+                fmt::format("[[body]]\nshape = \"box\"\nsize = [0.14, 0.14, 0.14]\ndensity = "
+                            "500\nposition = [{}, {}, {}]\n",
+                            middle.x(), tank.dimensions == 2 ? 0 : middle.y(), z);
+            return with.text();
+        };
+        const std::string below = with_body_at(dice.between(-3, -0.5));
+        EXPECT_TRUE(warns(below, "neither wall nor water below")) << below;
+        EXPECT_FALSE(warns(below, "shoot up")) << below;
+        const std::string sunk = with_body_at(dice.between(0.071, 0.14));
+        EXPECT_FALSE(warns(sunk, "neither wall nor water below")) << sunk;
+        EXPECT_TRUE(warns(sunk, "shoot up")) << sunk;
+    }
+}
+
 TEST(PlanLeaks, ABasinOfFewSpacingsIsNotResolved)
 {
     Dice dice(75);
