@@ -2,9 +2,9 @@
 """Checks that the objects of different instruction sets define no function twice.
 
 Usage: scripts/check_dispatch.py NM OBJECT...; objects of one set have its name in their path, as in
-`hyoryu_fluid_32`. The linker keeps one of several weak definitions; were it that of a wider set, the
-program would stop on machines without that set. Data are shared, and have to be: fields are known by
-their addresses.
+`hyoryu_fluid_32`, all others are for any machine: those with packs of their own are given as well.
+The linker keeps one of several weak definitions; were it that of a wider set, the program would stop
+on machines without that set. Data are shared, and have to be: fields are known by their addresses.
 """
 import collections
 import re
@@ -23,7 +23,8 @@ def shared_symbols(nm, objects):
         for line in text.splitlines():
             kind, name = line.split()[-2:]
             if kind in FUNCTIONS:
-                sets[name].add(SET.search(path)[1])
+                found = SET.search(path)
+                sets[name].add(found[1] if found else "any machine")
     return sorted(name for name, found in sets.items() if len(found) > 1)
 
 
