@@ -137,7 +137,7 @@ void warn_about_bottoms(const Scene& scene, const Filling& filling, const Column
     }
 }
 
-// Where water leaves by design: beyond a period, or through the plane of an open side.
+// Where water leaves by design: beyond a period, or through the window of an open side.
 bool lets_out(const Scene& scene, const Vec3& from, const Vec3& to)
 {
     for (const int axis : {0, 1}) {
@@ -148,8 +148,11 @@ bool lets_out(const Scene& scene, const Vec3& from, const Vec3& to)
             (crosses(scene.domain->min[axis]) || crosses(scene.domain->max[axis]))) {
             return true;
         }
+        const int along = 1 - axis;
         if (std::ranges::any_of(scene.open, [&](const OpenSettings& open) {
-                return open.axis() == axis && crosses(open.plane());
+                return open.axis() == axis && crosses(open.plane()) &&
+                       from[along] >= open.min[along] - scene.spacing &&
+                       from[along] <= open.max[along] + scene.spacing;
             })) {
             return true;
         }

@@ -178,6 +178,25 @@ TEST(PlanLeaks, AreNotToldWhereWaterMayLeave)
     }
 }
 
+TEST(PlanLeaks, AWindowLetsOutAsFarAsItReaches)
+{
+    Dice dice(79);
+    for (int n = 0; n < 8; ++n) {
+        Tank tank = drawn(dice, 3);
+        tank.open = ", \"+x\"";
+        const auto with_window_to = [&](double end) {
+            Tank with = tank;
+            with.more =
+                fmt::format("[[open]]\nname = \"sea\"\nmin = [{0}, {1}, 0]\nmax = [{0}, {2}, "
+                            "1]\ninto = \"-x\"\nkind = \"absorb\"\n",
+                            tank.high.x(), tank.low.y(), end);
+            return warns(with.text(), drop);
+        };
+        EXPECT_FALSE(with_window_to(tank.high.y())) << tank.text();
+        EXPECT_TRUE(with_window_to(tank.low.y() + dice.between(0.1, 0.25))) << tank.text();
+    }
+}
+
 TEST(PlanLeaks, ABodyBesideTheTankIsTold)
 {
     Dice dice(74);
