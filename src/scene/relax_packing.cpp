@@ -23,6 +23,10 @@ constexpr double farthest = 1;    // that a particle is moved in all
 constexpr double beside = 2;      // farther from a surface than that none comes too near
 constexpr double looked = 1;      // distance to which surfaces are looked for
 constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
+// A way ends at a wall if it leads to one of its particles, or comes nearer to one than `inside`,
+// half the diagonal of a cube and a little. Beside a wall it goes on.
+constexpr double ahead = 0.7;   // cosine of the angle between the way and what it leads to
+constexpr double inside = 0.93; // spacings
 
 // With this momentum the missing water of a bed spreads by a layer in six rounds. In deeper water
 // than this its rest evens out while the case runs.
@@ -102,13 +106,19 @@ public:
     {
         // On a lattice many distances are equal but for rounding: a solid goes before fluid.
         const double equal = 1e-6 * reach_;
+        const double in_solid = inside / emptiness * reach_;
         for (double s = reach_; s < support + reach_ / 2 - equal; s += reach_ / 2) {
             double fluid = reach_ - equal;
             double solid = reach_ - equal;
             const Vec3 place = from + s * way;
             for_cells_about(grid_, place, [&](std::size_t k) {
-                double& nearest = k < fluid_ ? fluid : solid;
-                nearest = std::min(nearest, (points_[k] - place).norm());
+                const Vec3 to = points_[k] - place;
+                const double distance = to.norm();
+                if (k < fluid_) {
+                    fluid = std::min(fluid, distance);
+                } else if (distance < in_solid || to.dot(way) > ahead * distance) {
+                    solid = std::min(solid, distance);
+                }
             });
             if (solid < reach_ - equal && solid <= fluid + equal) {
                 return false;

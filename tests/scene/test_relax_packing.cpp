@@ -128,26 +128,51 @@ Scene drawn_wedge(Dice& dice)
         "wedge.toml");
 }
 
+// Least distance of two particles at the start [spacings].
+double nearest_pair(const Scene& scene)
+{
+    const std::vector<Vec3> fluid = fill(scene).fluid;
+    double nearest = infinity;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            nearest = std::min(nearest, (fluid[i] - fluid[j]).norm());
+        }
+    }
+    return nearest / scene.spacing;
+}
+
 // Particles in a corner are put off two walls, by which two of them may come to one place. Nearer
 // than 0.3 spacings a pair hardly repels, and water would start with a particle too few.
 TEST(RelaxPacking, NoTwoParticlesStartInOnePlace)
 {
     Dice dice(25);
-    const int draws = number_from("HYORYU_DRAWS", 20);
-    int filled = 0;
-    for (int n = 0; n < draws; ++n) {
-        const Scene scene = drawn_wedge(dice);
-        const std::vector<Vec3> fluid = fill(scene).fluid;
-        filled += fluid.size() > 100 ? 1 : 0; // in some the walls take nearly all
-        double nearest = infinity; // [spacings]
-        for (std::size_t i = 0; i < fluid.size(); ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                nearest = std::min(nearest, (fluid[i] - fluid[j]).norm() / scene.spacing);
-            }
-        }
-        EXPECT_GT(nearest, 0.3) << "draw " << n;
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 20); ++n) {
+        EXPECT_GT(nearest_pair(drawn_wedge(dice)), 0.3) << "draw " << n;
     }
-    EXPECT_GT(filled, draws / 2);
+}
+
+// A column of water in a larger tank is not at rest at its free sides, whose particles stay on the
+// lattice. Those behind them must not be moved among them, along a wall either.
+TEST(RelaxPacking, AColumnWithFreeSidesStaysApart)
+{
+    Dice dice(26);
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 20); ++n) {
+        const double dp = dice.chance(0.5) ? 0.02 : 0.03;
+        const Vec3 water = dp * Vec3(dice.between(4, 12), dice.between(4, 12), dice.between(4, 12));
+        const int free = 1 + dice.below(3); // along x, y, or both
+        Vec3 tank = water;
+        for (int a = 0; a < 2; ++a) {
+            tank[a] += (free >> a & 1) != 0 ? dice.between(2, 8) * dp : 0;
+        }
+        const Scene scene = parse_case(
+            fmt::format("dimensions = 3\n[time]\nend = 1\n[particles]\nspacing = {}\n[fluid]\n"
+                        "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [{:.17g}, "
+                        "{:.17g}, {:.17g}]\n[[wall]]\nshape = \"basin\"\nmin = [0, 0, 0]\nmax = "
+                        "[{:.17g}, {:.17g}, 1]\nopen = [\"+z\"]\n",
+                        dp, water.x(), water.y(), water.z(), tank.x(), tank.y()),
+            "column.toml");
+        EXPECT_GT(nearest_pair(scene), 0.3) << "draw " << n;
+    }
 }
 
 // Rows are shared out from 4,096 on.
