@@ -101,12 +101,12 @@ public:
         build(grid_, points, 0, reach);
     }
 
-    // Whether a way from a point leads to an empty place before it leads to a solid.
-    bool is_open(const Vec3& from, const Vec3& way, double support) const
+    // Whether a way from a point leads to an empty place before it leads to a solid, or is nearer
+    // to one than `blocked` [m].
+    bool is_open(const Vec3& from, const Vec3& way, double support, double blocked) const
     {
         // On a lattice many distances are equal but for rounding: a solid goes before fluid.
         const double equal = 1e-6 * reach_;
-        const double in_solid = inside / emptiness * reach_;
         for (double s = reach_; s < support + reach_ / 2 - equal; s += reach_ / 2) {
             double fluid = reach_ - equal;
             double solid = reach_ - equal;
@@ -116,7 +116,7 @@ public:
                 const double distance = to.norm();
                 if (k < fluid_) {
                     fluid = std::min(fluid, distance);
-                } else if (distance < in_solid || to.dot(way) > ahead * distance) {
+                } else if (distance < blocked || to.dot(way) > ahead * distance) {
                     solid = std::min(solid, distance);
                 }
             });
@@ -147,8 +147,12 @@ std::vector<std::uint8_t> free_to_move(const Scene& scene, const Filling& fillin
     const std::vector<Vec3> ways = open_ways(scene);
     std::vector<std::uint8_t> moves = filling.fluid_cut;
     parallel_for(0, static_cast<Index>(moves.size()), [&](Index k) {
+        // Along a gentle beach a way at the waterline leads to no place that water would flow to,
+        // nor does one through an open side, behind which there is water.
+        const bool flows = scene.open.empty() && filling.fluid_depth[at(k)] > scene.spacing;
+        const double blocked = (flows ? inside : emptiness) * scene.spacing;
         if (moves[at(k)] != 0 && std::ranges::any_of(ways, [&](const Vec3& way) {
-                return about.is_open(points[at(k)], way, support);
+                return about.is_open(points[at(k)], way, support, blocked);
             })) {
             moves[at(k)] = 0;
         }
