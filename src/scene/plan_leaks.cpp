@@ -85,20 +85,29 @@ public:
         std::ranges::sort(heights_);
     }
 
-    /// Of a column and those about it [m]; -infinity without walls.
-    double about(const Columns::Number& column) const
+    /// Of a column and those about it [m]; -infinity without walls, or where all of them stand over
+    /// a gap above the ground `from` of the column beside it.
+    double about(const Columns::Number& column, double from = infinity) const
     {
-        constexpr double gap = 2.5; // between particles with room for water [spacings]
         const std::vector<double> heights = heights_about(column);
-        Vec3 middle = columns_.middle_of(column);
-        const auto top = std::ranges::adjacent_find(heights, [&](double low, double high) {
-            middle.z() = (low + high) / 2;
-            return high - low > gap * spacing_ && !space_.is_in_wall(middle);
-        });
-        return heights.empty() ? -infinity : top != heights.end() ? *top : heights.back();
+        if (heights.empty() || has_gap(column, from, heights.front())) {
+            return -infinity;
+        }
+        const auto top = std::ranges::adjacent_find(
+            heights, [&](double low, double high) { return has_gap(column, low, high); });
+        return top != heights.end() ? *top : heights.back();
     }
 
 private:
+    // Whether there is room for water between two particles.
+    bool has_gap(const Columns::Number& column, double low, double high) const
+    {
+        constexpr double least = 2.5; // [spacings]
+        Vec3 middle = columns_.middle_of(column);
+        middle.z() = (low + high) / 2;
+        return std::isfinite(low) && high - low > least * spacing_ && !space_.is_in_wall(middle);
+    }
+
     std::vector<double> heights_about(const Columns::Number& column) const
     {
         std::vector<double> all;
@@ -190,6 +199,14 @@ double level_of(const Columns::Span& water, double ground, double spacing)
     return water.highest - std::max(fall, 0.0);
 }
 
+// The level to which water may rise again on the ground below a step: it keeps its depth if it
+// falls by more than that.
+double after_fall(double level, double above, double below, double spacing)
+{
+    const double fall = above - below;
+    return std::isfinite(fall) && fall > level - above + 2 * spacing ? level - fall : level;
+}
+
 // Spreads from each column of the fluid over walls that are lower than its water, and below walls
 // over a gap, the highest first. What waves reach beyond that is not found.
 Drops drops_of(const Scene& scene, const Columns& fluid, const Grounds& grounds)
@@ -208,6 +225,7 @@ Drops drops_of(const Scene& scene, const Columns& fluid, const Grounds& grounds)
     while (!front.empty()) {
         const auto [level, column] = front.top();
         front.pop();
+        const double here = grounds.about(column);
         for (std::size_t way = 0; way < ways; ++way) {
             Columns::Number beside = column;
             beside[way / 2] += way % 2 == 0 ? -1 : 1;
@@ -215,14 +233,14 @@ Drops drops_of(const Scene& scene, const Columns& fluid, const Grounds& grounds)
                 lets_out(scene, fluid.middle_of(column), fluid.middle_of(beside))) {
                 continue;
             }
-            const double top = grounds.about(beside);
+            const double top = grounds.about(beside, here);
             if (top == -infinity) {
                 drops.first[way] =
                     drops.columns[way] == 0 ? fluid.middle_of(column) : drops.first[way];
                 drops.columns[way] += 1;
             } else if (top < level) {
                 reached.insert(beside);
-                front.emplace(level, beside);
+                front.emplace(after_fall(level, here, top, scene.spacing), beside);
             }
         }
     }
@@ -240,12 +258,11 @@ void warn_about_sides(const Scene& scene, const Columns& fluid, const Grounds& g
         if (drops.columns[way] > 0) {
             warn(
                 scene, {}, "wall",
-                fmt::format(
-                    "water can flow to a drop: in direction {} of {} columns of a spacing, "
-                    "as at ({:.4g}, {:.4g}) m, there is no wall at any height, and water that "
-                    "passes there leaves the scene",
-                    directions[way], drops.columns[way], drops.first[way].x(),
-                    drops.first[way].y()),
+                fmt::format("water can flow to a drop: in direction {} of {} columns of a spacing, "
+                            "as at ({:.4g}, {:.4g}) m, there is no ground, and water that "
+                            "passes there leaves the scene",
+                            directions[way], drops.columns[way], drops.first[way].x(),
+                            drops.first[way].y()),
                 "close that side, or add a floor beyond it; an `[[open]]` side lets water out in a "
                 "measured way",
                 plan);

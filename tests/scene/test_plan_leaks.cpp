@@ -87,6 +87,26 @@ TEST(PlanLeaks, WaterAtAnOpenSideIsToldWithItsDirection)
     }
 }
 
+// A roof over the place beyond a floor is no ground.
+TEST(PlanLeaks, WaterThatFallsBelowARoofIsTold)
+{
+    Dice dice(80);
+    for (int n = 0; n < 12; ++n) {
+        Tank tank = drawn(dice, n % 3 == 0 ? 2 : 3);
+        const bool flat = tank.dimensions == 2;
+        tank.open = ", \"-x\"";
+        const double low = dice.between(0.35, 0.7);
+        tank.more = fmt::format(
+            "[[wall]]\nname = \"roof\"\nshape = \"box\"\nmin = [{}, {}, {}]\nmax = [{}, {}, {}]\n",
+            tank.low.x() - dice.between(0.5, 2), flat ? 0 : tank.low.y() - 1, low,
+            tank.low.x() + dice.between(0, 0.3), flat ? 0 : tank.high.y() + 1,
+            low + dice.between(0.1, 0.3));
+        EXPECT_TRUE(warns(tank.text(), drop)) << tank.text();
+        tank.open.clear();
+        EXPECT_FALSE(warns(tank.text(), drop)) << tank.text();
+    }
+}
+
 TEST(PlanLeaks, WaterThatIsHeldIsNot)
 {
     Dice dice(72);
