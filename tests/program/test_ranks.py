@@ -322,7 +322,8 @@ open = ["+z"]
     def test_scaling_is_measured(self):
         root = pathlib.Path(__file__).resolve().parent.parent.parent
         done = subprocess.run([root / "scripts/scaling", str(self.case), "--ranks", "1,3", "--steps", "40", "--repeat", "1",
-                               "--launcher", "mpirun --oversubscribe", "--program", HYORYU, "--json",
+                               "--launcher", "mpirun --oversubscribe", "--program", HYORYU, "--set",
+                               "output.every=5", "--json",
                                self.dir / "scaling.json"], capture_output=True, text=True, cwd=self.dir,
                               env=ENVIRONMENT, timeout=4 * LONGEST)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
