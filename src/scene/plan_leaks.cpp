@@ -4,6 +4,7 @@
 #include "free_space.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/fill.hpp"
+#include "plan_columns.hpp"
 #include "plan_warnings.hpp"
 #include "units.hpp"
 
@@ -21,55 +22,6 @@
 namespace hyoryu {
 
 namespace {
-
-// Columns of a spacing, by their numbers along x and y, with the lowest and the highest of some
-// points in each.
-class Columns {
-public:
-    using Number = std::array<long long, 2>;
-    struct Span {
-        double lowest = infinity, highest = -infinity; // [m]
-    };
-
-    Columns(double spacing, const std::vector<Vec3>& points) : spacing_(spacing)
-    {
-        for (const Vec3& p : points) {
-            Span& span = spans_[number_of(p)];
-            span.lowest = std::min(span.lowest, p.z());
-            span.highest = std::max(span.highest, p.z());
-        }
-    }
-
-    Number number_of(const Vec3& p) const
-    {
-        return {std::llround(std::floor(p.x() / spacing_)),
-                std::llround(std::floor(p.y() / spacing_))};
-    }
-    Vec3 middle_of(const Number& column) const
-    {
-        return {(static_cast<double>(column[0]) + 0.5) * spacing_,
-                (static_cast<double>(column[1]) + 0.5) * spacing_, 0};
-    }
-    const std::map<Number, Span>& spans() const { return spans_; }
-    /// The span of a column and of those about it. Walls that do not follow the lattice leave
-    /// columns out.
-    Span about(const Number& column) const
-    {
-        Span all;
-        for (long long k = 0; k < 9; ++k) {
-            const auto found = spans_.find({column[0] + k % 3 - 1, column[1] + k / 3 - 1});
-            if (found != spans_.end()) {
-                all.lowest = std::min(all.lowest, found->second.lowest);
-                all.highest = std::max(all.highest, found->second.highest);
-            }
-        }
-        return all;
-    }
-
-private:
-    double spacing_;
-    std::map<Number, Span> spans_;
-};
 
 // The ground of columns: the top of the lowest of their wall particles that follow each other. What
 // is farther above stands over a gap, by which water passes, unless that is the inside of a wall,
@@ -111,8 +63,7 @@ private:
     std::vector<double> heights_about(const Columns::Number& column) const
     {
         std::vector<double> all;
-        for (long long k = 0; k < 9; ++k) {
-            const Columns::Number beside{column[0] + k % 3 - 1, column[1] + k / 3 - 1};
+        for (const Columns::Number& beside : Columns::block_about(column)) {
             auto height = std::ranges::lower_bound(heights_, std::pair(beside, -infinity));
             for (; height != heights_.end() && height->first == beside; ++height) {
                 all.push_back(height->second);
@@ -186,7 +137,7 @@ bool has_endless_ground(const Scene& scene)
     });
 }
 
-// Columns without a wall next to those that water reaches, by direction: -x, +x, -y, +y.
+// Columns that water reaches next to those without ground, by direction: -x, +x, -y, +y.
 struct Drops {
     std::array<Vec3, 4> first{};
     std::array<Index, 4> columns{};
@@ -258,11 +209,12 @@ void warn_about_sides(const Scene& scene, const Columns& fluid, const Grounds& g
         if (drops.columns[way] > 0) {
             warn(
                 scene, {}, "wall",
-                fmt::format("water can flow to a drop: in direction {} of {} columns of a spacing, "
-                            "as at ({:.4g}, {:.4g}) m, there is no ground, and water that "
-                            "passes there leaves the scene",
-                            directions[way], drops.columns[way], drops.first[way].x(),
-                            drops.first[way].y()),
+                fmt::format(
+                    "water can flow to a drop: in direction {} of {} columns one spacing wide, "
+                    "the first at ({:.4g}, {:.4g}) m, the ground ends; water that passes "
+                    "there leaves the scene",
+                    directions[way], drops.columns[way], drops.first[way].x(),
+                    drops.first[way].y()),
                 "close that side, or add a floor beyond it; an `[[open]]` side lets water out in a "
                 "measured way",
                 plan);
@@ -279,10 +231,7 @@ bool has_support(const Scene& scene, const BodySettings& body, const Columns& wa
     const Columns::Number last = walls.number_of(box.max);
     for (Columns::Number column = first; column[1] <= last[1]; ++column[1]) {
         for (column[0] = first[0]; column[0] <= last[0]; ++column[0]) {
-            const auto water = fluid.spans().find(column);
-            const bool floats = water != fluid.spans().end() &&
-                                water->second.lowest <= box.max.z() + 1.5 * scene.spacing;
-            if (floats || walls.about(column).lowest <= box.max.z()) {
+            if (fluid.reaches(column, box.max.z()) || walls.about(column).lowest <= box.max.z()) {
                 return true;
             }
         }

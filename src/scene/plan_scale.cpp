@@ -4,14 +4,13 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/flotation.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
+#include "plan_columns.hpp"
 #include "plan_warnings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 namespace hyoryu {
@@ -120,52 +119,22 @@ double top_of(const Filling& filling)
     return top;
 }
 
-// The lowest and highest particles of the water at the start, in columns of a spacing.
-class WaterColumns {
-public:
-    WaterColumns(const Filling& filling, double spacing) : spacing_(spacing)
-    {
-        for (const Vec3& p : filling.fluid) {
-            Span& span = spans_[column(p)];
-            span.low = std::min(span.low, p.z());
-            span.high = std::max(span.high, p.z());
-        }
-    }
-
-    /// The highest particle in the columns that a box covers, -infinity without one [m]. Water that
-    /// ends above the box, as in a tank over it, does not count.
-    double over(const Bounds& box) const
-    {
-        constexpr double beside = 1.5; // from a body to the particles on it [spacings]
-        const Column low = column(box.min);
-        const Column high = column(box.max);
-        double top = -infinity;
-        for (Index i = low[0]; i <= high[0]; ++i) {
-            const auto end = spans_.upper_bound({i, high[1]});
-            for (auto at = spans_.lower_bound({i, low[1]}); at != end; ++at) {
-                if (at->second.low <= box.max.z() + beside * spacing_) {
-                    top = std::max(top, at->second.high);
-                }
+// The highest particle of the water in the columns that a box covers, -infinity without one [m].
+double top_over(const Columns& water, const Bounds& box)
+{
+    const Columns::Number low = water.number_of(box.min);
+    const Columns::Number high = water.number_of(box.max);
+    double top = -infinity;
+    for (long long i = low[0]; i <= high[0]; ++i) {
+        const auto end = water.spans().upper_bound({i, high[1]});
+        for (auto at = water.spans().lower_bound({i, low[1]}); at != end; ++at) {
+            if (water.reaches(at->first, box.max.z())) {
+                top = std::max(top, at->second.highest);
             }
         }
-        return top;
     }
-
-private:
-    using Column = std::array<Index, 2>;
-    struct Span {
-        double low = infinity, high = -infinity; // [m]
-    };
-
-    Column column(const Vec3& p) const
-    {
-        return {static_cast<Index>(std::floor(p.x() / spacing_)),
-                static_cast<Index>(std::floor(p.y() / spacing_))};
-    }
-
-    double spacing_;
-    std::map<Column, Span> spans_;
-};
+    return top;
+}
 
 // Time from its start until a gate has risen to the water level; 0 if it is none.
 double opening_time(const Motion& motion, double depth)
@@ -232,14 +201,14 @@ void check_submerged(const Scene& scene, const Filling& filling, Plan& plan)
     if (!scene.fluid || scene.bodies.empty()) {
         return;
     }
-    const WaterColumns water(filling, scene.spacing);
+    const Columns water(scene.spacing, filling.fluid);
     std::size_t count = 0;
     std::size_t first = 0;
     double deepest = 0; // of the water over the first one [m]
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const Bounds box = bounds(placed(body, scene.dimensions));
-        const double over = water.over(box) + scene.spacing / 2 - box.max.z();
+        const double over = top_over(water, box) + scene.spacing / 2 - box.max.z();
         const bool held = body.fixed || body.locks[2];
         if (!(over > scene.spacing / 2) || held || is_too_fine(body.shape) ||
             !flotation(body, scene.fluid->density, scene.gravity, scene.dimensions)) {

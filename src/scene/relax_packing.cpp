@@ -218,9 +218,8 @@ Vec3 along_corner(const FreeSpace& space, double dp, const Beside& particle, con
 }
 
 // Keeps the way of a particle off the surfaces. A particle that was filled nearer to them than
-// others may come, in a corner, comes no nearer.
-// Surfaces are looked at again only where it may have come too near since the last look, as no way
-// changes a distance by more than its length.
+// others may come, in a corner, comes no nearer. Surfaces are looked at again only where it may
+// have come too near since the last look, as no way changes a distance by more than its length.
 Vec3 off_surfaces(const FreeSpace& space, double dp, const PackingUnits& units, const Vec3& from,
                   const Vec3& to, Beside& particle)
 {

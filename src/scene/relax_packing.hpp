@@ -11,9 +11,10 @@ namespace hyoryu {
 ///
 ///     g - |g| sum V (d_i + d_j) F r = 0,   d the depth, of solids the one that i sees there,
 ///
-/// so that a start at hydrostatic pressure is one at rest. Cells that a surface cuts leave the
-/// water beside it up to a quarter thinner or denser than the lattice, which the first second of a
-/// run would even out with pressures wrong by as much. Descent with momentum (Polyak 1964) in fixed
+/// so that a start at hydrostatic pressure is one at rest; pairs nearer than
+/// `PackingPressure::apart` repel each other by more. Cells that a surface cuts leave the water
+/// beside it up to a quarter thinner or denser than the lattice, which the first second of a run
+/// would even out with pressures wrong by as much. Descent with momentum (Polyak 1964) in fixed
 /// rounds; masses stay, depths follow the places, and no particle comes nearer to a surface than it
 /// may be filled. Particles beside an open side of the water, or without support below, are not
 /// moved, since they are not at rest. Without gravity or marks nothing is done, nor where a block

@@ -146,9 +146,14 @@ double nearest_pair(const Scene& scene)
 TEST(RelaxPacking, NoTwoParticlesStartInOnePlace)
 {
     Dice dice(25);
-    for (int n = 0; n < number_from("HYORYU_DRAWS", 20); ++n) {
-        EXPECT_GT(nearest_pair(drawn_wedge(dice)), 0.3) << "draw " << n;
+    const int draws = number_from("HYORYU_DRAWS", 20);
+    int filled = 0; // in a few the walls take all
+    for (int n = 0; n < draws; ++n) {
+        const double nearest = nearest_pair(drawn_wedge(dice)); // infinite without water
+        EXPECT_GT(nearest, 0.3) << "draw " << n;
+        filled += std::isfinite(nearest) ? 1 : 0;
     }
+    EXPECT_GT(filled, draws / 2);
 }
 
 // A column of water in a larger tank is not at rest at its free sides, whose particles stay on the
