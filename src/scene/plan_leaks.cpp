@@ -101,13 +101,14 @@ void warn_about_bottoms(const Scene& scene, const Filling& filling, const Column
 bool lets_out(const Scene& scene, const Vec3& from, const Vec3& to)
 {
     for (const int axis : {0, 1}) {
+        // The middle of the last column of a period may lie beyond it: both may.
+        if (scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)] &&
+            (to[axis] < scene.domain->min[axis] || to[axis] > scene.domain->max[axis])) {
+            return true;
+        }
         const auto crosses = [&](double plane) {
             return (from[axis] < plane) != (to[axis] < plane);
         };
-        if (scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)] &&
-            (crosses(scene.domain->min[axis]) || crosses(scene.domain->max[axis]))) {
-            return true;
-        }
         const int along = 1 - axis;
         if (std::ranges::any_of(scene.open, [&](const OpenSettings& open) {
                 return open.axis() == axis && crosses(open.plane()) &&
