@@ -311,6 +311,7 @@ Filling fill(const Scene& scene)
     if (scene.fluid) {
         settle_volume(scene, filling);
         relax_packing(scene, filling);
+        part_pairs(scene, filling);
     }
     return filling;
 }

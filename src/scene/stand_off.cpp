@@ -17,6 +17,8 @@ namespace {
 constexpr double clearly = 0.45; // nearer than that to a surface; cells are rounded to as near
 constexpr double apart = 0.875;  // distance to which pairs are moved
 constexpr double around = 2.5;   // radius about moved particles in which others move away
+constexpr double crowded = 0.4;  // nearer than that, a pair is parted
+constexpr double parted = 0.6;   // distance to which it is moved
 
 std::size_t at(Index row)
 {
@@ -105,9 +107,9 @@ Vec3 step_aside(const FreeSpace& space, std::span<const int> among, double dista
     return point;
 }
 
-// Moves pairs apart of which at least one is free to, and keeps those off the surfaces.
-void relax(const FreeSpace& space, double spacing, const std::vector<std::uint8_t>& is_free,
-           std::vector<Vec3>& points)
+// Moves pairs to a distance of which at least one is free to, and keeps those off the surfaces.
+void relax(const FreeSpace& space, double spacing, double distance,
+           const std::vector<std::uint8_t>& is_free, std::vector<Vec3>& points)
 {
     constexpr int rounds = 40;
     constexpr double roam = 3; // spacings: farther than anything is moved
@@ -121,7 +123,7 @@ void relax(const FreeSpace& space, double spacing, const std::vector<std::uint8_
         parallel_for(0, static_cast<Index>(points.size()), [&](Index k) {
             if (is_free[at(k)] != 0) {
                 Vec3& p = moved[at(k)];
-                p += way_apart(grid, points, at(k), apart * spacing);
+                p += way_apart(grid, points, at(k), distance);
                 if (space.nearest(p, solids[at(k)]).distance < clearly * spacing &&
                     !step_off(space, solids[at(k)], spacing / 2, p)) {
                     p = step_aside(space, solids[at(k)], spacing / 2, points[at(k)]);
@@ -132,17 +134,15 @@ void relax(const FreeSpace& space, double spacing, const std::vector<std::uint8_
     }
 }
 
-} // namespace
-
-void stand_off_bodies(const Scene& scene, Filling& filling)
+// Moves pairs of which one is within a radius about marked particles to a distance [m].
+void move_apart(const Scene& scene, std::span<const std::uint8_t> marked, double radius,
+                double distance, Filling& filling)
 {
-    const double spacing = scene.spacing;
-    const std::vector<std::uint8_t> near = too_near(scene, filling.fluid);
-    if (std::ranges::find(near, 1) == near.end()) {
+    if (std::ranges::find(marked, 1) == marked.end()) {
         return;
     }
-    const std::vector<std::uint8_t> giving = marks_about(filling.fluid, near, around * spacing);
-    const std::vector<std::uint8_t> seen = marks_about(filling.fluid, giving, spacing);
+    const std::vector<std::uint8_t> giving = marks_about(filling.fluid, marked, radius);
+    const std::vector<std::uint8_t> seen = marks_about(filling.fluid, giving, scene.spacing);
     std::vector<std::size_t> rows;
     std::vector<Vec3> points;
     std::vector<std::uint8_t> is_free;
@@ -153,13 +153,49 @@ void stand_off_bodies(const Scene& scene, Filling& filling)
             is_free.push_back(giving[k]);
         }
     }
-    relax(FreeSpace(scene), spacing, is_free, points);
+    relax(FreeSpace(scene), scene.spacing, distance, is_free, points);
     for (std::size_t k = 0; k < rows.size(); ++k) {
         Vec3& p = filling.fluid[rows[k]];
         if (scene.gravity.norm() > 0) {
             filling.fluid_depth[rows[k]] += height(scene, p) - height(scene, points[k]);
         }
         p = points[k];
+    }
+}
+
+// Rows of the fluid about surfaces that are much nearer to another particle than a spacing.
+std::vector<std::uint8_t> in_pairs(const Filling& filling, double spacing)
+{
+    const double distance = crowded * spacing;
+    const std::vector<Vec3>& points = filling.fluid;
+    CellGrid grid;
+    build(grid, points, 0, spacing); // smaller cells would be many for each particle
+    std::vector<std::uint8_t> near(points.size(), 0);
+    parallel_for(0, static_cast<Index>(points.size()), [&](Index k) {
+        const auto row = at(k);
+        if (filling.fluid_cut[row] != 0) {
+            for_cells_about(grid, points[row], [&](std::size_t other) {
+                const bool is_near = (points[other] - points[row]).norm() < distance;
+                near[row] = other != row && is_near ? 1 : near[row];
+            });
+        }
+    });
+    return near;
+}
+
+} // namespace
+
+void stand_off_bodies(const Scene& scene, Filling& filling)
+{
+    const double spacing = scene.spacing;
+    move_apart(scene, too_near(scene, filling.fluid), around * spacing, apart * spacing, filling);
+}
+
+void part_pairs(const Scene& scene, Filling& filling)
+{
+    const double spacing = scene.spacing;
+    if (std::ranges::find(filling.fluid_cut, 1) != filling.fluid_cut.end()) {
+        move_apart(scene, in_pairs(filling, spacing), around * spacing, parted * spacing, filling);
     }
 }
 

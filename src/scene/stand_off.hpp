@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fluid at its distance from bodies.
+// Fluid at its distance from bodies, and particles of fluid at theirs from each other.
 #pragma once
 
 #include "hyoryu/scene/fill.hpp"
@@ -11,5 +11,9 @@ namespace hyoryu {
 /// spacing separate, within two and a half spacings (position-based dynamics, Mueller et al. 2007).
 /// No particle is added or removed, and without a particle too near nothing moves.
 void stand_off_bodies(const Scene& scene, Filling& filling);
+
+/// Moves pairs of fluid particles about surfaces (`fluid_cut`) that are nearer than two fifths of a
+/// spacing to three fifths, with the same method, and keeps them off walls and bodies.
+void part_pairs(const Scene& scene, Filling& filling);
 
 } // namespace hyoryu
