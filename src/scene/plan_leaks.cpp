@@ -199,28 +199,91 @@ Drops drops_of(const Scene& scene, const Columns& fluid, const Grounds& grounds)
     return drops;
 }
 
-void warn_about_sides(const Scene& scene, const Columns& fluid, const Grounds& grounds, Plan& plan)
+constexpr std::array directions{"-x", "+x", "-y", "+y"};
+
+void warn_about_drops(const Scene& scene, const Place& place, const std::string& when,
+                      const Drops& drops, Plan& plan)
 {
-    if (has_endless_ground(scene)) {
-        return;
-    }
-    constexpr std::array directions{"-x", "+x", "-y", "+y"};
-    const Drops drops = drops_of(scene, fluid, grounds);
     for (std::size_t way = 0; way < directions.size(); ++way) {
         if (drops.columns[way] > 0) {
             warn(
-                scene, {}, "wall",
+                scene, place, "wall",
                 fmt::format(
-                    "water can flow to a drop: in direction {} of {} columns one spacing wide, "
+                    "{}water can flow to a drop: in direction {} of {} columns one spacing wide, "
                     "the first at ({:.4g}, {:.4g}) m, the ground ends; water that passes "
                     "there leaves the scene",
-                    directions[way], drops.columns[way], drops.first[way].x(),
+                    when, directions[way], drops.columns[way], drops.first[way].x(),
                     drops.first[way].y()),
                 "close that side, or add a floor beyond it; an `[[open]]` side lets water out in a "
                 "measured way",
                 plan);
         }
     }
+}
+
+// How far a wall rises at most [m].
+double rise_of(const Motion& motion, double end)
+{
+    double most = displacement(motion, end).z();
+    for (std::size_t k = 0; k < motion.times.size() && motion.times[k] < end; ++k) {
+        most = std::max(most, motion.places[k].z());
+    }
+    return most;
+}
+
+void raise(Wall& wall, double rise)
+{
+    if (auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
+        plane->point.z() += rise;
+    } else if (auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
+        basin->min.z() += rise;
+        basin->max.z() += rise;
+    } else if (auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+        round->centre.z() += rise;
+    } else if (auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
+        solid->centre.z() += rise;
+    }
+}
+
+// Gates that open: what the water can reach when each wall stands where it is highest. A wall that
+// only moves aside, as a piston does, stays where it is at the start.
+void warn_about_gates(const Scene& scene, const Filling& filling, const Columns& walls,
+                      const Columns& fluid, const Drops& before, Plan& plan)
+{
+    Scene raised = scene;
+    std::vector<Vec3> particles = filling.wall;
+    std::vector<double> rise;
+    const Wall* first = nullptr;
+    for (Wall& wall : raised.walls) {
+        rise.push_back(std::max(rise_of(wall.motion, scene.time.end), 0.0));
+        raise(wall, rise.back());
+        first = first == nullptr && rise.back() > 0 ? &wall : first;
+    }
+    if (first == nullptr) {
+        return;
+    }
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+        particles[k].z() += rise[static_cast<std::size_t>(filling.wall_owner[k])];
+    }
+    Drops drops = drops_of(raised, fluid, Grounds(raised, walls, particles));
+    for (std::size_t way = 0; way < directions.size(); ++way) {
+        drops.columns[way] = before.columns[way] > 0 ? 0 : drops.columns[way]; // told already
+    }
+    warn_about_drops(scene, first->place,
+                     first->name.empty() ? "once the gate has risen, "
+                                         : fmt::format("once \"{}\" has risen, ", first->name),
+                     drops, plan);
+}
+
+void warn_about_sides(const Scene& scene, const Filling& filling, const Columns& fluid,
+                      const Columns& walls, Plan& plan)
+{
+    if (has_endless_ground(scene)) {
+        return;
+    }
+    const Drops drops = drops_of(scene, fluid, Grounds(scene, walls, filling.wall));
+    warn_about_drops(scene, {}, "", drops, plan);
+    warn_about_gates(scene, filling, walls, fluid, drops, plan);
 }
 
 // Whether anything lies in the columns that a body covers that it may rest on or float in.
@@ -285,7 +348,7 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
     const Columns fluid(scene.spacing, filling.fluid);
     warn_about_bottoms(scene, filling, fluid, walls, plan);
     if (!filling.fluid.empty()) {
-        warn_about_sides(scene, fluid, Grounds(scene, walls, filling.wall), plan);
+        warn_about_sides(scene, filling, fluid, walls, plan);
     }
     warn_about_bodies(scene, fluid, walls, plan);
 }

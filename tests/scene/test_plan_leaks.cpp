@@ -161,6 +161,34 @@ TEST(PlanLeaks, WaterThatPassesBelowAGateIsTold)
     }
 }
 
+// A gate that is lifted, on a floor that ends beyond it or has a wall there.
+TEST(PlanLeaks, WaterThatPassesAGateOnceItHasRisenIsTold)
+{
+    const std::string risen = "once \"gate\" has risen";
+    Dice dice(80);
+    for (int n = 0; n < 16; ++n) {
+        Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
+        const bool flat = tank.dimensions == 2;
+        const double gate = tank.high.x() - dice.between(0.1, 0.3);
+        tank.clear[1] = tank.high.x() - gate;
+        const auto with_motion = [&](const std::string& motion, bool shut) {
+            Tank with = tank;
+            with.open = shut ? "" : ", \"+x\"";
+            with.more = fmt::format(
+                "[[wall]]\nname = \"gate\"\nshape = \"box\"\nmin = [{}, {}, -0.01]\nmax = [{}, {}, "
+                "1]\n[wall.motion]\n{}\n",
+                gate, flat ? 0 : tank.low.y() - 1, gate + dice.between(1.1, 2) * tank.dp,
+                flat ? 0 : tank.high.y() + 1, motion);
+            return with.text();
+        };
+        const std::string lift = "lift = { speed = 1.5 }";
+        EXPECT_TRUE(warns(with_motion(lift, false), risen)) << with_motion(lift, false);
+        EXPECT_FALSE(warns(with_motion(lift, true), drop)) << with_motion(lift, true);
+        const std::string aside = "velocity = [0.01, 0, 0]";
+        EXPECT_FALSE(warns(with_motion(aside, false), drop)) << with_motion(aside, false);
+    }
+}
+
 // A drop that falls into the tank has no more head than its own height.
 TEST(PlanLeaks, WaterAboveItsSidesIsToldAndADropAboveATankIsNot)
 {
