@@ -13,9 +13,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <queue>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -54,7 +56,7 @@ private:
     // Whether there is room for water between two particles.
     bool has_gap(const Columns::Number& column, double low, double high) const
     {
-        constexpr double least = 2.5; // [spacings]
+        constexpr double least = 1.6; // [spacings]: surfaces 0.6 apart
         Vec3 middle = columns_.middle_of(column);
         middle.z() = (low + high) / 2;
         return std::isfinite(low) && high - low > least * spacing_ && !space_.is_in_wall(middle);
@@ -245,34 +247,81 @@ void raise(Wall& wall, double rise)
     }
 }
 
-// Gates that open: what the water can reach when each wall stands where it is highest. A wall that
-// only moves aside, as a piston does, stays where it is at the start.
-void warn_about_gates(const Scene& scene, const Filling& filling, const Columns& walls,
-                      const Columns& fluid, const Drops& before, Plan& plan)
+// A scene with some of its walls where they are highest, and the particles of its walls.
+struct Raised {
+    Scene scene;
+    std::vector<Vec3> particles;
+};
+
+Raised raised(const Scene& scene, const Filling& filling, std::span<const std::size_t> gates)
 {
-    Scene raised = scene;
-    std::vector<Vec3> particles = filling.wall;
-    std::vector<double> rise;
-    const Wall* first = nullptr;
-    for (Wall& wall : raised.walls) {
-        rise.push_back(std::max(rise_of(wall.motion, scene.time.end), 0.0));
-        raise(wall, rise.back());
-        first = first == nullptr && rise.back() > 0 ? &wall : first;
+    Raised result{scene, filling.wall};
+    std::vector<double> rise(scene.walls.size(), 0);
+    for (const std::size_t gate : gates) {
+        rise[gate] = rise_of(scene.walls[gate].motion, scene.time.end);
+        raise(result.scene.walls[gate], rise[gate]);
     }
-    if (first == nullptr) {
-        return;
+    for (std::size_t k = 0; k < result.particles.size(); ++k) {
+        result.particles[k].z() += rise[static_cast<std::size_t>(filling.wall_owner[k])];
     }
-    for (std::size_t k = 0; k < particles.size(); ++k) {
-        particles[k].z() += rise[static_cast<std::size_t>(filling.wall_owner[k])];
+    return result;
+}
+
+std::string names_of(const Scene& scene, std::span<const std::size_t> gates)
+{
+    std::string names;
+    for (const std::size_t gate : gates) {
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scene.walls[gate].name);
     }
-    Drops drops = drops_of(raised, fluid, Grounds(raised, walls, particles));
+    return names + (gates.size() == 1 ? " has" : " have");
+}
+
+// The water without that of columns below which there is no wall any more: it is carried, or falls.
+std::vector<Vec3> held_still(const Filling& filling, const Columns& fluid, const Columns& before,
+                             const Columns& after)
+{
+    std::vector<Vec3> held;
+    std::ranges::copy_if(filling.fluid, std::back_inserter(held), [&](const Vec3& p) {
+        const Columns::Number column = fluid.number_of(p);
+        const double lowest = fluid.spans().at(column).lowest;
+        return before.about(column).lowest > lowest || after.about(column).lowest <= lowest;
+    });
+    return held;
+}
+
+// What the water can reach when some walls stand where they are highest; whether anything is told.
+bool warn_about_raised(const Scene& scene, const Filling& filling, const Columns& fluid,
+                       const Columns& walls, std::span<const std::size_t> gates,
+                       const Drops& before, Plan& plan)
+{
+    const Raised after = raised(scene, filling, gates);
+    const Columns columns(scene.spacing, after.particles);
+    const Columns held(scene.spacing, held_still(filling, fluid, walls, columns));
+    Drops drops = drops_of(after.scene, held, Grounds(after.scene, columns, after.particles));
     for (std::size_t way = 0; way < directions.size(); ++way) {
         drops.columns[way] = before.columns[way] > 0 ? 0 : drops.columns[way]; // told already
     }
-    warn_about_drops(scene, first->place,
-                     first->name.empty() ? "once the gate has risen, "
-                                         : fmt::format("once \"{}\" has risen, ", first->name),
-                     drops, plan);
+    warn_about_drops(scene, scene.walls[gates.front()].place,
+                     fmt::format("once {} risen, ", names_of(scene, gates)), drops, plan);
+    return std::ranges::any_of(drops.columns, [](Index columns_) { return columns_ > 0; });
+}
+
+// Gates that open: each alone, and all together where none alone lets water out. A wall that only
+// moves aside, as a piston does, stays where it is at the start.
+void warn_about_gates(const Scene& scene, const Filling& filling, const Columns& fluid,
+                      const Columns& walls, const Drops& before, Plan& plan)
+{
+    std::vector<std::size_t> gates;
+    bool told = false;
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        if (rise_of(scene.walls[w].motion, scene.time.end) > 0) {
+            gates.push_back(w);
+            told |= warn_about_raised(scene, filling, fluid, walls, std::array{w}, before, plan);
+        }
+    }
+    if (gates.size() > 1 && !told) {
+        warn_about_raised(scene, filling, fluid, walls, gates, before, plan);
+    }
 }
 
 void warn_about_sides(const Scene& scene, const Filling& filling, const Columns& fluid,
@@ -283,7 +332,7 @@ void warn_about_sides(const Scene& scene, const Filling& filling, const Columns&
     }
     const Drops drops = drops_of(scene, fluid, Grounds(scene, walls, filling.wall));
     warn_about_drops(scene, {}, "", drops, plan);
-    warn_about_gates(scene, filling, walls, fluid, drops, plan);
+    warn_about_gates(scene, filling, fluid, walls, drops, plan);
 }
 
 // Whether anything lies in the columns that a body covers that it may rest on or float in.

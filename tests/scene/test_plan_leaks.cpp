@@ -189,6 +189,52 @@ TEST(PlanLeaks, WaterThatPassesAGateOnceItHasRisenIsTold)
     }
 }
 
+// Of two gates in a tank that is open at one end only that at this end lets water out.
+TEST(PlanLeaks, TheGateThatLetsWaterOutIsNamed)
+{
+    Dice dice(81);
+    for (int n = 0; n < 8; ++n) {
+        Tank tank = drawn(dice, 2);
+        tank.clear[0] = dice.between(0.1, 0.2);
+        tank.clear[1] = dice.between(0.1, 0.2);
+        tank.open = ", \"+x\"";
+        const auto gate = [&](const std::string& name, double from) {
+            return fmt::format(
+                "[[wall]]\nname = \"{}\"\nshape = \"box\"\nmin = [{}, 0, -0.01]\nmax "
+                "= [{}, 0, 1]\n[wall.motion]\nvelocity = [0, 0, {}]\n",
+                name, from, from + 0.08, dice.between(0.7, 3) * tank.dp);
+        };
+        tank.more = gate("shut", tank.low.x() + tank.clear[0] - 0.08) +
+                    gate("leads out", tank.high.x() - tank.clear[1]);
+        EXPECT_TRUE(warns(tank.text(), "once \"leads out\" has risen")) << tank.text();
+        EXPECT_FALSE(warns(tank.text(), "once \"shut\"")) << tank.text();
+    }
+}
+
+// A plug that is drawn out of a hole in the floor, or a floor that rises with all of its water.
+TEST(PlanLeaks, AHoleBelowAPlugThatRisesIsTold)
+{
+    Dice dice(82);
+    for (int n = 0; n < 8; ++n) {
+        Tank tank = drawn(dice, 2);
+        tank.open = ", \"-z\"";
+        const double plug = tank.low.x() + dice.between(0.15, 0.2);
+        const double end = plug + dice.between(5, 7) * tank.dp;
+        const auto floor = [&](double from, double to, const std::string& name) {
+            return fmt::format(
+                "[[wall]]\nname = \"{}\"\nshape = \"box\"\nmin = [{}, 0, -0.2]\nmax = "
+                "[{}, 0, 0]\n",
+                name, from, to);
+        };
+        const std::string lift = "[wall.motion]\nlift = { speed = 1 }\n";
+        tank.more = floor(tank.low.x() - 0.3, plug, "left") +
+                    floor(end, tank.high.x() + 0.3, "right") + floor(plug, end, "plug") + lift;
+        EXPECT_TRUE(warns(tank.text(), "once \"plug\" has risen")) << tank.text();
+        tank.more = floor(tank.low.x(), tank.high.x(), "bed") + lift;
+        EXPECT_FALSE(warns(tank.text(), "has risen")) << tank.text();
+    }
+}
+
 // A drop that falls into the tank has no more head than its own height.
 TEST(PlanLeaks, WaterAboveItsSidesIsToldAndADropAboveATankIsNot)
 {
