@@ -131,15 +131,6 @@ bool is_in_carpet(const Scene& scene, const Vec3& place)
     });
 }
 
-// Whether a plane extends below the scene: its particles end at the bounds of the domain.
-bool has_endless_ground(const Scene& scene)
-{
-    return std::ranges::any_of(scene.walls, [](const Wall& wall) {
-        const auto* plane = std::get_if<PlaneWall>(&wall.geometry);
-        return plane != nullptr && plane->normal.z() > 0.5;
-    });
-}
-
 // Columns that water reaches next to those without ground, by direction: -x, +x, -y, +y.
 struct Drops {
     std::array<Vec3, 4> first{};
@@ -327,9 +318,6 @@ void warn_about_gates(const Scene& scene, const Filling& filling, const Columns&
 void warn_about_sides(const Scene& scene, const Filling& filling, const Columns& fluid,
                       const Columns& walls, Plan& plan)
 {
-    if (has_endless_ground(scene)) {
-        return;
-    }
     const Drops drops = drops_of(scene, fluid, Grounds(scene, walls, filling.wall));
     warn_about_drops(scene, {}, "", drops, plan);
     warn_about_gates(scene, filling, fluid, walls, drops, plan);
