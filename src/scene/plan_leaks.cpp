@@ -81,18 +81,30 @@ private:
     std::vector<std::pair<Columns::Number, double>> heights_; // ascending
 };
 
-void warn_about_bottoms(const Scene& scene, const Filling& filling, const Columns& fluid,
-                        const Columns& walls, Plan& plan)
+// What stands where at the start.
+struct Start {
+    Start(const Scene& scene_, const Filling& filling_)
+        : scene(scene_), filling(filling_), walls(scene_.spacing, filling_.wall),
+          fluid(scene_.spacing, filling_.fluid)
+    {
+    }
+    const Scene& scene;
+    const Filling& filling;
+    Columns walls, fluid;
+};
+
+void warn_about_bottoms(const Start& start, Plan& plan)
 {
+    const Columns& fluid = start.fluid;
     std::map<Columns::Number, double> floor; // of the columns of the fluid [m]
     for (const auto& [column, span] : fluid.spans()) {
-        floor.emplace(column, walls.about(column).lowest);
+        floor.emplace(column, start.walls.about(column).lowest);
     }
     const auto open = std::ranges::count_if(
-        filling.fluid, [&](const Vec3& p) { return floor.at(fluid.number_of(p)) > p.z(); });
+        start.filling.fluid, [&](const Vec3& p) { return floor.at(fluid.number_of(p)) > p.z(); });
     if (open > 0) {
         warn(
-            scene, {}, "wall",
+            start.scene, {}, "wall",
             fmt::format(
                 "{} fluid particles have no wall below them and will fall out of the domain", open),
             "add a floor: a wall of shape \"plane\" or \"basin\"", plan);
@@ -268,71 +280,71 @@ std::string names_of(const Scene& scene, std::span<const std::size_t> gates)
 }
 
 // The water without that of columns below which there is no wall any more: it is carried, or falls.
-std::vector<Vec3> held_still(const Filling& filling, const Columns& fluid, const Columns& before,
-                             const Columns& after)
+std::vector<Vec3> held_still(const Start& start, const Columns& walls)
 {
     std::vector<Vec3> held;
-    std::ranges::copy_if(filling.fluid, std::back_inserter(held), [&](const Vec3& p) {
-        const Columns::Number column = fluid.number_of(p);
-        const double lowest = fluid.spans().at(column).lowest;
-        return before.about(column).lowest > lowest || after.about(column).lowest <= lowest;
+    std::ranges::copy_if(start.filling.fluid, std::back_inserter(held), [&](const Vec3& p) {
+        const Columns::Number column = start.fluid.number_of(p);
+        const double lowest = start.fluid.spans().at(column).lowest;
+        return start.walls.about(column).lowest > lowest || walls.about(column).lowest <= lowest;
     });
     return held;
 }
 
 // What the water can reach when some walls stand where they are highest; whether anything is told.
-bool warn_about_raised(const Scene& scene, const Filling& filling, const Columns& fluid,
-                       const Columns& walls, std::span<const std::size_t> gates,
-                       const Drops& before, Plan& plan)
+bool warn_about_raised(const Start& start, std::span<const std::size_t> gates, const Drops& before,
+                       Plan& plan)
 {
-    const Raised after = raised(scene, filling, gates);
-    const Columns columns(scene.spacing, after.particles);
-    const Columns held(scene.spacing, held_still(filling, fluid, walls, columns));
-    Drops drops = drops_of(after.scene, held, Grounds(after.scene, columns, after.particles));
+    const Scene& scene = start.scene;
+    const Raised after = raised(scene, start.filling, gates);
+    const Columns walls(scene.spacing, after.particles);
+    const Columns held(scene.spacing, held_still(start, walls));
+    Drops drops = drops_of(after.scene, held, Grounds(after.scene, walls, after.particles));
     for (std::size_t way = 0; way < directions.size(); ++way) {
         drops.columns[way] = before.columns[way] > 0 ? 0 : drops.columns[way]; // told already
     }
     warn_about_drops(scene, scene.walls[gates.front()].place,
                      fmt::format("once {} risen, ", names_of(scene, gates)), drops, plan);
-    return std::ranges::any_of(drops.columns, [](Index columns_) { return columns_ > 0; });
+    return std::ranges::any_of(drops.columns, [](Index columns) { return columns > 0; });
 }
 
 // Gates that open: each alone, and all together where none alone lets water out. A wall that only
 // moves aside, as a piston does, stays where it is at the start.
-void warn_about_gates(const Scene& scene, const Filling& filling, const Columns& fluid,
-                      const Columns& walls, const Drops& before, Plan& plan)
+void warn_about_gates(const Start& start, const Drops& before, Plan& plan)
 {
+    const Scene& scene = start.scene;
     std::vector<std::size_t> gates;
     bool told = false;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         if (rise_of(scene.walls[w].motion, scene.time.end) > 0) {
             gates.push_back(w);
-            told |= warn_about_raised(scene, filling, fluid, walls, std::array{w}, before, plan);
+            told |= warn_about_raised(start, std::array{w}, before, plan);
         }
     }
     if (gates.size() > 1 && !told) {
-        warn_about_raised(scene, filling, fluid, walls, gates, before, plan);
+        warn_about_raised(start, gates, before, plan);
     }
 }
 
-void warn_about_sides(const Scene& scene, const Filling& filling, const Columns& fluid,
-                      const Columns& walls, Plan& plan)
+void warn_about_sides(const Start& start, Plan& plan)
 {
-    const Drops drops = drops_of(scene, fluid, Grounds(scene, walls, filling.wall));
+    const Scene& scene = start.scene;
+    const Drops drops =
+        drops_of(scene, start.fluid, Grounds(scene, start.walls, start.filling.wall));
     warn_about_drops(scene, {}, "", drops, plan);
-    warn_about_gates(scene, filling, fluid, walls, drops, plan);
+    warn_about_gates(start, drops, plan);
 }
 
 // Whether anything lies in the columns that a body covers that it may rest on or float in.
-bool has_support(const Scene& scene, const BodySettings& body, const Columns& walls,
-                 const Columns& fluid)
+bool has_support(const Start& start, const BodySettings& body)
 {
-    const Bounds box = bounds(placed(body, scene.dimensions));
-    const Columns::Number first = walls.number_of(box.min);
-    const Columns::Number last = walls.number_of(box.max);
+    const Bounds box = bounds(placed(body, start.scene.dimensions));
+    const Columns::Number first = start.walls.number_of(box.min);
+    const Columns::Number last = start.walls.number_of(box.max);
     for (Columns::Number column = first; column[1] <= last[1]; ++column[1]) {
         for (column[0] = first[0]; column[0] <= last[0]; ++column[0]) {
-            if (fluid.reaches(column, box.max.z()) || walls.about(column).lowest <= box.max.z()) {
+            if (start.fluid.reaches(column, box.max.z()) ||
+                start.walls.about(column).lowest <= box.max.z()) {
                 return true;
             }
         }
@@ -358,13 +370,13 @@ bool is_over_another(const Scene& scene, const BodySettings& body)
     });
 }
 
-void warn_about_bodies(const Scene& scene, const Columns& fluid, const Columns& walls, Plan& plan)
+void warn_about_bodies(const Start& start, Plan& plan)
 {
+    const Scene& scene = start.scene;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const bool copy = b > 0 && body.place.line == scene.bodies[b - 1].place.line;
-        if (!copy && may_fall(body) && !has_support(scene, body, walls, fluid) &&
-            !is_over_another(scene, body)) {
+        if (!copy && may_fall(body) && !has_support(start, body) && !is_over_another(scene, body)) {
             warn(scene, body.place, fmt::format("body[{}]", b),
                  fmt::format("body \"{}\" has neither wall nor water below it and will fall out of "
                              "the domain",
@@ -381,13 +393,12 @@ void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
     if (scene.gravity.normalized().dot(-Vec3::UnitZ()) < 0.99) {
         return;
     }
-    const Columns walls(scene.spacing, filling.wall);
-    const Columns fluid(scene.spacing, filling.fluid);
-    warn_about_bottoms(scene, filling, fluid, walls, plan);
+    const Start start(scene, filling);
+    warn_about_bottoms(start, plan);
     if (!filling.fluid.empty()) {
-        warn_about_sides(scene, filling, fluid, walls, plan);
+        warn_about_sides(start, plan);
     }
-    warn_about_bodies(scene, fluid, walls, plan);
+    warn_about_bodies(start, plan);
 }
 
 } // namespace hyoryu
