@@ -17,6 +17,7 @@ namespace {
 // In spacings.
 constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
 constexpr double step = 1;        // between levels that do not hold each other
+constexpr double upwards = 0.1;   // least cosine between a way that rises and the vertical
 // A way ends at a wall if it leads to one of its particles, or comes nearer to one than `inside`,
 // half the diagonal of a cube and a little. Beside a wall it goes on.
 constexpr double ahead = 0.7; // cosine of the angle between the way and what it leads to
@@ -96,7 +97,7 @@ public:
                 return false;
             }
             if (!(fluid < reach_ - equal)) {
-                const bool rises = way.dot(down_) < -0.1;
+                const bool rises = way.dot(down_) < -upwards;
                 return !rises || levels_[particle] + down_.dot(place) > step_;
             }
             if (std::abs(levels_[nearest] - levels_[particle]) > step_) {

@@ -279,7 +279,8 @@ std::string names_of(const Scene& scene, std::span<const std::size_t> gates)
     return names + (gates.size() == 1 ? " has" : " have");
 }
 
-// The water without that of columns below which there is no wall any more: it is carried, or falls.
+// The water that still has a wall below it when walls have risen. The rest is carried up by them,
+// or falls.
 std::vector<Vec3> held_still(const Start& start, const Columns& walls)
 {
     std::vector<Vec3> held;
