@@ -128,6 +128,9 @@ Scene drawn_wedge(Dice& dice)
         "wedge.toml");
 }
 
+// Of two particles at the start [spacings], but for the rounding of a distance.
+constexpr double least_distance = 0.4 - 1e-9;
+
 // Least distance of two particles at the start [spacings].
 double nearest_pair(const Scene& scene)
 {
@@ -142,7 +145,7 @@ double nearest_pair(const Scene& scene)
 }
 
 // Particles in a corner are put off two walls, by which two of them may come to one place. Nearer
-// than 0.3 spacings a pair hardly repels, and water would start with a particle too few.
+// than 0.4 spacings a pair hardly repels, and water would start with a particle too few.
 TEST(RelaxPacking, NoTwoParticlesStartInOnePlace)
 {
     Dice dice(25);
@@ -150,7 +153,7 @@ TEST(RelaxPacking, NoTwoParticlesStartInOnePlace)
     int filled = 0; // in a few the walls take all
     for (int n = 0; n < draws; ++n) {
         const double nearest = nearest_pair(drawn_wedge(dice)); // infinite without water
-        EXPECT_GT(nearest, 0.4 - 1e-9) << "draw " << n;
+        EXPECT_GT(nearest, least_distance) << "draw " << n;
         filled += std::isfinite(nearest) ? 1 : 0;
     }
     EXPECT_GT(filled, draws / 2);
@@ -176,7 +179,7 @@ TEST(RelaxPacking, AColumnWithFreeSidesStaysApart)
                         "[{:.17g}, {:.17g}, 1]\nopen = [\"+z\"]\n",
                         dp, water.x(), water.y(), water.z(), tank.x(), tank.y()),
             "column.toml");
-        EXPECT_GT(nearest_pair(scene), 0.4 - 1e-9) << "draw " << n;
+        EXPECT_GT(nearest_pair(scene), least_distance) << "draw " << n;
     }
 }
 
@@ -215,7 +218,7 @@ TEST(RelaxPacking, BlocksOfUnequalHeightStayApart)
     Dice dice(27);
     for (int n = 0; n < number_from("HYORYU_DRAWS", 20); ++n) {
         const Scene scene = blocks_in_tank(dice, 2 + dice.below(2), {0, 0, -9.81});
-        EXPECT_GT(nearest_pair(scene), 0.4 - 1e-9) << "draw " << n;
+        EXPECT_GT(nearest_pair(scene), least_distance) << "draw " << n;
     }
 }
 
@@ -256,7 +259,7 @@ TEST(RelaxPacking, BlocksWhoseSurfaceIsNotLevelStayApart)
         const Vec3 way(dice.between(-1, 1), dice.chance(0.5) ? 0 : dice.between(-1, 1),
                        dice.between(-1, 1));
         const Scene scene = blocks_in_tank(dice, 1 + dice.below(3), 9.81 * way.normalized());
-        EXPECT_GT(nearest_pair(scene), 0.4 - 1e-9) << "draw " << n;
+        EXPECT_GT(nearest_pair(scene), least_distance) << "draw " << n;
     }
 }
 
