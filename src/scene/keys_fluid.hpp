@@ -41,6 +41,14 @@ inline void check_gradient(TableReader& table, const FluidSettings& fluid)
     }
 }
 
+inline void check_kernel(TableReader& table, const FluidSettings& fluid)
+{
+    if (fluid.kernel != KernelShape::wendland && fluid.formulation == FormulationKind::mps) {
+        table.error("kernel", "is available for SPH only",
+                    "leave kernel out with formulation = \"mps\", which has a weight of its own");
+    }
+}
+
 inline void expect_sph(TableReader& table, FormulationKind formulation, std::string_view effect)
 {
     if (formulation == FormulationKind::mps) {
@@ -210,6 +218,11 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid, const Scene& scene)
     constexpr double most = 2.0;
     keys.between("smoothing_ratio", fluid.smoothing_ratio, least, most, "1.2 .. 2.0",
                  "Smoothing length over particle spacing: a larger ratio is smoother and slower.");
+    keys.choice("kernel", fluid.kernel, {"wendland", "isotropic"},
+                "Kernel of the gradients of SPH. \"isotropic\": the pressure stays isotropic as waves "
+                "and flows strain the arrangement of the particles, which moves waves more "
+                "accurately; steps are 6 % shorter.");
+    keys.rule(check_kernel, fluid);
     GradientSettings::keys(keys, fluid.gradient);
     keys.rule(check_gradient, fluid);
     // The first slot's table is listed before the other keys of walls.

@@ -96,6 +96,7 @@ FluidParameters fluid_parameters(const Scene& scene, double particle_volume, dou
     f.formulation = settings.formulation;
     f.spacing = scene.spacing;
     f.h = settings.smoothing_ratio * scene.spacing;
+    f.kernel = settings.kernel;
     f.mass = settings.density * particle_volume;
     f.gravity = scene.gravity;
     f.drive = settings.acceleration;
@@ -188,6 +189,11 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                     fmt::format("`fluid.{}`: reverse kernel gradient correction",
                                 mps ? "formulation` is \"mps\"" : "gradient` is \"corrected\"")),
                fluid ? "`fluid.gradient` is \"plain\"" : none);
+    census.add("isotropic_kernel",
+               when(fluid && plan.fluid->kernel == KernelShape::isotropic,
+                    "`fluid.kernel` is \"isotropic\": pressure stays isotropic among strained "
+                    "particles"),
+               fluid ? "`fluid.kernel` is \"wendland\"" : none);
     census.add("wall_extrapolation", when(solids, "the fluid meets walls or bodies"),
                fluid ? "the fluid meets no wall and no body" : none);
     census.add("solid_backstop", when(solids, "the fluid meets walls or bodies"),

@@ -235,28 +235,6 @@ TEST(PairList, SplitsTilesThatSeeTooMuch)
     EXPECT_EQ(pairs, 1200 * 1200);
 }
 
-TEST(Kernel, IsOneAndLinearOnItsLattice)
-{
-    for (const int dimensions : {2, 3}) {
-        const real dp = 0.1;
-        const Kernel kernel = make_kernel(1.5 * dp, dp, dimensions);
-        real one = 0;
-        real moment = 0;
-        const int reach_y = dimensions == 2 ? 0 : 4;
-        for (int i = -4; i <= 4; ++i) {
-            for (int j = -reach_y; j <= reach_y; ++j) {
-                for (int k = -4; k <= 4; ++k) {
-                    const auto pair = kernel(Vec<real>{i * dp, j * dp, k * dp});
-                    one += pair.w * std::pow(dp, dimensions);
-                    moment -= pair.f * sq(i * dp) * std::pow(dp, dimensions);
-                }
-            }
-        }
-        EXPECT_NEAR(one, 1, 1e-14);
-        EXPECT_NEAR(moment, 1, 1e-14);
-    }
-}
-
 TEST(MpsKernel, IsOneAndLinearOnItsLattice)
 {
     for (const int dimensions : {2, 3}) {

@@ -23,6 +23,7 @@ struct Choice {
     bool diffusion;
     bool viscosity;
     FormulationKind formulation = FormulationKind::sph;
+    KernelShape kernel = KernelShape::wendland;
 };
 
 // How GoogleTest names it.
@@ -30,6 +31,7 @@ inline void PrintTo(const Choice& choice, std::ostream* to)
 {
     *to << name(choice.set) << ' ' << name(choice.precision)
         << (choice.formulation == FormulationKind::mps ? " mps" : "")
+        << (choice.kernel == KernelShape::isotropic ? " isotropic" : "")
         << (choice.diffusion ? " diffusion" : "") << (choice.viscosity ? " viscosity" : "");
 }
 
@@ -56,7 +58,8 @@ inline Fluid make_mixture(const Choice& choice)
     FluidParameters& f = fluid.parameters;
     f = {.eos = {1000, 30}, .spacing = dp, .h = 1.5 * dp, .mass = 1, .precision = choice.precision};
     f.formulation = choice.formulation;
-    fluid.kernel = make_kernel(f.h, dp, 3);
+    f.kernel = choice.kernel;
+    fluid.kernel = make_kernel(f.h, dp, 3, f.kernel);
     fluid.mps_kernel = make_mps_kernel(2 * f.h, dp, 3);
     if (choice.diffusion) {
         fluid.effects[slot::diffusion] =

@@ -150,7 +150,7 @@ TEST(Ranks, EveryEffectHasTheBitsOfOneProcess)
     for (const std::vector<std::string>& overrides : std::vector<std::vector<std::string>>{
              {"particles.precision=\"double\""},
              {"fluid.formulation=\"mps\""},
-             {"fluid.gradient=\"corrected\""},
+             {"fluid.gradient=\"corrected\"", "fluid.kernel=\"isotropic\""},
              {"fluid.walls=\"no_slip\"", "fluid.viscosity.model=\"laminar\"",
               "fluid.viscosity.kinematic=1e-3"},
              {"fluid.walls=\"no_slip\"", "fluid.viscosity.model=\"sps\"",

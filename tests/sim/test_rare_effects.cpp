@@ -26,6 +26,7 @@ periodic = ["x"]
 [fluid]
 sound_speed = 10.0
 gradient = "corrected"
+kernel = "isotropic"
 walls = "no_slip"
 acceleration = [0.5, 0.0, 0.0]
 [fluid.viscosity]
@@ -155,9 +156,9 @@ velocity_field = ["1 + z", "0", "x*z"]
 
 TEST(RareEffects, AreAbsentUnlessAskedFor)
 {
-    const std::array<const char*, 7> effects{
-        "no_slip",      "sps_turbulence",    "drive", "particle_collision", "cavitation",
-        "moving_walls", "corrected_gradient"};
+    const std::array<const char*, 8> effects{
+        "no_slip",    "sps_turbulence", "drive",              "particle_collision",
+        "cavitation", "moving_walls",   "corrected_gradient", "isotropic_kernel"};
     const Simulation with = make(channel);
     for (const char* effect : effects) {
         EXPECT_TRUE(with.plan.runs(effect)) << effect;

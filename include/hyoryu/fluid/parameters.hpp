@@ -2,6 +2,7 @@
 // The numbers of a weakly compressible fluid that do not change during a run.
 #pragma once
 
+#include "hyoryu/core/kernel.hpp"
 #include "hyoryu/core/types.hpp"
 
 #include <string_view>
@@ -49,6 +50,7 @@ struct FluidParameters {
     EquationOfState eos;
     real spacing = 0;          // dp [m]
     real h = 0;                // smoothing length [m]
+    KernelShape kernel = KernelShape::wendland;
     real mass = 0;             // of a particle, rho0 times the volume of its cell [kg]
     Vec3 gravity{0, 0, -9.81}; // g [m/s2]
     Vec3 drive{0, 0, 0};       // acceleration besides gravity, not part of hydrostatics [m/s2]

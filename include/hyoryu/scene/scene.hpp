@@ -103,6 +103,7 @@ struct FluidSettings {
     Vec3 acceleration{0, 0, 0}; // besides gravity [m/s2]
     FluidChoices effects;
     double smoothing_ratio = 1.5; // h / spacing [1]
+    KernelShape kernel = KernelShape::wendland;
     std::vector<FluidBlock> blocks;
 };
 
