@@ -15,10 +15,11 @@ std::array<TimeLimit, 3> fluid_limits(const FluidParameters& fluid, real top_spe
     const real scale = fluid.cfl / 0.6;
     const real force =
         top_acceleration > 0 ? scale * 0.25 * std::sqrt(fluid.h / top_acceleration) : infinity;
-    const real viscous = nu > 0 ? scale * 0.125 * sq(fluid.h) / (nu * diffusion_rate(fluid.kernel)) : infinity;
+    const real viscous =
+        nu > 0 ? scale * 0.125 * sq(fluid.h) / (nu * diffusion_rate(fluid.kernel)) : infinity;
     const real acoustic = fluid.cfl * fluid.h / sound_frequency(fluid.kernel);
-    return {TimeLimit{"acoustic", acoustic / (fluid.eos.c0 + top_speed)},
-            TimeLimit{"force", force}, TimeLimit{"viscous", viscous}};
+    return {TimeLimit{"acoustic", acoustic / (fluid.eos.c0 + top_speed)}, TimeLimit{"force", force},
+            TimeLimit{"viscous", viscous}};
 }
 
 TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles)

@@ -218,10 +218,11 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid, const Scene& scene)
     constexpr double most = 2.0;
     keys.between("smoothing_ratio", fluid.smoothing_ratio, least, most, "1.2 .. 2.0",
                  "Smoothing length over particle spacing: a larger ratio is smoother and slower.");
-    keys.choice("kernel", fluid.kernel, {"wendland", "isotropic"},
-                "Kernel of the gradients of SPH. \"isotropic\": the pressure stays isotropic as waves "
-                "and flows strain the arrangement of the particles, which moves waves more "
-                "accurately; steps are 6 % shorter.");
+    keys.choice(
+        "kernel", fluid.kernel, {"wendland", "isotropic"},
+        "Kernel of the gradients of SPH. \"isotropic\": the pressure stays isotropic as waves "
+        "and flows strain the arrangement of the particles, which moves waves more "
+        "accurately; steps are 6 % shorter.");
     keys.rule(check_kernel, fluid);
     GradientSettings::keys(keys, fluid.gradient);
     keys.rule(check_gradient, fluid);

@@ -328,8 +328,8 @@ void relax_packing(const Scene& scene, Filling& filling)
         return;
     }
     const double dp = scene.spacing;
-    const Kernel kernel = make_kernel(scene.fluid->smoothing_ratio, 1, scene.dimensions,
-                                      scene.fluid->kernel);
+    const Kernel kernel =
+        make_kernel(scene.fluid->smoothing_ratio, 1, scene.dimensions, scene.fluid->kernel);
     Packing packing = packing_of(scene, filling, kernel.support * dp);
     if (packing.moving == 0) {
         return;

@@ -92,9 +92,8 @@ Fluid empty_fluid(const Scene& scene, const Plan& plan)
     Fluid fluid;
     fluid.parameters = *plan.fluid;
     fluid.effects = plan.effects;
-    fluid.kernel =
-        make_kernel(fluid.parameters.h, fluid.parameters.spacing, fluid.parameters.dimensions,
-                    fluid.parameters.kernel);
+    fluid.kernel = make_kernel(fluid.parameters.h, fluid.parameters.spacing,
+                               fluid.parameters.dimensions, fluid.parameters.kernel);
     fluid.mps_kernel = make_mps_kernel(fluid.kernel.support, fluid.parameters.spacing,
                                        fluid.parameters.dimensions);
     // A particle may graze the edge of the domain; two spacings beyond it is gone for good.

@@ -48,10 +48,10 @@ std::vector<Mat3> cells(int dimensions)
 Mat3 turned(int dimensions, Dice& dice)
 {
     const double angle = dice.between(-std::numbers::pi, std::numbers::pi);
-    const Vec3 axis = dimensions == 2 ? Vec3::UnitY()
-                                      : Vec3(dice.between(-1, 1), dice.between(-1, 1),
-                                             dice.between(-1, 1) + 0.01)
-                                            .normalized();
+    const Vec3 axis =
+        dimensions == 2 ? Vec3::UnitY()
+                        : Vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1) + 0.01)
+                              .normalized();
     return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
@@ -74,8 +74,7 @@ TEST(Kernel, IsOneAndLinearOnItsLattice)
         for (const int dimensions : {2, 3}) {
             for (const KernelShape shape : {KernelShape::wendland, KernelShape::isotropic}) {
                 const real dp = dice.between(0.01, 2);
-                const Kernel kernel =
-                    make_kernel(dice.between(1.2, 2) * dp, dp, dimensions, shape);
+                const Kernel kernel = make_kernel(dice.between(1.2, 2) * dp, dp, dimensions, shape);
                 const real cell = std::pow(dp, dimensions);
                 real one = kernel(Vec<real>{0, 0, 0}).w * cell;
                 real moment = 0;
@@ -148,8 +147,8 @@ TEST(Kernel, StaysIsotropicAmongStrainedParticles)
                 const double s = dice.between(0.02, 0.2) * (draw % 2 == 0 ? 1 : -1);
                 const real h = dice.between(1.4, 1.6);
                 const double plain = resistance(make_kernel(h, 1, dimensions), places, s);
-                const double even = resistance(
-                    make_kernel(h, 1, dimensions, KernelShape::isotropic), places, s);
+                const double even =
+                    resistance(make_kernel(h, 1, dimensions, KernelShape::isotropic), places, s);
                 squares[0] += sq(plain);
                 squares[1] += sq(even);
                 worst = std::max(worst, std::abs(even));

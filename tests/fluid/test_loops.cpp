@@ -391,8 +391,8 @@ std::vector<Choice> every_choice()
                 }
             }
             choices.push_back({precision, set, true, true, FormulationKind::mps});
-            choices.push_back({precision, set, true, true, FormulationKind::sph,
-                               KernelShape::isotropic});
+            choices.push_back(
+                {precision, set, true, true, FormulationKind::sph, KernelShape::isotropic});
         }
     }
     return choices;

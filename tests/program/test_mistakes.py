@@ -66,6 +66,14 @@ scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 
                                                                           "density = -400.0")
         self.refused(text, "particles.spacing", "density", "-400")
 
+    def test_a_kernel_of_sph_with_mps(self):
+        for kernel in ("isotropic", "wendland"):
+            text = FLOOD.replace("[fluid]\n", f'[fluid]\nformulation = "mps"\nkernel = "{kernel}"\n')
+            if kernel == "isotropic":
+                self.refused(text, "`fluid.kernel`: is available for SPH only", "case.toml:9:10:", "leave kernel out")
+            else:  # the default, written out
+                self.assertEqual(self.call("check", self.write(text)).returncode, 0)
+
     def test_overlapping_bodies(self):
         second = '[[body]]\nname = "second"\nshape = "box"\nsize = [0.2, 0.2, 0.2]\n' \
                  "density = 500.0\nposition = [0.9, 0.26, 0.15]\n"

@@ -157,8 +157,8 @@ velocity_field = ["1 + z", "0", "x*z"]
 TEST(RareEffects, AreAbsentUnlessAskedFor)
 {
     const std::array<const char*, 8> effects{
-        "no_slip",    "sps_turbulence", "drive",              "particle_collision",
-        "cavitation", "moving_walls",   "corrected_gradient", "isotropic_kernel"};
+        "no_slip",      "sps_turbulence",     "drive",           "particle_collision", "cavitation",
+        "moving_walls", "corrected_gradient", "isotropic_kernel"};
     const Simulation with = make(channel);
     for (const char* effect : effects) {
         EXPECT_TRUE(with.plan.runs(effect)) << effect;
@@ -172,6 +172,22 @@ TEST(RareEffects, AreAbsentUnlessAskedFor)
         EXPECT_FALSE(p->has(field::velocity_sum) || p->has(field::depth) || p->has(field::strain) ||
                      p->has(field::turbulent_viscosity) || p->has(field::moments) ||
                      p->has(field::cavity) || p->has(field::gradient_correction));
+    }
+}
+
+TEST(RareEffects, TheIsotropicKernelAsksForShorterSteps)
+{
+    for (const char* text : {channel, basin}) {
+        const Simulation plain = make(text, {"fluid.kernel=wendland"});
+        const Simulation even = make(text, {"fluid.kernel=isotropic"});
+        ASSERT_EQ(plain.plan.limits.size(), even.plan.limits.size());
+        for (std::size_t k = 0; k < plain.plan.limits.size(); ++k) {
+            const TimeLimit& limit = plain.plan.limits[k];
+            const double shorter = limit.name == "acoustic"  ? 1.065
+                                   : limit.name == "viscous" ? 1.14
+                                                             : 1;
+            EXPECT_DOUBLE_EQ(limit.dt, shorter * even.plan.limits[k].dt) << limit.name;
+        }
     }
 }
 

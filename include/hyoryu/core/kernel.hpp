@@ -76,7 +76,6 @@ struct Kernel {
 };
 
 /// The kernel of smoothing length h on a lattice of the given spacing.
-Kernel make_kernel(real h, real spacing, int dimensions,
-                   KernelShape shape = KernelShape::wendland);
+Kernel make_kernel(real h, real spacing, int dimensions, KernelShape shape = KernelShape::wendland);
 
 } // namespace hyoryu
