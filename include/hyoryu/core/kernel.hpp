@@ -5,8 +5,6 @@
 
 #include "hyoryu/core/vec.hpp"
 
-#include <string_view>
-
 namespace hyoryu {
 
 /// Geometry of the ordered pair i <- j, computed once for all terms of a sweep.
@@ -25,11 +23,6 @@ enum class KernelShape {
     isotropic // F of a kernel whose sum F r r^T stays isotropic as the particles are strained
 };
 
-constexpr std::string_view name(KernelShape shape)
-{
-    return shape == KernelShape::isotropic ? "isotropic" : "wendland";
-}
-
 /// The highest frequency of sound among particles on a lattice, and their largest decay rate by
 /// diffusion, over those with the kernel of Wendland [1]: steps are shorter by as much. Sums over
 /// square and cubic lattices at a smoothing length of 1.5 spacings, ours.
@@ -45,10 +38,11 @@ constexpr double diffusion_rate(KernelShape shape)
 /// Support 2h, q = r/h, b = 1 - q/2.
 /// Wendland C2: W = a b^4 (2q + 1), F = -5 a / h^2 b^3, a = 7/(4 pi h^2) in two dimensions,
 /// 21/(16 pi h^3) in three (Wendland 1995; Dehnen & Aly 2012).
-/// Isotropic: F as b^3 (1 + 12 (1 - b) b^2). A square lattice that is stretched by a strain of up
-/// to 0.2 along an axis and shortened along the other changes sum F r r^T by 0.6 to 2.1 % of the
-/// strain and trace, for 5 to 9 % with Wendland's; a cubic one by up to 3 %, for 6 to 7 %. That
-/// difference resists the strain as an elastic body would, at any spacing. Ours.
+/// Isotropic: W as Wendland's, F proportional to b^3 (1 + 12 (1 - b) b^2). With the moments
+/// M = -sum V F r r^T of a lattice that is shortened by a strain s along x and stretched along z,
+/// M_xx - M_zz = 2 kappa s resists the strain as an elastic body would, at any spacing. At
+/// h = 1.5 spacings and s up to 0.2 kappa is 0.008 to 0.021 in a square lattice and up to 0.03 in
+/// a cubic one; with Wendland's F 0.05 to 0.085 and 0.06 to 0.07. Ours; docs/accuracy.md.
 /// W and F are each scaled so that sum W V = 1 and -sum F x^2 V = 1 on the particle lattice.
 struct Kernel {
     real h = 1;       // smoothing length [m]

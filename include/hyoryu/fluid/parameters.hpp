@@ -48,9 +48,9 @@ struct FluidParameters {
     int dimensions = 3;
     FormulationKind formulation = FormulationKind::sph;
     EquationOfState eos;
-    real spacing = 0; // dp [m]
-    real h = 0;       // smoothing length [m]
-    KernelShape kernel = KernelShape::wendland;
+    real spacing = 0;                           // dp [m]
+    real h = 0;                                 // smoothing length [m]
+    KernelShape kernel = KernelShape::wendland; // of gradients
     real mass = 0;             // of a particle, rho0 times the volume of its cell [kg]
     Vec3 gravity{0, 0, -9.81}; // g [m/s2]
     Vec3 drive{0, 0, 0};       // acceleration besides gravity, not part of hydrostatics [m/s2]

@@ -102,8 +102,8 @@ struct FluidSettings {
     SlipSettings walls;
     Vec3 acceleration{0, 0, 0}; // besides gravity [m/s2]
     FluidChoices effects;
-    double smoothing_ratio = 1.5; // h / spacing [1]
-    KernelShape kernel = KernelShape::wendland;
+    double smoothing_ratio = 1.5;               // h / spacing [1]
+    KernelShape kernel = KernelShape::wendland; // of gradients
     std::vector<FluidBlock> blocks;
 };
 
