@@ -110,6 +110,9 @@ public:
     }
 
 private:
+    friend Visitor;
+    StateVisitor() = default;
+
     Visitor& self() { return static_cast<Visitor&>(*this); }
 };
 
