@@ -25,7 +25,8 @@ std::array<TimeLimit, 3> fluid_limits(const FluidParameters& fluid, real top_spe
                                       real top_acceleration, real nu);
 
 /// 2 (h/c0) sqrt(M / (N m)): the limit of explicit coupling for a light body of mass M with N
-/// particles in its surface layer and fluid particles of mass m (measured: 2 is stable, 4 is not).
+/// particles in its surface layer and fluid particles of mass m (measured: 2 is stable, 4 is not);
+/// shorter with the isotropic kernel, as the acoustic one.
 TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles);
 
 /// The shortest of the limits.
