@@ -134,7 +134,7 @@ TEST(Forecast, OfFramesFollowsTheFluidThatIsLeft)
 TEST(Forecast, OfMemoryIsThatOfTheProgramAndWhatItHolds)
 {
     const Planned box = planned(fall);
-    EXPECT_NEAR(box.plan.memory, 22e6, 2e6) << "the program with its libraries";
+    EXPECT_NEAR(box.plan.memory, 18e6, 2e6) << "the program with its libraries";
     const Planned fine = planned(tank, {"particles.spacing=0.01"});
     const Planned coarse = planned(tank);
     const auto more =
