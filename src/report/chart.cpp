@@ -14,9 +14,11 @@ namespace {
 
 using Style = ChartLine::Style;
 
-// Okabe and Ito (2008): distinguishable with every common colour vision.
-constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                             "#e69f00", "#56b4e9", "#000000"};
+// Okabe and Ito (2008), before its black two of the muted scheme of Tol (2021): distinguishable
+// with every common colour vision. Nine, since a number that shares no divisor with that of the
+// dashes of `svg_stroke` gives the most pairs of both.
+constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                             "#56b4e9", "#882255", "#999933", "#000000"};
 
 /// "momentum [kg m/s]" with the power of ten that the labels leave out.
 std::string axis_title(const std::string& title, const Scale& scale)

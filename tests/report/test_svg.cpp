@@ -267,6 +267,23 @@ TEST(Charts, StylesAreLinesDotsOrBoth)
     EXPECT_EQ(count(svg, "stroke=\"#0072b2\""), 1U);
 }
 
+TEST(Charts, EightLinesHaveColoursOfTheirOwn)
+{
+    const std::string theory = "#000000";
+    for (std::size_t lines = 2; lines <= 8; ++lines) {
+        const std::vector<ChartLine> all(lines, {"", {0, 1}, {1, 2}, ChartLine::Style::line});
+        const std::string svg = svg_chart({.lines = all});
+        std::set<std::string> colours;
+        const std::string before = "class=\"l\" stroke=\"";
+        for (std::size_t at = svg.find(before); at != std::string::npos;
+             at = svg.find(before, at + 1)) {
+            colours.insert(svg.substr(at + before.size(), theory.size()));
+        }
+        EXPECT_EQ(colours.size(), lines);
+        EXPECT_FALSE(colours.contains(theory));
+    }
+}
+
 TEST(Charts, StandSideBySideInAFigure)
 {
     const Chart chart{.title = "left & right", .lines = {{"", {0, 1}, {0, 1}}}, .width = 300};
