@@ -217,6 +217,17 @@ void expect_common(Comm* comm, const std::vector<Common>& things)
     }
 }
 
+Fillers fillers_of(Comm* comm)
+{
+    if (comm == nullptr) {
+        return {};
+    }
+    const std::size_t own = std::hash<std::string>()(host_name());
+    const std::vector<std::size_t> hosts = gather(*comm, std::span<const std::size_t>(&own, 1)).all;
+    const auto here = static_cast<double>(std::ranges::count(hosts, own));
+    return {comm, here / comm->size()};
+}
+
 bool writes(const Comm* comm)
 {
     return comm == nullptr || comm->rank() == 0;

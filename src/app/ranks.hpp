@@ -4,6 +4,7 @@
 
 #include "hyoryu/ranks/counted.hpp"
 #include "hyoryu/ranks/reduction.hpp"
+#include "hyoryu/scene/fill.hpp"
 
 #include <exception>
 #include <functional>
@@ -43,6 +44,9 @@ bool is_first();
 
 /// Of this machine.
 std::string host_name();
+
+/// The processes that fill a case together, with the part of them that is on this machine.
+Fillers fillers_of(Comm* comm);
 
 /// Whether this process is the one that writes: alone, or rank 0.
 bool writes(const Comm* comm);

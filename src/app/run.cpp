@@ -16,7 +16,6 @@
 #include "hyoryu/scene/machine_memory.hpp"
 #include "hyoryu/scene/memory.hpp"
 #include "hyoryu/sim/checkpoint.hpp"
-#include "hyoryu/sim/dealing.hpp"
 #include "hyoryu/sim/state_parts.hpp"
 #include "hyoryu/sim/watch.hpp"
 
@@ -42,15 +41,17 @@ fs::path results_folder(const RunOptions& options)
 }
 
 // Tells what needs the memory: particles, or the histories of very many steps.
-void check_memory(const Scene& scene, const Plan& plan)
+// `part`: of the particles that are on this machine.
+void check_memory(const Scene& scene, const Plan& plan, double part)
 {
     const double memory = machine_memory();
-    if (plan.memory > memory) {
-        const bool by_steps = memory_bytes(scene, plan, {}) < memory / 2;
+    const double needed = part * plan.memory;
+    if (needed > memory) {
+        const bool by_steps = part * memory_bytes(scene, plan, {}) < memory / 2;
         throw CaseError(
             fmt::format(
                 "the run needs about {} of memory, but only {} are available to this process",
-                readable_bytes(plan.memory), readable_bytes(memory)),
+                readable_bytes(needed), readable_bytes(memory)),
             by_steps
                 ? fmt::format("the histories of {:.2g} steps need it, of {:.2g} s each: `hyoryu "
                               "check` tells what limits the step",
@@ -105,7 +106,7 @@ StateParts good_parts(const Job& job)
 void recover(Job& job, const NumericalError& error)
 {
     const Scene& scene = job.sim.scene;
-    Filling filling = writes(job.comm) ? fill(scene) : Filling{};
+    Filling filling = fill(scene, fillers_of(job.comm));
     Simulation sim = make_to_restore(scene, job.sim.plan, std::move(filling), job.comm);
     if (job.comm == nullptr) {
         restore(sim, job.last_good->snapshot());
@@ -352,19 +353,13 @@ int run_share(const RunOptions& options, Ranks& others)
         from = resumption_for_all(options, folder, scene, comm);
         scene = from->scene;
     }
-    Filling filling;
-    Plan plan;
-    if (writes(comm)) {
-        filling = fill(scene);
-        plan = make_plan(scene, filling);
-    }
+    const Fillers fillers = fillers_of(comm);
+    Filling filling = fill(scene, fillers);
+    const Plan plan = make_plan(scene, filling, comm);
     watch_for_stop();
     if (writes(comm)) {
         tell_warnings(options, plan);
-        check_memory(scene, plan);
-    }
-    if (comm != nullptr) {
-        deal_plan(*comm, scene, filling, plan);
+        check_memory(scene, plan, fillers.part);
     }
     std::optional<RankLog> ranks;
     if (comm != nullptr) {

@@ -176,6 +176,7 @@ Job start(const Beginning& from, Filling filling)
     if (writes(from.comm)) {
         lock.emplace(begin_folder(from, case_text, filling));
     }
+    any_wishes<1>(from.comm, {false}); // none writes to the folder before it is ready
     Simulation sim = make_simulation(from.scene, from.plan, std::move(filling), from.comm);
     Job job = follower(from, std::move(sim));
     if (writes(from.comm)) {

@@ -5,7 +5,6 @@
 
 #include "sweeps.hpp"
 
-#include <map>
 #include <numeric>
 
 namespace hyoryu {
@@ -29,19 +28,13 @@ Store whole_bodies(const Fluid& fluid)
     return whole;
 }
 
-Cuts even_cuts(const TileLattice& lattice, std::span<const Vec3> fluid, int ranks)
+Cuts even_cuts(const TileLattice& lattice, std::span<const Vec3> fluid, Comm& comm)
 {
-    std::map<std::uint64_t, double> count;
+    std::map<std::uint64_t, double> own;
     for (const Vec3& x : fluid) {
-        count[lattice.tile_of(lattice.wrapped(x))] += 1;
+        own[lattice.tile_of(lattice.wrapped(x))] += 1;
     }
-    std::vector<std::uint64_t> tiles;
-    std::vector<double> weights;
-    for (const auto& [tile, particles] : count) {
-        tiles.push_back(tile);
-        weights.push_back(particles);
-    }
-    return cut_evenly(tiles, weights, ranks);
+    return cut_evenly(comm, own);
 }
 
 void keep_tiles(Tiles& tiles, const TileRange& own)

@@ -42,4 +42,27 @@ Cuts cut_evenly(std::span<const std::uint64_t> tiles, std::span<const double> we
     return cuts;
 }
 
+Cuts cut_evenly(Comm& comm, const TileWeights& own)
+{
+    struct TileWeight {
+        std::uint64_t tile;
+        double weight;
+    };
+    std::vector<TileWeight> listed;
+    for (const auto& [tile, weight] : own) {
+        listed.push_back({tile, weight});
+    }
+    TileWeights all;
+    for (const TileWeight& one : gather(comm, std::span<const TileWeight>(listed)).all) {
+        all[one.tile] += one.weight;
+    }
+    std::vector<std::uint64_t> tiles;
+    std::vector<double> weights;
+    for (const auto& [tile, weight] : all) {
+        tiles.push_back(tile);
+        weights.push_back(weight);
+    }
+    return cut_evenly(tiles, weights, comm.size());
+}
+
 } // namespace hyoryu

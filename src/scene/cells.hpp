@@ -43,15 +43,18 @@ inline double volume_of(const Cells& cells, int dimensions)
     return cells.edge(0) * cells.edge(2) * (dimensions == 3 ? cells.edge(1) : 1);
 }
 
+/// The numbers along the axes of cell k, the first axis fastest.
+inline std::array<Index, 3> cell_at(Index k, const std::array<Index, 3>& count)
+{
+    return {k % count[0], k / count[0] % count[1], k / count[0] / count[1]};
+}
+
 /// Calls f(cell) for every cell, by its numbers along the axes.
 inline void over_cells(const std::array<Index, 3>& count, const auto& f)
 {
-    for (Index k = 0; k < count[2]; ++k) {
-        for (Index j = 0; j < count[1]; ++j) {
-            for (Index i = 0; i < count[0]; ++i) {
-                f(std::array<Index, 3>{i, j, k});
-            }
-        }
+    const Index number = count[0] * count[1] * count[2];
+    for (Index k = 0; k < number; ++k) {
+        f(cell_at(k, count));
     }
 }
 

@@ -2,12 +2,14 @@
 #include "columns.hpp"
 
 #include "along_ray.hpp"
+#include "fill_region.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -141,16 +143,16 @@ WaterColumn column_of(const Scene& scene, const FreeSpace& space, const Placed& 
     return column;
 }
 
-Index particles_in(const WaterColumn& column, double share)
+Index particles_in(double volume, double share)
 {
-    return std::llround(column.volume / share);
+    return std::llround(volume / share);
 }
 
 // The middles of shares of the volume of a column, from its bottom up.
 void share_out(const WaterColumn& column, const Vec3& along, double share,
                std::vector<Vec3>& points)
 {
-    const Index count = particles_in(column, share);
+    const Index count = particles_in(column.volume, share);
     double filled = 0;
     Index next = 0;
     for (const Piece& piece : column.pieces) {
@@ -171,18 +173,15 @@ void share_out(const WaterColumn& column, const Vec3& along, double share,
 
 // The share of a particle, near the volume of a cube of the spacing, with which whole numbers of
 // particles in all columns have the volume of the columns.
-double fair_share(const std::vector<WaterColumn>& columns, double cube)
+double fair_share(const std::vector<double>& volumes, double cube)
 {
     constexpr int most = 8; // rounds; each changes the number by fewer
-    double volume = 0;
-    for (const WaterColumn& column : columns) {
-        volume += column.volume;
-    }
+    const double volume = std::accumulate(volumes.begin(), volumes.end(), 0.0);
     double share = cube;
     for (int round = 0; round < most; ++round) {
         Index count = 0;
-        for (const WaterColumn& column : columns) {
-            count += particles_in(column, share);
+        for (const double of_column : volumes) {
+            count += particles_in(of_column, share);
         }
         const double next = count > 0 ? volume / static_cast<double>(count) : cube;
         if (next == share) {
@@ -193,23 +192,31 @@ double fair_share(const std::vector<WaterColumn>& columns, double cube)
     return share;
 }
 
+// Of the columns of all processes, in their order.
+std::vector<double> volumes_of_all(const std::vector<WaterColumn>& columns, Comm* comm)
+{
+    std::vector<double> volumes;
+    std::ranges::transform(columns, std::back_inserter(volumes), &WaterColumn::volume);
+    return comm == nullptr ? volumes : gather(*comm, std::span<const double>(volumes)).all;
+}
+
 } // namespace
 
 ColumnParticles in_columns(const Scene& scene, const FreeSpace& space, const Placed& block,
-                           const Cells& cells)
+                           const Cells& cells, Comm* comm)
 {
     const Vec3 along = upwards(scene);
     std::array<Index, 3> count = cells.count;
     count[at(axis_of(along))] = 1;
-    const Index number = count[0] * count[1] * count[2];
+    const FillPart own = part_of(count[0] * count[1] * count[2], comm);
+    const Index number = own.last - own.first;
     std::vector<WaterColumn> columns(at(number));
     parallel_blocks(0, number, [&](Index c) {
-        columns[at(c)] =
-            column_of(scene, space, block, cells,
-                      {c % count[0], c / count[0] % count[1], c / (count[0] * count[1])});
+        columns[at(c)] = column_of(scene, space, block, cells, cell_at(own.first + c, count));
     });
     const double cube = std::pow(scene.spacing, scene.dimensions);
-    const double share = scene.open.empty() ? fair_share(columns, cube) : cube;
+    const double share =
+        scene.open.empty() ? fair_share(volumes_of_all(columns, comm), cube) : cube;
     std::vector<std::vector<Vec3>> of_column(at(number));
     parallel_blocks(0, number, [&](Index c) {
         std::vector<Vec3>& points = of_column[at(c)];

@@ -5,6 +5,8 @@
 #include "cells.hpp"
 #include "free_space.hpp"
 
+#include "hyoryu/ranks/comm.hpp"
+
 #include <vector>
 
 namespace hyoryu {
@@ -18,8 +20,9 @@ struct ColumnParticles {
 /// volume of its cells, rounded to whole ones, each in the middle of its share from the bottom up.
 /// The share is the same in all columns: nearly a cube of the spacing, so much more or less that
 /// the water of all columns is that of the block; with open sides, whose carpets are made of cubes,
-/// exactly a cube. Particles nearer to a surface than half a spacing move to that distance.
+/// exactly a cube. Particles nearer to a surface than half a spacing move to that distance. Of
+/// several processes each fills a range of the columns.
 ColumnParticles in_columns(const Scene& scene, const FreeSpace& space, const Placed& block,
-                           const Cells& cells);
+                           const Cells& cells, Comm* comm);
 
 } // namespace hyoryu

@@ -195,6 +195,7 @@ void drop(const std::vector<bool>& gone, Filling& filling)
         values.resize(kept);
     };
     keep(filling.fluid);
+    keep(filling.fluid_number);
     keep(filling.fluid_velocity);
     keep(filling.fluid_depth);
     keep(filling.fluid_pressure);
@@ -382,10 +383,14 @@ Bounds box_of(const Cluster& cluster)
     return box;
 }
 
-// Where sub-cells of the fluid are.
-Bounds cells_of(const Filling& filling, double spacing)
+// Where sub-cells of the fluid are. `elsewhere`: bounds of particles that are not at hand.
+Bounds cells_of(const Filling& filling, const Bounds& elsewhere, double spacing)
 {
     Bounds fluid;
+    if (!elsewhere.empty()) {
+        fluid.add(elsewhere.min - Vec3::Constant(spacing));
+        fluid.add(elsewhere.max + Vec3::Constant(spacing));
+    }
     for (const Vec3& p : filling.fluid) {
         fluid.add(p - Vec3::Constant(spacing));
         fluid.add(p + Vec3::Constant(spacing));
@@ -429,14 +434,14 @@ void take_out(const Scene& scene, const Bounds& box, const Cluster& cluster, Fil
 
 } // namespace
 
-void take_out_bodies(const Scene& scene, Filling& filling)
+void take_out_bodies(const Scene& scene, const Bounds& elsewhere, Filling& filling)
 {
-    Bounds fluid = cells_of(filling, scene.spacing);
+    Bounds fluid = cells_of(filling, elsewhere, scene.spacing);
     for (const Cluster& cluster : clusters_of(scene)) {
         const Cluster reaching = within(cluster, fluid);
         if (!reaching.shapes.empty()) {
             take_out(scene, box_of(cluster), reaching, filling);
-            fluid = cells_of(filling, scene.spacing);
+            fluid = cells_of(filling, elsewhere, scene.spacing);
         }
     }
 }

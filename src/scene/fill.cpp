@@ -3,7 +3,9 @@
 
 #include "conform.hpp"
 #include "displace.hpp"
+#include "displace_near.hpp"
 #include "fill_block.hpp"
+#include "fill_region.hpp"
 #include "fill_size.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/formula.hpp"
@@ -12,12 +14,14 @@
 #include "stand_off.hpp"
 #include "units.hpp"
 #include "walls.hpp"
+#include "walls_by_range.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -37,13 +41,21 @@ Placed placed(const Scene& scene, const BodySettings& body)
 
 struct BlockPoints {
     BlockParticles particles;
-    double top = -infinity; // highest height of the block's surface
+    Index before = 0, count = 0; // points of processes before this one, and of all
+    double top = -infinity;      // highest height of the block's surface
     Bounds box;
 };
 
-BlockPoints points_of(const Scene& scene, std::size_t block)
+BlockPoints points_of(const Scene& scene, std::size_t block, Comm* comm)
 {
-    BlockPoints result{fill_block(scene, block)};
+    BlockPoints result{fill_block(scene, block, comm)};
+    result.count = static_cast<Index>(result.particles.points.size());
+    if (comm != nullptr) {
+        const std::vector<Index> counts =
+            gather(*comm, std::span<const Index>(&result.count, 1)).all;
+        result.before = std::accumulate(counts.begin(), counts.begin() + comm->rank(), Index(0));
+        result.count = std::accumulate(counts.begin(), counts.end(), Index(0));
+    }
     result.box = bounds(placed(scene, scene.fluid->blocks[block]));
     for (int corner = 0; corner < 8; ++corner) {
         const Bounds& b = result.box;
@@ -129,22 +141,41 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
     filling.warnings.push_back(note);
 }
 
-// Fields are the user's formulas: a division by zero must not reach the first step.
-void check_start(const Scene& scene, std::size_t block, const Vec3& p, const Vec3& v,
-                 double pressure)
+// How a particle starts.
+struct Start {
+    std::int64_t number = 0;
+    std::int64_t block = 0;
+    Vec3 place{0, 0, 0};
+    Vec3 velocity{0, 0, 0};
+    double pressure = 0;
+
+    bool speed_fits() const { return velocity.norm() <= largest_value("m/s"); } // false for NaN
+    bool fits() const { return speed_fits() && std::isfinite(pressure); }
+};
+
+// Fields are the user's formulas: a division by zero must not reach the first step. `faults`: of
+// this process; all tell the first of all.
+void check_starts(const Scene& scene, Comm* comm, std::vector<Start> faults)
 {
-    const bool speed_fits = v.norm() <= largest_value("m/s"); // false for NaN
-    if (speed_fits && std::isfinite(pressure)) {
+    if (comm != nullptr) {
+        faults = gather(*comm, std::span<const Start>(faults)).all;
+    }
+    const auto first = std::ranges::min_element(faults, {}, &Start::number);
+    if (first == faults.end()) {
         return;
     }
-    const std::string value = speed_fits ? fmt::format("{} Pa", pressure)
+    const Vec3& p = first->place;
+    const Vec3& v = first->velocity;
+    const bool speed_fits = first->speed_fits();
+    const std::string value = speed_fits ? fmt::format("{} Pa", first->pressure)
                                          : fmt::format("({}, {}, {}) m/s", v.x(), v.y(), v.z());
-    throw CaseError({diagnostic_at(
-        scene, scene.fluid->blocks[block].place,
-        fmt::format("fluid.block[{}].{}", block, speed_fits ? "pressure_field" : "velocity_field"),
-        fmt::format("is {} at ({:.6g}, {:.6g}, {:.6g}) m, where there is fluid", value, p.x(),
-                    p.y(), p.z()),
-        "the formula must give a finite number at every particle of the block")});
+    throw CaseError(
+        {diagnostic_at(scene, scene.fluid->blocks[static_cast<std::size_t>(first->block)].place,
+                       fmt::format("fluid.block[{}].{}", first->block,
+                                   speed_fits ? "pressure_field" : "velocity_field"),
+                       fmt::format("is {} at ({:.6g}, {:.6g}, {:.6g}) m, where there is fluid",
+                                   value, p.x(), p.y(), p.z()),
+                       "the formula must give a finite number at every particle of the block")});
 }
 
 // Appends points, without a copy if they are the first.
@@ -157,33 +188,42 @@ void append(std::vector<Vec3>& all, std::vector<Vec3> points)
     }
 }
 
-void fill_fluid(const Scene& scene, Filling& filling)
+// Of several processes each fills a part of each block.
+void fill_fluid(const Scene& scene, Comm* comm, Filling& filling)
 {
     std::vector<BlockPoints> blocks;
     std::vector<StartField> starts;
     for (std::size_t b = 0; b < scene.fluid->blocks.size(); ++b) {
-        blocks.push_back(points_of(scene, b));
+        blocks.push_back(points_of(scene, b, comm));
         starts.emplace_back(scene.fluid->blocks[b], scene.dimensions);
     }
     const bool moves = !std::ranges::all_of(starts, &StartField::is_at_rest);
     const bool presses = std::ranges::any_of(starts, &StartField::has_pressure);
+    std::vector<Start> faults;
+    Index first = 0; // number of the first particle of the block
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         BlockParticles& particles = blocks[b].particles;
-        filling.fluid_volume += static_cast<double>(particles.points.size()) * particles.cell;
+        filling.fluid_volume += static_cast<double>(blocks[b].count) * particles.cell;
+        for (Index k = 0; comm != nullptr && k < std::ssize(particles.points); ++k) {
+            filling.fluid_number.push_back(first + blocks[b].before + k);
+        }
         const std::size_t count = filling.fluid.size() + particles.points.size();
         filling.fluid_cut.resize(count, particles.cut ? 1 : 0);
         filling.fluid_depth.reserve(count);
         filling.fluid_velocity.reserve(moves ? count : 0);
         filling.fluid_pressure.reserve(presses ? count : 0);
         for (const Vec3& p : particles.points) {
-            const Vec3 velocity = starts[b].velocity(p);
-            const double pressure = starts[b].pressure(p);
-            check_start(scene, b, p, velocity, pressure);
+            const Start start{first + blocks[b].before + (&p - particles.points.data()),
+                              static_cast<std::int64_t>(b), p, starts[b].velocity(p),
+                              starts[b].pressure(p)};
+            if (faults.empty() && !start.fits()) {
+                faults.push_back(start);
+            }
             if (moves) {
-                filling.fluid_velocity.push_back(velocity);
+                filling.fluid_velocity.push_back(start.velocity);
             }
             if (presses) {
-                filling.fluid_pressure.push_back(pressure);
+                filling.fluid_pressure.push_back(start.pressure);
             }
             filling.fluid_depth.push_back(
                 scene.gravity.norm() > 0 ? surface_above(scene, blocks, b, p) - height(scene, p)
@@ -193,7 +233,10 @@ void fill_fluid(const Scene& scene, Filling& filling)
         if (particles.in_walls > 0) {
             warn_about_walls(scene, b, particles, filling);
         }
+        first += blocks[b].count;
     }
+    check_starts(scene, comm, std::move(faults));
+    filling.fluid_elsewhere = first - static_cast<Index>(filling.fluid.size());
 }
 
 // The box of a wall over its whole motion: a path does not overshoot its points.
@@ -264,35 +307,8 @@ Bounds domain_of(const Scene& scene)
 
 namespace {
 
-// Carpets of open sides are made of cubes of the spacing, and so is the water that they meet. A
-// volume that is theirs but for rounding is theirs.
-void settle_volume(const Scene& scene, Filling& filling)
+void fill_bodies(const Scene& scene, Filling& filling)
 {
-    constexpr double round_off = 1e-9;
-    const double cubes =
-        static_cast<double>(filling.fluid.size()) * std::pow(scene.spacing, scene.dimensions);
-    const bool same = std::abs(filling.fluid_volume - cubes) <= round_off * cubes;
-    filling.fluid_volume = same || !scene.open.empty() ? cubes : filling.fluid_volume;
-}
-
-} // namespace
-
-double particle_volume(const Scene& scene, const Filling& filling)
-{
-    return filling.fluid.empty() ? std::pow(scene.spacing, scene.dimensions)
-                                 : filling.fluid_volume / static_cast<double>(filling.fluid.size());
-}
-
-Filling fill(const Scene& scene)
-{
-    check_size(scene);
-    Filling filling;
-    filling.domain = domain_of(scene);
-    if (scene.fluid) {
-        fill_walls(scene, filling);
-        carry_walls_out(scene, filling);
-        fill_fluid(scene, filling);
-    }
     for (const BodySettings& body : scene.bodies) {
         filling.bodies.push_back(aggregate(body.shape, body.spacing, scene.dimensions));
         if (const auto* mesh = std::get_if<MeshShape>(&body.shape);
@@ -304,15 +320,53 @@ Filling fill(const Scene& scene)
         }
         move_to_middle(body, filling.bodies.back().points);
     }
-    if (scene.fluid && !scene.bodies.empty()) {
-        take_out_bodies(scene, filling);
-        stand_off_bodies(scene, filling);
+}
+
+// Carpets of open sides are made of cubes of the spacing, and so is the water that they meet. A
+// volume that is theirs but for rounding is theirs.
+void settle_volume(const Scene& scene, Filling& filling)
+{
+    constexpr double round_off = 1e-9;
+    const double cubes =
+        static_cast<double>(filling.fluid_count()) * std::pow(scene.spacing, scene.dimensions);
+    const bool same = std::abs(filling.fluid_volume - cubes) <= round_off * cubes;
+    filling.fluid_volume = same || !scene.open.empty() ? cubes : filling.fluid_volume;
+}
+
+} // namespace
+
+double particle_volume(const Scene& scene, const Filling& filling)
+{
+    return filling.fluid_count() == 0
+               ? std::pow(scene.spacing, scene.dimensions)
+               : filling.fluid_volume / static_cast<double>(filling.fluid_count());
+}
+
+Filling fill(const Scene& scene, const Fillers& fillers)
+{
+    check_size(scene, fillers.part);
+    Filling filling;
+    filling.domain = domain_of(scene);
+    fill_bodies(scene, filling);
+    if (!scene.fluid) {
+        return filling;
     }
-    if (scene.fluid) {
-        settle_volume(scene, filling);
-        relax_packing(scene, filling);
-        part_pairs(scene, filling);
+    fill_fluid(scene, fillers.comm, filling);
+    std::optional<FillRegion> region;
+    if (fillers.comm == nullptr) {
+        fill_walls(scene, filling);
+        carry_walls_out(scene, filling);
+    } else {
+        region.emplace(fill_walls_by_range(scene, *fillers.comm, filling));
+        give_fluid(
+            *fillers.comm, [&](const Vec3& p) { return region->owner(p); }, filling);
     }
+    if (!scene.bodies.empty()) {
+        displace_by_bodies(scene, region ? &*region : nullptr, filling);
+    }
+    settle_volume(scene, filling);
+    relax_packing(scene, region ? &*region : nullptr, filling);
+    part_pairs(scene, region ? &*region : nullptr, filling);
     return filling;
 }
 

@@ -4,6 +4,7 @@
 #include "along_ray.hpp"
 #include "columns.hpp"
 #include "seeded_water.hpp"
+#include "shape_points.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/fill.hpp"
@@ -87,25 +88,27 @@ Cells even_cells(const Bounds& box, double spacing, int dimensions)
     return cells;
 }
 
-std::vector<Vec3> middles_in(const Placed& block, const Cells& cells)
+// The middles of the cells of this process.
+std::vector<Vec3> middles_in(const Placed& block, const Cells& cells, const Comm* comm)
 {
     std::vector<Vec3> points;
-    over_cells(cells.count, [&](const std::array<Index, 3>& cell) {
-        const Vec3 p = cells.middle(cell);
+    const FillPart own = part_of(cells.count[0] * cells.count[1] * cells.count[2], comm);
+    for (Index k = own.first; k < own.last; ++k) {
+        const Vec3 p = cells.middle(cell_at(k, cells.count));
         if (signed_distance(block, p) < 0) {
             points.push_back(p);
         }
-    });
+    }
     return points;
 }
 
-// Those of some points that are free, and whether they all fit the walls.
+// Those of some points that are free, and whether all processes' fit the walls.
 struct Fit {
     std::vector<Vec3> points;
     bool fits = true;
 };
 
-Fit fit(const FreeSpace& space, std::vector<Vec3> points, double edge)
+Fit fit(const FreeSpace& space, std::vector<Vec3> points, double edge, Comm* comm)
 {
     std::vector<double> clearance(points.size());
     parallel_for(0, static_cast<Index>(points.size()),
@@ -120,6 +123,7 @@ Fit fit(const FreeSpace& space, std::vector<Vec3> points, double edge)
     }
     points.resize(kept);
     result.points = std::move(points);
+    result.fits = sum_of_all(comm, result.fits ? 0 : 1) == 0;
     return result;
 }
 
@@ -159,46 +163,63 @@ Bounds uncovered(const Scene& scene, const FreeSpace& space, Bounds box)
     return box;
 }
 
-// Points in layers below the surface of a block.
-Aggregate layers_of(const Scene& scene, const FluidBlock& block)
+// Points in layers below the surface of a block: those of this process, and the volume of one.
+struct LayerPoints {
+    std::vector<Vec3> points;
+    double volume = 0; // [m3], [m2] in two dimensions
+};
+
+LayerPoints layers_of(const Scene& scene, const FluidBlock& block, const Comm* comm)
 {
-    Aggregate layers = aggregate(block.shape, scene.spacing, scene.dimensions);
-    for (Vec3& p : layers.points) {
-        p = block.centre + block.rotation * p;
+    const auto points_of = [&](const auto& shape) -> ShapePoints {
+        if constexpr (requires { shape_points(shape, scene.spacing, scene.dimensions); }) {
+            return shape_points(shape, scene.spacing, scene.dimensions);
+        } else {
+            expects(false); // the reader knows no layers of other shapes
+            return {};
+        }
+    };
+    const ShapePoints all = std::visit(points_of, block.shape);
+    const FillPart own = part_of(number_of(all), comm);
+    LayerPoints layers;
+    layers.volume = volume(block.shape, scene.dimensions) / static_cast<double>(number_of(all));
+    for (Index k = own.first; k < own.last; ++k) {
+        layers.points.emplace_back(block.centre + block.rotation * point_of(all, k).place);
     }
     return layers;
 }
 
 } // namespace
 
-BlockParticles fill_block(const Scene& scene, std::size_t block)
+BlockParticles fill_block(const Scene& scene, std::size_t block, Comm* comm)
 {
     const FluidBlock& own = scene.fluid->blocks[block];
     const Placed shape{&own.shape, own.centre, own.rotation, scene.dimensions};
     const FreeSpace space(scene, block);
     const int d = scene.dimensions;
     const Cells plain = plain_cells(bounds(shape), scene.spacing, d);
-    Aggregate first = own.layers ? layers_of(scene, own)
-                                 : Aggregate{.points = middles_in(shape, plain),
-                                             .particle_volume = volume_of(plain, d)};
-    BlockParticles result{.all = static_cast<Index>(first.points.size()),
-                          .cell = first.particle_volume};
-    result.in_walls =
-        std::ranges::count_if(first.points, [&](const Vec3& p) { return space.is_in_wall(p); });
+    LayerPoints first = own.layers
+                            ? layers_of(scene, own, comm)
+                            : LayerPoints{middles_in(shape, plain, comm), volume_of(plain, d)};
+    BlockParticles result{.cell = first.volume};
+    result.all = sum_of_all(comm, static_cast<Index>(first.points.size()));
+    result.in_walls = sum_of_all(comm, std::ranges::count_if(first.points, [&](const Vec3& p) {
+                                     return space.is_in_wall(p);
+                                 }));
     const double cube = std::pow(scene.spacing, d);
-    Fit found =
-        fit(space, std::move(first.points), own.layers ? scene.spacing : shortest_edge(plain, d));
+    Fit found = fit(space, std::move(first.points),
+                    own.layers ? scene.spacing : shortest_edge(plain, d), comm);
     if (!found.fits || (!own.layers && std::abs(volume_of(plain, d) / cube - 1) > as_asked)) {
         const Bounds box = uncovered(scene, space, bounds(shape));
         if (box.empty()) {
             return result;
         }
         const Cells even = even_cells(box, scene.spacing, d);
-        found = fit(space, middles_in(shape, even), shortest_edge(even, d));
+        found = fit(space, middles_in(shape, even, comm), shortest_edge(even, d), comm);
         result.cell = volume_of(even, d);
         result.cut = is_stretched(even, scene.spacing, d);
         if (!found.fits) {
-            ColumnParticles columns = in_columns(scene, space, shape, even);
+            ColumnParticles columns = in_columns(scene, space, shape, even, comm);
             found.points = std::move(columns.points);
             result.cell = columns.cell;
             result.cut = true;

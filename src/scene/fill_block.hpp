@@ -3,6 +3,7 @@
 // stand on them.
 #pragma once
 
+#include "fill_region.hpp"
 #include "free_space.hpp"
 
 #include <vector>
@@ -17,7 +18,9 @@ struct BlockParticles {
     bool cut = false;         // cells are cut by walls, or stretched to hold the volume
 };
 
-/// Fills a block.
+/// Fills a block. Of several processes, which call it together, each gets the points of a range of
+/// the cells, one process after the other in the order in which one process has them; `all` and
+/// `in_walls` are of all.
 ///
 /// Cells are as large as cubes of the spacing, or nearly so, and every particle wants half a cell
 /// of distance from the surfaces. The water of the block is right: its cells fill it.
@@ -28,6 +31,6 @@ struct BlockParticles {
 ///    edge makes up for what the others are rounded by.
 /// 3. Else columns along gravity: lattices that stand on slopes and steps, sheared, which keeps
 ///    volumes and least distances.
-BlockParticles fill_block(const Scene& scene, std::size_t block);
+BlockParticles fill_block(const Scene& scene, std::size_t block, Comm* comm);
 
 } // namespace hyoryu

@@ -79,7 +79,7 @@ double particles_asked(const Scene& scene)
     return total;
 }
 
-void check_size(const Scene& scene)
+void check_size(const Scene& scene, double part)
 {
     const double asked = particles_asked(scene);
     if (!(asked < most_particles)) {
@@ -90,11 +90,12 @@ void check_size(const Scene& scene)
     }
     constexpr double giga = 1e9;
     const double memory = machine_memory();
-    if (asked * bytes_while_filling > memory) {
+    const double needed = part * asked * bytes_while_filling;
+    if (needed > memory) {
         throw CaseError(
             fmt::format("this scene needs about {:.2g} particles: their positions alone take "
                         "{:.1f} GB, but only {:.1f} GB are available to this process",
-                        asked, asked * bytes_while_filling / giga, memory / giga),
+                        asked, needed / giga, memory / giga),
             "increase `particles.spacing`");
     }
 }

@@ -10,7 +10,7 @@ namespace hyoryu {
 double particles_asked(const Scene& scene);
 
 /// Throws CaseError, naming the estimate, if the particles could not be numbered or the memory of
-/// this process could not hold them.
-void check_size(const Scene& scene);
+/// this machine could not hold the part of them that is on it.
+void check_size(const Scene& scene, double part);
 
 } // namespace hyoryu

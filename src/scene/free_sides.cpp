@@ -87,7 +87,10 @@ public:
                 const Vec3 to = points_[k] - place;
                 const double distance = to.norm();
                 if (k < levels_.size()) {
-                    nearest = distance < fluid ? k : nearest;
+                    // Of two that are as near, the one of the lower level: whatever their order.
+                    const bool nearer =
+                        distance < fluid || (distance == fluid && levels_[k] < levels_[nearest]);
+                    nearest = nearer ? k : nearest;
                     fluid = std::min(fluid, distance);
                 } else if (distance < blocked || to.dot(way) > ahead * distance) {
                     solid = std::min(solid, distance);
@@ -118,7 +121,8 @@ private:
 } // namespace
 
 std::vector<std::uint8_t> free_to_move(const Scene& scene, const Filling& filling,
-                                       std::span<const Vec3> solids, double support)
+                                       std::size_t first, std::span<const Vec3> solids,
+                                       double support)
 {
     std::vector<Vec3> points = filling.fluid;
     points.insert(points.end(), solids.begin(), solids.end());
@@ -129,7 +133,8 @@ std::vector<std::uint8_t> free_to_move(const Scene& scene, const Filling& fillin
     }
     const Surroundings about(points, std::move(levels), down, scene.spacing);
     const std::vector<Vec3> ways = open_ways(scene);
-    std::vector<std::uint8_t> moves = filling.fluid_cut;
+    std::vector<std::uint8_t> moves(filling.fluid_cut.begin(),
+                                    filling.fluid_cut.begin() + static_cast<std::ptrdiff_t>(first));
     parallel_for(0, static_cast<Index>(moves.size()), [&](Index k) {
         // Along a gentle beach a way at the waterline leads to no place that water would flow to,
         // nor does one through an open side, behind which there is water.

@@ -2,6 +2,7 @@
 // Where the layers of a wall may have particles: places behind its surface by their number.
 #pragma once
 
+#include "fill_region.hpp"
 #include "mesh_points.hpp"
 #include "shape_points.hpp"
 
@@ -100,19 +101,21 @@ using LayerPlaces =
 LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface,
                          const LayerLattice& lattice);
 
-/// Calls put(number, place) for every particle that the layers may have, in the order of numbers.
-void for_each_place(const LayerPlaces& places, const auto& put)
+/// Calls put(number, place) for every particle that the layers may have, in the order of numbers;
+/// of several processes each for a part of them.
+void for_each_place(const LayerPlaces& places, Comm* comm, const auto& put)
 {
     if (const auto* mesh = std::get_if<MeshPlaces>(&places)) {
-        for (const MeshPoint& point : points_within(mesh->lattice, *mesh->tree, mesh->depth)) {
+        for (const MeshPoint& point :
+             points_within(mesh->lattice, *mesh->tree, mesh->depth, comm)) {
             put(point.number, mesh->place_of(point));
         }
         return;
     }
     const auto walk = [&]<class Places>(const Places& own) {
         if constexpr (!std::same_as<Places, MeshPlaces>) {
-            const Index number = own.number();
-            for (Index k = 0; k < number; ++k) {
+            const FillPart part = part_of(own.number(), comm);
+            for (Index k = part.first; k < part.last; ++k) {
                 if (const std::optional<Vec3> place = own.place(k)) {
                     put(k, *place);
                 }

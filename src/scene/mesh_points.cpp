@@ -3,6 +3,8 @@
 // from the surface than its corners and the layers reach has none.
 #include "mesh_points.hpp"
 
+#include "fill_region.hpp"
+
 #include "hyoryu/core/parallel.hpp"
 
 namespace hyoryu {
@@ -103,15 +105,16 @@ MeshLattice mesh_lattice(const MeshShape& mesh, double spacing)
 }
 
 std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
-                                     double depth)
+                                     double depth, Comm* comm)
 {
     const Index rows = (lattice.count[1] + block - 1) / block;
     const Index levels = (lattice.count[2] + block - 1) / block;
     // By level, plane within it and row: the order of numbers.
     std::vector<std::vector<MeshPoint>> parts(at(levels * block * rows));
     constexpr Index worth = 2;
+    const FillPart own = part_of(levels * rows, comm);
     parallel_blocks(
-        0, levels * rows,
+        own.first, own.last,
         [&](Index k) {
             const Index level = k / rows;
             const Index row = k % rows;
@@ -127,7 +130,8 @@ std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleT
         points.insert(points.end(), part.begin(), part.end());
         part = {};
     }
-    if (points.empty()) {
+    const bool none = sum_of_all(comm, static_cast<Index>(points.size())) == 0;
+    if (none && (comm == nullptr || comm->rank() == 0)) {
         const NearestPlace nearest = nearest_place(tree, lattice.centre, infinity);
         if (std::abs(nearest.distance) <= depth) {
             points.push_back({lattice.number(), lattice.centre, nearest});

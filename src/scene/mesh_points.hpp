@@ -2,6 +2,7 @@
 // Particles of a mesh on a lattice.
 #pragma once
 
+#include "hyoryu/ranks/comm.hpp"
 #include "hyoryu/scene/scene.hpp"
 #include "hyoryu/scene/triangle_tree.hpp"
 
@@ -59,8 +60,9 @@ struct MeshPoint {
 
 /// The lattice points inside a mesh that are at most `depth` below its surface [m], by number; the
 /// centre if there is none and it is as near. The cost is that of the cells near the surface where
-/// `depth` is finite, O(log n) a cell for n triangles.
+/// `depth` is finite, O(log n) a cell for n triangles. Of several processes, which call it
+/// together, each gets a part.
 std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
-                                     double depth);
+                                     double depth, Comm* comm = nullptr);
 
 } // namespace hyoryu

@@ -45,6 +45,10 @@ void for_cells_about(const CellGrid& grid, const Vec3& place, const auto& f)
     });
 }
 
+/// Marks of the points within a distance [m] of some places.
+std::vector<std::uint8_t> marks_near(std::span<const Vec3> points, std::span<const Vec3> places,
+                                     double distance);
+
 /// Marks of the points within a distance [m] of marked ones, which stay marked.
 std::vector<std::uint8_t> marks_about(std::span<const Vec3> points,
                                       std::span<const std::uint8_t> marked, double distance);

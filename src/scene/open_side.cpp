@@ -240,30 +240,16 @@ void set_wall_particles(std::span<const WallParticle> particles, Filling& fillin
 }
 
 // The walls of a scene with those at one window carried out.
-std::vector<WallParticle> carried_out(const Scene& scene, const OpenSettings& open,
+std::vector<WallParticle> carried_out(const CarriedWalls& window,
                                       std::span<const WallParticle> walls)
 {
-    const double dp = scene.spacing;
-    const int layers = wall_layers(scene.fluid->smoothing_ratio);
-    const int columns = carpet_columns(scene, open) + layers;
-    const Index across = 1 - open.axis();
-    const auto distance = [&](const WallParticle& p) {
-        return open.sign() * (p.place()[open.axis()] - open.plane());
-    };
-    const auto belongs = [&](const WallParticle& p) {
-        const bool beside =
-            scene.dimensions == 2 || (p.place()[across] > open.min[across] - (layers + 0.5) * dp &&
-                                      p.place()[across] < open.max[across] + (layers + 0.5) * dp);
-        return beside && !moves(scene.walls[static_cast<std::size_t>(p.wall)].motion);
-    };
     std::vector<WallParticle> all;
     std::ranges::copy_if(walls, std::back_inserter(all),
-                         [&](const WallParticle& p) { return distance(p) >= 0 || !belongs(p); });
-    for (int column = 1; column <= columns; ++column) { // by columns: their runs go on
+                         [&](const WallParticle& p) { return window.stays(p.place(), p.wall); });
+    for (int column = 1; column <= window.columns(); ++column) { // by columns: their runs go on
         for (const WallParticle& p : walls) {
-            if (distance(p) >= 0 && distance(p) < dp * (1 - 1e-6) && belongs(p)) {
-                WallParticle& out = all.emplace_back(p);
-                out.shift -= open.sign() * column * dp * Vec3::Unit(open.axis());
+            if (window.is_copied(p.place(), p.wall)) {
+                all.emplace_back(p).shift += window.shift(column);
             }
         }
     }
@@ -272,6 +258,42 @@ std::vector<WallParticle> carried_out(const Scene& scene, const OpenSettings& op
 
 } // namespace
 
+CarriedWalls::CarriedWalls(const Scene& scene, const OpenSettings& open)
+    : scene_(scene), open_(open), layers_(wall_layers(scene.fluid->smoothing_ratio)),
+      columns_(carpet_columns(scene, open) + layers_)
+{
+}
+
+bool CarriedWalls::stays(const Vec3& place, std::int32_t wall) const
+{
+    return distance(place) >= 0 || !belongs(place, wall);
+}
+
+bool CarriedWalls::is_copied(const Vec3& place, std::int32_t wall) const
+{
+    const double from = distance(place);
+    return from >= 0 && from < scene_.spacing * (1 - 1e-6) && belongs(place, wall);
+}
+
+Vec3 CarriedWalls::shift(int column) const
+{
+    return -(open_.sign() * column * scene_.spacing * Vec3::Unit(open_.axis()));
+}
+
+double CarriedWalls::distance(const Vec3& place) const
+{
+    return open_.sign() * (place[open_.axis()] - open_.plane());
+}
+
+bool CarriedWalls::belongs(const Vec3& place, std::int32_t wall) const
+{
+    const Index across = 1 - open_.axis();
+    const double margin = (layers_ + 0.5) * scene_.spacing;
+    const bool beside = scene_.dimensions == 2 || (place[across] > open_.min[across] - margin &&
+                                                   place[across] < open_.max[across] + margin);
+    return beside && !moves(scene_.walls[static_cast<std::size_t>(wall)].motion);
+}
+
 void carry_walls_out(const Scene& scene, Filling& filling)
 {
     if (scene.open.empty()) {
@@ -279,7 +301,7 @@ void carry_walls_out(const Scene& scene, Filling& filling)
     }
     std::vector<WallParticle> walls = wall_particles(filling);
     for (const OpenSettings& open : scene.open) {
-        walls = carried_out(scene, open, walls);
+        walls = carried_out(CarriedWalls(scene, open), walls);
     }
     set_wall_particles(walls, filling);
 }

@@ -20,8 +20,30 @@ bool stands_on_ground(const Scene& scene, const OpenSide& side);
 /// is more than one and a half spacings away; at most the length of the carpet.
 double ground_behind(const Scene& scene, const OpenSide& side);
 
-/// Continues the fixed walls at each window outwards as they are at its plane, below and beside the
-/// carpet.
+/// How the fixed walls at a window go on outwards as they are at its plane, below and beside the
+/// carpet: particles outside are dropped, and those of the first spacing inside are copied column
+/// by column.
+class CarriedWalls {
+public:
+    CarriedWalls(const Scene& scene, const OpenSettings& open);
+
+    int columns() const { return columns_; }
+    /// Whether a particle of a wall stays, and whether it is copied.
+    bool stays(const Vec3& place, std::int32_t wall) const;
+    bool is_copied(const Vec3& place, std::int32_t wall) const;
+    /// From a particle to its copy in a column, 1, 2, ... [m].
+    Vec3 shift(int column) const;
+
+private:
+    double distance(const Vec3& place) const;
+    bool belongs(const Vec3& place, std::int32_t wall) const;
+
+    const Scene& scene_;
+    const OpenSettings& open_;
+    int layers_, columns_;
+};
+
+/// Continues the fixed walls at all windows.
 void carry_walls_out(const Scene& scene, Filling& filling);
 
 } // namespace hyoryu

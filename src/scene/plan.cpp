@@ -9,6 +9,7 @@
 #include "hyoryu/scene/rigid_scene.hpp"
 #include "plan_checks.hpp"
 #include "plan_contact.hpp"
+#include "plan_facts.hpp"
 #include "plan_gauges.hpp"
 #include "plan_open.hpp"
 #include "plan_scale.hpp"
@@ -33,13 +34,10 @@ constexpr double sound_over_speed = 10;
 constexpr double usual_skin = 0.2;
 
 // Lowest height that anything in the scene has, along -g.
-double lowest(const Scene& scene, const Filling& filling)
+double lowest(const Scene& scene, const PlanFacts& facts)
 {
-    double low = infinity;
+    double low = facts.height.lowest;
     const Vec3 up = -scene.gravity.normalized();
-    for (const Vec3& p : filling.fluid) {
-        low = std::min(low, up.dot(p));
-    }
     for (const Wall& wall : scene.walls) {
         if (const auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
             low = std::min(low, plane->normal.dot(up) > 0.5 ? up.dot(plane->point) : infinity);
@@ -55,20 +53,14 @@ double lowest(const Scene& scene, const Filling& filling)
 }
 
 // max(2 sqrt(g H), |V|): H from the lowest point to the top of the fluid.
-double expected_speed(const Scene& scene, const Filling& filling)
+double expected_speed(const Scene& scene, const PlanFacts& facts)
 {
-    double speed = 0;
+    double speed = facts.fastest;
     const double g = scene.gravity.norm();
-    if (g > 0 && !filling.fluid.empty()) {
-        const Vec3 up = -scene.gravity / g;
-        double top = -infinity;
-        for (const Vec3& p : filling.fluid) {
-            top = std::max(top, up.dot(p) + scene.spacing / 2);
-        }
-        speed = 2 * std::sqrt(g * std::max(top - lowest(scene, filling), scene.spacing));
-    }
-    for (const Vec3& v : filling.fluid_velocity) {
-        speed = std::max(speed, v.norm());
+    if (g > 0 && facts.fluid > 0) {
+        const double top = facts.height.highest + scene.spacing / 2;
+        const double depth = std::max(top - lowest(scene, facts), scene.spacing);
+        speed = std::max(speed, 2 * std::sqrt(g * depth));
     }
     for (const BodySettings& body : scene.bodies) {
         speed = std::max(speed, body.velocity.norm());
@@ -79,11 +71,11 @@ double expected_speed(const Scene& scene, const Filling& filling)
     for (const Sponge& sponge : scene.sponges) {
         speed = std::max(speed, (sponge.parabolic ? 1.5 : 1.0) * sponge.velocity.norm());
     }
-    for (const OpenSettings& open : scene.open) {
-        const double low = lowest(scene, filling);
-        speed =
-            std::max(speed, fastest_asked(open, std::isfinite(low) ? low : open.min.z(),
-                                          level_before(scene, filling, open), g, scene.dimensions));
+    for (std::size_t k = 0; k < scene.open.size(); ++k) {
+        const OpenSettings& open = scene.open[k];
+        const double low = lowest(scene, facts);
+        speed = std::max(speed, fastest_asked(open, std::isfinite(low) ? low : open.min.z(),
+                                              facts.level_before[k], g, scene.dimensions));
     }
     return speed;
 }
@@ -311,6 +303,46 @@ void estimate_cost(const Scene& scene, Plan& plan)
     plan.memory = memory_bytes(scene, plan, {.steps = plan.expected_steps});
 }
 
+// The part of a plan that a run goes by, without estimates, what is told to the user and checks of
+// the filled scene.
+Plan plan_of(const Scene& scene, const PlanFacts& facts)
+{
+    Plan plan;
+    plan.counts = {facts.fluid, facts.wall, 0, static_cast<Index>(scene.bodies.size()),
+                   static_cast<Index>(scene.walls.size())};
+    plan.counts.drawn =
+        std::accumulate(facts.body_points.begin(), facts.body_points.end(), Index(0));
+    plan.rigid = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                             [](const BodySettings& b) { return !b.fixed; });
+    const bool stops = std::ranges::any_of(
+        scene.open, [](const OpenSettings& open) { return open.bodies == BodiesAtSide::stop; });
+    plan.contact = plan.rigid && (scene.bodies.size() > 1 || !scene.walls.empty() || stops);
+    if (scene.fluid) {
+        plan.counts.body = plan.counts.drawn;
+        plan.expected_speed = expected_speed(scene, facts);
+        plan.fluid = fluid_parameters(scene, facts.particle_volume, plan.expected_speed);
+        plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->gradient,
+                                      scene.fluid->walls, *plan.fluid);
+        const auto limits =
+            fluid_limits(*plan.fluid, 0, scene.gravity.norm(), viscosity_of_scheme(plan));
+        plan.limits.assign(limits.begin(), limits.end());
+        for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+            const BodySettings& body = scene.bodies[b];
+            const double mass =
+                effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
+            plan.limits.push_back(body_limit(*plan.fluid, mass, facts.surface_points[b]));
+        }
+    } else {
+        plan.limits = {{"bodies only", bodies_only_step}};
+    }
+    plan.first_step = scene.time.step.value_or(shortest(plan.limits).dt);
+    list_effects(scene, plan);
+    expect_built(plan, left_out);
+    list_pairs(plan);
+    list_fields(plan);
+    return plan;
+}
+
 } // namespace
 
 bool Plan::runs(std::string_view effect) const
@@ -338,75 +370,23 @@ double list_bytes(const FluidParameters& fluid)
     return near + others;
 }
 
-PlanFacts facts_of(const Scene& scene, const Filling& filling)
+Plan make_plan(const Scene& scene, const Filling& filling, Comm* comm)
 {
-    PlanFacts facts{.fluid = static_cast<Index>(filling.fluid.size()),
-                    .wall = static_cast<Index>(filling.wall.size())};
-    for (const Aggregate& body : filling.bodies) {
-        facts.body_points.push_back(static_cast<Index>(body.points.size()));
-        facts.surface_points.push_back(body.surface_points);
-    }
-    if (scene.fluid) {
-        facts.particle_volume = particle_volume(scene, filling);
-        facts.expected_speed = expected_speed(scene, filling);
-    }
-    return facts;
-}
-
-Plan plan_of(const Scene& scene, const PlanFacts& facts)
-{
-    Plan plan;
-    plan.counts = {facts.fluid, facts.wall, 0, static_cast<Index>(scene.bodies.size()),
-                   static_cast<Index>(scene.walls.size())};
-    plan.counts.drawn =
-        std::accumulate(facts.body_points.begin(), facts.body_points.end(), Index(0));
-    plan.rigid = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                             [](const BodySettings& b) { return !b.fixed; });
-    const bool stops = std::ranges::any_of(
-        scene.open, [](const OpenSettings& open) { return open.bodies == BodiesAtSide::stop; });
-    plan.contact = plan.rigid && (scene.bodies.size() > 1 || !scene.walls.empty() || stops);
-    if (scene.fluid) {
-        plan.counts.body = plan.counts.drawn;
-        plan.expected_speed = facts.expected_speed;
-        plan.fluid = fluid_parameters(scene, facts.particle_volume, plan.expected_speed);
-        plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->gradient,
-                                      scene.fluid->walls, *plan.fluid);
-        const auto limits =
-            fluid_limits(*plan.fluid, 0, scene.gravity.norm(), viscosity_of_scheme(plan));
-        plan.limits.assign(limits.begin(), limits.end());
-        for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-            const BodySettings& body = scene.bodies[b];
-            const double mass =
-                effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
-            plan.limits.push_back(body_limit(*plan.fluid, mass, facts.surface_points[b]));
-        }
-    } else {
-        plan.limits = {{"bodies only", bodies_only_step}};
-    }
-    plan.first_step = scene.time.step.value_or(shortest(plan.limits).dt);
-    list_effects(scene, plan);
-    expect_built(plan, left_out);
-    list_pairs(plan);
-    list_fields(plan);
-    return plan;
-}
-
-Plan make_plan(const Scene& scene, const Filling& filling)
-{
-    Plan plan = plan_of(scene, facts_of(scene, filling));
+    const PlanFacts facts = facts_of(scene, filling, comm);
+    Plan plan = plan_of(scene, facts);
     plan.warnings = scene.notices;
-    plan.warnings.insert(plan.warnings.end(), filling.warnings.begin(), filling.warnings.end());
+    plan.warnings.insert(plan.warnings.end(), facts.warnings.begin(), facts.warnings.end());
     if (plan.fluid) {
-        list_scale(scene, filling, viscosity_of_scheme(plan), plan);
+        list_scale(scene, facts, viscosity_of_scheme(plan), plan);
     }
-    list_contact(scene, filling, plan);
+    list_contact(scene, facts, plan);
     list_gauges(scene, plan);
-    list_open(scene, filling, plan);
+    list_open(scene, facts, plan);
     estimate_cost(scene, plan);
-    check_plan(scene, filling, plan);
+    check_plan(scene, facts, plan);
     list_floating(scene, plan);
-    check_submerged(scene, filling, plan);
-    check_waves(scene, filling, plan);
+    check_submerged(scene, facts, plan);
+    check_waves(scene, facts, plan);
     show_places(scene, plan.warnings);
     return plan;
 }

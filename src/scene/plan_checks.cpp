@@ -327,16 +327,16 @@ void check_periods(const Scene& scene, std::vector<Diagnostic>& errors)
 
 } // namespace
 
-void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
+void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     std::vector<Diagnostic> errors;
     check_overlaps(scene, errors);
     check_periods(scene, errors);
     check_step(scene, plan, errors);
     check_outputs(scene, plan, errors);
-    check_gauges(scene, filling, plan, errors);
-    check_open(scene, filling, plan, errors);
-    if (scene.fluid && filling.fluid.empty() && scene.open.empty()) {
+    check_gauges(scene, facts, plan, errors);
+    check_open(scene, facts, plan, errors);
+    if (scene.fluid && facts.fluid == 0 && scene.open.empty()) {
         errors.push_back(diagnostic_without_line(
             scene, {}, "fluid", "the blocks contain no fluid particle",
             "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
@@ -356,14 +356,14 @@ void check_plan(const Scene& scene, const Filling& filling, Plan& plan)
     warn_about_slips(scene, plan);
     warn_about_bodies(scene, plan);
     warn_about_round_walls(scene, plan);
-    warn_about_waves(scene, filling, plan);
+    warn_about_waves(scene, facts, plan);
     if (scene.fluid) {
         warn_about_sound(scene, plan);
         warn_about_cfl(scene, plan);
         warn_about_narrow_basins(scene, plan);
         warn_about_room(scene, plan);
-        warn_about_leaks(scene, filling, plan);
-        warn_about_gaps(scene, filling, plan);
+        warn_about_leaks(scene, facts, plan);
+        warn_about_gaps(scene, facts, plan);
     }
 }
 

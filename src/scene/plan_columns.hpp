@@ -7,28 +7,37 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace hyoryu {
 
-/// Columns one spacing wide, by their numbers along x and y, with the lowest and the highest of
-/// some points in each.
+/// The lowest and the highest of some numbers.
+struct Span {
+    double lowest = infinity, highest = -infinity;
+
+    bool empty() const { return highest < lowest; }
+    void add(double number) { add(Span{number, number}); }
+    void add(const Span& other)
+    {
+        lowest = std::min(lowest, other.lowest);
+        highest = std::max(highest, other.highest);
+    }
+};
+
+/// Columns one spacing wide, by their numbers along x and y, with the heights of the lowest and the
+/// highest of some points in each [m].
 class Columns {
 public:
     using Number = std::array<long long, 2>;
-    struct Span {
-        double lowest = infinity, highest = -infinity; // [m]
-    };
 
-    Columns(double spacing, const std::vector<Vec3>& points) : spacing_(spacing)
-    {
-        for (const Vec3& p : points) {
-            Span& span = spans_[number_of(p)];
-            span.lowest = std::min(span.lowest, p.z());
-            span.highest = std::max(span.highest, p.z());
-        }
-    }
+    Columns() = default;
+    explicit Columns(double spacing) : spacing_(spacing) {}
+
+    void add(const Number& column, const Span& heights) { spans_[column].add(heights); }
 
     /// A column and those about it.
     static std::array<Number, 9> block_about(const Number& column)
@@ -67,16 +76,36 @@ public:
         for (const Number& beside : block_about(column)) {
             const auto found = spans_.find(beside);
             if (found != spans_.end()) {
-                all.lowest = std::min(all.lowest, found->second.lowest);
-                all.highest = std::max(all.highest, found->second.highest);
+                all.add(found->second);
             }
         }
         return all;
     }
 
 private:
-    double spacing_;
+    double spacing_ = 1;
     std::map<Number, Span> spans_;
 };
+
+/// Particles of a wall in a column that follow each other without room for water between them.
+struct WallStack {
+    static constexpr double gap = 1.6; // between two with room [spacings]: surfaces 0.6 apart
+
+    Columns::Number column{};
+    double low = 0, high = 0; // of their middles [m]
+    std::int64_t wall = 0;
+
+    friend auto operator<=>(const WallStack&, const WallStack&) = default;
+};
+
+/// Columns of stacks.
+inline Columns columns_of(double spacing, std::span<const WallStack> stacks)
+{
+    Columns columns(spacing);
+    for (const WallStack& stack : stacks) {
+        columns.add(stack.column, {stack.low, stack.high});
+    }
+    return columns;
+}
 
 } // namespace hyoryu

@@ -95,7 +95,7 @@ void list_materials(const Scene& scene, Plan& plan)
 
 // A body whose particles are all pressed swings with sqrt(N k / M); explicit Euler follows that
 // while the sub-step is a small part of a radian of it.
-void warn_about_sub_steps(const Scene& scene, const Filling& filling, Plan& plan)
+void warn_about_sub_steps(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     const PenaltyParameters& penalty = *scene.contact.penalty;
     double shortest = infinity;
@@ -104,7 +104,7 @@ void warn_about_sub_steps(const Scene& scene, const Filling& filling, Plan& plan
         const BodySettings& body = scene.bodies[b];
         const double mass =
             effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
-        const auto count = static_cast<double>(filling.bodies[b].points.size());
+        const auto count = static_cast<double>(facts.body_points[b]);
         const double radian = std::sqrt(mass / (count * penalty.stiffness));
         if (!body.fixed && radian < shortest) {
             shortest = radian;
@@ -126,7 +126,7 @@ void warn_about_sub_steps(const Scene& scene, const Filling& filling, Plan& plan
 
 } // namespace
 
-void list_contact(const Scene& scene, const Filling& filling, Plan& plan)
+void list_contact(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     list_method(scene.contact, plan);
     if (!plan.contact) {
@@ -134,7 +134,7 @@ void list_contact(const Scene& scene, const Filling& filling, Plan& plan)
     }
     list_materials(scene, plan);
     if (scene.contact.penalty) {
-        warn_about_sub_steps(scene, filling, plan);
+        warn_about_sub_steps(scene, facts, plan);
     }
 }
 

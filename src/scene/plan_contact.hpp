@@ -2,12 +2,14 @@
 // The part of the plan that tells how bodies meet.
 #pragma once
 
+#include "plan_facts.hpp"
+
 #include "hyoryu/scene/plan.hpp"
 
 namespace hyoryu {
 
 /// Names the method and the law of contact, on or off with a reason, and every pair of materials
 /// that can meet; warns of penalty sub-steps that are too long.
-void list_contact(const Scene& scene, const Filling& filling, Plan& plan);
+void list_contact(const Scene& scene, const PlanFacts& facts, Plan& plan);
 
 } // namespace hyoryu

@@ -50,18 +50,6 @@ double gap_between(const SolidSurface& own, std::span<const Vec3> points, const 
     return gap;
 }
 
-// The particles of a wall.
-std::vector<Vec3> points_of(const Filling& filling, std::size_t wall)
-{
-    std::vector<Vec3> points;
-    for (std::size_t k = 0; k < filling.wall.size(); ++k) {
-        if (filling.wall_owner[k] == static_cast<std::int32_t>(wall)) {
-            points.push_back(filling.wall[k]);
-        }
-    }
-    return points;
-}
-
 // Gaps that are larger are meant: four spacings, or a tenth of the size of the obstacle [m].
 double largest_slip(const Scene& scene, const SolidWall& solid)
 {
@@ -83,7 +71,7 @@ void warn(const Scene& scene, std::size_t wall, const Wall& other, double gap, P
 
 } // namespace
 
-void warn_about_gaps(const Scene& scene, const Filling& filling, Plan& plan)
+void warn_about_gaps(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const auto* solid = std::get_if<SolidWall>(&scene.walls[w].geometry);
@@ -91,13 +79,12 @@ void warn_about_gaps(const Scene& scene, const Filling& filling, Plan& plan)
             continue;
         }
         const SolidSurface own = parts_of(scene, scene.walls[w]).front();
-        const std::vector<Vec3> points = points_of(filling, w);
         for (const Wall& other : scene.walls) {
             if (moves(other.motion)) {
                 continue;
             }
             for (const SolidSurface& part : parts_of(scene, other)) {
-                const double gap = gap_between(own, points, part, scene.dimensions);
+                const double gap = gap_between(own, facts.moving[w], part, scene.dimensions);
                 if (gap > scene.spacing * (1 - 1e-6) && gap < largest_slip(scene, *solid)) {
                     warn(scene, w, other, gap, plan);
                 }

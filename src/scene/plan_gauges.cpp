@@ -126,17 +126,16 @@ bool is_clear(const Scene& scene, std::size_t wall, const Placed& shape)
 }
 
 // Volume of the particles of an obstacle over its own. Particles of walls are cubes of the spacing.
-double share_of_volume(const Scene& scene, const Filling& filling, std::size_t wall,
+double share_of_volume(const Scene& scene, const PlanFacts& facts, std::size_t wall,
                        const Shape& shape)
 {
-    const auto particles = std::ranges::count(filling.wall_owner, static_cast<std::int32_t>(wall));
-    return static_cast<double>(particles) * std::pow(scene.spacing, scene.dimensions) /
+    return static_cast<double>(facts.of_wall[wall]) * std::pow(scene.spacing, scene.dimensions) /
            volume(shape, scene.dimensions);
 }
 
 // An obstacle that is filled with particles displaces their volume: its buoyancy, and what
 // accelerated water exerts on it, are off in this proportion.
-void warn_about_volume(const Scene& scene, const Filling& filling, const Gauge& gauge,
+void warn_about_volume(const Scene& scene, const PlanFacts& facts, const Gauge& gauge,
                        const std::string& key, Plan& plan)
 {
     constexpr double noteworthy = 0.05;
@@ -154,7 +153,7 @@ void warn_about_volume(const Scene& scene, const Filling& filling, const Gauge& 
             !is_clear(scene, w, placed)) {
             continue;
         }
-        const double share = share_of_volume(scene, filling, w, solid->shape);
+        const double share = share_of_volume(scene, facts, w, solid->shape);
         if (std::abs(share - 1) > noteworthy) {
             Diagnostic note = diagnostic_without_line(
                 scene, gauge.place, key,
@@ -188,23 +187,23 @@ void list_gauges(const Scene& scene, Plan& plan)
     plan.gauge_rows = scene.gauges.empty() ? 0 : std::floor(scene.time.end / every) + 1;
 }
 
-void check_gauges(const Scene& scene, const Filling& filling, Plan& plan,
+void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
                   std::vector<Diagnostic>& errors)
 {
     for (std::size_t k = 0; k < scene.gauges.size(); ++k) {
         const Gauge& gauge = scene.gauges[k];
         const std::string key = fmt::format("gauge[{}].at", k);
         if (gauge.type == GaugeType::force) {
-            warn_about_volume(scene, filling, gauge, fmt::format("gauge[{}].on", k), plan);
+            warn_about_volume(scene, facts, gauge, fmt::format("gauge[{}].on", k), plan);
         }
         if (!has_place(gauge)) {
             continue;
         }
-        if (outside(scene, gauge, filling.domain)) {
+        if (outside(scene, gauge, facts.domain)) {
             errors.push_back(diagnostic_without_line(
                 scene, gauge.place, key,
                 fmt::format("the gauge \"{}\" is outside the domain, {} to {}", gauge.name,
-                            text_of(filling.domain.min), text_of(filling.domain.max)),
+                            text_of(facts.domain.min), text_of(facts.domain.max)),
                 "no fluid can reach it"));
             continue;
         }

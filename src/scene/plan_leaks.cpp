@@ -30,84 +30,75 @@ namespace {
 // which has particles behind its surface only.
 class Grounds {
 public:
-    Grounds(const Scene& scene, const Columns& columns, const std::vector<Vec3>& walls)
-        : space_(scene), columns_(columns), spacing_(scene.spacing)
+    // `walls`: ascending.
+    Grounds(const Scene& scene, const Columns& columns, std::span<const WallStack> walls)
+        : space_(scene), columns_(columns), spacing_(scene.spacing), walls_(walls)
     {
-        for (const Vec3& p : walls) {
-            heights_.emplace_back(columns.number_of(p), p.z());
-        }
-        std::ranges::sort(heights_);
     }
 
     /// Of a column and those about it [m]; -infinity without walls, or where all of them stand over
     /// a gap above the ground `from` of the column beside it.
     double about(const Columns::Number& column, double from = infinity) const
     {
-        const std::vector<double> heights = heights_about(column);
-        if (heights.empty() || has_gap(column, from, heights.front())) {
+        const std::vector<Span> heights = heights_about(column);
+        if (heights.empty() || has_gap(column, from, heights.front().lowest)) {
             return -infinity;
         }
-        const auto top = std::ranges::adjacent_find(
-            heights, [&](double low, double high) { return has_gap(column, low, high); });
-        return top != heights.end() ? *top : heights.back();
+        double top = heights.front().highest;
+        for (const Span& next : heights) {
+            if (has_gap(column, top, next.lowest)) {
+                break;
+            }
+            top = std::max(top, next.highest);
+        }
+        return top;
     }
 
 private:
     // Whether there is room for water between two particles.
     bool has_gap(const Columns::Number& column, double low, double high) const
     {
-        constexpr double least = 1.6; // [spacings]: surfaces 0.6 apart
         Vec3 middle = columns_.middle_of(column);
         middle.z() = (low + high) / 2;
-        return std::isfinite(low) && high - low > least * spacing_ && !space_.is_in_wall(middle);
+        return std::isfinite(low) && high - low > WallStack::gap * spacing_ &&
+               !space_.is_in_wall(middle);
     }
 
-    std::vector<double> heights_about(const Columns::Number& column) const
+    // From below.
+    std::vector<Span> heights_about(const Columns::Number& column) const
     {
-        std::vector<double> all;
+        std::vector<Span> all;
         for (const Columns::Number& beside : Columns::block_about(column)) {
-            auto height = std::ranges::lower_bound(heights_, std::pair(beside, -infinity));
-            for (; height != heights_.end() && height->first == beside; ++height) {
-                all.push_back(height->second);
-            }
+            const auto stacks = std::ranges::equal_range(walls_, beside, {}, &WallStack::column);
+            std::ranges::transform(stacks, std::back_inserter(all), [](const WallStack& stack) {
+                return Span{stack.low, stack.high};
+            });
         }
-        std::ranges::sort(all);
+        std::ranges::sort(all, {}, &Span::lowest);
         return all;
     }
 
     FreeSpace space_;
     const Columns& columns_;
     double spacing_;
-    std::vector<std::pair<Columns::Number, double>> heights_; // ascending
+    std::span<const WallStack> walls_;
 };
 
 // What stands where at the start.
 struct Start {
-    Start(const Scene& scene_, const Filling& filling_)
-        : scene(scene_), filling(filling_), walls(scene_.spacing, filling_.wall),
-          fluid(scene_.spacing, filling_.fluid)
-    {
-    }
     const Scene& scene;
-    const Filling& filling;
-    Columns walls, fluid;
+    const PlanFacts& facts;
+    Columns walls;
 };
 
 void warn_about_bottoms(const Start& start, Plan& plan)
 {
-    const Columns& fluid = start.fluid;
-    std::map<Columns::Number, double> floor; // of the columns of the fluid [m]
-    for (const auto& [column, span] : fluid.spans()) {
-        floor.emplace(column, start.walls.about(column).lowest);
-    }
-    const auto open = std::ranges::count_if(
-        start.filling.fluid, [&](const Vec3& p) { return floor.at(fluid.number_of(p)) > p.z(); });
-    if (open > 0) {
-        warn(
-            start.scene, {}, "wall",
-            fmt::format(
-                "{} fluid particles have no wall below them and will fall out of the domain", open),
-            "add a floor: a wall of shape \"plane\" or \"basin\"", plan);
+    if (start.facts.unsupported > 0) {
+        warn(start.scene, {}, "wall",
+             fmt::format(
+                 "{} fluid particles have no wall below them and will fall out of the domain",
+                 start.facts.unsupported),
+             "add a floor: a wall of shape \"plane\" or \"basin\"", plan);
     }
 }
 
@@ -150,7 +141,7 @@ struct Drops {
 };
 
 // Height to which the water of a column may rise elsewhere: its own, less what it falls at first.
-double level_of(const Columns::Span& water, double ground, double spacing)
+double level_of(const Span& water, double ground, double spacing)
 {
     const double fall = ground < water.lowest ? water.lowest - ground - 2 * spacing : 0;
     return water.highest - std::max(fall, 0.0);
@@ -253,20 +244,22 @@ void raise(Wall& wall, double rise)
 // A scene with some of its walls where they are highest, and the particles of its walls.
 struct Raised {
     Scene scene;
-    std::vector<Vec3> particles;
+    std::vector<WallStack> walls;
 };
 
-Raised raised(const Scene& scene, const Filling& filling, std::span<const std::size_t> gates)
+Raised raised(const Start& start, std::span<const std::size_t> gates)
 {
-    Raised result{scene, filling.wall};
-    std::vector<double> rise(scene.walls.size(), 0);
+    Raised result{start.scene, start.facts.walls};
+    std::vector<double> rise(result.scene.walls.size(), 0);
     for (const std::size_t gate : gates) {
-        rise[gate] = rise_of(scene.walls[gate].motion, scene.time.end);
+        rise[gate] = rise_of(result.scene.walls[gate].motion, result.scene.time.end);
         raise(result.scene.walls[gate], rise[gate]);
     }
-    for (std::size_t k = 0; k < result.particles.size(); ++k) {
-        result.particles[k].z() += rise[static_cast<std::size_t>(filling.wall_owner[k])];
+    for (WallStack& stack : result.walls) {
+        stack.low += rise[static_cast<std::size_t>(stack.wall)];
+        stack.high += rise[static_cast<std::size_t>(stack.wall)];
     }
+    std::ranges::sort(result.walls);
     return result;
 }
 
@@ -281,14 +274,15 @@ std::string names_of(const Scene& scene, std::span<const std::size_t> gates)
 
 // The water that still has a wall below it when walls have risen. The rest is carried up by them,
 // or falls.
-std::vector<Vec3> held_still(const Start& start, const Columns& walls)
+Columns held_still(const Start& start, const Columns& walls)
 {
-    std::vector<Vec3> held;
-    std::ranges::copy_if(start.filling.fluid, std::back_inserter(held), [&](const Vec3& p) {
-        const Columns::Number column = start.fluid.number_of(p);
-        const double lowest = start.fluid.spans().at(column).lowest;
-        return start.walls.about(column).lowest > lowest || walls.about(column).lowest <= lowest;
-    });
+    Columns held(start.scene.spacing);
+    for (const auto& [column, heights] : start.facts.water.spans()) {
+        if (start.walls.about(column).lowest > heights.lowest ||
+            walls.about(column).lowest <= heights.lowest) {
+            held.add(column, heights);
+        }
+    }
     return held;
 }
 
@@ -297,10 +291,10 @@ bool warn_about_raised(const Start& start, std::span<const std::size_t> gates, c
                        Plan& plan)
 {
     const Scene& scene = start.scene;
-    const Raised after = raised(scene, start.filling, gates);
-    const Columns walls(scene.spacing, after.particles);
-    const Columns held(scene.spacing, held_still(start, walls));
-    Drops drops = drops_of(after.scene, held, Grounds(after.scene, walls, after.particles));
+    const Raised after = raised(start, gates);
+    const Columns walls = columns_of(scene.spacing, after.walls);
+    const Columns held = held_still(start, walls);
+    Drops drops = drops_of(after.scene, held, Grounds(after.scene, walls, after.walls));
     for (std::size_t way = 0; way < directions.size(); ++way) {
         drops.columns[way] = before.columns[way] > 0 ? 0 : drops.columns[way]; // told already
     }
@@ -331,7 +325,7 @@ void warn_about_sides(const Start& start, Plan& plan)
 {
     const Scene& scene = start.scene;
     const Drops drops =
-        drops_of(scene, start.fluid, Grounds(scene, start.walls, start.filling.wall));
+        drops_of(scene, start.facts.water, Grounds(scene, start.walls, start.facts.walls));
     warn_about_drops(scene, {}, "", drops, plan);
     warn_about_gates(start, drops, plan);
 }
@@ -344,7 +338,7 @@ bool has_support(const Start& start, const BodySettings& body)
     const Columns::Number last = start.walls.number_of(box.max);
     for (Columns::Number column = first; column[1] <= last[1]; ++column[1]) {
         for (column[0] = first[0]; column[0] <= last[0]; ++column[0]) {
-            if (start.fluid.reaches(column, box.max.z()) ||
+            if (start.facts.water.reaches(column, box.max.z()) ||
                 start.walls.about(column).lowest <= box.max.z()) {
                 return true;
             }
@@ -389,14 +383,14 @@ void warn_about_bodies(const Start& start, Plan& plan)
 
 } // namespace
 
-void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan)
+void warn_about_leaks(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
-    if (scene.gravity.normalized().dot(-Vec3::UnitZ()) < 0.99) {
+    if (!falls_along_z(scene)) {
         return;
     }
-    const Start start(scene, filling);
+    const Start start{scene, facts, columns_of(scene.spacing, facts.walls)};
     warn_about_bottoms(start, plan);
-    if (!filling.fluid.empty()) {
+    if (facts.fluid > 0) {
         warn_about_sides(start, plan);
     }
     warn_about_bodies(start, plan);

@@ -2,6 +2,8 @@
 // Water and bodies with nothing that holds them.
 #pragma once
 
+#include "plan_facts.hpp"
+
 #include "hyoryu/scene/plan.hpp"
 
 namespace hyoryu {
@@ -11,6 +13,6 @@ namespace hyoryu {
 /// ground, and of bodies with neither wall nor water in their columns: all of them fall out of the
 /// scene. Water that leaves by an `[[open]]` side or a period is not meant. Nothing unless gravity
 /// points down along z.
-void warn_about_leaks(const Scene& scene, const Filling& filling, Plan& plan);
+void warn_about_leaks(const Scene& scene, const PlanFacts& facts, Plan& plan);
 
 } // namespace hyoryu

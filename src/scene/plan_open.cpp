@@ -36,16 +36,10 @@ double mean_bed(const OpenSide& side)
     return count > 0 ? total / count : infinity;
 }
 
-WaterAtStart water_before(const Scene& scene, const Filling& filling, const OpenSide& side)
+// `level`: of the highest particle.
+WaterAtStart water_before(const OpenSide& side, double level)
 {
-    WaterAtStart water;
-    for (const Vec3& x : filling.fluid) {
-        const double s = side.distance(x);
-        const int lane = side.lane(x, scene.spacing);
-        if (s >= 0 && s < 8 * scene.spacing && lane >= 0 && lane < side.lanes()) {
-            water.level = std::max(water.level, x.z() + scene.spacing / 2);
-        }
-    }
+    WaterAtStart water{.level = level};
     water.depth = std::max(water.level - mean_bed(side), 0.0);
     water.deepest = std::max(water.level - std::ranges::min(side.bed), 0.0);
     return water;
@@ -102,22 +96,16 @@ std::string what_of(const Scene& scene, const OpenSettings& open)
 }
 
 // Particles that the domain holds below the highest level that is asked for or that water has.
-double most_held(const Scene& scene, const Filling& filling)
+double most_held(const Scene& scene, const PlanFacts& facts)
 {
-    double top = -infinity;
-    double low = infinity;
-    for (const Vec3& x : filling.fluid) {
-        top = std::max(top, x.z() + scene.spacing / 2);
-    }
+    double top = facts.z.highest + scene.spacing / 2;
+    double low = facts.z.lowest - scene.spacing / 2;
     for (const OpenSettings& open : scene.open) {
         const double bed = mean_bed(open_side(scene, open));
         low = std::min(low, bed);
         top = std::max(top, highest_asked(open).value_or(open.max.z()));
     }
-    for (const Vec3& x : filling.fluid) {
-        low = std::min(low, x.z() - scene.spacing / 2);
-    }
-    const Vec3 size = filling.domain.max - filling.domain.min;
+    const Vec3 size = facts.domain.max - facts.domain.min;
     const double area = size.x() * (scene.dimensions == 2 ? 1 : size.y());
     return area * std::max(top - low, 0.0) / cube_of(scene);
 }
@@ -130,11 +118,11 @@ Diagnostic note_at(const Scene& scene, const OpenSettings& open, std::string_vie
 }
 
 // Whether the plane is that of a side of the domain, the lower one for +x and +y.
-void check_side(const Scene& scene, const Filling& filling, const OpenSettings& open,
+void check_side(const Scene& scene, const PlanFacts& facts, const OpenSettings& open,
                 std::vector<Diagnostic>& errors)
 {
     const double side =
-        open.sign() > 0 ? filling.domain.min[open.axis()] : filling.domain.max[open.axis()];
+        open.sign() > 0 ? facts.domain.min[open.axis()] : facts.domain.max[open.axis()];
     if (std::abs(open.plane() - side) > 1e-6 * scene.spacing) {
         errors.push_back(note_at(
             scene, open, "min",
@@ -362,30 +350,26 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
 
 } // namespace
 
-double level_before(const Scene& scene, const Filling& filling, const OpenSettings& open)
-{
-    return water_before(scene, filling, open_side(scene, open)).level;
-}
-
-void list_open(const Scene& scene, const Filling& filling, Plan& plan)
+void list_open(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     if (!scene.fluid || scene.open.empty()) {
         return;
     }
     double carpets = 0;
     double entering = 0;
-    for (const OpenSettings& open : scene.open) {
+    for (std::size_t k = 0; k < scene.open.size(); ++k) {
+        const OpenSettings& open = scene.open[k];
         const OpenSide side = open_side(scene, open);
         const double bed = mean_bed(side);
         if (!(bed < infinity)) {
             continue;
         }
-        const WaterAtStart water = water_before(scene, filling, side);
+        const WaterAtStart water = water_before(side, facts.level_before[k]);
         double deepest = water.depth;
         double volume = 0;
-        for (int k = 0; k < samples; ++k) {
+        for (int n = 0; n < samples; ++n) {
             const Inflow flow =
-                inflow_at(scene, open, water, bed, scene.time.end * (k + 0.5) / samples);
+                inflow_at(scene, open, water, bed, scene.time.end * (n + 0.5) / samples);
             volume += std::max(flow.discharge, 0.0) * scene.time.end / samples;
             deepest = std::max(deepest, flow.depth);
         }
@@ -395,22 +379,23 @@ void list_open(const Scene& scene, const Filling& filling, Plan& plan)
         carpets += carpet;
         entering += volume / cube_of(scene);
     }
-    const auto start = static_cast<double>(filling.fluid.size());
-    const double held = std::max(start, std::min(start + entering, most_held(scene, filling)));
+    const auto start = static_cast<double>(facts.fluid);
+    const double held = std::max(start, std::min(start + entering, most_held(scene, facts)));
     plan.most_fluid = static_cast<Index>(std::ceil(held + carpets));
 }
 
-void check_open(const Scene& scene, const Filling& filling, Plan& plan,
+void check_open(const Scene& scene, const PlanFacts& facts, Plan& plan,
                 std::vector<Diagnostic>& errors)
 {
     if (!scene.fluid) {
         return;
     }
     check_pairs(scene, errors);
-    for (const OpenSettings& open : scene.open) {
+    for (std::size_t k = 0; k < scene.open.size(); ++k) {
+        const OpenSettings& open = scene.open[k];
         const OpenSide side = open_side(scene, open);
-        const WaterAtStart water = water_before(scene, filling, side);
-        check_side(scene, filling, open, errors);
+        const WaterAtStart water = water_before(side, facts.level_before[k]);
+        check_side(scene, facts, open, errors);
         check_ground(scene, open, side, errors);
         check_water(scene, open, water, errors);
         check_bodies_at(scene, open, side, errors);

@@ -110,15 +110,6 @@ double thinnest_of(const Scene& scene)
     return thin;
 }
 
-double top_of(const Filling& filling)
-{
-    double top = -infinity;
-    for (const Vec3& p : filling.fluid) {
-        top = std::max(top, p.z());
-    }
-    return top;
-}
-
 // The highest particle of the water in the columns that a box covers, -infinity without one [m].
 double top_over(const Columns& water, const Bounds& box)
 {
@@ -196,19 +187,18 @@ void list_floating(const Scene& scene, Plan& plan)
     }
 }
 
-void check_submerged(const Scene& scene, const Filling& filling, Plan& plan)
+void check_submerged(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     if (!scene.fluid || scene.bodies.empty()) {
         return;
     }
-    const Columns water(scene.spacing, filling.fluid);
     std::size_t count = 0;
     std::size_t first = 0;
     double deepest = 0; // of the water over the first one [m]
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const Bounds box = bounds(placed(body, scene.dimensions));
-        const double over = top_over(water, box) + scene.spacing / 2 - box.max.z();
+        const double over = top_over(facts.water, box) + scene.spacing / 2 - box.max.z();
         const bool held = body.fixed || body.locks[2];
         if (!(over > scene.spacing / 2) || held || is_too_fine(body.shape) ||
             !flotation(body, scene.fluid->density, scene.gravity, scene.dimensions)) {
@@ -229,14 +219,13 @@ void check_submerged(const Scene& scene, const Filling& filling, Plan& plan)
     }
 }
 
-void list_scale(const Scene& scene, const Filling& filling, double viscosity, Plan& plan)
+void list_scale(const Scene& scene, const PlanFacts& facts, double viscosity, Plan& plan)
 {
-    const auto deepest = std::ranges::max_element(filling.fluid_depth);
-    if (!plan.fluid || deepest == filling.fluid_depth.end()) {
+    if (!plan.fluid || facts.fluid == 0) {
         return;
     }
     Plan::Scale scale;
-    scale.depth = *deepest + scene.spacing / 2;
+    scale.depth = facts.deepest + scene.spacing / 2;
     scale.layers = scale.depth / scene.spacing;
     scale.thinnest = thinnest_of(scene);
     scale.speed = plan.expected_speed;
@@ -259,7 +248,7 @@ void list_scale(const Scene& scene, const Filling& filling, double viscosity, Pl
     plan.scale = std::move(scale);
 }
 
-void check_waves(const Scene& scene, const Filling& filling, Plan& plan)
+void check_waves(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     double longest = 0;
     for (const Wall& wall : scene.walls) {
@@ -276,10 +265,9 @@ void check_waves(const Scene& scene, const Filling& filling, Plan& plan)
                  "a longer sponge, or a paddle with `absorb`", plan);
         }
     }
-    const double top = top_of(filling);
     for (const Wall& wall : scene.walls) {
-        if (moves(wall.motion) && !filling.fluid.empty()) {
-            check_gate(scene, wall, top, plan);
+        if (moves(wall.motion) && facts.fluid > 0) {
+            check_gate(scene, wall, facts.z.highest, plan);
         }
     }
 }

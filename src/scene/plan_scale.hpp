@@ -2,6 +2,8 @@
 // What a plan says of floating bodies, of waves, and of the scale of the scene.
 #pragma once
 
+#include "plan_facts.hpp"
+
 #include "hyoryu/scene/plan.hpp"
 
 namespace hyoryu {
@@ -11,13 +13,13 @@ namespace hyoryu {
 void list_floating(const Scene& scene, Plan& plan);
 
 /// Warns of bodies that are lighter than the water and begin under it.
-void check_submerged(const Scene& scene, const Filling& filling, Plan& plan);
+void check_submerged(const Scene& scene, const PlanFacts& facts, Plan& plan);
 
 /// Resolution, shortest load, viscosity of the scheme and effective Reynolds number; warns where
 /// the last is below 100.
-void list_scale(const Scene& scene, const Filling& filling, double viscosity, Plan& plan);
+void list_scale(const Scene& scene, const PlanFacts& facts, double viscosity, Plan& plan);
 
 /// Warns of sponges shorter than a wave and of gates that open slowly.
-void check_waves(const Scene& scene, const Filling& filling, Plan& plan);
+void check_waves(const Scene& scene, const PlanFacts& facts, Plan& plan);
 
 } // namespace hyoryu

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double highest = 0.78;   // height of a wave over the depth (McCowan 1894)
 constexpr double steepest = 0.142; // height over length in deep water (Miche 1944)
-constexpr double before = 3;       // spacings before a paddle in which its water is looked for
 // Of a depth that is as asked: cells are rounded to a spacing, ground may slope.
 constexpr double spacings_off = 1;
 constexpr double share_off = 0.02;
@@ -47,25 +46,9 @@ void look_at_height(const Wall& wall, const std::string& key, PlanWarnings& warn
     }
 }
 
-// Depth of the water before the face of a paddle; 0 if there is none [m].
-double depth_before(const Scene& scene, const Filling& filling, const Bounds& paddle)
-{
-    double low = infinity;
-    double high = -infinity;
-    for (const Vec3& p : filling.fluid) {
-        const double away = p.x() - paddle.max.x();
-        const bool beside =
-            scene.dimensions == 3 && (p.y() < paddle.min.y() || p.y() > paddle.max.y());
-        if (away > 0 && away < before * scene.spacing && !beside) {
-            low = std::min(low, p.z());
-            high = std::max(high, p.z());
-        }
-    }
-    return high < low ? 0 : high - low + scene.spacing;
-}
-
-void look_at_depth(const Scene& scene, const Filling& filling, const Wall& wall,
-                   const std::string& key, PlanWarnings& warnings)
+// `before`: the heights of the particles before the face of the wall.
+void look_at_depth(const Scene& scene, const Span& before, const Wall& wall, const std::string& key,
+                   PlanWarnings& warnings)
 {
     const auto* solid = std::get_if<SolidWall>(&wall.geometry);
     const double asked = wall.wave.length > 0     ? wall.wave.depth
@@ -74,8 +57,7 @@ void look_at_depth(const Scene& scene, const Filling& filling, const Wall& wall,
     if (solid == nullptr || !(asked > 0) || !scene.open.empty()) {
         return;
     }
-    const double found = depth_before(
-        scene, filling, bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}));
+    const double found = before.empty() ? 0 : before.highest - before.lowest + scene.spacing;
     const std::string own = key + (wall.wave.length > 0 ? ".piston.depth" : ".depth");
     if (found == 0) {
         warnings.add(wall.place, own,
@@ -90,24 +72,14 @@ void look_at_depth(const Scene& scene, const Filling& filling, const Wall& wall,
     }
 }
 
-bool holds_fluid(const Scene& scene, const Filling& filling, const Sponge& sponge)
-{
-    return std::ranges::any_of(filling.fluid, [&](const Vec3& p) {
-        const bool beside =
-            scene.dimensions == 3 && (p.y() < sponge.min.y() || p.y() > sponge.max.y());
-        return !beside && p.x() >= sponge.min.x() && p.x() <= sponge.max.x() &&
-               p.z() >= sponge.min.z() && p.z() <= sponge.max.z();
-    });
-}
-
-void look_at_sponge(const Scene& scene, const Filling& filling, std::size_t k,
+void look_at_sponge(const Scene& scene, const PlanFacts& facts, std::size_t k,
                     PlanWarnings& warnings)
 {
     const Sponge& sponge = scene.sponges[k];
     const std::string key = fmt::format("sponge[{}]", k);
     if (!scene.fluid) {
         warnings.add(sponge.place, key, "has no effect: the scene has no fluid", "omit it");
-    } else if (scene.open.empty() && !holds_fluid(scene, filling, sponge)) {
+    } else if (scene.open.empty() && facts.sponge_is_wet[k] == 0) {
         warnings.add(sponge.place, key, "there is no water in the sponge at the start",
                      "`min` and `max` are the corners of a box in the water, in m");
     }
@@ -115,7 +87,7 @@ void look_at_sponge(const Scene& scene, const Filling& filling, std::size_t k,
 
 } // namespace
 
-void warn_about_waves(const Scene& scene, const Filling& filling, Plan& plan)
+void warn_about_waves(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     PlanWarnings warnings(scene, plan);
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
@@ -123,14 +95,14 @@ void warn_about_waves(const Scene& scene, const Filling& filling, Plan& plan)
         const std::string key = fmt::format("wall[{}].motion", w);
         look_at_height(wall, key, warnings);
         if (scene.fluid) {
-            look_at_depth(scene, filling, wall, key, warnings);
+            look_at_depth(scene, facts.before_paddle[w], wall, key, warnings);
         } else if (wall.motion.absorption) {
             warnings.add(wall.place, key + ".absorb", "has no effect: the scene has no fluid",
                          "omit it");
         }
     }
     for (std::size_t k = 0; k < scene.sponges.size(); ++k) {
-        look_at_sponge(scene, filling, k, warnings);
+        look_at_sponge(scene, facts, k, warnings);
     }
 }
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "relax_packing.hpp"
 
+#include "fill_neighbours.hpp"
 #include "free_sides.hpp"
 #include "free_space.hpp"
 #include "near_points.hpp"
 #include "packing_grid.hpp"
 
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/ranks/reduction.hpp"
 
 #include <algorithm>
 #include <functional>
+#include <optional>
+#include <utility>
 
 namespace hyoryu {
 
@@ -50,7 +54,8 @@ struct Beside {
     double room = 0;
 };
 
-// The fluid particles that take part, those that move first, then those that stay.
+// The fluid particles that take part: those of this process that move, then those that stay and
+// those of other processes.
 struct Packing {
     std::vector<std::int32_t> rows;          // of the fluid
     std::vector<Vec3> points;                // [m]
@@ -59,13 +64,18 @@ struct Packing {
     std::vector<std::int32_t> beside_number; // in `beside`, of those that move; -1: none
     std::vector<Beside> beside;
     Index moving = 0;
+    std::vector<std::int32_t> others; // that move, in the order in which they are fetched; -1: none
     PackingUnits units;
     PackingGrid grid, solids;
 };
 
-std::vector<Vec3> solid_points(const Scene& scene, const Filling& filling)
+std::vector<Vec3> solid_points(const Scene& scene, const Filling& filling,
+                               const FillNeighbours* neighbours)
 {
     std::vector<Vec3> points = filling.wall;
+    if (neighbours != nullptr) {
+        points.insert(points.end(), neighbours->walls().begin(), neighbours->walls().end());
+    }
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         for (const Vec3& p : filling.bodies[b].points) {
             points.push_back(scene.bodies[b].position + scene.bodies[b].rotation * p);
@@ -152,43 +162,84 @@ Vec3 middle_of_blocks(const Scene& scene)
 
 // Particles that were filled into one place, a corner of three surfaces, do not repel each other:
 // they are put one above the other.
-void part_coincident(const Vec3& down, double dp, Packing& packing)
+void part_coincident(const Filling& filling, const Vec3& down, double dp, Packing& packing)
 {
-    std::vector<std::pair<UnitPlace, Index>> places;
+    struct Here {
+        UnitPlace place;
+        std::int64_t number;
+        Index k;
+    };
+    std::vector<Here> all;
+    const auto add = [&](Index k) {
+        all.push_back({packing.units.whole(packing.points[at(k)]),
+                       filling.number_of_fluid(at(packing.rows[at(k)])), k});
+    };
     for (Index i = 0; i < packing.moving; ++i) {
-        places.emplace_back(packing.units.whole(packing.points[at(i)]), i);
+        add(i);
     }
-    std::ranges::sort(places);
+    for (const std::int32_t other : packing.others) {
+        if (other >= 0) {
+            add(other);
+        }
+    }
+    std::ranges::sort(all, {}, [](const Here& h) { return std::pair(h.place, h.number); });
     Index above = 0;
-    for (std::size_t k = 1; k < places.size(); ++k) {
-        above = places[k].first == places[k - 1].first ? above + 1 : 0;
-        packing.points[at(places[k].second)] -= longest * static_cast<double>(above) * dp * down;
+    for (std::size_t k = 1; k < all.size(); ++k) {
+        above = all[k].place == all[k - 1].place ? above + 1 : 0;
+        packing.points[at(all[k].k)] -= longest * static_cast<double>(above) * dp * down;
     }
 }
 
-// The particles that move, with all that they may see; none if none moves.
-Packing packing_of(const Scene& scene, const Filling& filling, double support)
+// Where those of other processes that move are among all: `moves` marks the own ones, then all
+// copies, of which the packing has those that it sees.
+std::vector<std::int32_t> places_of_others(const Packing& packing, std::size_t own,
+                                           std::span<const std::uint8_t> moves)
+{
+    std::vector<std::int32_t> place(moves.size(), -1);
+    for (std::size_t k = 0; k < packing.rows.size(); ++k) {
+        place[at(packing.rows[k])] = static_cast<std::int32_t>(k);
+    }
+    std::vector<std::int32_t> others;
+    for (std::size_t row = own; row < moves.size(); ++row) {
+        if (moves[row] != 0) {
+            others.push_back(place[row]);
+        }
+    }
+    return others;
+}
+
+// Distance to which particles look, those that move included [m].
+double sight(double support, double dp)
+{
+    return support + (strays + 2 * farthest) * dp;
+}
+
+// The particles of this process that move, with all that they may see.
+Packing packing_of(const Scene& scene, const Filling& filling, double support, Comm* comm,
+                   FillNeighbours* neighbours)
 {
     const double dp = scene.spacing;
-    const std::vector<Vec3> solids = solid_points(scene, filling);
-    const std::vector<std::uint8_t> moves = free_to_move(scene, filling, solids, support);
+    const std::size_t own = neighbours != nullptr ? neighbours->own() : filling.fluid.size();
+    const std::vector<Vec3> solids = solid_points(scene, filling, neighbours);
+    std::vector<std::uint8_t> moves = free_to_move(scene, filling, own, solids, support);
     Packing packing;
     add_fluid(filling, moves, packing);
     packing.moving = static_cast<Index>(packing.points.size());
-    if (packing.moving == 0) {
-        return packing;
-    }
     packing.way.assign(packing.points.size(), Eigen::Vector3f::Zero());
-    const double seen = support + (strays + 2 * farthest) * dp;
+    moves.resize(filling.fluid.size(), 0);
+    const double seen = sight(support, dp);
     std::vector<std::uint8_t> stays = marks_about(filling.fluid, moves, seen);
     std::ranges::transform(stays, moves, stays.begin(), std::minus<>());
     add_fluid(filling, stays, packing);
-    Bounds box;
-    for (const Vec3& p : packing.points) {
-        box.add(p);
+    if (neighbours != nullptr) {
+        moves.resize(own);
+        moves = neighbours->joined(std::move(moves));
+        neighbours->keep(std::span(moves).first(own));
+        packing.others = places_of_others(packing, own, moves);
     }
+    const Bounds box = bounds_of_all(comm, packing.points);
     packing.units = packing_units(middle_of_blocks(scene), dp, box.min, box.max);
-    part_coincident(scene.gravity.normalized(), dp, packing);
+    part_coincident(filling, scene.gravity.normalized(), dp, packing);
     add_solids(solids, seen, support / packing.units.size, packing);
     return packing;
 }
@@ -258,9 +309,24 @@ Vec3 next_place(Packing& packing, const FreeSpace& space, double dp, std::size_t
     return (to - start).norm() > farthest * dp ? from : to;
 }
 
+// Gets the places of particles of other processes; the longest way of one [m].
+double fetch_others(const FillNeighbours& neighbours, Packing& packing)
+{
+    const std::vector<Vec3> places =
+        neighbours.fetch(std::span(packing.points).first(at(packing.moving)));
+    double farthest_gone = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (const std::int32_t other = packing.others[k]; other >= 0) {
+            farthest_gone = std::max(farthest_gone, (places[k] - packing.points[at(other)]).norm());
+            packing.points[at(other)] = places[k];
+        }
+    }
+    return farthest_gone;
+}
+
 // One round; the longest way of a particle [m].
 double descend(const Filling& filling, const PackingPressure& pressure, const FreeSpace& space,
-               double dp, Packing& packing)
+               double dp, const FillNeighbours* neighbours, Packing& packing)
 {
     const auto all = static_cast<Index>(packing.points.size());
     const PackingUnits& units = packing.units;
@@ -286,6 +352,7 @@ double descend(const Filling& filling, const PackingPressure& pressure, const Fr
             move(slot);
         }
     });
+    const double gone = neighbours != nullptr ? fetch_others(*neighbours, packing) : 0;
     parallel_for(0, all, [&](Index slot) {
         const auto k = at(grid.order[at(slot)]);
         const UnitPlace place = units.whole(packing.points[k]);
@@ -294,9 +361,10 @@ double descend(const Filling& filling, const PackingPressure& pressure, const Fr
         grid.z[at(slot)] = place[2];
         grid.depth[at(slot)] = depth_of(filling, packing, pressure.down, dp, k);
     });
-    return units.size * largest(0, packing.moving, 0.0, [&](Index k) {
-               return static_cast<double>(packing.way[at(k)].norm());
-           });
+    const double way = units.size * largest(0, packing.moving, 0.0, [&](Index k) {
+                           return static_cast<double>(packing.way[at(k)].norm());
+                       });
+    return std::max(way, gone);
 }
 
 void sort(const Filling& filling, const Vec3& down, double dp, double reach, Packing& packing)
@@ -320,30 +388,38 @@ double deepest_of(const Filling& filling, const Packing& packing)
 
 } // namespace
 
-void relax_packing(const Scene& scene, Filling& filling)
+void relax_packing(const Scene& scene, const FillRegion* region, Filling& filling)
 {
+    Comm* const comm = region != nullptr ? &region->comm() : nullptr;
     const bool any = std::ranges::find(filling.fluid_cut, 1) != filling.fluid_cut.end();
     const bool in_layers = std::ranges::any_of(scene.fluid->blocks, &FluidBlock::layers);
-    if (!any || in_layers || !(scene.gravity.norm() > 0)) {
+    if (in_layers || !(scene.gravity.norm() > 0) || sum_of_all(comm, any ? 1 : 0) == 0) {
         return;
     }
     const double dp = scene.spacing;
+    const double volume = particle_volume(scene, filling);
     const Kernel kernel =
         make_kernel(scene.fluid->smoothing_ratio, 1, scene.dimensions, scene.fluid->kernel);
-    Packing packing = packing_of(scene, filling, kernel.support * dp);
-    if (packing.moving == 0) {
+    std::optional<FillNeighbours> neighbours;
+    if (region != nullptr) {
+        neighbours.emplace(*region, sight(kernel.support * dp, dp), filling);
+    }
+    FillNeighbours* const others = neighbours ? &*neighbours : nullptr;
+    Packing packing = packing_of(scene, filling, kernel.support * dp, comm, others);
+    if (sum_of_all(comm, packing.moving) == 0) {
         return;
     }
     const FreeSpace space(scene);
     find_surfaces(scene, space, packing);
     const double unit = packing.units.size / dp;
-    const double layers = deepest_of(filling, packing) / dp;
+    double deepest = deepest_of(filling, packing);
+    largest_of_all(comm, {&deepest, 1});
+    const double layers = deepest / dp;
     const PackingPressure pressure{.kernel = kernel,
                                    .down = scene.gravity.normalized(),
                                    .unit = unit,
                                    .reach = (kernel.support + strays) / unit,
-                                   .volume = particle_volume(scene, filling) /
-                                             std::pow(dp, scene.dimensions),
+                                   .volume = volume / std::pow(dp, scene.dimensions),
                                    .deepest = layers + 1};
     const int rounds =
         static_cast<int>(std::clamp<double>(rounds_of_layer * layers, least_rounds, most_rounds));
@@ -353,7 +429,7 @@ void relax_packing(const Scene& scene, Filling& filling)
             sort(filling, pressure.down, dp, pressure.reach, packing);
             gone = 0;
         }
-        gone += descend(filling, pressure, space, dp, packing);
+        gone += descend(filling, pressure, space, dp, others, packing);
     }
     for (Index k = 0; k < packing.moving; ++k) {
         const auto row = at(packing.rows[at(k)]);

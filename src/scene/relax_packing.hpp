@@ -2,7 +2,7 @@
 // Fluid in the packing that still water keeps.
 #pragma once
 
-#include "hyoryu/scene/fill.hpp"
+#include "fill_region.hpp"
 
 namespace hyoryu {
 
@@ -18,7 +18,9 @@ namespace hyoryu {
 /// rounds; masses stay, depths follow the places, and no particle comes nearer to a surface than it
 /// may be filled. Particles beside an open side of the water, or without support below, are not
 /// moved, since they are not at rest. Without gravity or marks nothing is done, nor where a block
-/// is in layers, which follow the surfaces themselves.
-void relax_packing(const Scene& scene, Filling& filling);
+/// is in layers, which follow the surfaces themselves. Several processes each move what is in their
+/// region, and get the places of what they see of others after each round. `region`: null for one
+/// process.
+void relax_packing(const Scene& scene, const FillRegion* region, Filling& filling);
 
 } // namespace hyoryu

@@ -134,44 +134,90 @@ void relax(const FreeSpace& space, double spacing, double distance,
     }
 }
 
-// Moves pairs of which one is within a radius about marked particles to a distance [m].
-void move_apart(const Scene& scene, std::span<const std::uint8_t> marked, double radius,
-                double distance, Filling& filling)
+// A particle in the surroundings of pairs, on all processes.
+struct Seen {
+    std::int64_t number = 0;
+    Vec3 place{0, 0, 0};
+    std::int64_t is_free = 0;
+};
+
+template <class T>
+std::vector<T> of_all(Comm* comm, std::vector<T> own)
 {
-    if (std::ranges::find(marked, 1) == marked.end()) {
-        return;
+    return comm == nullptr ? own : gather(*comm, std::span<const T>(own)).all;
+}
+
+std::vector<Vec3> places_of(const Filling& filling, std::span<const std::uint8_t> marked)
+{
+    std::vector<Vec3> places;
+    for (std::size_t k = 0; k < marked.size(); ++k) {
+        if (marked[k] != 0) {
+            places.push_back(filling.fluid[k]);
+        }
     }
-    const std::vector<std::uint8_t> giving = marks_about(filling.fluid, marked, radius);
-    const std::vector<std::uint8_t> seen = marks_about(filling.fluid, giving, scene.spacing);
-    std::vector<std::size_t> rows;
-    std::vector<Vec3> points;
-    std::vector<std::uint8_t> is_free;
+    return places;
+}
+
+// Those that move, and those that they see, by number. `centres`: the marked particles of all.
+std::vector<Seen> seen_about(const Scene& scene, Comm* comm, const std::vector<Vec3>& centres,
+                             double radius, const Filling& filling)
+{
+    const std::vector<std::uint8_t> giving = marks_near(filling.fluid, centres, radius);
+    const std::vector<Vec3> movers = of_all(comm, places_of(filling, giving));
+    const std::vector<std::uint8_t> seen = marks_near(filling.fluid, movers, scene.spacing);
+    std::vector<Seen> own;
     for (std::size_t k = 0; k < seen.size(); ++k) {
         if (seen[k] != 0) {
-            rows.push_back(k);
-            points.push_back(filling.fluid[k]);
-            is_free.push_back(giving[k]);
+            own.push_back({filling.number_of_fluid(k), filling.fluid[k], giving[k]});
         }
     }
+    std::vector<Seen> all = of_all(comm, std::move(own));
+    std::ranges::sort(all, {}, &Seen::number);
+    return all;
+}
+
+// Moves pairs of which one is within a radius about marked particles to a distance [m].
+void move_apart(const Scene& scene, Comm* comm, std::span<const std::uint8_t> marked, double radius,
+                double distance, Filling& filling)
+{
+    const std::vector<Vec3> centres = of_all(comm, places_of(filling, marked));
+    if (centres.empty()) {
+        return;
+    }
+    const std::vector<Seen> seen = seen_about(scene, comm, centres, radius, filling);
+    std::vector<Vec3> points;
+    std::vector<std::uint8_t> is_free;
+    for (const Seen& one : seen) {
+        points.push_back(one.place);
+        is_free.push_back(one.is_free != 0 ? 1 : 0);
+    }
     relax(FreeSpace(scene), scene.spacing, distance, is_free, points);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        Vec3& p = filling.fluid[rows[k]];
-        if (scene.gravity.norm() > 0) {
-            filling.fluid_depth[rows[k]] += height(scene, p) - height(scene, points[k]);
+    std::size_t next = 0; // own particles come in the order of their numbers
+    for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
+        while (next < seen.size() && seen[next].number < filling.number_of_fluid(k)) {
+            ++next;
         }
-        p = points[k];
+        if (next == seen.size() || seen[next].number != filling.number_of_fluid(k)) {
+            continue;
+        }
+        Vec3& p = filling.fluid[k];
+        if (scene.gravity.norm() > 0) {
+            filling.fluid_depth[k] += height(scene, p) - height(scene, points[next]);
+        }
+        p = points[next];
     }
 }
 
-// Rows of the fluid about surfaces that are much nearer to another particle than a spacing.
-std::vector<std::uint8_t> in_pairs(const Filling& filling, double spacing)
+// The first `own` rows of the fluid that are about surfaces and much nearer to another particle
+// than a spacing.
+std::vector<std::uint8_t> in_pairs(const Filling& filling, std::size_t own, double spacing)
 {
     const double distance = crowded * spacing;
     const std::vector<Vec3>& points = filling.fluid;
     CellGrid grid;
     build(grid, points, 0, spacing); // smaller cells would be many for each particle
-    std::vector<std::uint8_t> near(points.size(), 0);
-    parallel_for(0, static_cast<Index>(points.size()), [&](Index k) {
+    std::vector<std::uint8_t> near(own, 0);
+    parallel_for(0, static_cast<Index>(own), [&](Index k) {
         const auto row = at(k);
         if (filling.fluid_cut[row] != 0) {
             for_cells_about(grid, points[row], [&](std::size_t other) {
@@ -183,20 +229,41 @@ std::vector<std::uint8_t> in_pairs(const Filling& filling, double spacing)
     return near;
 }
 
+// The same of the particles of this process, those of others being copied.
+std::vector<std::uint8_t> in_pairs_of_all(const FillRegion& region, double spacing,
+                                          Filling& filling)
+{
+    constexpr double strayed = 1; // spacings that packing moves a particle out of its region
+    const std::size_t own = filling.fluid.size();
+    const FillHalo halo(region, filling.fluid, (strayed + crowded) * spacing);
+    const std::vector<Vec3> copies = halo.fetch(std::span<const Vec3>(filling.fluid));
+    filling.fluid.insert(filling.fluid.end(), copies.begin(), copies.end());
+    std::vector<std::uint8_t> near = in_pairs(filling, own, spacing);
+    filling.fluid.resize(own);
+    return near;
+}
+
 } // namespace
 
 void stand_off_bodies(const Scene& scene, Filling& filling)
 {
     const double spacing = scene.spacing;
-    move_apart(scene, too_near(scene, filling.fluid), around * spacing, apart * spacing, filling);
+    move_apart(scene, nullptr, too_near(scene, filling.fluid), around * spacing, apart * spacing,
+               filling);
 }
 
-void part_pairs(const Scene& scene, Filling& filling)
+void part_pairs(const Scene& scene, const FillRegion* region, Filling& filling)
 {
+    Comm* const comm = region != nullptr ? &region->comm() : nullptr;
     const double spacing = scene.spacing;
-    if (std::ranges::find(filling.fluid_cut, 1) != filling.fluid_cut.end()) {
-        move_apart(scene, in_pairs(filling, spacing), around * spacing, parted * spacing, filling);
+    const bool any = std::ranges::find(filling.fluid_cut, 1) != filling.fluid_cut.end();
+    if (sum_of_all(comm, any ? 1 : 0) == 0) {
+        return;
     }
+    const std::vector<std::uint8_t> near = region != nullptr
+                                               ? in_pairs_of_all(*region, spacing, filling)
+                                               : in_pairs(filling, filling.fluid.size(), spacing);
+    move_apart(scene, comm, near, around * spacing, parted * spacing, filling);
 }
 
 } // namespace hyoryu

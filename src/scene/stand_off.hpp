@@ -2,7 +2,7 @@
 // Fluid at its distance from bodies, and particles of fluid at theirs from each other.
 #pragma once
 
-#include "hyoryu/scene/fill.hpp"
+#include "fill_region.hpp"
 
 namespace hyoryu {
 
@@ -13,7 +13,8 @@ namespace hyoryu {
 void stand_off_bodies(const Scene& scene, Filling& filling);
 
 /// Moves pairs of fluid particles about surfaces (`fluid_cut`) that are nearer than two fifths of a
-/// spacing to three fifths, with the same method, and keeps them off walls and bodies.
-void part_pairs(const Scene& scene, Filling& filling);
+/// spacing to three fifths, with the same method, and keeps them off walls and bodies. Several
+/// processes all do it for all pairs, which are few. `region`: null for one process.
+void part_pairs(const Scene& scene, const FillRegion* region, Filling& filling);
 
 } // namespace hyoryu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "walls.hpp"
 
+#include "crowd.hpp"
 #include "layer_places.hpp"
 
 #include "hyoryu/scene/wall_layers.hpp"
@@ -12,73 +13,6 @@
 namespace hyoryu {
 
 namespace {
-
-// Keeps points that are at least 0.6 spacings from every earlier one. A table of cells that edge
-// wide, each with one point, by linear probing.
-class Crowd {
-public:
-    Crowd(double spacing, const std::vector<Vec3>& points) : points_(points), cell_(0.6 * spacing)
-    {
-    }
-
-    // Whether a point has room; if it has, it must be appended to the points.
-    bool add(const Vec3& p)
-    {
-        if (2 * (points_.size() + 1) > table_.size()) {
-            grow();
-        }
-        const Cell c = cell_of(p);
-        if (table_[slot_of(c)] >= 0) {
-            return false;
-        }
-        for (int way = 0; way < 27; ++way) {
-            const Cell beside{c[0] + way % 3 - 1, c[1] + way / 3 % 3 - 1, c[2] + way / 9 - 1};
-            const std::int32_t near = table_[slot_of(beside)];
-            if (near >= 0 && (points_[static_cast<std::size_t>(near)] - p).norm() < cell_) {
-                return false;
-            }
-        }
-        table_[slot_of(c)] = static_cast<std::int32_t>(points_.size());
-        return true;
-    }
-
-private:
-    using Cell = std::array<Index, 3>;
-
-    Cell cell_of(const Vec3& p) const
-    {
-        Cell c{};
-        for (int a = 0; a < 3; ++a) {
-            c[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(p[a] / cell_));
-        }
-        return c;
-    }
-    // The entry of a cell, or the empty one that it would get.
-    std::size_t slot_of(const Cell& c) const
-    {
-        std::uint64_t hash = 1;
-        for (const Index k : c) {
-            hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9E3779B97F4A7C15ULL;
-            hash ^= hash >> 32;
-        }
-        std::size_t slot = hash & (table_.size() - 1);
-        while (table_[slot] >= 0 && cell_of(points_[static_cast<std::size_t>(table_[slot])]) != c) {
-            slot = (slot + 1) & (table_.size() - 1);
-        }
-        return slot;
-    }
-    void grow()
-    {
-        table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), -1);
-        for (std::size_t k = 0; k < points_.size(); ++k) {
-            table_[slot_of(cell_of(points_[k]))] = static_cast<std::int32_t>(k);
-        }
-    }
-
-    const std::vector<Vec3>& points_;
-    double cell_;
-    std::vector<std::int32_t> table_; // a power of two; points by cell, -1: none
-};
 
 double depth_in(const PlaneWall& plane, const Vec3& p, int)
 {
@@ -110,17 +44,8 @@ double depth_in(const SolidWall& solid, const Vec3& p, int dimensions)
     return -signed_distance({&solid.shape, solid.centre, solid.rotation, dimensions}, p);
 }
 
-// By the tree of a mesh, which looks at few of its triangles.
-double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& p, int dimensions)
-{
-    if (std::holds_alternative<TriangleTree>(surface.shape)) {
-        return -nearest_place(surface, surface.rotation.conjugate() * (p - surface.centre))
-                    .distance;
-    }
-    return depth_behind(wall, p, dimensions);
-}
+} // namespace
 
-// Beyond a period there are images of the particles within it.
 bool in_period(const Scene& scene, const Vec3& point)
 {
     for (Index axis = 0; axis < 3; ++axis) {
@@ -133,7 +58,14 @@ bool in_period(const Scene& scene, const Vec3& point)
     return true;
 }
 
-} // namespace
+double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& p, int dimensions)
+{
+    if (std::holds_alternative<TriangleTree>(surface.shape)) {
+        return -nearest_place(surface, surface.rotation.conjugate() * (p - surface.centre))
+                    .distance;
+    }
+    return depth_behind(wall, p, dimensions);
+}
 
 void fill_walls(const Scene& scene, Filling& filling)
 {
@@ -143,21 +75,22 @@ void fill_walls(const Scene& scene, Filling& filling)
         const Wall& wall = scene.walls[w];
         const SolidSurface surface = surface_of(wall, lattice.depth(), scene.dimensions);
         Index expected = -1; // the place that a run would go on with
-        for_each_place(layer_places(wall, surface, lattice), [&](Index number, const Vec3& p) {
-            if (!in_period(scene, p) || !crowd.add(p)) {
-                return;
-            }
-            if (number != expected) {
-                filling.wall_runs.push_back({static_cast<Index>(filling.wall.size()), number,
-                                             static_cast<std::int32_t>(w)});
-            }
-            expected = number + 1;
-            filling.wall.push_back(p);
-            filling.wall_owner.push_back(static_cast<std::int32_t>(w));
-            if (scene.fluid->walls.sticks) {
-                filling.wall_depth.push_back(depth_behind(wall, surface, p, scene.dimensions));
-            }
-        });
+        for_each_place(
+            layer_places(wall, surface, lattice), nullptr, [&](Index number, const Vec3& p) {
+                if (!in_period(scene, p) || !crowd.add(p)) {
+                    return;
+                }
+                if (number != expected) {
+                    filling.wall_runs.push_back({static_cast<Index>(filling.wall.size()), number,
+                                                 static_cast<std::int32_t>(w)});
+                }
+                expected = number + 1;
+                filling.wall.push_back(p);
+                filling.wall_owner.push_back(static_cast<std::int32_t>(w));
+                if (scene.fluid->walls.sticks) {
+                    filling.wall_depth.push_back(depth_behind(wall, surface, p, scene.dimensions));
+                }
+            });
     }
 }
 

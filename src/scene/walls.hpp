@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hyoryu/scene/fill.hpp"
+#include "hyoryu/scene/solid_surface.hpp"
 
 namespace hyoryu {
 
@@ -12,5 +13,11 @@ void fill_walls(const Scene& scene, Filling& filling);
 
 /// Depth of a point behind the surface of a wall, negative in the free space [m].
 double depth_behind(const Wall& wall, const Vec3& point, int dimensions);
+/// The same by the tree of a mesh, which looks at few of its triangles.
+double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& point,
+                    int dimensions);
+
+/// Whether a place is within the periods: beyond them there are images of the particles in them.
+bool in_period(const Scene& scene, const Vec3& point);
 
 } // namespace hyoryu

@@ -26,14 +26,14 @@ double hydrostatic_density(const FluidParameters& f, double depth)
     return f.eos.rho0 * std::exp(f.gravity.norm() * depth / sq(f.eos.c0));
 }
 
-void fill_fluid_rows(const Filling& filling, const Numbers& numbers, Fluid& fluid)
+void fill_fluid_rows(const Filling& filling, Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;
     const auto x = store[field::position];
     const auto v = store[field::velocity];
     const auto rho = store[field::density];
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
-        store.id()[k] = numbers.of_fluid(k);
+        store.id()[k] = filling.number_of_fluid(k);
         x[k] = filling.fluid[k];
         v[k] = filling.fluid_velocity.empty() ? Vec3(0, 0, 0) : filling.fluid_velocity[k];
         const double pressure = filling.fluid_pressure.empty() ? 0 : filling.fluid_pressure[k];
@@ -43,8 +43,7 @@ void fill_fluid_rows(const Filling& filling, const Numbers& numbers, Fluid& flui
 }
 
 // Walls that move have rows always.
-void fill_wall_rows(const Scene& scene, const Filling& filling, const Numbers& numbers,
-                    Fluid& fluid)
+void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
 {
     Store& store = fluid.particles.wall;
     Index row = 0;
@@ -56,7 +55,7 @@ void fill_wall_rows(const Scene& scene, const Filling& filling, const Numbers& n
         store[field::position][row] = filling.wall[k];
         store[field::velocity][row] = velocity(scene.walls[at(wall)].motion, 0);
         store.owner()[row] = -1 - wall;
-        store.id()[row] = fluid.fixed_walls.first_number + numbers.of_wall(k);
+        store.id()[row] = fluid.fixed_walls.first_number + filling.number_of_wall(k);
         if (store.has(field::depth)) {
             store[field::depth][row] = filling.wall_depth[k];
         }
@@ -112,15 +111,15 @@ Fluid empty_fluid(const Scene& scene, const Plan& plan)
 }
 
 // Adds the particles of a process; `fluid`: with its walls, and its cuts if it is one of several.
-void add_fluid(Simulation& sim, Fluid fluid, const Filling& filling, const Numbers& numbers)
+void add_fluid(Simulation& sim, Fluid fluid, const Filling& filling)
 {
     if (fluid.fixed_walls.count > 0) {
         fluid.fixed_walls.make = wall_maker(sim.scene, filling, sim.barrier->solids);
     }
     allocate(fluid, static_cast<Index>(filling.fluid.size()), fluid.fixed_walls.moving_rows,
              static_cast<Index>(sim.body_particles.points.size()));
-    fill_fluid_rows(filling, numbers, fluid);
-    fill_wall_rows(sim.scene, filling, numbers, fluid);
+    fill_fluid_rows(filling, fluid);
+    fill_wall_rows(sim.scene, filling, fluid);
     fill_body_rows(sim, filling, fluid);
     const auto of_walls = fluid.particles.wall[field::position];
     sim.wall_start.assign(of_walls.begin(), of_walls.end());
@@ -137,31 +136,19 @@ void add_body_points(Simulation& sim, const std::vector<Aggregate>& bodies)
     }
 }
 
-void add_particles(Simulation& sim, const Filling& filling)
+void add_particles(Simulation& sim, Filling& filling)
 {
     add_body_points(sim, filling.bodies);
-    if (sim.plan.fluid) {
-        Fluid fluid = empty_fluid(sim.scene, sim.plan);
-        fluid.fixed_walls = find_fixed_walls(sim.scene, filling, lattice_of(fluid));
-        add_fluid(sim, std::move(fluid), filling, {});
-    }
-}
-
-// The same of a rank; `filling`: of rank 0.
-void add_own_particles(Simulation& sim, Filling filling, Comm& comm)
-{
     if (!sim.plan.fluid) {
-        add_body_points(sim, deal_out(sim.scene, filling, nullptr, comm).filling.bodies);
         return;
     }
     Fluid fluid = empty_fluid(sim.scene, sim.plan);
     const TileLattice lattice = lattice_of(fluid);
-    Share own = deal_out(sim.scene, filling, &lattice, comm);
-    filling = {};
-    add_body_points(sim, own.filling.bodies);
-    fluid.fixed_walls = std::move(own.walls);
-    share(fluid, comm, own.cuts);
-    add_fluid(sim, std::move(fluid), own.filling, own.numbers);
+    fluid.fixed_walls = find_fixed_walls(sim.scene, filling, lattice, sim.comm);
+    if (sim.comm != nullptr) {
+        share(fluid, *sim.comm, deal_out(sim.scene, lattice, *sim.comm, filling));
+    }
+    add_fluid(sim, std::move(fluid), filling);
 }
 
 // A step of a fluid particle costs as much as ten updates of a contact, on one thread.
@@ -213,12 +200,8 @@ Simulation make_unlisted(const Scene& scene, const Plan& plan, Filling filling, 
         sim.rigid.settings.located_work = scene.contact.locating_share * updates_of_particle *
                                           static_cast<double>(plan.counts.fluid);
     }
-    if (comm == nullptr) {
-        add_particles(sim, filling);
-        filling = {}; // the lists take as much memory
-    } else {
-        add_own_particles(sim, std::move(filling), *comm);
-    }
+    add_particles(sim, filling);
+    filling = {}; // the lists take as much memory
     if (sim.fluid) {
         prepare_fluid(sim);
     }

@@ -6,7 +6,6 @@
 #include "random_scene.hpp"
 #include "runs.hpp"
 
-#include "hyoryu/sim/dealing.hpp"
 #include "hyoryu/sim/state_parts.hpp"
 
 #include <gtest/gtest.h>
@@ -84,16 +83,15 @@ struct Case {
     Simulation blank(Comm* comm) const { return make(comm, make_to_restore); }
 
 private:
-    // Only rank 0 knows plan and filling.
+    // Of several ranks each fills a part.
     Simulation make(Comm* comm, const auto& make_of) const
     {
         if (comm == nullptr) {
             return make_of(scene, plan, filling, nullptr);
         }
-        const bool root = comm->rank() == 0;
-        Plan own = root ? plan : Plan{};
-        deal_plan(*comm, scene, root ? filling : Filling{}, own);
-        return make_of(scene, own, root ? filling : Filling{}, comm);
+        Filling own = fill(scene, {comm});
+        const Plan same = make_plan(scene, own, comm);
+        return make_of(scene, same, std::move(own), comm);
     }
 };
 

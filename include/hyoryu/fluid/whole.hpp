@@ -10,8 +10,9 @@ namespace hyoryu {
 /// Called by all ranks; the others get their own.
 Store whole_bodies(const Fluid& fluid);
 
-/// Cuts by which all ranks have about the same number of fluid particles.
-Cuts even_cuts(const TileLattice& lattice, std::span<const Vec3> fluid, int ranks);
+/// Cuts by which all ranks have about the same number of fluid particles; `fluid`: those that this
+/// one has. Called by all ranks.
+Cuts even_cuts(const TileLattice& lattice, std::span<const Vec3> fluid, Comm& comm);
 
 /// Leaves the tiles of a range.
 void keep_tiles(Tiles& tiles, const TileRange& own);

@@ -4,7 +4,10 @@
 // space has an owner, whether anything is there or not.
 #pragma once
 
+#include "hyoryu/ranks/comm.hpp"
+
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -26,6 +29,13 @@ struct Cuts {
     int owner(std::uint64_t tile) const;
     TileRange range(int rank) const;
 };
+
+/// Weights by tile [1].
+using TileWeights = std::map<std::uint64_t, double>;
+
+/// Cuts between the tiles of all ranks, so that these have about equal sums of weights; `own`: what
+/// this one adds. Called by all ranks.
+Cuts cut_evenly(Comm& comm, const TileWeights& own);
 
 /// Cuts between tiles, ascending, so that the ranks have about equal sums of their weights [1].
 Cuts cut_evenly(std::span<const std::uint64_t> tiles, std::span<const double> weights, int ranks);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/ranks/comm.hpp"
 #include "hyoryu/scene/shapes.hpp"
 
 namespace hyoryu {
@@ -24,23 +25,39 @@ struct WallRun {
     std::int32_t shift = 0; // in `wall_shifts`: away from its place in the layers
 };
 
-/// All particles of a scene at the start.
+/// All particles of a scene at the start, or those of them that one of several processes has.
 struct Filling {
-    std::vector<Vec3> fluid;              // [m]
-    std::vector<Vec3> fluid_velocity;     // [m/s]; empty if all fluid is at rest
-    std::vector<double> fluid_depth;      // below the free surface above it, along gravity [m]
-    std::vector<double> fluid_pressure;   // above the hydrostatic one [Pa]; empty without any
-    double fluid_volume = 0;              // that the fluid particles stand for [m^d]
-    std::vector<std::uint8_t> fluid_cut;  // 1 about cells that surfaces cut or the block stretches
-    std::vector<Vec3> wall;               // [m]; empty without fluid
-    std::vector<std::int32_t> wall_owner; // index of the wall
-    std::vector<double> wall_depth;       // behind the surface [m]; empty where fluid slips
-    std::vector<WallRun> wall_runs;       // of the wall particles, ascending
+    std::vector<Vec3> fluid;                // [m]
+    std::vector<std::int64_t> fluid_number; // of all processes; empty for one: 0, 1, ...
+    Index fluid_elsewhere = 0;              // fluid particles that other processes have
+    std::vector<Vec3> fluid_velocity;       // [m/s]; empty if all fluid is at rest
+    std::vector<double> fluid_depth;        // below the free surface above it, along gravity [m]
+    std::vector<double> fluid_pressure;     // above the hydrostatic one [Pa]; empty without any
+    double fluid_volume = 0;                // that the fluid particles stand for [m^d]
+    std::vector<std::uint8_t> fluid_cut;   // 1 about cells that surfaces cut or the block stretches
+    std::vector<Vec3> wall;                // [m]; empty without fluid
+    std::vector<std::int64_t> wall_number; // of all processes; empty for one: 0, 1, ...
+    Index wall_elsewhere = 0;              // wall particles that other processes have
+    std::vector<std::int32_t> wall_owner;  // index of the wall
+    std::vector<double> wall_depth;        // behind the surface [m]; empty where fluid slips
+    std::vector<WallRun> wall_runs;        // of the wall particles of all processes, ascending
     std::vector<Vec3> wall_shifts{
         Vec3(0, 0, 0)}; // of runs; others lie below and beside carpets [m]
     std::vector<Aggregate> bodies;
     Bounds domain; // particles outside are removed from the run
     std::vector<Diagnostic> warnings;
+
+    /// Of all processes.
+    Index fluid_count() const { return static_cast<Index>(fluid.size()) + fluid_elsewhere; }
+    Index wall_count() const { return static_cast<Index>(wall.size()) + wall_elsewhere; }
+    std::int64_t number_of_fluid(std::size_t k) const { return number(fluid_number, k); }
+    std::int64_t number_of_wall(std::size_t k) const { return number(wall_number, k); }
+
+private:
+    static std::int64_t number(const std::vector<std::int64_t>& numbers, std::size_t k)
+    {
+        return numbers.empty() ? static_cast<std::int64_t>(k) : numbers[k];
+    }
 };
 
 /// Layers of solid particles that hide the void behind a wall from every fluid particle.
@@ -51,10 +68,18 @@ int wall_layers(double smoothing_ratio);
 /// meshes.
 Aggregate aggregate(const Shape& shape, double spacing, int dimensions);
 
-/// Fills the scene. Where a body stands in the fluid, exactly its volume is taken out.
+/// The processes that fill a case together.
+struct Fillers {
+    Comm* comm = nullptr; // null: one alone
+    double part = 1;      // of all particles that the processes on this machine have
+};
+
+/// Fills the scene. Where a body stands in the fluid, exactly its volume is taken out. Of several
+/// processes, which call it together, each gets a part of the particles and all bodies; none ever
+/// has all particles. What they have is the same, bit for bit, as what one alone has.
 /// Throws CaseError, naming the estimate, if more particles were asked for than can be numbered or
-/// than the memory of this process can hold.
-Filling fill(const Scene& scene);
+/// than the memory of this machine can hold.
+Filling fill(const Scene& scene, const Fillers& fillers = {});
 
 /// The volume that a fluid particle stands for at rest [m3], [m2] in two dimensions: cells that
 /// fill the blocks are seldom cubes of the spacing. The pressure of water whose particles stood for

@@ -119,25 +119,12 @@ struct Plan {
 /// is `without`.
 void expect_built(const Plan& plan, std::span<const std::string_view> without);
 
-/// What a run needs to know of the particles of a filling: the rest of what it runs by follows from
-/// the scene.
-struct PlanFacts {
-    Index fluid = 0, wall = 0;         // particles
-    double particle_volume = 0;        // of the fluid [m3], [m2] in two dimensions
-    double expected_speed = 0;         // [m/s]; 0 without fluid
-    std::vector<Index> body_points;    // of each body
-    std::vector<Index> surface_points; // of each body, in its outermost layer
-};
-PlanFacts facts_of(const Scene& scene, const Filling& filling);
-
-/// The part of a plan that a run goes by, without estimates, what is told to the user and checks of
-/// the filled scene. Throws CaseError for effects that are not part of this build.
-Plan plan_of(const Scene& scene, const PlanFacts& facts);
-
 /// Infers the plan. Throws CaseError for faults that only the filled scene shows: bodies that
 /// overlap each other or a wall, a fixed time step beyond the stability limit, a fluid without
 /// particles; and for effects that are not part of this build.
-Plan make_plan(const Scene& scene, const Filling& filling);
+/// Processes that share the filling call it together, with what each has of it, and get the same
+/// plan; null for one process.
+Plan make_plan(const Scene& scene, const Filling& filling, Comm* comm = nullptr);
 
 /// Bytes of neighbour lists a particle of full support: one for each of the lattice points within
 /// the list radius (support and skin), and some for padding and list heads.

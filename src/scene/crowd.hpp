@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Particles of walls that overlap.
+#pragma once
+
+#include "hyoryu/core/types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace hyoryu {
+
+/// Keeps points that are at least 0.6 spacings from every earlier one. A table of cells that edge
+/// wide, each with one point, by linear probing.
+class Crowd {
+public:
+    /// Edge of a cell, and least distance of two points [spacings].
+    static constexpr double distance = 0.6;
+
+    Crowd(double spacing, const std::vector<Vec3>& points)
+        : points_(points), cell_(distance * spacing)
+    {
+    }
+
+    /// Whether a point has room; if it has, it must be appended to the points.
+    bool add(const Vec3& p)
+    {
+        if (2 * (points_.size() + 1) > table_.size()) {
+            grow();
+        }
+        const Cell c = cell_of(p);
+        if (table_[slot_of(c)] >= 0) {
+            return false;
+        }
+        for (int way = 0; way < 27; ++way) {
+            const Cell beside{c[0] + way % 3 - 1, c[1] + way / 3 % 3 - 1, c[2] + way / 9 - 1};
+            const std::int32_t near = table_[slot_of(beside)];
+            if (near >= 0 && (points_[static_cast<std::size_t>(near)] - p).norm() < cell_) {
+                return false;
+            }
+        }
+        table_[slot_of(c)] = static_cast<std::int32_t>(points_.size());
+        return true;
+    }
+
+private:
+    using Cell = std::array<Index, 3>;
+
+    Cell cell_of(const Vec3& p) const
+    {
+        Cell c{};
+        for (int a = 0; a < 3; ++a) {
+            c[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(p[a] / cell_));
+        }
+        return c;
+    }
+    // The entry of a cell, or the empty one that it would get.
+    std::size_t slot_of(const Cell& c) const
+    {
+        std::uint64_t hash = 1;
+        for (const Index k : c) {
+            hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9E3779B97F4A7C15ULL;
+            hash ^= hash >> 32;
+        }
+        std::size_t slot = hash & (table_.size() - 1);
+        while (table_[slot] >= 0 && cell_of(points_[static_cast<std::size_t>(table_[slot])]) != c) {
+            slot = (slot + 1) & (table_.size() - 1);
+        }
+        return slot;
+    }
+    void grow()
+    {
+        table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), -1);
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            table_[slot_of(cell_of(points_[k]))] = static_cast<std::int32_t>(k);
+        }
+    }
+
+    const std::vector<Vec3>& points_;
+    double cell_;
+    std::vector<std::int32_t> table_; // a power of two; points by cell, -1: none
+};
+
+} // namespace hyoryu
