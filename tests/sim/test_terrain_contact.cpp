@@ -152,7 +152,8 @@ TEST_F(TerrainContact, ABoxSlidesOverAPlaneOfTrianglesAsOverAPlane)
         write_grid(map, [&](Complex at) { return (std::conj(rise) * at).real(); });
         const double half = 35.5 * map.cell;
         const Vec3 normal = Vec3(-rise.real(), -rise.imag(), 1).normalized();
-        // So much more than the slope that it stops within 0.35 s, in whatever order a compiler draws.
+        // So much more than the slope that it stops within 0.35 s, in whatever order a compiler
+        // draws.
         const double friction = std::abs(rise) + dice.between(0.3, 0.5);
         const std::string cube = sliding_cube(normal, dice.between(0, 2 * std::numbers::pi));
         Rigid triangles = scene(terrain(map, {-half, -half, half, half}), cube, 0.3, friction);
