@@ -212,6 +212,19 @@ std::size_t FixedWalls::bytes() const
     return sum + held_by(candidates) + held_by(last_candidates);
 }
 
+void append_run(FixedWalls& walls, std::uint64_t tile, const IndexRun& run)
+{
+    const bool new_tile = walls.tile.empty() || walls.tile.back() != tile;
+    if (new_tile) {
+        walls.tile.push_back(tile);
+        walls.start.push_back(static_cast<std::int32_t>(walls.run.size()));
+    }
+    if (new_tile || walls.run.back().first + walls.run.back().count != run.first) {
+        walls.run.push_back({run.first, 0});
+    }
+    walls.run.back().count += run.count;
+}
+
 void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
                      std::span<const std::int32_t> index, std::span<const Vec3> place)
 {
@@ -228,15 +241,7 @@ void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
     walls.start.clear();
     walls.run.clear();
     for (const Entry& entry : entries) {
-        const bool new_tile = walls.tile.empty() || walls.tile.back() != entry.tile;
-        if (new_tile) {
-            walls.tile.push_back(entry.tile);
-            walls.start.push_back(static_cast<std::int32_t>(walls.run.size()));
-        }
-        if (new_tile || walls.run.back().first + walls.run.back().count != entry.index) {
-            walls.run.push_back({entry.index, 0});
-        }
-        walls.run.back().count += 1;
+        append_run(walls, entry.tile, {entry.index, 1});
     }
     walls.start.push_back(static_cast<std::int32_t>(walls.run.size()));
     walls.tile.shrink_to_fit();

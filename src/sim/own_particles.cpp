@@ -37,18 +37,7 @@ void join(Comm& comm, FixedWalls& walls)
     walls.start.clear();
     walls.run.clear();
     for (const TileRun& one : all) {
-        const bool new_tile = walls.tile.empty() || walls.tile.back() != one.tile;
-        if (new_tile) {
-            walls.tile.push_back(one.tile);
-            walls.start.push_back(static_cast<std::int32_t>(walls.run.size()));
-        }
-        const bool goes_on =
-            !new_tile && walls.run.back().first + walls.run.back().count == one.run.first;
-        if (goes_on) {
-            walls.run.back().count += one.run.count;
-        } else {
-            walls.run.push_back(one.run);
-        }
+        append_run(walls, one.tile, one.run);
     }
     walls.start.push_back(static_cast<std::int32_t>(walls.run.size()));
     std::array<std::int64_t, 2> counts{walls.count, walls.moving_rows};

@@ -125,31 +125,20 @@ void for_own_parts(const Comm& comm, int count, const auto& f)
 // Cuts by which the ranks have about as many particles each.
 Cuts cuts_of(const Simulation& sim, Comm& comm, const StateParts& state)
 {
-    struct Weight {
-        std::uint64_t tile;
-        double particles;
-    };
-    std::vector<Weight> own;
+    TileWeights own;
+    std::int64_t particles = 0;
     for_own_parts(comm, state.count, [&](std::optional<int> part) {
         if (part) {
             const Tiles tiles = PartDeck(sim, state.particles(*part)).tiles();
             for (std::size_t t = 0; t < tiles.tile.size(); ++t) {
-                own.push_back(
-                    {tiles.tile[t], static_cast<double>(tiles.start[t + 1] - tiles.start[t])});
+                own[tiles.tile[t]] += tiles.start[t + 1] - tiles.start[t];
             }
+            particles += tiles.start.back();
         }
     });
-    std::vector<Weight> all = gather(comm, std::span<const Weight>(own)).all;
-    std::ranges::sort(all, {}, &Weight::tile);
-    std::vector<std::uint64_t> tiles;
-    std::vector<double> weights;
-    for (const Weight& weight : all) {
-        tiles.push_back(weight.tile);
-        weights.push_back(weight.particles);
-    }
-    const double particles = std::accumulate(weights.begin(), weights.end(), 0.0);
-    expect_particles_of_case(sim, static_cast<Index>(particles));
-    return cut_evenly(tiles, weights, comm.size());
+    comm.add({&particles, 1});
+    expect_particles_of_case(sim, particles);
+    return cut_evenly(comm, own);
 }
 
 // The particles that this rank gets of all parts. Messages go to one rank after the other, so that

@@ -64,6 +64,10 @@ struct FixedWalls {
     std::size_t bytes() const;
 };
 
+/// Appends a run of particles of a tile, joined to the last run if it continues that. Tiles and, in
+/// a tile, indices must come in ascending order; `start` gets its last entry from the caller.
+void append_run(FixedWalls& walls, std::uint64_t tile, const IndexRun& run);
+
 /// Notes which tile each of some particles is in, by index ascending; none exists yet.
 void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
                      std::span<const std::int32_t> index, std::span<const Vec3> place);
