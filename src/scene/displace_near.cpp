@@ -12,9 +12,9 @@ namespace hyoryu {
 
 namespace {
 
-// Spacings beyond the bounds of a body to which its displacement looks: cut cells reach one of them
-// farther, marks about those four, particles that give way two and a half and those that they see
-// one.
+// Distance from the bounds of a body within which displacement looks at fluid [spacings]: cut cells
+// lie within 1, particles marked near these within 4 more; particles that are moved off the body
+// within 2.95, and those that they interact with within 1 more.
 constexpr double margin = 6;
 
 // The tiles that bodies reach.
@@ -52,7 +52,7 @@ Split split(const Scene& scene, const TileLattice& lattice, const Filling& filli
     return rows;
 }
 
-// Numbers without those that are gone.
+// Closes the gaps that removed particles leave in the numbers.
 void renumber(const std::vector<std::int64_t>& gone, std::vector<std::int64_t>& numbers)
 {
     for (std::int64_t& number : numbers) {

@@ -6,9 +6,10 @@
 
 namespace hyoryu {
 
-/// Takes out the fluid that bodies displace, and moves the rest off them. One group of bodies after
-/// the other takes what the ones before have left: several processes do all of it, each with the
-/// fluid about all bodies, and keep what is in their regions. `region`: null for one process.
+/// Removes the fluid that bodies displace, and moves the rest off their surfaces. Groups of bodies
+/// follow each other, since each takes from what the ones before have left. Several processes
+/// therefore all do the same with the fluid near all bodies, and keep the particles of their
+/// regions. `region`: null for one process.
 void displace_by_bodies(const Scene& scene, const FillRegion* region, Filling& filling);
 
 } // namespace hyoryu

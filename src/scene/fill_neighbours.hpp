@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What a process sees of others while it packs its fluid.
+// Copies of particles of other processes that the packing of the fluid needs.
 #pragma once
 
 #include "fill_region.hpp"
 
 namespace hyoryu {
 
-/// Copies of the particles of other processes: of the fluid behind the own ones of a filling as
-/// long as this lives, of the walls by themselves.
+/// Appends copies of the fluid particles of other processes to those of a filling, and removes them
+/// in the destructor; keeps copies of wall particles apart.
 class FillNeighbours {
 public:
-    /// `reach`: to which particles look [m].
+    /// `reach`: distance within which particles interact [m].
     FillNeighbours(const FillRegion& region, double reach, Filling& filling)
         : own_(filling.fluid.size()), filling_(filling), halo_(region, filling.fluid, reach)
     {
@@ -33,7 +33,7 @@ public:
 
     std::size_t own() const { return own_; }
     const std::vector<Vec3>& walls() const { return walls_; }
-    /// Own values, and behind them those of the copies.
+    /// The values of this process, followed by those of the copies.
     template <class T>
     std::vector<T> joined(std::vector<T> own) const
     {
@@ -41,7 +41,7 @@ public:
         own.insert(own.end(), copies.begin(), copies.end());
         return own;
     }
-    /// From now on values of the marked ones alone.
+    /// As of FillHalo.
     void keep(std::span<const std::uint8_t> marked) { halo_.keep(marked); }
     std::vector<Vec3> fetch(std::span<const Vec3> own) const { return halo_.fetch(own); }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Which process keeps which particles while processes that share a case fill it. Each makes a range
-// of the cells and of the places in the layers of walls, and sends what it finds there to the owner
-// of the place. A process owns a range of the tiles of a lattice that is used for this alone.
+// Domain decomposition of a case while several processes fill it. Each process computes a range of
+// the cells of the fluid and of the places in the layers of walls, and sends the particles that it
+// finds to the process that owns the place. A process owns a range of the tiles of a lattice that
+// is used for filling alone.
 #pragma once
 
 #include "hyoryu/core/tiles.hpp"
@@ -16,13 +17,15 @@
 
 namespace hyoryu {
 
-/// The part [first, last) of so many things that a process makes: all without others.
+/// A range [first, last) of items.
 struct FillPart {
     Index first = 0, last = 0;
 };
+/// The range of `number` items that this process works on: equal ranges, in the order of the ranks.
+/// All items if `comm` is null.
 FillPart part_of(Index number, const Comm* comm);
 
-/// A number of each process, summed.
+/// The sum of a number over all processes; the number itself if `comm` is null.
 inline Index sum_of_all(Comm* comm, Index number)
 {
     std::int64_t sum = number;
@@ -32,10 +35,11 @@ inline Index sum_of_all(Comm* comm, Index number)
     return sum;
 }
 
+/// The regions of all processes.
 class FillRegion {
 public:
-    /// Cut into parts of about equal weight: `weights` of what this process has made. Called by
-    /// all.
+    /// Cuts the tiles into ranges of about equal weight. `weights`: of the particles that this
+    /// process has computed. Called by all processes.
     FillRegion(Comm& comm, const TileLattice& lattice, const TileWeights& weights);
 
     Comm& comm() const { return comm_; }
@@ -51,19 +55,21 @@ private:
     Cuts cuts_;
 };
 
-/// The bounds of points of all processes. Null for one.
+/// The bounds of the points of all processes; of the points alone if `comm` is null.
 Bounds bounds_of_all(Comm* comm, std::span<const Vec3> points);
 
 /// The lattice of the regions of a scene.
 TileLattice fill_lattice(const Scene& scene, const Bounds& domain);
 
-/// Copies of the particles of others that are near the tiles of a process.
+/// The exchange of values of particles with the processes in whose neighbourhood they are.
 class FillHalo {
 public:
-    /// `places`: of the own particles; copies go to all that own a place within `reach` [m].
+    /// `places`: positions of the particles of this process [m]. A particle is copied to each
+    /// process that owns a place within `reach` [m] along each axis.
     FillHalo(const FillRegion& region, std::span<const Vec3> places, double reach);
 
-    /// Values of the own particles to those of the copies, in the same order each time.
+    /// Sends a value of each particle of this process to the processes that have copies of it, and
+    /// returns the values of the copies here, in the same order at each call.
     template <class T>
     std::vector<T> fetch(std::span<const T> own) const
     {
@@ -83,7 +89,8 @@ public:
         }
         return copies;
     }
-    /// From now on only those of the own particles that are marked, by their numbers among these.
+    /// Restricts the exchange to the marked particles. From then on `fetch` takes their values
+    /// alone.
     void keep(std::span<const std::uint8_t> marked);
 
 private:

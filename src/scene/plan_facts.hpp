@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a plan has to know of the particles of a filling: numbers and maps of columns, which are few
-// beside the particles. Processes that share a filling join what each of them has.
+// Input of a plan that is computed from the particles of a filling: counts, extremes, and maps of
+// vertical columns, which are small compared with the particles. Several processes reduce what each
+// of them finds.
 #pragma once
 
 #include "plan_columns.hpp"
@@ -40,8 +41,7 @@ struct PlanFacts {
 /// Whether gravity points along -z, but for a few degrees.
 bool falls_along_z(const Scene& scene);
 
-/// Called by all processes that share a filling; `filling`: what this one has of it. Null for one
-/// process.
+/// `filling`: the part of this process. `comm`: null for one process. Called by all processes.
 PlanFacts facts_of(const Scene& scene, const Filling& filling, Comm* comm);
 
 } // namespace hyoryu

@@ -22,9 +22,9 @@ std::size_t at(Index k)
     return static_cast<std::size_t>(k);
 }
 
-// A place in the layers of a wall. Those of a lower copy come first, then those of earlier walls.
+// A place in the layers of a wall. Wall particles are numbered by copy, wall and number.
 struct LayerPlace {
-    std::int32_t copy = 0; // 0: the place itself, else one that is carried out
+    std::int32_t copy = 0; // 0: the place itself; else it is shifted by `wall_shifts[copy]`
     std::int32_t wall = 0;
     Index number = 0; // in the layers
     Vec3 home{0, 0, 0};
@@ -42,7 +42,7 @@ std::vector<SolidSurface> surfaces_of(const Scene& scene, const LayerLattice& la
     return surfaces;
 }
 
-// The places of a part of the layers.
+// The places in the part of the layers that this process computes.
 std::vector<LayerPlace> part_of_layers(const Scene& scene, const LayerLattice& lattice,
                                        const std::vector<SolidSurface>& surfaces, Comm& comm)
 {
@@ -94,7 +94,7 @@ std::vector<LayerPlace> send(Comm& comm, const std::vector<LayerPlace>& places, 
     return all;
 }
 
-// Those of `own` places that have room among each other and among those that others have taken.
+// The selection among the places of this process, given that of other processes near it.
 std::vector<LayerPlace> with_room(const std::vector<LayerPlace>& own,
                                   const std::vector<LayerPlace>& others, double spacing)
 {
@@ -116,7 +116,7 @@ std::vector<LayerPlace> with_room(const std::vector<LayerPlace>& own,
     return taken;
 }
 
-// The places with a particle, of those in the region of this process.
+// The places with a particle in the region of this process.
 std::vector<LayerPlace> take_places(const FillRegion& region, const std::vector<LayerPlace>& own,
                                     double spacing)
 {
@@ -135,7 +135,8 @@ std::vector<LayerPlace> take_places(const FillRegion& region, const std::vector<
     return taken;
 }
 
-// A copy of a copy of so many columns, in the order of these.
+// Wall particles of copy `from` that are shifted outwards by `column` columns. Ordered as one
+// process numbers them.
 struct NewCopy {
     std::int32_t column = 0;
     std::int32_t from = 0;
@@ -178,7 +179,7 @@ std::vector<LayerPlace> carry_out(Comm& comm, const CarriedWalls& window,
     return all;
 }
 
-// Places that follow each other.
+// Places with consecutive numbers.
 struct PlaceRun {
     LayerPlace first;
     Index count = 0;

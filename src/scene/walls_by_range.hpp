@@ -7,13 +7,14 @@
 namespace hyoryu {
 
 /// Appends the wall particles in the region of this process, with those at windows carried out, and
-/// the runs of all; returns the regions, into which the fluid of `filling` and the walls are cut.
-/// Called by all processes.
+/// the runs of the wall particles of all processes. Returns the regions, which hold about equal
+/// numbers of fluid particles of `filling` and places of walls. Called by all processes.
 ///
-/// Which places of the layers get a particle depends on those before them, as `fill_walls` takes
-/// them. Each process goes through the places in its region and believes what the others say of
-/// theirs that are near; all go on until nobody says anything new. Each time one more of the
-/// decisions that follow from each other is right, so that the end is what one process finds.
+/// A place of the layers gets a particle unless an earlier place, in the order of `fill_walls`, has
+/// one too near to it. The selection is iterated: each process selects among the places in its
+/// region, given what the other processes selected near it in the iteration before, until no
+/// selection changes. At that fixed point the selection is that of one process, by induction over
+/// the order of the places: each depends on earlier ones only.
 FillRegion fill_walls_by_range(const Scene& scene, Comm& comm, Filling& filling);
 
 } // namespace hyoryu

@@ -71,7 +71,7 @@ Aggregate aggregate(const Shape& shape, double spacing, int dimensions);
 /// The processes that fill a case together.
 struct Fillers {
     Comm* comm = nullptr; // null: one alone
-    double part = 1;      // of all particles that the processes on this machine have
+    double part = 1;      // share of all particles that is on this machine
 };
 
 /// Fills the scene. Where a body stands in the fluid, exactly its volume is taken out. Of several
