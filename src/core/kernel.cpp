@@ -10,9 +10,8 @@ Kernel make_kernel(real h, real spacing, int dimensions, KernelShape shape)
     using std::numbers::pi;
     const bool plane = dimensions == 2;
     const real a = plane ? 7 / (4 * pi * sq(h)) : 21 / (16 * pi * h * h * h);
-    constexpr real bulge = 12;
-    Kernel kernel{.h = h, .support = 2 * h, .w_scale = a, .f_scale = -5 * a / sq(h)};
-    kernel.f_bulge = shape == KernelShape::isotropic ? bulge * kernel.f_scale : 0;
+    Kernel kernel{
+        .h = h, .support = 2 * h, .w_scale = a, .f_scale = -5 * a / sq(h), .shape = shape};
 
     // The sums of the uncalibrated kernel over the lattice: S0 = sum W V, A0 = -sum F x^2 V.
     const int reach = static_cast<int>(std::ceil(kernel.support / spacing));
@@ -31,7 +30,6 @@ Kernel make_kernel(real h, real spacing, int dimensions, KernelShape shape)
     }
     kernel.w_scale /= s0;
     kernel.f_scale /= a0;
-    kernel.f_bulge /= a0;
     return kernel;
 }
 
