@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-namespace hyoryu::testing {
+namespace hyoryu::test_help {
 
 /// Memory that the ranks share: the parcels that are sent, and a barrier. A rank that fails frees
 /// those that wait at the barrier.
@@ -166,4 +166,4 @@ inline void on_ranks(int ranks, const std::function<void(CountedComm&)>& f)
     }
 }
 
-} // namespace hyoryu::testing
+} // namespace hyoryu::test_help

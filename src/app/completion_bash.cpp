@@ -12,7 +12,7 @@ namespace {
 using Kind = ValueCandidates::Kind;
 
 // The line of the script that offers the candidates.
-std::string action_for(const ValueCandidates& candidates)
+std::string bash_action(const ValueCandidates& candidates)
 {
     switch (candidates.kind) {
     case Kind::words:
@@ -46,7 +46,7 @@ std::string value_branches(const CommandText& command)
         if (!option.value.empty()) {
             text += fmt::format("        '{0} {1}') action=\"{2}\" ;;\n", command.name,
                                 fmt::join(option.names, fmt::format("' | '{} ", command.name)),
-                                action_for(option.candidates));
+                                bash_action(option.candidates));
         }
     }
     return text;
@@ -59,7 +59,7 @@ std::string place_branches(const CommandText& command)
         const OptionText& option = command.places[k];
         text +=
             fmt::format("    '{} '{}) {} ;;\n", command.name,
-                        option.repeats ? "*" : std::to_string(k), action_for(option.candidates));
+                        option.repeats ? "*" : std::to_string(k), bash_action(option.candidates));
     }
     return text;
 }

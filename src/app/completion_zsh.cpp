@@ -28,7 +28,7 @@ std::string spec(std::string_view text)
     return result;
 }
 
-std::string action_for(const ValueCandidates& candidates)
+std::string zsh_action(const ValueCandidates& candidates)
 {
     switch (candidates.kind) {
     case Kind::words:
@@ -54,7 +54,7 @@ std::string option_spec(const OptionText& option)
                                                 fmt::join(option.names, ","));
     const std::string value = option.value.empty() ? ""
                                                    : fmt::format(":{}:{}", spec(option.value),
-                                                                 action_for(option.candidates));
+                                                                 zsh_action(option.candidates));
     return fmt::format("{}[{}]{}'", names, spec(option.description), value);
 }
 
@@ -67,7 +67,7 @@ std::string specs_of(const CommandText& command)
     for (std::size_t k = 0; k < command.places.size(); ++k) {
         const OptionText& place = command.places[k];
         text += fmt::format(" \\\n        '{}:{}:{}'", place.repeats ? "*" : std::to_string(k + 1),
-                            spec(place.place), action_for(place.candidates));
+                            spec(place.place), zsh_action(place.candidates));
     }
     return text;
 }

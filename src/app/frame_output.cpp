@@ -13,11 +13,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(int k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 void put_cloud(Parcel& parcel, const Cloud& cloud)
 {
     put_column(parcel, {"", "", 3, cloud.points});

@@ -65,7 +65,7 @@ void expect_alike(Comm& comm)
 }
 
 // The module beside the program, or in ../lib/hyoryu.
-void* open_module()
+void* open_mpi_module()
 {
     const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
     for (const fs::path& folder : {program, program.parent_path() / "lib" / "hyoryu"}) {
@@ -132,7 +132,7 @@ std::string host_name()
 Ranks::Ranks()
 {
     if (processes_announced() > 1) {
-        module_ = open_module();
+        module_ = open_mpi_module();
         comm_.emplace(*function_of<mpi_module::Begin>(module_, mpi_module::begin_name)());
         expect_alike(*comm_);
     }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* file_name = "libhyoryu_vtk.so";
 
-void* open_module()
+void* open_vtk_module()
 {
     const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
     for (const fs::path& folder : {program, program.parent_path() / "lib" / "hyoryu"}) {
@@ -41,7 +41,7 @@ void* open_module()
 template <class Function>
 Function module_function(const char* name)
 {
-    void* found = dlsym(open_module(), name); // dlopen counts: opening again is free
+    void* found = dlsym(open_vtk_module(), name); // dlopen counts: opening again is free
     if (found == nullptr) {
         throw IoError(fmt::format("{} is of another version of the program", file_name));
     }

@@ -15,8 +15,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 constexpr std::array<StudiedRung, 5> still_water{
     {{10, 0.008609}, {14, 0.004296}, {20, 0.002484}, {28, 0.001908}, {40, 0.001774}}};
 constexpr std::array<StudiedRung, 3> bore{{{8, 0.08315}, {10, 0.03739}, {12.5, 0.01505}}};
@@ -135,7 +133,7 @@ double error_at(std::span<const StudiedRung> rungs, double number)
             return a.error * std::pow(b.error / a.error, share);
         }
     }
-    return none;
+    return not_a_number;
 }
 
 // The nearest number on the way to `end` at which the error is half of that at `number`.
@@ -158,7 +156,7 @@ std::optional<double> halved_at(std::span<const StudiedRung> rungs, double numbe
 ExpectedError unless_covered(ExpectedError expected, std::vector<std::string> differences)
 {
     if (!differences.empty()) {
-        expected.error = none;
+        expected.error = not_a_number;
         expected.halving = not_studied;
         expected.not_covered = std::move(differences);
     }
@@ -208,7 +206,7 @@ double longest_edge(const BodySettings& body, int dimensions)
 ExpectedError motion_in_water()
 {
     return {.quantity = "motion of bodies in contact, in water",
-            .error = none,
+            .error = not_a_number,
             .why = fmt::format("the impulse on the house of the debris flood moves by {:.0f} % "
                                "between the two finest runs",
                                100 * impulse_in_water),
@@ -292,7 +290,7 @@ std::vector<ExpectedError> expected_errors(const Scene& scene, const Filling& fi
             all.push_back(arrival_of_bore(scene, plan, depth));
         }
     }
-    double shortest = none;
+    double shortest = not_a_number;
     for (const BodySettings& body : scene.bodies) {
         if (!body.fixed) {
             shortest = std::fmin(shortest, longest_edge(body, scene.dimensions));

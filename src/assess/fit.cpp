@@ -11,7 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double safety = 1.25; // of the grid convergence index with three grids
 // Floors that are tried below the smallest value.
 constexpr int floors = 400;
@@ -65,7 +64,7 @@ Line fit_line(std::span<const double> x, std::span<const double> y)
         xx += (x[k] - mx) * (x[k] - mx);
         xy += (x[k] - mx) * (y[k] - my);
     }
-    Line line{xy / xx, my - xy / xx * mx, none};
+    Line line{xy / xx, my - xy / xx * mx, not_a_number};
     if (x.size() > 2) {
         double squares = 0;
         for (std::size_t k = 0; k < x.size(); ++k) {
@@ -85,7 +84,7 @@ std::optional<Power> fit_power(std::span<const double> x, std::span<const double
     }
     const Line line = fit_line(points.x, points.y);
     const int n = static_cast<int>(points.x.size());
-    const double wide = n > 2 ? student(n - 2) * line.deviation : none;
+    const double wide = n > 2 ? student(n - 2) * line.deviation : not_a_number;
     return Power{line.slope, line.slope - wide, line.slope + wide, n};
 }
 
@@ -153,7 +152,7 @@ std::optional<Richardson> extrapolate(const std::array<double, 3>& h,
 double median(std::span<const double> values)
 {
     if (values.empty()) {
-        return none;
+        return not_a_number;
     }
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());

@@ -17,8 +17,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// The value at a time between two rows; nothing outside of them.
 std::optional<double> interpolate(const Samples& s, double time)
 {
@@ -45,8 +43,8 @@ Measured at_time(const Samples& s, double time)
     if (const auto value = interpolate(s, time)) {
         return {*value, ""};
     }
-    return {none, fmt::format("t = {} s is not within the rows, {} to {} s", time, s.t.front(),
-                              s.t.back())};
+    return {not_a_number, fmt::format("t = {} s is not within the rows, {} to {} s", time,
+                                      s.t.front(), s.t.back())};
 }
 
 struct Extremum {
@@ -96,7 +94,7 @@ std::vector<double> passes(const Samples& s, double level)
 
 Measured too_few(std::size_t passes, double level)
 {
-    return {none, fmt::format("it passes {} only {} times", level, passes)};
+    return {not_a_number, fmt::format("it passes {} only {} times", level, passes)};
 }
 
 Measured crossing(const Samples& s, double level, int index)
@@ -148,7 +146,7 @@ Measured decay(const Samples& s, double level)
 {
     const std::vector<Extremum> all = swings(s, level);
     if (all.size() < 2) {
-        return {none, "fewer than two extrema"};
+        return {not_a_number, "fewer than two extrema"};
     }
     std::vector<double> t, y;
     for (const Extremum& e : all) {
@@ -190,8 +188,8 @@ Measured number_of_extremum(const Quantity& quantity, const Samples& s)
     const double sign = quantity.measure == Measure::trough ? -1 : 1;
     const auto found = extremum(s, quantity.index, sign);
     if (!found) {
-        return {none, fmt::format("there is no {} number {}", sign > 0 ? "peak" : "trough",
-                                  quantity.index)};
+        return {not_a_number, fmt::format("there is no {} number {}", sign > 0 ? "peak" : "trough",
+                                          quantity.index)};
     }
     return {quantity.measure == Measure::peak_time ? found->t : found->value, ""};
 }
@@ -200,7 +198,7 @@ Measured row_of(const Quantity& quantity, const Samples& s)
 {
     const auto row = static_cast<std::size_t>(quantity.index) - 1;
     if (row >= s.values.size()) {
-        return {none, fmt::format("there are only {} rows", s.values.size())};
+        return {not_a_number, fmt::format("there are only {} rows", s.values.size())};
     }
     return {s.values[row], ""};
 }
@@ -211,7 +209,7 @@ Measured error_of(Measure measure, const std::vector<double>& differences)
     double largest = 0;
     for (const double d : differences) {
         if (std::isnan(d)) {
-            return {none, "the values or the expected ones are not all numbers"};
+            return {not_a_number, "the values or the expected ones are not all numbers"};
         }
         squares += d * d;
         largest = std::max(largest, std::abs(d));
@@ -304,7 +302,7 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
         return {static_cast<double>(s.values.size()), ""};
     }
     if (s.values.empty()) {
-        return {none, "no row fits"};
+        return {not_a_number, "no row fits"};
     }
     const std::vector<double>& values = s.values;
     const auto [min, max] = std::ranges::minmax_element(values);
@@ -351,7 +349,7 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
     case Measure::height:
         return {height_of_waves(values), ""};
     default:
-        return {none, "does not measure a single series"};
+        return {not_a_number, "does not measure a single series"};
     }
 }
 
@@ -361,7 +359,8 @@ Measured error_from(const Quantity& quantity, const std::string& expected, const
     Series difference = quantity.series;
     difference.value = fmt::format("({}) - ({})", quantity.series.value, expected);
     const Samples s = within(quantity, scope, samples(difference, scope, files));
-    return s.values.empty() ? Measured{none, "no row fits"} : error_of(quantity.measure, s.values);
+    return s.values.empty() ? Measured{not_a_number, "no row fits"}
+                            : error_of(quantity.measure, s.values);
 }
 
 Measured error_from(const Quantity& quantity, const Samples& reference, const Scope& scope,
@@ -372,7 +371,8 @@ Measured error_from(const Quantity& quantity, const Samples& reference, const Sc
     for (std::size_t k = 0; k < found.values.size(); ++k) {
         found.values[k] -= right.values[k];
     }
-    return found.why.empty() ? error_of(quantity.measure, found.values) : Measured{none, found.why};
+    return found.why.empty() ? error_of(quantity.measure, found.values)
+                             : Measured{not_a_number, found.why};
 }
 
 bool is_error_measure(Measure measure)
@@ -393,7 +393,7 @@ Measured share_within(const Quantity& quantity, const Scope& scope, RunFiles& fi
         inside += value >= lower.values[k] && value <= upper.values[k] ? 1 : 0;
     }
     return found.why.empty() ? Measured{inside / static_cast<double>(lower.t.size()), ""}
-                             : Measured{none, found.why};
+                             : Measured{not_a_number, found.why};
 }
 
 Compared compare(const Quantity& quantity, const Expectation& expected, MadeRun& made,
@@ -412,7 +412,7 @@ Compared compare(const Quantity& quantity, const Expectation& expected, MadeRun&
         return {error.value, 0, error.why};
     }
     const Measured got = measured(own, made);
-    Measured right{none, ""};
+    Measured right{not_a_number, ""};
     if (reference) {
         right = measure(quantity, other != nullptr ? other->scope : made.scope, *reference);
         right.why = right.why.empty() ? "" : "reference: " + right.why;

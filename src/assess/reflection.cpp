@@ -22,9 +22,9 @@ using Complex = std::complex<double>;
 // the two waves raises errors of the gauges more than threefold.
 constexpr double least_determinant = 0.1;
 
-Measured none(std::string why)
+Measured not_measured(std::string why)
 {
-    return {std::numeric_limits<double>::quiet_NaN(), std::move(why)};
+    return {not_a_number, std::move(why)};
 }
 
 // Waves below this part of the largest elevation are round-off of the fits.
@@ -58,7 +58,7 @@ Complex amplitude(const Samples& samples, double omega)
 Measured reflection(const std::vector<WaveRecord>& records, double period, double wavenumber)
 {
     if (!(period > 0 && wavenumber > 0)) {
-        return none("period and wavenumber must be above 0");
+        return not_measured("period and wavenumber must be above 0");
     }
     const double omega = 2 * std::numbers::pi / period;
     Complex spread = 0; // of the gauges along the wave
@@ -67,7 +67,7 @@ Measured reflection(const std::vector<WaveRecord>& records, double period, doubl
     for (const WaveRecord& record : records) {
         const Samples& s = record.elevation;
         if (s.t.empty() || !(s.t.back() - s.t.front() >= period)) {
-            return none("the rows do not last for a period");
+            return not_measured("the rows do not last for a period");
         }
         const Complex wave = std::polar(1.0, wavenumber * record.x);
         const Complex seen = amplitude(s, omega);
@@ -79,12 +79,12 @@ Measured reflection(const std::vector<WaveRecord>& records, double period, doubl
     const auto count = static_cast<double>(records.size());
     const double determinant = count * count - std::norm(spread);
     if (!(determinant > least_determinant * count * count)) {
-        return none("the gauges stand about whole halves of a wavelength apart");
+        return not_measured("the gauges stand about whole halves of a wavelength apart");
     }
     const double there = std::abs(count * coming - std::conj(spread) * going);
     const double back = std::abs(count * going - spread * coming);
     if (!std::isfinite(back) || !(there > least_wave * determinant * most)) {
-        return none("the gauges see no wave, or not all values are numbers");
+        return not_measured("the gauges see no wave, or not all values are numbers");
     }
     return {back / there, ""};
 }

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Each is planned before the first one starts, and is a process: more would take weeks.
-constexpr int most_runs = 10000;
+constexpr int most_runs_of_study = 10000;
 
 constexpr std::array<std::string_view, 2> modes{"one_at_a_time", "grid"};
 constexpr std::array<std::string_view, 3> ends{"smallest", "largest", "none"};
@@ -217,7 +217,7 @@ std::string toml_of(const RunParameter& value)
     return text != nullptr ? fmt::format("\"{}\"", *text) : text_of(value);
 }
 
-std::string file_name(std::string name)
+std::string as_file_name(std::string name)
 {
     std::ranges::replace_if(
         name,
@@ -258,7 +258,7 @@ StudyRun run_with(const Study& study, const std::vector<int>& value_of)
             run.run.parameters.emplace_back(sweep.name, value);
         }
     }
-    run.run.name = file_name(run.run.name);
+    run.run.name = as_file_name(run.run.name);
     const Scope scope = scope_of(study.definitions, run.run);
     for (const std::string& text : study.set) {
         run.run.set.push_back(expanded(text, run.run, scope));
@@ -286,10 +286,11 @@ double count_runs(const Study& study)
 void check_count(Section& root, const Study& study)
 {
     const double count = count_runs(study);
-    if (count > most_runs) {
-        root.error("sweep",
-                   fmt::format("asks for {:.10g} runs, at most {} are made", count, most_runs),
-                   "fewer values or repeats, or mode = \"one_at_a_time\"");
+    if (count > most_runs_of_study) {
+        root.error(
+            "sweep",
+            fmt::format("asks for {:.10g} runs, at most {} are made", count, most_runs_of_study),
+            "fewer values or repeats, or mode = \"one_at_a_time\"");
     }
 }
 

@@ -13,8 +13,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 void set_error(const StudyQuantity& q, const Scope& scope, StudyValue& v)
 {
     double scale = std::abs(v.expected);
@@ -25,7 +23,7 @@ void set_error(const StudyQuantity& q, const Scope& scope, StudyValue& v)
     }
     if (!(scale > 0)) {
         v.why = "the scale of the error is not positive: give `scale`";
-        v.error = none;
+        v.error = not_a_number;
         return;
     }
     v.error = std::abs(v.value - v.expected) / scale;
@@ -33,7 +31,11 @@ void set_error(const StudyQuantity& q, const Scope& scope, StudyValue& v)
 
 StudyValue value_in(const StudyQuantity& q, const std::string& error, MadeRun& made)
 {
-    StudyValue v{.value = none, .expected = none, .error = none, .finest = {}, .why = error};
+    StudyValue v{.value = not_a_number,
+                 .expected = not_a_number,
+                 .error = not_a_number,
+                 .finest = {},
+                 .why = error};
     if (!error.empty()) {
         return v;
     }
@@ -226,7 +228,7 @@ StudyResult evaluate_study(const Study& study, const std::vector<std::filesystem
     }
     for (std::size_t k = 0; k < runs.size(); ++k) {
         StudyRunResult run{.run = runs[k], .error = errors[k], .cost = {}, .walls = walls[k]};
-        run.work = none;
+        run.work = not_a_number;
         if (run.error.empty()) {
             run.cost = read_cost(made[k].files);
             run.work = work_of(result.work_unit, made[k]);

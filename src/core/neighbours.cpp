@@ -13,11 +13,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 const ListLoops* loops_of(InstructionSet set)
 {
     return table_of(

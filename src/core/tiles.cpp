@@ -15,11 +15,6 @@ namespace {
 constexpr int cell_bits = 6; // of a cell number, within its tile
 constexpr std::uint64_t outside = ~std::uint64_t(0);
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // The lowest 21 bits of a number, two zeros after each, and back.
 std::uint64_t spread(std::uint64_t a)
 {

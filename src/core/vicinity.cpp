@@ -15,12 +15,7 @@ namespace {
 
 // Rounding of single precision, as a share of an edge of a tile: what positions and squared
 // distances lose.
-constexpr float rounding = 2e-6F;
-
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
+constexpr float rounding_of_cells = 2e-6F;
 
 using Step = std::array<float, 3>;
 
@@ -63,7 +58,7 @@ public:
         : points_(points), others_(others), counted_(counted), marks_(marks)
     {
         const auto edge = static_cast<float>(points.lattice.edge.maxCoeff());
-        const float reach = static_cast<float>(radius) + rounding * edge;
+        const float reach = static_cast<float>(radius) + rounding_of_cells * edge;
         squared_radius_ = reach * reach;
     }
 

@@ -7,11 +7,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // Force of the fluid on a solid particle: pressure and, without slip, friction.
 class SolidForce {
 public:

@@ -16,11 +16,6 @@ constexpr int most_cells_flat = 64; // in two dimensions
 constexpr int samples = 4;          // of a cell along each edge, for the part within the face
 constexpr double narrow = 1.5;      // spacings; a narrower face takes part in no joint
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 struct Polygon {
     Vec3 normal{0, 0, 1};
     std::vector<Vec3> corners; // two in two dimensions

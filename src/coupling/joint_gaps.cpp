@@ -7,11 +7,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 void find_near_walls(JointTables& tables, int b, const Vec3& centre)
 {
     BodyJoints& body = tables.bodies[at(b)];

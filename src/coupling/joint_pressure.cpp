@@ -21,11 +21,6 @@ constexpr int most_sweeps = 2000;
 constexpr double settled_flat = 1e-14;
 constexpr double settled_in_space = 1e-8;
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // A gap beside a rim that is narrower than this holds too few columns of particles for a true
 // pressure (measured: up to three spacings too much at its bottom).
 constexpr double widest_gap = 4; // spacings

@@ -7,11 +7,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // Sums W over a row of the lattice at a distance z, from the point first_x on.
 double row_sum(const Fluid& fluid, int first_x, double z)
 {

@@ -16,11 +16,6 @@ namespace {
 
 constexpr double widest = 2; // largest width of a joint in spacings; wider gaps contain particles
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // The kind of each joint, and the body whose cells carry it. Water does not get under a sealed
 // body; the sides of a sealed body have no joints.
 class KindOfJoint {

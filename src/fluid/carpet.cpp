@@ -23,11 +23,6 @@ constexpr real least_from_body = 1;
 constexpr real highest = 0.75;   // above the level, of a particle that stays [spacings]
 constexpr real step_back = 0.25; // of a place that is taken [spacings]
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // A particle to be made.
 struct NewParticle {
     Vec3 place, velocity;

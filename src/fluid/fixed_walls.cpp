@@ -14,11 +14,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 Index index_of(const std::vector<std::uint64_t>& tiles, std::uint64_t number)
 {
     const auto found = std::ranges::lower_bound(tiles, number);

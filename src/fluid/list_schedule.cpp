@@ -10,11 +10,6 @@ namespace hyoryu {
 
 namespace {
 
-auto at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 real longest(const DisplacementBox& a, const DisplacementBox& b)
 {
     return (a.high - b.low).cwiseAbs().cwiseMax((a.low - b.high).cwiseAbs()).squaredNorm();

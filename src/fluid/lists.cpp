@@ -10,11 +10,6 @@ namespace hyoryu {
 
 namespace {
 
-auto at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // Which own tiles the ghosts touch.
 void connect_ghosts(Fluid& fluid)
 {

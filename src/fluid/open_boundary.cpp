@@ -9,15 +9,6 @@
 
 namespace hyoryu {
 
-namespace {
-
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
-} // namespace
-
 int least_carpet_columns(real smoothing_ratio)
 {
     constexpr int spare = 3;

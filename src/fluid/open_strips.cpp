@@ -11,11 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 real gravity_of(const Fluid& fluid)
 {
     return fluid.parameters.gravity.norm();

@@ -20,11 +20,6 @@ namespace {
 const Vec3 everywhere_low = Vec3::Constant(-infinity);
 const Vec3 everywhere_high = Vec3::Constant(infinity);
 
-auto at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // Adds up the particles that left the domain, which are in no order.
 void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
 {

@@ -10,11 +10,6 @@
 
 namespace hyoryu {
 
-inline std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 /// The terms of a step of length dt; 0 for stages that do not depend on it.
 FluidTerms terms_of(const Fluid& fluid, real dt);
 

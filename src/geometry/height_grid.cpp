@@ -11,11 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // Easting and northing of a place of the case.
 std::array<double, 2> in_grid(const TerrainPatch& patch, double x, double y)
 {

@@ -9,11 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // The heights on a lattice, as cells of two triangles.
 class Lattice {
 public:

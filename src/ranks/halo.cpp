@@ -10,11 +10,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // The ranks, but for this one, that own a place beside a tile, each once.
 std::vector<int> ranks_beside(const Cuts& cuts, const TileLattice& lattice, std::uint64_t tile,
                               int self)

@@ -5,15 +5,6 @@
 
 namespace hyoryu {
 
-namespace {
-
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
-} // namespace
-
 void put_rows(Parcel& parcel, const Store& store, std::span<const std::int32_t> rows)
 {
     const auto put_column = [&](const auto& values) {

@@ -9,8 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
 /// Three columns that share a stem.
 struct VectorColumns {
     const std::vector<double>& x;
@@ -25,10 +23,10 @@ VectorColumns vectors_of(const CsvTable& table, const std::string& stem)
             numbers_of(table, stem + "z")};
 }
 
-using Rows = std::vector<const Impact*>;
+using ImpactRows = std::vector<const Impact*>;
 
 /// Vector sum of the normal impulses [N s].
-Vec3 normal_sum(const Rows& rows)
+Vec3 normal_sum(const ImpactRows& rows)
 {
     Vec3 sum = Vec3::Zero();
     for (const Impact* row : rows) {
@@ -38,9 +36,9 @@ Vec3 normal_sum(const Rows& rows)
 }
 
 /// The rows of one time with the largest normal impulse together.
-Rows largest_at_once(const Rows& rows)
+ImpactRows largest_at_once(const ImpactRows& rows)
 {
-    Rows best, now;
+    ImpactRows best, now;
     for (const Impact* row : rows) {
         if (!now.empty() && now.front()->time != row->time) {
             now.clear();
@@ -54,7 +52,7 @@ Rows largest_at_once(const Rows& rows)
 }
 
 /// Mean approach speed of simultaneous impacts, weighted with their impulses [m/s].
-double speed_of(const Rows& rows)
+double speed_of(const ImpactRows& rows)
 {
     double weighted = 0, weight = 0;
     for (const Impact* row : rows) {
@@ -64,7 +62,7 @@ double speed_of(const Rows& rows)
     return weight > 0 ? weighted / weight : rows.front()->speed;
 }
 
-Blow blow_of(const Rows& rows)
+Blow blow_of(const ImpactRows& rows)
 {
     const Impact& first = *rows.front();
     Blow blow{.time = first.time,
@@ -82,10 +80,10 @@ Blow blow_of(const Rows& rows)
     }
     blow.place = weight > 0 ? Vec3(blow.place / weight) : first.point;
     blow.impulse = impulse.norm();
-    const Rows strongest = largest_at_once(rows);
+    const ImpactRows strongest = largest_at_once(rows);
     blow.speed = speed_of(strongest);
     const double both = (1 + first.law.restitution) * blow.speed;
-    blow.mass = both > 0 ? normal_sum(strongest).norm() / both : none;
+    blow.mass = both > 0 ? normal_sum(strongest).norm() / both : not_a_number;
     return blow;
 }
 
@@ -99,7 +97,7 @@ double peak_force(const Blow& blow)
 ContactLaw law_of(const DeclaredContact& declared, const std::string& body,
                   const std::string& other)
 {
-    ContactLaw law{none, none};
+    ContactLaw law{not_a_number, not_a_number};
     const auto a = declared.materials.find(body);
     const auto b = declared.materials.find(other);
     if (a != declared.materials.end() && b != declared.materials.end()) {
@@ -150,14 +148,14 @@ double blow_time(const Impact& first)
 
 std::vector<Blow> blows_of(const std::vector<Impact>& rows)
 {
-    Rows impacts;
+    ImpactRows impacts;
     for (const Impact& row : rows) {
         if (row.kind == Impact::Kind::impact) {
             impacts.push_back(&row);
         }
     }
     std::ranges::stable_sort(impacts, {}, &Impact::time);
-    std::vector<Rows> blows;
+    std::vector<ImpactRows> blows;
     std::map<std::pair<std::string, std::string>, std::size_t> last; // blow of a pair
     for (const Impact* row : impacts) {
         const auto [place, is_new] = last.emplace(std::pair(row->body, row->other), blows.size());
@@ -170,7 +168,7 @@ std::vector<Blow> blows_of(const std::vector<Impact>& rows)
         blows[place->second].push_back(row);
     }
     std::vector<Blow> found;
-    for (const Rows& blow : blows) {
+    for (const ImpactRows& blow : blows) {
         found.push_back(blow_of(blow));
     }
     return found;

@@ -10,9 +10,11 @@ namespace {
 
 constexpr int leaf_size = 4;
 
-class Builder {
+class BoxTreeBuilder {
 public:
-    Builder(const std::vector<AlignedBox>& boxes, BoxTree& tree) : boxes_(boxes), tree_(tree) {}
+    BoxTreeBuilder(const std::vector<AlignedBox>& boxes, BoxTree& tree) : boxes_(boxes), tree_(tree)
+    {
+    }
 
     void build(int first, int count)
     {
@@ -89,7 +91,7 @@ BoxTree tree_over(const std::vector<AlignedBox>& boxes)
     tree.order.resize(boxes.size());
     std::iota(tree.order.begin(), tree.order.end(), 0);
     if (!boxes.empty()) {
-        Builder(boxes, tree).build(0, static_cast<int>(boxes.size()));
+        BoxTreeBuilder(boxes, tree).build(0, static_cast<int>(boxes.size()));
     }
     return tree;
 }

@@ -3,6 +3,7 @@
 
 #include "compound.hpp"
 #include "hyoryu/rigid/box_tree.hpp"
+#include "union_find.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 
@@ -148,15 +149,6 @@ std::vector<BodyPair> wall_pairs(const StepContext& context, const std::vector<d
         }
     }
     return pairs;
-}
-
-int root_of(std::vector<int>& parents, int k)
-{
-    while (parents[k] != k) {
-        parents[k] = parents[parents[k]];
-        k = parents[k];
-    }
-    return k;
 }
 
 // Union-find; immovable bodies link nothing.

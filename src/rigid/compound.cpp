@@ -50,7 +50,7 @@ void append(Solid& whole, const Solid& part)
 }
 
 // The corners of the convex hull, by their places.
-std::vector<int> outermost(const std::vector<Vec3>& corners)
+std::vector<int> extremes_of(const std::vector<Vec3>& corners)
 {
     const Polytope hull = convex_hull(corners);
     std::vector<int> extremes;
@@ -83,7 +83,7 @@ Solid compound_solid(const Compound& shape, int dimensions)
     whole.box_centre = 0.5 * (box.low + box.high);
     whole.box_half = 0.5 * (box.high - box.low);
     if (dimensions == 3 && !whole.parts.empty()) {
-        whole.extremes = outermost(whole.corners);
+        whole.extremes = extremes_of(whole.corners);
     } else {
         whole.extremes.resize(whole.corners.size());
         std::iota(whole.extremes.begin(), whole.extremes.end(), 0);

@@ -30,18 +30,18 @@ constexpr int fixed_point_steps = 3;
 constexpr int scan_points = 48;
 constexpr int bisections = 60; // to the last bit
 
-struct Slip {
+struct SlidingContact {
     double p_n = 0;
     Vec2 u{0, 0}; // what is left of the tangential velocity
     bool exists = false;
 };
 
-Slip slip_along(const Cone& cone, const Vec3& b, const Vec2& d)
+SlidingContact slip_along(const Cone& cone, const Vec3& b, const Vec2& d)
 {
     const Vec2 k_nt = cone.K.block<1, 2>(0, 1).transpose();
     const Vec2 k_tn = cone.K.block<2, 1>(1, 0);
     const double den = cone.K(0, 0) - cone.mu * k_nt.dot(d);
-    Slip slip;
+    SlidingContact slip;
     slip.exists = den > painleve * cone.K(0, 0);
     if (slip.exists) {
         slip.p_n = -b[0] / den;
@@ -50,7 +50,7 @@ Slip slip_along(const Cone& cone, const Vec3& b, const Vec2& d)
     return slip;
 }
 
-Vec3 impulse_along(const Slip& slip, double mu, const Vec2& d)
+Vec3 impulse_along(const SlidingContact& slip, double mu, const Vec2& d)
 {
     return {slip.p_n, -mu * slip.p_n * d.x(), -mu * slip.p_n * d.y()};
 }
@@ -91,7 +91,7 @@ Vec2 at_angle(double angle)
 
 std::optional<Vec3> accepted(const Cone& cone, const Vec3& b, const Vec2& d)
 {
-    const Slip slip = slip_along(cone, b, d);
+    const SlidingContact slip = slip_along(cone, b, d);
     if (slip.exists && slip.u.dot(d) >= 0) {
         return impulse_along(slip, cone.mu, d);
     }
@@ -120,7 +120,7 @@ std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d, int
 std::optional<Vec3> slide_by_fixed_point(const Cone& cone, const Vec3& b, Vec2 d)
 {
     for (int k = 0; k < fixed_point_steps; ++k) {
-        const Slip slip = slip_along(cone, b, d);
+        const SlidingContact slip = slip_along(cone, b, d);
         if (!slip.exists) {
             return std::nullopt;
         }
@@ -176,7 +176,7 @@ std::optional<Vec3> slide_in_plane(const Cone& cone, const Vec3& b)
 {
     const double first = b[1] < 0 ? -1 : 1;
     for (const double d : {first, -first}) {
-        const Slip slip = slip_along(cone, b, Vec2(d, 0));
+        const SlidingContact slip = slip_along(cone, b, Vec2(d, 0));
         if (slip.exists && slip.u.x() * d >= 0) {
             return impulse_along(slip, cone.mu, Vec2(d, 0));
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contact search of a cluster and its islands.
 #include "sub_step.hpp"
+#include "union_find.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 
@@ -20,15 +21,6 @@ constexpr std::size_t worth_sharing_contacts = 64;
 // cost without [updates of rows].
 constexpr double work_of_cluster = 8000;
 constexpr double work_of_body = 100;
-
-int root_of(std::vector<int>& parents, int k)
-{
-    while (parents[k] != k) {
-        parents[k] = parents[parents[k]];
-        k = parents[k];
-    }
-    return k;
-}
 
 // Joins the movable bodies that share a row; the smallest index is the root.
 void join_bodies(const std::vector<Row>& rows, ContactMemory& memory)

@@ -16,11 +16,6 @@ constexpr double work_of_message = 2000;
 // What every rank does itself: it costs less than its place in a message.
 constexpr int everyone = -1;
 
-std::size_t at(int k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // What a cluster may cost, as far as the last step tells; 0 for bodies that fly [updates of rows].
 double expected_work(const ContactMemory& memory, const Cluster& cluster)
 {

@@ -17,9 +17,9 @@ namespace {
 enum State { open = 0, slides = 1, sticks = 2 };
 
 // Changes of the active set after which the iteration takes over.
-constexpr int most_rounds = 12;
+constexpr int most_active_sets = 12;
 // And rounds in a row that do not leave less than this part of the least so far.
-constexpr int patience = 3;
+constexpr int rounds_without_gain = 3;
 constexpr double improvement = 0.7;
 // A direction of sliding that turns by less has settled, since what is left is the square [rad].
 constexpr double settled_direction = 3e-8;
@@ -27,9 +27,9 @@ constexpr double settled_direction = 3e-8;
 constexpr double on_cone = 1e-9;
 // Relative rank tolerance of the redundant, symmetric problem (round-off times condition).
 constexpr double rank_tolerance = 1e-11;
-constexpr int corrections = 6;
+constexpr int most_corrections = 6;
 // What the corrections may leave of the right-hand side.
-constexpr double corrected = 1e-13;
+constexpr double left_by_corrections = 1e-13;
 
 // A factorisation takes as long as so many updates of rows as the cube of its unknowns over this.
 constexpr double factored_in_an_update = 250;
@@ -198,8 +198,8 @@ bool solve_shifted(SolverWork& work)
     work.factor.compute(work.W + work.shift * most * DenseMatrix::Identity(n, n));
     work.solution.setZero(n);
     work.left_over = work.rhs;
-    const double enough = corrected * work.rhs.lpNorm<Eigen::Infinity>();
-    for (int k = 0; k < corrections; ++k) {
+    const double enough = left_by_corrections * work.rhs.lpNorm<Eigen::Infinity>();
+    for (int k = 0; k < most_corrections; ++k) {
         work.solution += work.factor.solve(work.left_over);
         work.left_over = work.rhs - work.W * work.solution;
         if (work.left_over.lpNorm<Eigen::Infinity>() <= enough) {
@@ -356,7 +356,8 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     bool changed = true;
     double best = infinity;
     int since_best = 0;
-    for (int round = 0; round < most_rounds && changed && since_best < patience; ++round) {
+    for (int round = 0; round < most_active_sets && changed && since_best < rounds_without_gain;
+         ++round) {
         if (by_bodies) {
             choose_base(rows, work);
             start_from_base(rows, bodies, work);

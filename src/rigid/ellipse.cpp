@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ellipse.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-// Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
-constexpr double no_direction = 1e-9;
 // Newton steps; a handful is the rule.
 constexpr int most_steps = 40;
 

@@ -24,6 +24,12 @@ struct SolidPose {
 };
 SolidPose pose_of(const Vec3& x, const Quat& q);
 
+/// A point in the axes of a solid.
+inline Vec3 in_frame(const SolidPose& pose, const Vec3& p)
+{
+    return pose.R.transpose() * (p - pose.x);
+}
+
 /// A boundary as the contact search sees it: a plane at time 0, a mesh, or a solid; a basin is the
 /// compound of its sides.
 struct ContactWall {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_contacts = 8;
 // Contacts of one patch: normals closer than this (1 - cosine), heights closer than that [units].
-constexpr double same_direction = 1e-9;
+constexpr double parallel_normals = 1e-9;
 constexpr double same_height = 1e-6;
 // Friction inside this part of the cone holds [1]: round-off, on top of what the solution calls so.
 constexpr double inside_cone = 1 - 1e-6;
@@ -20,7 +20,7 @@ constexpr double settled_centre = 0.02;
 
 bool same_plane(const Touch& a, const Touch& b, double unit)
 {
-    return a.normal.dot(b.normal) > 1 - same_direction &&
+    return a.normal.dot(b.normal) > 1 - parallel_normals &&
            std::abs(a.normal.dot(b.point - a.point)) < same_height * unit;
 }
 
@@ -85,7 +85,7 @@ PatchForm form_of(const ContactMemory& memory, const std::vector<int>& contacts)
     const Candidate& c = memory.persistent[contacts[0]].candidate;
     const auto stands = [&](int k) {
         return k >= 0 && memory.geometry.solids[k].form == Form::rod &&
-               std::abs(memory.poses[k].R.col(0).dot(c.touch.normal)) > 1 - same_direction;
+               std::abs(memory.poses[k].R.col(0).dot(c.touch.normal)) > 1 - parallel_normals;
     };
     const bool all_around = contacts.size() == most_contacts;
     return all_around && (stands(c.feature.a) || stands(c.feature.b)) ? PatchForm::disc
@@ -150,7 +150,7 @@ bool rubs_where_it_did(const ContactMemory& memory, const FrictionPatch& patch, 
            });
 }
 
-bool sticks(const StepContext& context, const FrictionPatch& patch)
+bool patch_sticks(const StepContext& context, const FrictionPatch& patch)
 {
     double load = 0;
     const bool inside = std::ranges::all_of(patch.contacts, [&](int k) {
@@ -226,7 +226,7 @@ void set_rubs(ContactMemory& memory)
 void note_sticking(const StepContext& context)
 {
     for (const FrictionPatch& patch : context.memory.patches) {
-        const int size = sticks(context, patch) ? static_cast<int>(patch.contacts.size()) : 0;
+        const int size = patch_sticks(context, patch) ? static_cast<int>(patch.contacts.size()) : 0;
         for (const int k : patch.contacts) {
             context.memory.persistent[k].stuck = size;
         }

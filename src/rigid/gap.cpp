@@ -4,6 +4,7 @@
 #include "feature.hpp"
 #include "mesh_contact.hpp"
 #include "rod_touch.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,6 @@
 namespace hyoryu {
 
 namespace {
-
-// Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
-constexpr double no_direction = 1e-9;
 
 // Where the middle of a shape is whose centre of mass is there.
 Vec3 middle_of(const Solid& solid, const SolidPose& body)

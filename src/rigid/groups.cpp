@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "groups.hpp"
+#include "union_find.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ constexpr int most_repetitions = 4;
 // most: a bound on the speed between its ends [1].
 constexpr double more_turn = 1.2;
 // Two edges whose cross product is shorter than this count as parallel [1].
-constexpr double no_direction = 1e-6;
+constexpr double parallel_edges_of_blocks = 1e-6;
 
 struct Direction {
     Vec3 normal{0, 0, 1}; // from b to a
@@ -67,7 +68,7 @@ Direction widest_gap(const Block& a, const Block& b)
     for (int m = 0; m < 3 && best.gap <= 0; ++m) {
         for (int n = 0; n < 3; ++n) {
             const Vec3 cross = a.axes.col(m).cross(b.axes.col(n));
-            if (cross.norm() > no_direction) {
+            if (cross.norm() > parallel_edges_of_blocks) {
                 look_along(cross.normalized(), a, b, best);
             }
         }
@@ -147,15 +148,6 @@ void put_back(const StepContext& context, const Cluster& all, const ClusterStart
         context.rigid.bodies[k].velocity = start.velocities[m];
         context.rigid.bodies[k].angular_momentum = start.momenta[m];
     }
-}
-
-int root_of(std::vector<int>& parents, int k)
-{
-    while (parents[k] != k) {
-        parents[k] = parents[parents[k]];
-        k = parents[k];
-    }
-    return k;
 }
 
 void join(std::vector<int>& parents, int a, int b)

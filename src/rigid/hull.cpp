@@ -10,13 +10,13 @@ namespace hyoryu {
 
 namespace {
 
-struct Face {
+struct HullFace {
     std::array<int, 3> corner;
     Vec3 normal{0, 0, 0}; // unit, outwards
     double offset = 0;    // normal . x on the face
 };
 
-Face make_face(const std::vector<Vec3>& p, int a, int b, int c)
+HullFace make_face(const std::vector<Vec3>& p, int a, int b, int c)
 {
     const auto at = [&](int k) { return p[static_cast<std::size_t>(k)]; };
     const Vec3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
@@ -25,7 +25,7 @@ Face make_face(const std::vector<Vec3>& p, int a, int b, int c)
 
 // The point with the largest f.
 template <class F>
-int farthest(const std::vector<Vec3>& p, const F& f)
+int farthest_along(const std::vector<Vec3>& p, const F& f)
 {
     int best = 0;
     for (int k = 1; k < static_cast<int>(p.size()); ++k) {
@@ -37,15 +37,16 @@ int farthest(const std::vector<Vec3>& p, const F& f)
 }
 
 // Four points that span as much as a greedy choice finds.
-std::vector<Face> first_tetrahedron(const std::vector<Vec3>& p)
+std::vector<HullFace> first_tetrahedron(const std::vector<Vec3>& p)
 {
     const auto at = [&](int k) { return p[static_cast<std::size_t>(k)]; };
-    const int a = farthest(p, [](const Vec3& x) { return x.x(); });
-    const int b = farthest(p, [&](const Vec3& x) { return (x - at(a)).squaredNorm(); });
+    const int a = farthest_along(p, [](const Vec3& x) { return x.x(); });
+    const int b = farthest_along(p, [&](const Vec3& x) { return (x - at(a)).squaredNorm(); });
     const Vec3 line = (at(b) - at(a)).normalized();
-    const int c = farthest(p, [&](const Vec3& x) { return (x - at(a)).cross(line).squaredNorm(); });
+    const int c =
+        farthest_along(p, [&](const Vec3& x) { return (x - at(a)).cross(line).squaredNorm(); });
     const Vec3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
-    const int d = farthest(p, [&](const Vec3& x) { return std::abs(normal.dot(x - at(a))); });
+    const int d = farthest_along(p, [&](const Vec3& x) { return std::abs(normal.dot(x - at(a))); });
     if (normal.dot(at(d) - at(a)) > 0) {
         return {make_face(p, a, c, b), make_face(p, a, b, d), make_face(p, b, c, d),
                 make_face(p, c, a, d)};
@@ -66,17 +67,17 @@ constexpr double rounding = 1e-13;
 // Replaces the faces that see the point by a cone from their horizon to it. A point that is a
 // corner at all is seen by every face that it is above: with a play there, some faces of one nearly
 // flat side would see it and others not, and the hull would come apart.
-void add_point(const std::vector<Vec3>& p, int point, double size, std::vector<Face>& faces)
+void add_point(const std::vector<Vec3>& p, int point, double size, std::vector<HullFace>& faces)
 {
     const Vec3& x = p[static_cast<std::size_t>(point)];
-    const auto above = [&](const Face& face) { return face.normal.dot(x) - face.offset; };
-    const auto sees = [&](const Face& face) { return above(face) > rounding * size; };
+    const auto above = [&](const HullFace& face) { return face.normal.dot(x) - face.offset; };
+    const auto sees = [&](const HullFace& face) { return above(face) > rounding * size; };
     if (std::ranges::none_of(faces,
-                             [&](const Face& f) { return above(f) > plane_enough * size; })) {
+                             [&](const HullFace& f) { return above(f) > plane_enough * size; })) {
         return;
     }
     std::set<std::pair<int, int>> edges;
-    for (const Face& face : faces) {
+    for (const HullFace& face : faces) {
         if (sees(face)) {
             for (std::size_t k = 0; k < 3; ++k) {
                 edges.insert({face.corner[k], face.corner[(k + 1) % 3]});
@@ -92,10 +93,10 @@ void add_point(const std::vector<Vec3>& p, int point, double size, std::vector<F
 }
 
 // The outline of faces that lie in one plane, counter-clockwise from outside.
-std::vector<int> outline(const std::vector<Face>& faces)
+std::vector<int> outline(const std::vector<HullFace>& faces)
 {
     std::set<std::pair<int, int>> edges;
-    for (const Face& face : faces) {
+    for (const HullFace& face : faces) {
         for (std::size_t k = 0; k < 3; ++k) {
             edges.insert({face.corner[k], face.corner[(k + 1) % 3]});
         }
@@ -123,7 +124,7 @@ Polytope convex_hull(const std::vector<Vec3>& points)
         high = high.cwiseMax(x);
     }
     const double size = (high - low).norm();
-    std::vector<Face> faces = first_tetrahedron(points);
+    std::vector<HullFace> faces = first_tetrahedron(points);
     for (int k = 0; k < static_cast<int>(points.size()); ++k) {
         add_point(points, k, size, faces);
     }
@@ -131,9 +132,9 @@ Polytope convex_hull(const std::vector<Vec3>& points)
     Polytope hull;
     std::map<int, int> number; // of a point among the corners of the hull
     while (!faces.empty()) {
-        const Face first = faces.front();
+        const HullFace first = faces.front();
         const auto coplanar =
-            std::stable_partition(faces.begin(), faces.end(), [&](const Face& face) {
+            std::stable_partition(faces.begin(), faces.end(), [&](const HullFace& face) {
                 return face.normal.dot(first.normal) < 1 - flat ||
                        std::abs(face.offset - first.offset) > plane_enough * size;
             });

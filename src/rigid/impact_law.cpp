@@ -10,7 +10,7 @@ namespace hyoryu {
 namespace {
 
 // Gain of energy, relative to what was exchanged, that is round-off and not the impact law.
-constexpr double no_gain = 1e-14;
+constexpr double no_gain_of_impact = 1e-14;
 
 // Work done by the contacts, 1/2 sum P . (u- + u+): the change of kinetic energy seen from the
 // walls.
@@ -94,7 +94,7 @@ void collect(const StepContext& context, const Round& round, double slower, std:
 void clamp_energy(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort)
 {
     const double work1 = work_done(rows, memory.responses);
-    if (work1 <= no_gain * exchanged(rows)) {
+    if (work1 <= no_gain_of_impact * exchanged(rows)) {
         return;
     }
     std::vector<Vec3> p1;

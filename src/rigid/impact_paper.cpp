@@ -11,12 +11,11 @@ namespace hyoryu {
 namespace {
 
 // Points of one pair whose normals agree to this belong to one face.
-constexpr double same_direction = 1 - 1e-9;
+constexpr double same_normal = 1 - 1e-9;
 
 bool same_face(const Row& one, const Row& other)
 {
-    return one.a == other.a && one.b == other.b &&
-           one.D.col(0).dot(other.D.col(0)) > same_direction;
+    return one.a == other.a && one.b == other.b && one.D.col(0).dot(other.D.col(0)) > same_normal;
 }
 
 // The mean point of the rows as one contact.

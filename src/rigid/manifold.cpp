@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "manifold.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-// Corners this part of the size of a pair past the rim of a face still count as on it, so that
-// flush faces keep their corners; and points nearer to each other than that are one.
-constexpr double rim_tolerance = 1e-6;
 // Faces nearer to parallel than acos of this overlap face to face; corners of the reference then
 // count.
 constexpr double face_to_face = 0.9;
@@ -21,7 +19,7 @@ constexpr double nearly_flush = 1e-3;
 
 // The reference face's solid r, the other i, and the normal out of the reference face in world
 // axes.
-struct Meeting {
+struct FaceMeeting {
     const BodyPair& pair;
     const Configuration& at;
     PlacedSolid r;
@@ -72,7 +70,7 @@ int facing_face(const Solid& solid, int corner, const Vec3& n)
     return best;
 }
 
-void add_once(const Meeting& m, const Feature& feature, std::size_t first,
+void add_once(const FaceMeeting& m, const Feature& feature, std::size_t first,
               std::vector<Candidate>& found)
 {
     const Touch touch = touch_of(feature, m.at);
@@ -86,7 +84,7 @@ void add_once(const Meeting& m, const Feature& feature, std::size_t first,
     }
 }
 
-Feature corner_feature(const Meeting& m, int owner, int corner, int face)
+Feature corner_feature(const FaceMeeting& m, int owner, int corner, int face)
 {
     Feature feature{m.pair.a, m.pair.b, FeatureKind::corner_face, owner};
     const bool of_incident = owner == m.owner;
@@ -95,7 +93,7 @@ Feature corner_feature(const Meeting& m, int owner, int corner, int face)
     return feature;
 }
 
-void add_corners(const Meeting& m, std::size_t first, std::vector<Candidate>& found)
+void add_corners(const FaceMeeting& m, std::size_t first, std::vector<Candidate>& found)
 {
     const Face& reference = m.r.solid.faces[m.reference];
     const Face& incident = m.i.solid.faces[m.incident];
@@ -115,7 +113,7 @@ void add_corners(const Meeting& m, std::size_t first, std::vector<Candidate>& fo
 }
 
 // Edges of the incident face that pass a side of the reference face away from all corners.
-void add_crossings(const Meeting& m, std::size_t first, std::vector<Candidate>& found)
+void add_crossings(const FaceMeeting& m, std::size_t first, std::vector<Candidate>& found)
 {
     const Face& reference = m.r.solid.faces[m.reference];
     for (const Side& edge : m.i.solid.faces[m.incident].sides) {
@@ -141,7 +139,7 @@ void add_crossings(const Meeting& m, std::size_t first, std::vector<Candidate>& 
     }
 }
 
-void add_faces(const Meeting& m, double distance, std::vector<Candidate>& found)
+void add_faces(const FaceMeeting& m, double distance, std::vector<Candidate>& found)
 {
     const std::size_t first = found.size();
     add_corners(m, first, found);
@@ -192,11 +190,11 @@ Separation flush(const PartPair& parts, const Separation& axis)
     return axis;
 }
 
-Meeting meeting(const BodyPair& pair, const PartPair& parts, const Separation& axis,
-                const Configuration& at)
+FaceMeeting meeting(const BodyPair& pair, const PartPair& parts, const Separation& axis,
+                    const Configuration& at)
 {
     const bool a_refers = axis.kind == AxisKind::face_of_a;
-    Meeting m{pair, at, a_refers ? parts.a : parts.b, a_refers ? parts.b : parts.a};
+    FaceMeeting m{pair, at, a_refers ? parts.a : parts.b, a_refers ? parts.b : parts.a};
     m.reference = a_refers ? axis.a : axis.b;
     m.owner = a_refers ? 1 : 0;
     m.normal = m.r.pose.R * m.r.solid.faces[m.reference].normal;

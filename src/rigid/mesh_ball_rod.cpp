@@ -2,6 +2,7 @@
 #include "mesh_ball_rod.hpp"
 #include "mesh_contact.hpp"
 #include "rod_touch.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,21 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-// An overlap deeper than this was not located, and a body nearer than this may touch [units].
-constexpr double deep = 1e-5;
-// Rounding of a foot on the border of a triangle, as a part of the size of the body.
-constexpr double rim_tolerance = 1e-6;
-// A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
-constexpr double standing = 0.995;
-
-// What round-off does to the normal of a rim that lies flat (unit vectors).
-constexpr double lying_flat = 1e-6;
-
-std::size_t number(int k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 AlignedBox box_of(const Solid& solid, const SolidPose& pose)
 {
     const Vec3 half =
@@ -33,21 +19,12 @@ AlignedBox box_of(const Solid& solid, const SolidPose& pose)
     return {pose.x - half, pose.x + half};
 }
 
-double past_sides(const FlatTriangle& t, const Vec3& p)
-{
-    double past = -infinity;
-    for (std::size_t k = 0; k < 3; ++k) {
-        past = std::max(past, t.sideways[k].dot(p - t.point[k]));
-    }
-    return past;
-}
-
 class RoundSearch {
 public:
     RoundSearch(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
-        : pair_(pair), at_(at), wall_(at.geometry.walls[number(-1 - pair.b)]), mesh_(wall_.mesh),
-          solid_(at.geometry.solids[number(pair.a)]), pose_(placed(at, pair.a).pose), found_(found),
-          first_(found.size())
+        : pair_(pair), at_(at), wall_(at.geometry.walls[hyoryu::at(-1 - pair.b)]),
+          mesh_(wall_.mesh), solid_(at.geometry.solids[hyoryu::at(pair.a)]),
+          pose_(placed(at, pair.a).pose), found_(found), first_(found.size())
     {
         pose_.x -= displacement(wall_.motion, at.time);
     }
@@ -57,8 +34,8 @@ public:
         std::vector<int> near;
         find_near(mesh_.tree, box_of(solid_, pose_).grown(deep * at_.geometry.unit), near);
         for (const int t : near) {
-            const FlatTriangle& triangle = mesh_.triangles[number(t)];
-            const Patch& patch = mesh_.patches[number(triangle.patch)];
+            const FlatTriangle& triangle = mesh_.triangles[hyoryu::at(t)];
+            const Patch& patch = mesh_.patches[hyoryu::at(triangle.patch)];
             if (patch.normal.dot(pose_.x) <= patch.offset) {
                 continue;
             }
@@ -129,9 +106,9 @@ private:
         }
         for (std::size_t k = 0; k < 3; ++k) {
             if (triangle.crease[k] >= 0) {
-                ball_at(mesh_.creases[number(triangle.crease[k])], triangle.crease[k]);
+                ball_at(mesh_.creases[hyoryu::at(triangle.crease[k])], triangle.crease[k]);
             }
-            const MeshCorner& corner = mesh_.corners[number(triangle.corner[k])];
+            const MeshCorner& corner = mesh_.corners[hyoryu::at(triangle.corner[k])];
             if (corner.sharp && in_cone(mesh_, corner, (pose_.x - corner.point).normalized())) {
                 Feature f = feature(FeatureKind::round_corner);
                 f.i = triangle.corner[k];
@@ -142,8 +119,8 @@ private:
 
     void ball_at(const Crease& crease, int k)
     {
-        const Vec3& a = mesh_.corners[number(crease.i)].point;
-        const Vec3 d = mesh_.corners[number(crease.j)].point - a;
+        const Vec3& a = mesh_.corners[hyoryu::at(crease.i)].point;
+        const Vec3 d = mesh_.corners[hyoryu::at(crease.j)].point - a;
         const double t = d.dot(pose_.x - a) / d.squaredNorm();
         const Vec3 out = pose_.x - a - t * d;
         if (t > 0 && t < 1 && out.dot(crease.left) < 0 && out.dot(crease.right) < 0) {
@@ -192,7 +169,7 @@ private:
 
     void rod_on(const FlatTriangle& triangle, int k)
     {
-        const Crease& crease = mesh_.creases[number(k)];
+        const Crease& crease = mesh_.creases[hyoryu::at(k)];
         Feature f = feature(FeatureKind::side_line);
         f.k = k;
         add_curve(triangle, f, crease);
@@ -225,7 +202,7 @@ private:
 
     void rod_at(const FlatTriangle& triangle, int k)
     {
-        const MeshCorner& corner = mesh_.corners[number(k)];
+        const MeshCorner& corner = mesh_.corners[hyoryu::at(k)];
         Feature f = feature(FeatureKind::rod_corner);
         f.k = k;
         if (corner.sharp) {

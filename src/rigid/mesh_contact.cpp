@@ -4,6 +4,7 @@
 #include "covered.hpp"
 #include "mesh_ball_rod.hpp"
 #include "mesh_separation.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,39 +15,18 @@ namespace {
 
 // Features of polytopes farther apart than this are no contact [units].
 constexpr double near_enough = 1e-5;
-// A corner this part of the reach of its body past the rim of a triangle is still over it.
-constexpr double rim_tolerance = 1e-6;
 // Part of an edge at its ends that belongs to the corners.
 constexpr double edge_end = 1e-6;
-// Sine of the angle below which two edges are parallel and their cross product is noise.
-constexpr double parallel_edges = 1e-4;
-// What round-off does to an edge that lies flat (unit vectors).
-constexpr double lying_flat = 1e-6;
 
 // Features show an overlap if they are this part as deep as the axis.
 constexpr double shown = 0.5;
-
-std::size_t number(int k)
-{
-    return static_cast<std::size_t>(k);
-}
-
-// How far the foot of a point on the plane of a triangle is past its sides; negative inside.
-double past_sides(const FlatTriangle& t, const Vec3& p)
-{
-    double past = -infinity;
-    for (std::size_t k = 0; k < 3; ++k) {
-        past = std::max(past, t.sideways[k].dot(p - t.point[k]));
-    }
-    return past;
-}
 
 // Collects the features of one convex part of a body and a mesh.
 class PartSearch {
 public:
     PartSearch(const BodyPair& pair, const Configuration& at, const PartAt& part,
                std::vector<Candidate>& found)
-        : pair_(pair), at_(at), mesh_(at.geometry.walls[number(-1 - pair.b)].mesh), part_(part),
+        : pair_(pair), at_(at), mesh_(at.geometry.walls[hyoryu::at(-1 - pair.b)].mesh), part_(part),
           found_(found), first_(found.size()), near_(near_enough * at.geometry.unit)
     {
     }
@@ -111,7 +91,7 @@ private:
 
     void mesh_corner(int corner)
     {
-        const MeshCorner& c = mesh_.corners[number(corner)];
+        const MeshCorner& c = mesh_.corners[hyoryu::at(corner)];
         if (!c.sharp) {
             return;
         }
@@ -134,12 +114,12 @@ private:
 
     void edges_across(int number_of_crease)
     {
-        const Crease& crease = mesh_.creases[number(number_of_crease)];
-        const Vec3& q = mesh_.corners[number(crease.i)].point;
-        const Vec3 w = mesh_.corners[number(crease.j)].point - q;
+        const Crease& crease = mesh_.creases[hyoryu::at(number_of_crease)];
+        const Vec3& q = mesh_.corners[hyoryu::at(crease.i)].point;
+        const Vec3 w = mesh_.corners[hyoryu::at(crease.j)].point - q;
         for (const Edge& edge : part_.solid.edges) {
-            const Vec3& p = part_.corners[number(edge.i)];
-            const Vec3 u = part_.corners[number(edge.j)] - p;
+            const Vec3& p = part_.corners[hyoryu::at(edge.i)];
+            const Vec3 u = part_.corners[hyoryu::at(edge.j)] - p;
             const Vec3 cross = u.cross(w);
             const double length = cross.norm();
             if (length <= parallel_edges * u.norm() * w.norm()) {
@@ -165,14 +145,15 @@ private:
     {
         if (axis.kind == TriangleAxis::Kind::face) {
             Feature found = feature(FeatureKind::face_corner);
-            found.i = triangle.corner[number(axis.corner)];
+            found.i = triangle.corner[hyoryu::at(axis.corner)];
             found.f = part_.solid.first_face + axis.index;
             add(found);
             return;
         }
         const Feature found = corner_feature(axis.corner, triangle.patch);
         const Touch touch = touch_of(found, at_);
-        if (touch.gap < deepest_ && ends_inwards(triangle, part_.corners[number(axis.corner)])) {
+        if (touch.gap < deepest_ &&
+            ends_inwards(triangle, part_.corners[hyoryu::at(axis.corner)])) {
             covered_.push_back({found, touch});
         }
         add(found);
@@ -208,8 +189,8 @@ private:
 void find_mesh_candidates(const BodyPair& pair, const Configuration& at,
                           std::vector<Candidate>& found)
 {
-    const Solid& solid = at.geometry.solids[number(pair.a)];
-    const ContactWall& wall = at.geometry.walls[number(-1 - pair.b)];
+    const Solid& solid = at.geometry.solids[hyoryu::at(pair.a)];
+    const ContactWall& wall = at.geometry.walls[hyoryu::at(-1 - pair.b)];
     if (solid.form == Form::ball || solid.form == Form::rod) {
         find_round_on_mesh(pair, at, found);
         return;
@@ -217,11 +198,11 @@ void find_mesh_candidates(const BodyPair& pair, const Configuration& at,
     std::vector<int> near;
     for (const Solid& own : convex_parts(solid)) {
         const PartAt part =
-            part_at(solid, own, at.poses[number(pair.a)], displacement(wall.motion, at.time));
+            part_at(solid, own, at.poses[hyoryu::at(pair.a)], displacement(wall.motion, at.time));
         PartSearch search(pair, at, part, found);
         find_near(wall.mesh.tree, part.box.grown(near_enough * at.geometry.unit), near);
         for (const int t : near) {
-            search.over(wall.mesh.triangles[number(t)]);
+            search.over(wall.mesh.triangles[hyoryu::at(t)]);
         }
         search.finish();
     }
@@ -229,17 +210,17 @@ void find_mesh_candidates(const BodyPair& pair, const Configuration& at,
 
 double mesh_distance(const BodyPair& pair, const Configuration& at)
 {
-    const Solid& solid = at.geometry.solids[number(pair.a)];
-    const ContactWall& wall = at.geometry.walls[number(-1 - pair.b)];
+    const Solid& solid = at.geometry.solids[hyoryu::at(pair.a)];
+    const ContactWall& wall = at.geometry.walls[hyoryu::at(-1 - pair.b)];
     const double touch = near_enough * at.geometry.unit;
     double smallest = infinity;
     std::vector<int> near;
     for (const Solid& own : convex_parts(solid)) {
         const PartAt part =
-            part_at(solid, own, at.poses[number(pair.a)], displacement(wall.motion, at.time));
+            part_at(solid, own, at.poses[hyoryu::at(pair.a)], displacement(wall.motion, at.time));
         find_near(wall.mesh.tree, part.box, near);
         for (const int t : near) {
-            const FlatTriangle& triangle = wall.mesh.triangles[number(t)];
+            const FlatTriangle& triangle = wall.mesh.triangles[hyoryu::at(t)];
             smallest = std::min(smallest,
                                 triangle_axis(part, wall.mesh, triangle, smallest, touch).distance);
         }

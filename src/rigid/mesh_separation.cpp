@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mesh_separation.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +8,6 @@
 namespace hyoryu {
 
 namespace {
-
-// Sine of the angle below which two edges are parallel and their cross product is noise.
-constexpr double parallel_edges = 1e-4;
-
-std::size_t number(int k)
-{
-    return static_cast<std::size_t>(k);
-}
 
 TriangleAxis above(const PartAt& part, const Patch& patch)
 {
@@ -34,7 +27,7 @@ TriangleAxis under_face(const PartAt& part, std::size_t f, const FlatTriangle& t
 {
     TriangleAxis axis{infinity, TriangleAxis::Kind::face, static_cast<int>(f), 0};
     for (int k = 0; k < 3; ++k) {
-        const double d = part.normals[f].dot(triangle.point[number(k)]) - part.offsets[f];
+        const double d = part.normals[f].dot(triangle.point[at(k)]) - part.offsets[f];
         if (d < axis.distance) {
             axis.distance = d;
             axis.corner = k;
@@ -61,8 +54,8 @@ void improve_by_edges(TriangleAxis& best, const PartAt& part, const FlatTriangle
                       const Patch& patch, int deepest, double enough, double touch)
 {
     for (const Edge& edge : part.solid.edges) {
-        const Vec3& c = part.corners[number(edge.i)];
-        const Vec3 u = part.corners[number(edge.j)] - c;
+        const Vec3& c = part.corners[at(edge.i)];
+        const Vec3 u = part.corners[at(edge.j)] - c;
         for (std::size_t k = 0; k < 3 && best.distance <= enough; ++k) {
             const Vec3 w = triangle.point[(k + 1) % 3] - triangle.point[k];
             const Vec3 cross = u.cross(w);
@@ -107,7 +100,7 @@ PartAt part_at(const Solid& whole, const Solid& part, const SolidPose& pose, con
 TriangleAxis triangle_axis(const PartAt& part, const MeshTable& mesh, const FlatTriangle& triangle,
                            double enough, double touch)
 {
-    const Patch& patch = mesh.patches[number(triangle.patch)];
+    const Patch& patch = mesh.patches[at(triangle.patch)];
     TriangleAxis best;
     if (patch.normal.dot(part.middle) <= patch.offset) {
         best.distance = infinity;
@@ -126,9 +119,9 @@ TriangleAxis triangle_axis(const PartAt& part, const MeshTable& mesh, const Flat
 
 bool rests_on(const PartAt& part, const Edge& edge, const Vec3& n, double slack)
 {
-    const Vec3 d = (part.corners[number(edge.j)] - part.corners[number(edge.i)]).normalized();
-    const Vec3 into_left = part.normals[number(edge.left)].cross(d);
-    const Vec3 into_right = d.cross(part.normals[number(edge.right)]);
+    const Vec3 d = (part.corners[at(edge.j)] - part.corners[at(edge.i)]).normalized();
+    const Vec3 into_left = part.normals[at(edge.left)].cross(d);
+    const Vec3 into_right = d.cross(part.normals[at(edge.right)]);
     return n.dot(into_left) >= -slack && n.dot(into_right) >= -slack;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 // A corner this part of the size of the mesh off a plane lies in it: three times the rounding of a
 // file in single precision.
-constexpr double flat = 2e-7;
+constexpr double flat_crease = 2e-7;
 // Triangles whose unit normals differ by more are never one patch, however thin they are.
 constexpr double flat_angle = 1e-3;
 // Sine of the angle up to which two creases at a corner are one straight line.
@@ -21,25 +21,20 @@ constexpr double straight = 1e-6;
 constexpr double cone_slack = 1e-6;
 
 // One side of an edge.
-struct Side {
+struct EdgeSide {
     int i = 0, j = 0; // corners, i < j
     int triangle = 0;
-    auto operator<=>(const Side&) const = default;
+    auto operator<=>(const EdgeSide&) const = default;
 };
-
-std::size_t at(int k)
-{
-    return static_cast<std::size_t>(k);
-}
 
 std::pair<int, int> edge_of(const std::array<int, 3>& triangle, std::size_t k)
 {
     return std::minmax(triangle[k], triangle[(k + 1) % 3]);
 }
 
-class Builder {
+class MeshTableBuilder {
 public:
-    explicit Builder(const MeshSurface& surface) : triangles_(surface.triangles)
+    explicit MeshTableBuilder(const MeshSurface& surface) : triangles_(surface.triangles)
     {
         for (const Vec3& corner : surface.corners) {
             mesh_.corners.push_back({surface.position + surface.orientation * corner, 0, 0, false});
@@ -89,8 +84,8 @@ private:
         }
         std::sort(sides_.begin(), sides_.end());
         edge_.resize(triangles_.size());
-        for_edges([&](std::span<const Side> both) {
-            for (const Side& side : both) {
+        for_edges([&](std::span<const EdgeSide> both) {
+            for (const EdgeSide& side : both) {
                 const auto& t = triangles_[at(side.triangle)];
                 for (std::size_t k = 0; k < 3; ++k) {
                     if (edge_of(t, k) == std::pair(side.i, side.j)) {
@@ -101,7 +96,7 @@ private:
         });
     }
 
-    std::span<const Side> sides_from(std::size_t first) const
+    std::span<const EdgeSide> sides_from(std::size_t first) const
     {
         std::size_t last = first;
         while (last < sides_.size() && sides_[last].i == sides_[first].i &&
@@ -115,7 +110,7 @@ private:
     void for_edges(const auto& visit) const
     {
         for (std::size_t k = 0; k < sides_.size();) {
-            const std::span<const Side> both = sides_from(k);
+            const std::span<const EdgeSide> both = sides_from(k);
             visit(both);
             k += both.size();
         }
@@ -143,7 +138,7 @@ private:
         const auto& first = triangles_[at(seed)];
         const Vec3 normal = area_vector(first).normalized();
         const double offset = normal.dot(point(first[0]));
-        const double tolerance = flat * (bounds_.high - bounds_.low).norm();
+        const double tolerance = flat_crease * (bounds_.high - bounds_.low).norm();
         const int patch = static_cast<int>(mesh_.patches.size());
         mesh_.patches.push_back({normal, offset});
         std::vector<int> open{seed};
@@ -152,7 +147,7 @@ private:
             const std::size_t t = at(open.back());
             open.pop_back();
             for (std::size_t k = 0; k < 3; ++k) {
-                const std::span<const Side> both = sides_from(at(edge_[t][k]));
+                const std::span<const EdgeSide> both = sides_from(at(edge_[t][k]));
                 for (const auto& [i, j, other] : both) {
                     const auto& o = triangles_[at(other)];
                     const bool fits =
@@ -217,7 +212,7 @@ private:
     // Corners along the edges of each corner, in the order of the edges.
     void find_neighbours()
     {
-        for_edges([&](std::span<const Side> both) {
+        for_edges([&](std::span<const EdgeSide> both) {
             ++mesh_.corners[at(both[0].i)].count;
             ++mesh_.corners[at(both[0].j)].count;
         });
@@ -230,18 +225,18 @@ private:
         const auto add = [&](MeshCorner& corner, int end) {
             mesh_.neighbours[at(corner.first + corner.count++)] = end;
         };
-        for_edges([&](std::span<const Side> both) {
+        for_edges([&](std::span<const EdgeSide> both) {
             add(mesh_.corners[at(both[0].i)], both[0].j);
             add(mesh_.corners[at(both[0].j)], both[0].i);
         });
     }
 
-    bool within_a_patch(std::span<const Side> both) const
+    bool within_a_patch(std::span<const EdgeSide> both) const
     {
         return both.size() == 2 && patch_[at(both[0].triangle)] == patch_[at(both[1].triangle)];
     }
 
-    Crease crease_of(std::span<const Side> both) const
+    Crease crease_of(std::span<const EdgeSide> both) const
     {
         const int a = both.front().triangle;
         const int b = both.back().triangle;
@@ -256,7 +251,7 @@ private:
         return mesh_.patches[at(patch_[at(triangle)])].normal;
     }
 
-    bool is_convex(std::span<const Side> both) const
+    bool is_convex(std::span<const EdgeSide> both) const
     {
         return !within_a_patch(both) &&
                (both.size() == 1 ||
@@ -266,18 +261,18 @@ private:
     void find_creases()
     {
         std::size_t count = 0;
-        for_edges([&](std::span<const Side> both) { count += is_convex(both) ? 1 : 0; });
+        for_edges([&](std::span<const EdgeSide> both) { count += is_convex(both) ? 1 : 0; });
         mesh_.creases.reserve(count);
-        for_edges([&](std::span<const Side> both) {
+        for_edges([&](std::span<const EdgeSide> both) {
             if (is_convex(both)) {
                 note(both);
             }
         });
     }
 
-    void note(std::span<const Side> both)
+    void note(std::span<const EdgeSide> both)
     {
-        for (const Side& side : both) {
+        for (const EdgeSide& side : both) {
             FlatTriangle& triangle = mesh_.triangles[at(side.triangle)];
             for (std::size_t k = 0; k < 3; ++k) {
                 if (edge_of(triangle.corner, k) == std::pair(side.i, side.j)) {
@@ -299,7 +294,7 @@ private:
             Ends& known = ends[at(corner)];
             known.corner[at(std::min(known.count++, 1))] = end;
         };
-        for_edges([&](std::span<const Side> both) {
+        for_edges([&](std::span<const EdgeSide> both) {
             if (!within_a_patch(both)) {
                 add(both[0].i, both[0].j);
                 add(both[0].j, both[0].i);
@@ -318,7 +313,7 @@ private:
     MeshTable mesh_;
     std::vector<std::array<int, 3>> triangles_;
     AlignedBox bounds_;
-    std::vector<Side> sides_;
+    std::vector<EdgeSide> sides_;
     std::vector<std::array<int, 3>> edge_; // of a triangle: where the sides of its edges begin
     std::vector<int> patch_;
 };
@@ -327,7 +322,7 @@ private:
 
 MeshTable mesh_table(const MeshSurface& surface)
 {
-    return Builder(surface).table();
+    return MeshTableBuilder(surface).table();
 }
 
 bool in_cone(const Crease& crease, const Vec3& n)

@@ -6,6 +6,7 @@
 
 #include "hyoryu/rigid/body.hpp"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -26,6 +27,16 @@ struct FlatTriangle {
     std::array<Vec3, 3> point;    // [m]
     std::array<Vec3, 3> sideways; // unit, in the plane, out of the triangle across edge k
 };
+
+/// How far the foot of a point on the plane of a triangle is past its sides; negative inside [m].
+inline double past_sides(const FlatTriangle& t, const Vec3& p)
+{
+    double past = -infinity;
+    for (std::size_t k = 0; k < 3; ++k) {
+        past = std::max(past, t.sideways[k].dot(p - t.point[k]));
+    }
+    return past;
+}
 
 /// A convex edge between two patches, or the rim of an open surface: only these have normals of
 /// their own, the cone between those of the patches.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Gap functions of the features that only meshes have.
 #include "mesh_contact.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +9,6 @@
 namespace hyoryu {
 
 namespace {
-
-// Shorter than this a direction is noise (unit vectors).
-constexpr double no_direction = 1e-9;
-
-std::size_t number(int k)
-{
-    return static_cast<std::size_t>(k);
-}
 
 // A crease where it is now.
 struct Line {
@@ -25,16 +18,16 @@ struct Line {
 
 Line line_of(const MeshTable& mesh, const Crease& crease, const Vec3& shift)
 {
-    const Vec3& a = mesh.corners[number(crease.i)].point;
-    return {a + shift, mesh.corners[number(crease.j)].point - a};
+    const Vec3& a = mesh.corners[hyoryu::at(crease.i)].point;
+    return {a + shift, mesh.corners[hyoryu::at(crease.j)].point - a};
 }
 
 Touch edge_on_crease(const Feature& feature, const PlacedSolid& a, const Line& line,
                      const Crease& crease)
 {
-    const Vec3 p = a.pose.x + a.pose.R * a.solid.corners[number(feature.i)];
-    const Vec3 u =
-        a.pose.R * (a.solid.corners[number(feature.j)] - a.solid.corners[number(feature.i)]);
+    const Vec3 p = a.pose.x + a.pose.R * a.solid.corners[hyoryu::at(feature.i)];
+    const Vec3 u = a.pose.R * (a.solid.corners[hyoryu::at(feature.j)] -
+                               a.solid.corners[hyoryu::at(feature.i)]);
     const Vec3& w = line.along;
     const Vec3 r = line.from - p;
     const Vec3 cross = u.cross(w);
@@ -63,19 +56,19 @@ Touch ball_on_point(const PlacedSolid& ball, const Vec3& point)
 
 Touch mesh_touch(const Feature& feature, const Configuration& at)
 {
-    const ContactWall& wall = at.geometry.walls[number(-1 - feature.b)];
+    const ContactWall& wall = at.geometry.walls[hyoryu::at(-1 - feature.b)];
     const PlacedSolid a = placed(at, feature.a);
     const Vec3 shift = displacement(wall.motion, at.time);
     if (feature.kind == FeatureKind::face_corner) {
-        const Face& face = a.solid.faces[number(feature.f)];
+        const Face& face = a.solid.faces[hyoryu::at(feature.f)];
         const Vec3 n = a.pose.R * face.normal;
-        const Vec3 point = wall.mesh.corners[number(feature.i)].point + shift;
+        const Vec3 point = wall.mesh.corners[hyoryu::at(feature.i)].point + shift;
         return {point, -n, n.dot(point - a.pose.x) - face.offset};
     }
     if (feature.kind == FeatureKind::round_corner) {
-        return ball_on_point(a, wall.mesh.corners[number(feature.i)].point + shift);
+        return ball_on_point(a, wall.mesh.corners[hyoryu::at(feature.i)].point + shift);
     }
-    const Crease& crease = wall.mesh.creases[number(feature.k)];
+    const Crease& crease = wall.mesh.creases[hyoryu::at(feature.k)];
     const Line line = line_of(wall.mesh, crease, shift);
     if (feature.kind == FeatureKind::edge_crease) {
         return edge_on_crease(feature, a, line, crease);

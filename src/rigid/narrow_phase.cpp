@@ -6,6 +6,7 @@
 #include "mesh_contact.hpp"
 #include "rod_contact.hpp"
 #include "separation.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,6 @@
 namespace hyoryu {
 
 namespace {
-
-// A rod stands on its rim rather than lies if its axis is nearer to the normal than acos of this.
-constexpr double standing = 0.995;
 
 void add(const Feature& feature, const Configuration& at, std::vector<Candidate>& found)
 {
@@ -107,11 +105,6 @@ double for_each_part_pair(const BodyPair& pair, const Configuration& at, double 
         }
     }
     return others;
-}
-
-Vec3 in_frame(const SolidPose& pose, const Vec3& p)
-{
-    return pose.R.transpose() * (p - pose.x);
 }
 
 // Whether the surfaces go through the faces or edges that give the contact its normal.

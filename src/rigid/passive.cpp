@@ -10,14 +10,14 @@ namespace hyoryu {
 namespace {
 
 // Work relative to what was exchanged that is round-off.
-constexpr double round_off = 1e-14;
+constexpr double round_off_of_work = 1e-14;
 
 } // namespace
 
 double passive_share(const WorkOfShare& work)
 {
     const double exchanged = std::abs(work.linear) + work.square;
-    if (work.linear + work.square <= round_off * exchanged) {
+    if (work.linear + work.square <= round_off_of_work * exchanged) {
         return 1;
     }
     return std::clamp(-work.linear / work.square, 0.0, 1.0);

@@ -134,7 +134,7 @@ constexpr Effort opening_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60,
 // Where walls leave no room, no displacement opens all: the exact solution then has one without
 // bound, and the sweeps share the overlap.
 constexpr Effort swept_opening{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
-constexpr double farthest = 10; // times the widest opening
+constexpr double widest_move = 10; // times the widest opening
 
 // The contacts as rows without friction whose velocities are displacements, all still: what opens
 // their gaps.
@@ -173,7 +173,7 @@ bool goes_too_far(const ContactMemory& memory, const Cluster& cluster)
     return std::ranges::any_of(cluster.bodies, [&](int k) {
         const Response& moved = memory.responses[k];
         const double turned = memory.geometry.solids[k].reach * moved.omega.norm();
-        return moved.v.norm() + turned > farthest * widest;
+        return moved.v.norm() + turned > widest_move * widest;
     });
 }
 

@@ -17,7 +17,7 @@ namespace hyoryu {
 namespace {
 
 // A blow through a chain of n bodies takes n rounds.
-constexpr int most_rounds = 50;
+constexpr int rounds_of_impacts = 50;
 // A sub-step of n bodies in contact costs about this times n^1.5, for the elimination of a heap
 // [updates of rows].
 constexpr double work_of_sub_step = 8;
@@ -128,13 +128,13 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
     double done = 0;
     find_contacts(context, cluster, context.start);
     double& worst = context.rigid.counters.worst_residual;
-    const SubStep start{cluster, context.start, 0, slow, most_rounds};
+    const SubStep start{cluster, context.start, 0, slow, rounds_of_impacts};
     worst = std::max(worst, solve_impacts(context, start, context.start));
     while (done < context.dt && is_worth_locating(context.memory)) {
         const double rest = context.dt - done;
         double h =
             std::min(sub_step_length(context, cluster, rest), part_on_contacts(context, rest));
-        SubStep sub{cluster, context.start + done, h, slow, most_rounds};
+        SubStep sub{cluster, context.start + done, h, slow, rounds_of_impacts};
         plan_located(context, sub, rest);
         for (int k = 0; k < halvings && needs_halving(context, sub); ++k) {
             h = 0.5 * sub.h;

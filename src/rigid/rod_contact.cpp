@@ -2,6 +2,7 @@
 #include "rod_contact.hpp"
 #include "compound.hpp"
 #include "rod_touch.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +11,9 @@ namespace hyoryu {
 
 namespace {
 
-// Points this part of the size of a pair past the end of a feature still count as on it, and points
-// nearer to each other than that are one.
-constexpr double rim_tolerance = 1e-6;
-// A rod stands on a face rather than lies if its axis is nearer to the normal than acos of this.
-constexpr double standing = 0.995;
 // A gap below this and twice the overlap of the solids belongs to features that do not face each
 // other [units].
 constexpr double no_overlap = -1e-9;
-// What round-off does to the normal of an edge that lies flat (unit vectors).
-constexpr double lying_flat = 1e-6;
 // Contacts show the distance of the solids to this [units].
 constexpr double exact = 1e-10;
 
@@ -52,7 +46,7 @@ struct FaceAxis {
 };
 
 // Two features of which one at least is curved, or a rod and a corner.
-struct Meeting {
+struct RodMeeting {
     Feature feature;
     const Edge* edge = nullptr; // of the polytope, if it meets with an edge
     RodTouch at;
@@ -65,7 +59,7 @@ struct Look {
     const Configuration& at;
     double tolerance = 0; // [m]
     std::vector<FaceAxis> faces;
-    std::vector<Meeting> meetings;
+    std::vector<RodMeeting> meetings;
     double distance = -infinity;
     FaceAxis best_face;
     int best_meeting = -1; // before the face, if there is one
@@ -188,11 +182,6 @@ Look look_at(const BodyPair& pair, const PartPair& parts, const Configuration& a
     return look;
 }
 
-Vec3 in_frame(const SolidPose& pose, const Vec3& p)
-{
-    return pose.R.transpose() * (p - pose.x);
-}
-
 // Whether a point is over a face, past its rim by the tolerance at most.
 bool is_over(const Look& look, const FaceAxis& axis, const Vec3& point)
 {
@@ -208,7 +197,7 @@ bool is_over(const Look& look, const FaceAxis& axis, const Vec3& point)
 }
 
 // Whether the surface of a compound goes through the feature at the touch.
-bool is_open(const Look& look, const Meeting& meeting)
+bool is_open(const Look& look, const RodMeeting& meeting)
 {
     const int other = 1 - meeting.feature.owner;
     const Solid& whole = placed(look.at, other == 0 ? look.pair.a : look.pair.b).solid;
@@ -292,7 +281,7 @@ std::vector<Candidate> over_face(const Look& look, const FaceAxis& axis)
 Candidate nearest_feature(const Look& look)
 {
     if (look.best_meeting >= 0) {
-        const Meeting& best = look.meetings[look.best_meeting];
+        const RodMeeting& best = look.meetings[look.best_meeting];
         return {best.feature, best.at.touch};
     }
     const FaceAxis& axis = look.best_face;
@@ -355,7 +344,7 @@ private:
 };
 
 // Whether the polytope of an edge lies below it, seen from the rod along the normal.
-bool lies_below(const Look& look, const Meeting& meeting)
+bool lies_below(const Look& look, const RodMeeting& meeting)
 {
     const PlacedSolid& polytope = look.part(1 - meeting.feature.owner);
     const Edge& edge = *meeting.edge;
@@ -368,7 +357,7 @@ bool lies_below(const Look& look, const Meeting& meeting)
 }
 
 // Whether the solids lie on either side of the touch.
-bool separates(const Look& look, const Meeting& meeting, double near)
+bool separates(const Look& look, const RodMeeting& meeting, double near)
 {
     const Touch& touch = meeting.at.touch;
     return meeting.at.past <= look.tolerance && touch.gap <= look.distance + near &&
@@ -411,7 +400,7 @@ void add_rod_contacts(const BodyPair& pair, const PartPair& parts, const Configu
             add_crossings(look, axis);
         }
     }
-    for (const Meeting& meeting : look.meetings) {
+    for (const RodMeeting& meeting : look.meetings) {
         if (separates(look, meeting, near)) {
             add(is_open(look, meeting), {meeting.feature, meeting.at.touch});
         }

@@ -4,6 +4,7 @@
 // n, and n comes without the difference of two points that touch.
 #include "rod_touch.hpp"
 #include "ellipse.hpp"
+#include "tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,27 +14,25 @@ namespace hyoryu {
 
 namespace {
 
-// Shorter than this a direction is noise and a fixed one takes its place (unit vectors).
-constexpr double no_direction = 1e-9;
 // Lines this near to parallel (sine) touch by their ends, which are then 1e-11 m at most farther
 // apart than the lines where they cross.
 constexpr double parallel_lines = 1e-5;
 // And below this their crossing is noise.
 constexpr double one_direction = 1e-9;
 // Newton steps and halvings of one of them; a handful is the rule.
-constexpr int most_steps = 40;
+constexpr int newton_steps_of_touch = 40;
 constexpr int most_halvings = 20;
 // A normal nearer to the axis than this is that of the cap, and the rim has no one point (unit
 // vectors).
-constexpr double flat = 1e-5;
+constexpr double along_axis = 1e-5;
 // A normal nearer to an axis than this may have been caught by the edge of the gap there.
 constexpr double near_axis = 1e-2;
 constexpr double longest_step = 0.4; // about what lies between two samples [rad]
 // Round-off of an angle, and as a part of a length.
-constexpr double round_off = 1e-14;
+constexpr double round_off_of_angle = 1e-14;
 
 // An edge, or the axis of a rod with its radius.
-struct Line {
+struct EdgeOrAxis {
     Vec3 from{0, 0, 0};
     Vec3 along{1, 0, 0}; // unit
     double length = 0;   // [m]
@@ -67,7 +66,7 @@ Vec3 direction(const Vec3& v)
     return v.squaredNorm() > 0 ? Vec3(v.normalized()) : Vec3(Vec3::UnitZ());
 }
 
-Line side_of(const PlacedSolid& rod)
+EdgeOrAxis side_of(const PlacedSolid& rod)
 {
     const Vec3 axis = rod.pose.R.col(0);
     const double half = rod.solid.half_length;
@@ -86,7 +85,7 @@ Rim rim_of(const PlacedSolid& rod, int i)
     return {rod.pose.x + out_of(i) * rod.solid.half_length * axis, axis, rod.solid.radius};
 }
 
-Line line_between(const Vec3& p, const Vec3& q)
+EdgeOrAxis line_between(const Vec3& p, const Vec3& q)
 {
     const double length = (q - p).norm();
     return {p, (q - p) / length, length, 0};
@@ -94,7 +93,7 @@ Line line_between(const Vec3& p, const Vec3& q)
 
 // The nearest points of the two segments, Ericson (2005), 5.1.9: beyond the ends the gap goes on as
 // that of the ends, while the normal of the whole lines would turn to nowhere.
-RodTouch side_on_line(const Line& side, const Line& line)
+RodTouch side_on_line(const EdgeOrAxis& side, const EdgeOrAxis& line)
 {
     const Vec3 cross = side.along.cross(line.along);
     const double sine = cross.norm();
@@ -117,7 +116,7 @@ RodTouch side_on_line(const Line& side, const Line& line)
 // the half of the rim on which the line enters the cap (end -1), the other that on which it leaves
 // (end 1): where the line rocks over the cap, these sides change places, and each end stays where
 // it is. At the end that lies behind the other one the normal points into the rod.
-RodTouch rim_on_line(const PlacedSolid& rod, int i, const Line& line, int end)
+RodTouch rim_on_line(const PlacedSolid& rod, int i, const EdgeOrAxis& line, int end)
 {
     const Rim rim = rim_of(rod, i);
     const Vec3 out = out_of(i) * rim.axis;
@@ -181,7 +180,7 @@ struct DiscGap {
 bool climb(const DiscGap& discs, const Vec3& step, Vec3& n)
 {
     const double gap = discs.along(n);
-    double part = std::min(1.0, longest_step / std::max(step.norm(), round_off));
+    double part = std::min(1.0, longest_step / std::max(step.norm(), round_off_of_angle));
     for (int h = 0; h < most_halvings; ++h, part *= 0.5) {
         const Vec3 next = (n + part * step).normalized();
         if (discs.along(next) > gap) {
@@ -203,7 +202,7 @@ Vec3 newton_step(const DiscGap& discs, const Vec3& n)
         const double length = std::max(across.norm(), no_direction);
         const Eigen::Vector2d t = plane.transpose() * across / length;
         bend += discs.disc(k).radius / length *
-                (t * t.transpose() + round_off * Eigen::Matrix2d::Identity());
+                (t * t.transpose() + round_off_of_angle * Eigen::Matrix2d::Identity());
     }
     return plane * (bend.inverse() * (plane.transpose() * discs.slope(n, -1)));
 }
@@ -212,10 +211,10 @@ Vec3 newton_step(const DiscGap& discs, const Vec3& n)
 // sphere gets there from any side, but for the axes of the discs, where the gap has an edge.
 Vec3 widest(const DiscGap& discs, Vec3 n)
 {
-    for (int k = 0; k < most_steps; ++k) {
+    for (int k = 0; k < newton_steps_of_touch; ++k) {
         Vec3 step = newton_step(discs, n);
         if (climb(discs, step, n)) {
-            if (step.norm() <= round_off) {
+            if (step.norm() <= round_off_of_angle) {
                 return n;
             }
             continue;
@@ -273,7 +272,7 @@ RodTouch rim_on_rim(const PlacedSolid& a, int i, const PlacedSolid& b, int j)
     const Vec3 n = widest(discs, first_normal(discs, i, b, j));
     const Vec3 d = discs.on_b(n) - discs.on_a(n);
     const double gap = n.dot(d);
-    const bool on_cap = std::min(of_a.axis.cross(n).norm(), of_b.axis.cross(n).norm()) < flat;
+    const bool on_cap = std::min(of_a.axis.cross(n).norm(), of_b.axis.cross(n).norm()) < along_axis;
     return {{0.5 * (discs.on_a(n) + discs.on_b(n)), -n, gap},
             on_cap ? infinity : (d - gap * n).norm()};
 }
@@ -296,7 +295,7 @@ struct Partner {
         return mesh ? Vec3(mesh->corners[k].point + shift)
                     : Vec3(solid.pose.x + solid.pose.R * solid.solid.corners[k]);
     }
-    Line line(const Feature& feature) const
+    EdgeOrAxis line(const Feature& feature) const
     {
         if (mesh) {
             const Crease& crease = mesh->creases[feature.k];
@@ -373,7 +372,7 @@ double rod_triangle_distance(const PlacedSolid& rod, const std::array<Vec3, 3>& 
         look(n);
     }
     for (std::size_t k = 0; k < 3; ++k) {
-        const Line edge = line_between(triangle[k], triangle[(k + 1) % 3]);
+        const EdgeOrAxis edge = line_between(triangle[k], triangle[(k + 1) % 3]);
         look(corner_touch(rod, triangle[k]).touch.normal);
         look(side_on_line(side_of(rod), edge).touch.normal);
         for (const int i : {0, 1}) {

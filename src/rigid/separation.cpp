@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "separation.hpp"
+#include "tolerances.hpp"
 
 #include <cmath>
 
@@ -10,8 +11,6 @@ namespace {
 // A face axis is kept unless another axis is better by more than this: near parallel features
 // describe one contact, and the face gives it more points [units].
 constexpr double face_preference = 1e-7;
-// Sine of the angle below which two edges are parallel and their cross product is noise.
-constexpr double parallel_edges = 1e-4;
 // Solids that overlap deeply touch at their faces unless edges halve the depth: one point between
 // edges would let the others of a face sink in turn.
 constexpr double overlap_preference = 0.5;

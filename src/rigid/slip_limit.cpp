@@ -14,10 +14,10 @@ namespace {
 // more if that turns out to be too near.
 constexpr double short_of = 1e-6;
 constexpr double more = 30;
-constexpr int most_tries = 8;
+constexpr int tries_of_slip = 8;
 // Sliding that stops within this part of the sub-step stops at once; what it loses till there tells
 // when other sliding will.
-constexpr double at_once = 1.0 / 256;
+constexpr double shortest_slide = 1.0 / 256;
 // A rest of sliding of this part of the sub-step is left to the next one.
 constexpr double settled = 1e-4;
 // Events of a body in this step beyond which it rattles: what slides between two of its impacts
@@ -26,7 +26,7 @@ constexpr int rattling_events = 3;
 // Round-off of a slip that has stopped, as a part of what it was.
 constexpr double stopped = 1e-9;
 
-bool slides(const Persistent& p, double slow)
+bool slides_faster(const Persistent& p, double slow)
 {
     return p.slip_before.norm() > slow && p.impulse.squaredNorm() > 0;
 }
@@ -38,7 +38,7 @@ double extrapolated(const std::vector<Persistent>& contacts, double slow, double
     for (const Persistent& p : contacts) {
         const double before = p.slip_before.squaredNorm();
         const double lost = before - p.slip_before.dot(p.slip_after);
-        if (slides(p, slow) && lost > 0) {
+        if (slides_faster(p, slow) && lost > 0) {
             first = std::min(first, h * before / lost);
         }
     }
@@ -48,7 +48,7 @@ double extrapolated(const std::vector<Persistent>& contacts, double slow, double
 bool stops(const std::vector<Persistent>& contacts, double slow)
 {
     return std::any_of(contacts.begin(), contacts.end(), [&](const Persistent& p) {
-        return slides(p, slow) &&
+        return slides_faster(p, slow) &&
                p.slip_before.dot(p.slip_after) <= stopped * p.slip_before.squaredNorm();
     });
 }
@@ -77,7 +77,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
         return;
     }
     const double whole = sub.h;
-    sub.h = at_once * whole;
+    sub.h = shortest_slide * whole;
     plan_again(context, sub);
     if (stops(contacts, slow)) {
         plan_to_the_end(context, sub, whole);
@@ -87,7 +87,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
     bool known = end < whole; // whether `end` is extrapolated
     end = known ? end : 0.5 * whole;
     double margin = short_of;
-    for (int k = 0; k < most_tries; ++k) {
+    for (int k = 0; k < tries_of_slip; ++k) {
         sub.h = known ? (1 - margin) * end : end;
         plan_again(context, sub);
         if (stops(contacts, slow)) {

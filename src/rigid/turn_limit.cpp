@@ -21,7 +21,7 @@ constexpr double part_tolerance = 1e-9;
 constexpr double most_turn = 0.01;
 constexpr double short_of_turn = 0.8;
 constexpr double most_shortening = 0.1;
-constexpr int most_tries = 8;
+constexpr int tries_of_turn = 8;
 
 // A contact may sink by this in a sub-step [units].
 constexpr double shallow = 2e-6;
@@ -88,7 +88,7 @@ bool contacts_sink(const StepContext& context, const SubStep& sub)
 
 void end_with_turn(const StepContext& context, SubStep& sub)
 {
-    for (int k = 0; k < most_tries; ++k) {
+    for (int k = 0; k < tries_of_turn; ++k) {
         const double turn = largest_turn(context.memory.persistent);
         if (turn <= most_turn) {
             return;

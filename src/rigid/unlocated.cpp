@@ -13,13 +13,13 @@ namespace hyoryu {
 namespace {
 
 // Rotation of a body in one sub-step at most [rad].
-constexpr double most_turn = 0.3;
+constexpr double most_turn_of_sub_step = 0.3;
 // Sub-steps a step is split into at most, however fast a body spins.
 constexpr int most_sub_steps = 2000;
 // An approach that gravity and loads build up in this many sub-steps is that of a resting contact.
 constexpr double sub_steps_of_rest = 2;
 // Impacts that are not located do not deserve more.
-constexpr int most_rounds = 4;
+constexpr int rounds_of_unlocated = 4;
 constexpr Effort impact_effort{.enough = 1e-3, .direct_tries = 0, .sweeps = 40};
 // What is left of the contacts is made good by the next step, which starts from their impulses. But
 // sweeps hand a load on from course to course: with sixty of them at steps of 5 ms a wall of twenty
@@ -29,7 +29,7 @@ constexpr Effort contact_effort{
 // A pile hands a gap on from body to body; below this none is worth chasing [units].
 constexpr double no_gap = 1e-9;
 // A sub-step may leave solids deeper in each other by this [units].
-constexpr double deep = 1e-5;
+constexpr double deeper_by = 1e-5;
 // Sub-steps of a cluster are shortened for it while that has cost less [updates of rows], so that
 // the cost grows no faster than the cluster: what a moving wall crushes goes deeper however short
 // they are, and a heap has some place that does in every step.
@@ -150,7 +150,9 @@ double sub_step_length(const StepContext& context, const Cluster& cluster, doubl
         }
     }
     const double least = context.dt / most_sub_steps;
-    return fastest * rest > most_turn ? std::min(rest, std::max(most_turn / fastest, least)) : rest;
+    return fastest * rest > most_turn_of_sub_step
+               ? std::min(rest, std::max(most_turn_of_sub_step / fastest, least))
+               : rest;
 }
 
 void find_contacts_of_tired(const StepContext& context, const SubStep& sub)
@@ -174,7 +176,7 @@ bool ends_deep(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
     const double after = deepest(context, sub, memory.end, sub.time + sub.h);
-    return after > deep * context.rigid.settings.unit &&
+    return after > deeper_by * context.rigid.settings.unit &&
            after > deepest(context, sub, memory.poses, sub.time);
 }
 
@@ -191,7 +193,7 @@ void advance_unlocated(const StepContext& context, const Cluster& cluster, doubl
         const double h = std::min(sub_step_length(context, cluster, rest), longest);
         const double slow =
             std::max(context.rigid.settings.resting_speed, sub_steps_of_rest * change * h);
-        SubStep sub{cluster,       context.start + done, h,         slow,  most_rounds,
+        SubStep sub{cluster,       context.start + done, h,         slow,  rounds_of_unlocated,
                     impact_effort, contact_effort,       Arms::now, no_gap};
         plan_unlocated(context, sub);
         const auto may_be_shorter = [&] {

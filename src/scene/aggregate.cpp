@@ -12,7 +12,7 @@ namespace hyoryu {
 
 namespace {
 
-void place(Aggregate& body, const Vec3& point, bool on_surface)
+void add_place(Aggregate& body, const Vec3& point, bool on_surface)
 {
     body.points.push_back(point);
     body.surface_points += on_surface ? 1 : 0;
@@ -24,7 +24,7 @@ void fill_shape(Aggregate& body, const auto& shape, double spacing, int dimensio
     const Index number = number_of(points);
     for (Index k = 0; k < number; ++k) {
         const ShapePoint point = point_of(points, k);
-        place(body, point.place, point.on_surface);
+        add_place(body, point.place, point.on_surface);
     }
 }
 
@@ -33,7 +33,7 @@ void fill_shape(Aggregate& body, const MeshShape& mesh, double spacing, int)
     const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
     const MeshLattice lattice = mesh_lattice(mesh, spacing);
     for (const MeshPoint& point : points_within(lattice, tree, infinity)) {
-        place(body, point.place, point.nearest.distance > -spacing);
+        add_place(body, point.place, point.nearest.distance > -spacing);
     }
     body.cell = lattice.cell();
 }

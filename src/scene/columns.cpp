@@ -15,11 +15,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // The way up, along a coordinate axis.
 Vec3 upwards(const Scene& scene)
 {

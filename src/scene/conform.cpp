@@ -16,11 +16,6 @@ namespace {
 
 constexpr int layers = 3; // that the fluid sees: the support of the widest usual kernel
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // A side of the surface as seen from a point within.
 struct Side {
     double depth = infinity; // below it [m]

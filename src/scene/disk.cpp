@@ -12,9 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-// An array that is smaller is stored as it is (io/packed_array).
-constexpr double worth_compressing = 65536; // [B]
-
 // Compressed over raw size of the arrays of a frame [1]. Two-dimensional vectors take two thirds,
 // since a component that is always zero compresses to nothing.
 struct Left {

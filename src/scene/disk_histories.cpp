@@ -27,7 +27,6 @@ constexpr double active_of_force_3d = 0.6;
 // ratios of columns that change and of constant ones, fitted to 68 files.
 constexpr double of_column = 440;
 constexpr double of_index = 2.1e3;
-constexpr double worth_compressing = 65536;
 constexpr double left_of_active = 0.65;
 constexpr double left_of_idle = 0.002;
 

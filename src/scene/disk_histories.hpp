@@ -8,6 +8,9 @@
 
 namespace hyoryu {
 
+/// An array that is smaller is stored as it is (io/packed_array) [B].
+inline constexpr double worth_compressing = 65536;
+
 /// One table of the results.
 struct HistorySize {
     double rows = 0;

@@ -19,17 +19,12 @@ namespace hyoryu {
 namespace {
 
 // Cells whose volume is right within this part are those of the spacing.
-constexpr double as_asked = 0.02;
+constexpr double as_asked_for = 0.02;
 // A particle fits where it has this part of a cell's shortest edge to the nearest surface; or is
 // as deep in a wall.
 constexpr double fitting = 0.45;
 // A face is covered by walls if they are deeper than this part of a spacing on all of it.
-constexpr double covered = 1e-6;
-
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
+constexpr double thinnest_covered = 1e-6;
 
 double shortest_edge(const Cells& cells, int dimensions)
 {
@@ -134,7 +129,7 @@ double covered_depth(const Scene& scene, const FreeSpace& space, const Bounds& b
     const Cells cells = plain_cells(box, scene.spacing, scene.dimensions);
     std::array<Index, 3> count = cells.count;
     count[at(axis)] = 1;
-    const double first = covered * scene.spacing;
+    const double first = thinnest_covered * scene.spacing;
     const auto clearance = [&](const Vec3& p) { return space.clearance(p); };
     double depth = cells.length[axis];
     over_cells(count, [&](const std::array<Index, 3>& cell) {
@@ -154,7 +149,7 @@ Bounds uncovered(const Scene& scene, const FreeSpace& space, Bounds box)
     for (int a = 0; a < 3; ++a) {
         if (has_axis(scene.dimensions, a)) {
             box.min[a] += covered_depth(scene, space, box, a, 1);
-            if (box.max[a] - box.min[a] <= covered * scene.spacing) {
+            if (box.max[a] - box.min[a] <= thinnest_covered * scene.spacing) {
                 return {};
             }
             box.max[a] -= covered_depth(scene, space, box, a, -1);
@@ -209,7 +204,7 @@ BlockParticles fill_block(const Scene& scene, std::size_t block, Comm* comm)
     const double cube = std::pow(scene.spacing, d);
     Fit found = fit(space, std::move(first.points),
                     own.layers ? scene.spacing : shortest_edge(plain, d), comm);
-    if (!found.fits || (!own.layers && std::abs(volume_of(plain, d) / cube - 1) > as_asked)) {
+    if (!found.fits || (!own.layers && std::abs(volume_of(plain, d) / cube - 1) > as_asked_for)) {
         const Bounds box = uncovered(scene, space, bounds(shape));
         if (box.empty()) {
             return result;

@@ -15,18 +15,13 @@ namespace hyoryu {
 namespace {
 
 // In spacings.
-constexpr double emptiness = 1.2; // of a place whose nearest particle is as far away
-constexpr double step = 1;        // between levels that do not hold each other
-constexpr double upwards = 0.1;   // least cosine between a way that rises and the vertical
+constexpr double emptiness = 1.2;  // of a place whose nearest particle is as far away
+constexpr double step = 1;         // between levels that do not hold each other
+constexpr double least_rise = 0.1; // least cosine between a way that rises and the vertical
 // A way ends at a wall if it leads to one of its particles, or comes nearer to one than `inside`,
 // half the diagonal of a cube and a little. Beside a wall it goes on.
 constexpr double ahead = 0.7; // cosine of the angle between the way and what it leads to
 constexpr double inside = 0.93;
-
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
 
 // Ways along which water may lie open: down, level ones, and up, straight and slanting; and along
 // the axes, to which the faces of blocks are normal.
@@ -100,7 +95,7 @@ public:
                 return false;
             }
             if (!(fluid < reach_ - equal)) {
-                const bool rises = way.dot(down_) < -upwards;
+                const bool rises = way.dot(down_) < -least_rise;
                 return !rises || levels_[particle] + down_.dot(place) > step_;
             }
             if (std::abs(levels_[nearest] - levels_[particle]) > step_) {

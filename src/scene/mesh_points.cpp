@@ -13,11 +13,6 @@ namespace {
 
 constexpr Index block = 8; // cells along an edge of the coarsest blocks; a power of two
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // A row of blocks along x: the cells of it that may be within the layers.
 class BlockRow {
 public:

@@ -17,7 +17,7 @@ namespace hyoryu {
 
 namespace {
 
-constexpr std::size_t most_faults = 5;
+constexpr std::size_t most_faults_of_table = 5;
 constexpr std::string_view separators = " \t\r,;";
 constexpr std::string_view quotes = "\"'";
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // Excel begins a CSV with it
@@ -58,7 +58,7 @@ std::string names_of(std::span<const NumberColumn> columns)
 }
 
 // A word of a header: in small letters, without the quotes that programs of tables write.
-std::string plain(std::string_view word)
+std::string unquoted(std::string_view word)
 {
     std::string text;
     for (const char c : word) {
@@ -74,7 +74,7 @@ std::vector<std::string> names_and_units(const std::vector<std::string_view>& wo
 {
     std::vector<std::string> parts;
     for (const std::string_view word : words) {
-        const std::string text = plain(word);
+        const std::string text = unquoted(word);
         const auto bracket = text.find_first_of("[(");
         if (bracket != 0) {
             parts.push_back(text.substr(0, bracket));
@@ -146,7 +146,7 @@ std::string parse_row(const std::vector<std::string_view>& words,
     return {};
 }
 
-Order as_asked(std::size_t columns)
+Order order_asked_for(std::size_t columns)
 {
     Order order(columns);
     for (std::size_t k = 0; k < columns; ++k) {
@@ -168,7 +168,7 @@ NumberTable read_number_table(const std::filesystem::path& file,
     }
     std::ifstream stream(file);
     std::string line;
-    Order order = as_asked(columns.size());
+    Order order = order_asked_for(columns.size());
     bool header_allowed = true;
     for (int number = 1; std::getline(stream, line); ++number) {
         if (number == 1 && line.starts_with(byte_order_mark)) {
@@ -186,7 +186,7 @@ NumberTable read_number_table(const std::filesystem::path& file,
                                         "between the numbers and a decimal point in each"
                                   : header ? read_header(words, columns, order)
                                            : parse_row(words, columns, order, row);
-        if (!fault.empty() && table.faults.size() < most_faults) {
+        if (!fault.empty() && table.faults.size() < most_faults_of_table) {
             table.faults.push_back(fmt::format("{}:{}: {}", file.string(), number, fault));
         }
         if (header && !fault.empty()) {

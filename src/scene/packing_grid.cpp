@@ -17,11 +17,6 @@ using Lanes = Pack<float, 64>;
 constexpr Index lanes = Lanes::lanes;
 using Whole = std::int32_t __attribute__((vector_size(64)));
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // Cells of the grid along an axis that places within `reach` of one may be in.
 struct Range {
     Index first = 0, last = 0;

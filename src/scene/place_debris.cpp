@@ -259,7 +259,7 @@ struct Frame {
     Plan2 high{-infinity, -infinity};
 };
 
-Frame frame_of(const std::vector<Plan2>& polygon)
+Frame frame_about(const std::vector<Plan2>& polygon)
 {
     Frame frame;
     for (const Plan2& corner : polygon) {
@@ -291,7 +291,7 @@ bool is_clear(const std::vector<Taken>& bodies, const Spot& spot, double height,
 bool find_spot(const DebrisScatter& scatter, const Vec3& extent, const Ground& ground,
                const Occupied& occupied, Dice& dice, Spot& spot)
 {
-    const Frame frame = frame_of(scatter.polygon);
+    const Frame frame = frame_about(scatter.polygon);
     for (int n = 0; n < most_tries; ++n) {
         spot.at = {dice.between(frame.low[0], frame.high[0]),
                    dice.between(frame.low[1], frame.high[1])};
@@ -328,7 +328,7 @@ std::vector<PlaceFault> scatter_over_yard(DebrisKeys& debris, Scene& scene)
     }
     Placing placing(debris, scene);
     const Vec3& extent = placing.extent();
-    const Frame frame = frame_of(scatter.polygon);
+    const Frame frame = frame_about(scatter.polygon);
     const double least = std::min(extent.x(), extent.y());
     if (std::min(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]) < least) {
         return {{fmt::format("the yard is {:.3g} m by {:.3g} m, too small for a piece of {:.3g} m "

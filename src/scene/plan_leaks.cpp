@@ -85,13 +85,13 @@ private:
 };
 
 // What stands where at the start.
-struct Start {
+struct LeakContext {
     const Scene& scene;
     const PlanFacts& facts;
     Columns walls;
 };
 
-void warn_about_bottoms(const Start& start, Plan& plan)
+void warn_about_bottoms(const LeakContext& start, Plan& plan)
 {
     if (start.facts.unsupported > 0) {
         warn(start.scene, {}, "wall",
@@ -247,7 +247,7 @@ struct Raised {
     std::vector<WallStack> walls;
 };
 
-Raised raised(const Start& start, std::span<const std::size_t> gates)
+Raised raised(const LeakContext& start, std::span<const std::size_t> gates)
 {
     Raised result{start.scene, start.facts.walls};
     std::vector<double> rise(result.scene.walls.size(), 0);
@@ -274,7 +274,7 @@ std::string names_of(const Scene& scene, std::span<const std::size_t> gates)
 
 // The water that still has a wall below it when walls have risen. The rest is carried up by them,
 // or falls.
-Columns held_still(const Start& start, const Columns& walls)
+Columns held_still(const LeakContext& start, const Columns& walls)
 {
     Columns held(start.scene.spacing);
     for (const auto& [column, heights] : start.facts.water.spans()) {
@@ -287,8 +287,8 @@ Columns held_still(const Start& start, const Columns& walls)
 }
 
 // What the water can reach when some walls stand where they are highest; whether anything is told.
-bool warn_about_raised(const Start& start, std::span<const std::size_t> gates, const Drops& before,
-                       Plan& plan)
+bool warn_about_raised(const LeakContext& start, std::span<const std::size_t> gates,
+                       const Drops& before, Plan& plan)
 {
     const Scene& scene = start.scene;
     const Raised after = raised(start, gates);
@@ -305,7 +305,7 @@ bool warn_about_raised(const Start& start, std::span<const std::size_t> gates, c
 
 // Gates that open: each alone, and all together where none alone lets water out. A wall that only
 // moves aside, as a piston does, stays where it is at the start.
-void warn_about_gates(const Start& start, const Drops& before, Plan& plan)
+void warn_about_gates(const LeakContext& start, const Drops& before, Plan& plan)
 {
     const Scene& scene = start.scene;
     std::vector<std::size_t> gates;
@@ -321,7 +321,7 @@ void warn_about_gates(const Start& start, const Drops& before, Plan& plan)
     }
 }
 
-void warn_about_sides(const Start& start, Plan& plan)
+void warn_about_sides(const LeakContext& start, Plan& plan)
 {
     const Scene& scene = start.scene;
     const Drops drops =
@@ -331,7 +331,7 @@ void warn_about_sides(const Start& start, Plan& plan)
 }
 
 // Whether anything lies in the columns that a body covers that it may rest on or float in.
-bool has_support(const Start& start, const BodySettings& body)
+bool has_support(const LeakContext& start, const BodySettings& body)
 {
     const Bounds box = bounds(placed(body, start.scene.dimensions));
     const Columns::Number first = start.walls.number_of(box.min);
@@ -365,7 +365,7 @@ bool is_over_another(const Scene& scene, const BodySettings& body)
     });
 }
 
-void warn_about_bodies(const Start& start, Plan& plan)
+void warn_about_bodies(const LeakContext& start, Plan& plan)
 {
     const Scene& scene = start.scene;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -388,7 +388,7 @@ void warn_about_leaks(const Scene& scene, const PlanFacts& facts, Plan& plan)
     if (!falls_along_z(scene)) {
         return;
     }
-    const Start start{scene, facts, columns_of(scene.spacing, facts.walls)};
+    const LeakContext start{scene, facts, columns_of(scene.spacing, facts.walls)};
     warn_about_bottoms(start, plan);
     if (facts.fluid > 0) {
         warn_about_sides(start, plan);

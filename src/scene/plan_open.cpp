@@ -16,7 +16,7 @@ namespace hyoryu {
 namespace {
 
 constexpr std::array<std::string_view, 3> kinds{"inflow", "outflow", "absorb"};
-constexpr std::array<std::string_view, 4> directions{"+x", "-x", "+y", "-y"};
+constexpr std::array<std::string_view, 4> directions_into{"+x", "-x", "+y", "-y"};
 constexpr int samples = 400; // of a series over the run
 
 // The water before a window at the start: its level, and its depth above the mean ground.
@@ -80,7 +80,7 @@ std::string what_of(const Scene& scene, const OpenSettings& open)
 {
     std::string text(kinds[static_cast<std::size_t>(open.kind)]);
     text += fmt::format(" along {} through {} = {:.6g} m",
-                        directions[static_cast<std::size_t>(open.into)], "xyz"[open.axis()],
+                        directions_into[static_cast<std::size_t>(open.into)], "xyz"[open.axis()],
                         open.plane());
     if (!open.series.empty()) {
         const std::vector<double>& times = open.series.front().times;

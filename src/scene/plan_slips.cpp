@@ -263,7 +263,7 @@ void look_below_terrain(const Scene& scene, PlanWarnings& slips)
     }
 }
 
-bool inside(const Bounds& box, const Scene& scene, double slack)
+bool lies_inside(const Bounds& box, const Scene& scene, double slack)
 {
     const DomainSettings& domain = *scene.domain;
     for (Index axis = 0; axis < 3; ++axis) {
@@ -303,7 +303,7 @@ std::string cut_by_domain(const Scene& scene)
         return {};
     }
     for (std::size_t b = 0; b < scene.fluid->blocks.size(); ++b) {
-        if (!inside(box_of(scene, scene.fluid->blocks[b]), scene, slack)) {
+        if (!lies_inside(box_of(scene, scene.fluid->blocks[b]), scene, slack)) {
             return fmt::format("fluid block {}", b + 1);
         }
     }
@@ -314,7 +314,7 @@ std::string cut_by_domain(const Scene& scene)
         }
     }
     for (const BodySettings& body : scene.bodies) {
-        if (!inside(box_of(scene, body), scene, slack)) {
+        if (!lies_inside(box_of(scene, body), scene, slack)) {
             return fmt::format("body \"{}\"", body.name);
         }
     }

@@ -20,13 +20,13 @@ namespace hyoryu {
 namespace {
 
 // In spacings.
-constexpr double rounding = 2e-6; // of places
-constexpr double least = 0.46;    // distance of a particle from a surface
-constexpr double strays = 0.15;   // distance that particles may move before they are sorted again
-constexpr double longest = 0.1;   // way of a particle in a round
-constexpr double farthest = 1;    // that a particle is moved in all
-constexpr double beside = 2;      // farther from a surface than that none comes too near
-constexpr double looked = 1;      // distance to which surfaces are looked for
+constexpr double rounding_of_places = 2e-6; // of places
+constexpr double least = 0.46;              // distance of a particle from a surface
+constexpr double strays = 0.15;     // distance that particles may move before they are sorted again
+constexpr double longest = 0.1;     // way of a particle in a round
+constexpr double farthest_move = 1; // that a particle is moved in all
+constexpr double beside = 2;        // farther from a surface than that none comes too near
+constexpr double looked = 1;        // distance to which surfaces are looked for
 
 // With this momentum the missing water of a bed spreads by a layer in six rounds. In deeper water
 // than this its rest evens out while the case runs.
@@ -40,11 +40,6 @@ constexpr double gain = 0.1; // of the descent, at twice of which it is unstable
 constexpr double momentum = 0.95;
 constexpr double momentum_against = 0.8;
 constexpr Index block_slots = 256; // dealt out together
-
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
 
 // A particle that may come too near to solids.
 struct Beside {
@@ -128,8 +123,9 @@ double least_of(const FreeSpace& space, double dp, std::span<const int> solids, 
     };
     Vec3 p = filled;
     step_off(space, solids, (least + 1e-6) * dp, p, looked * dp);
-    return distance(p) < least * dp ? std::min(least, distance(filled) / dp - rounding) * dp
-                                    : least * dp;
+    return distance(p) < least * dp
+               ? std::min(least, distance(filled) / dp - rounding_of_places) * dp
+               : least * dp;
 }
 
 void find_surfaces(const Scene& scene, const FreeSpace& space, Packing& packing)
@@ -211,7 +207,7 @@ std::vector<std::int32_t> places_of_others(const Packing& packing, std::size_t o
 // Distance to which particles look, those that move included [m].
 double sight(double support, double dp)
 {
-    return support + (strays + 2 * farthest) * dp;
+    return support + (strays + 2 * farthest_move) * dp;
 }
 
 // The particles of this process that move, with all that they may see.
@@ -306,7 +302,7 @@ Vec3 next_place(Packing& packing, const FreeSpace& space, double dp, std::size_t
         to = off_surfaces(space, dp, packing.units, from, to, packing.beside[at(number)]);
     }
     to = packing.units.rounded(to);
-    return (to - start).norm() > farthest * dp ? from : to;
+    return (to - start).norm() > farthest_move * dp ? from : to;
 }
 
 // Gets the places of particles of other processes; the longest way of one [m].

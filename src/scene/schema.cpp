@@ -10,7 +10,7 @@ namespace hyoryu {
 
 namespace {
 
-std::string json(std::string_view text)
+std::string json_text(std::string_view text)
 {
     std::string quoted = "\"";
     for (const char c : text) {
@@ -51,7 +51,7 @@ std::string text_schema(const Parameter& parameter)
 {
     std::string choices;
     for (const std::string_view choice : parameter.choices) {
-        choices += (choices.empty() ? "" : ", ") + json(choice);
+        choices += (choices.empty() ? "" : ", ") + json_text(choice);
     }
     return choices.empty() ? "\"type\": \"string\"" : fmt::format("\"enum\": [{}]", choices);
 }
@@ -109,9 +109,9 @@ std::string object_schema(std::string_view prefix)
         }
         properties +=
             fmt::format("{}\n{}: {{\"description\": {}, {}}}", properties.empty() ? "" : ",",
-                        json(name), json(parameter.meaning), value_schema(parameter));
+                        json_text(name), json_text(parameter.meaning), value_schema(parameter));
         if (parameter.fallback == required) {
-            needed += (needed.empty() ? "" : ", ") + json(name);
+            needed += (needed.empty() ? "" : ", ") + json_text(name);
         }
     }
     const std::string requires_text =

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 5> short_names{"t", "eta", "u", "q", "-"}
 constexpr std::array<std::string_view, 5> units{"s", "m", "m/s", "m3/s", ""};
 constexpr std::size_t time_column = 0;
 constexpr std::size_t none = 4;
-constexpr std::size_t most_faults = 5;
+constexpr std::size_t most_faults_of_series = 5;
 constexpr double least_depth = 1e-3; // below which a cell of GeoClaw is dry [m]
 
 // A line of a table, split at commas, semicolons and blanks.
@@ -61,7 +61,7 @@ private:
 
     void fault(int line, const std::string& what)
     {
-        if (faults_.size() < before_ + most_faults) {
+        if (faults_.size() < before_ + most_faults_of_series) {
             faults_.push_back(fmt::format("{}:{}: {}", source_.file.string(), line, what));
         }
     }

@@ -25,7 +25,7 @@ Index layer_of(const std::vector<Index>& start, Index k)
 }
 
 // First points of layers that hold so many points each, at so many radii below a radius.
-std::vector<Index> layers(double radius, double spacing, const auto& points_at)
+std::vector<Index> first_of_layers(double radius, double spacing, const auto& points_at)
 {
     const Index count = cells(radius, spacing);
     const double step = radius / static_cast<double>(count);
@@ -56,7 +56,7 @@ InLayer in_layer(const std::vector<Index>& start, double radius, Index point)
 RingPoints rings(double radius, double spacing, int dimensions)
 {
     RingPoints points{.radius = radius, .dimensions = dimensions};
-    points.start = layers(radius, spacing, [&](double r) { return 2 * pi * r / spacing; });
+    points.start = first_of_layers(radius, spacing, [&](double r) { return 2 * pi * r / spacing; });
     return points;
 }
 
@@ -113,8 +113,8 @@ ShapePoints shape_points(const SphereShape& sphere, double spacing, int dimensio
         return rings(sphere.radius, spacing, dimensions);
     }
     ShellPoints points{.radius = sphere.radius, .start = {}};
-    points.start =
-        layers(sphere.radius, spacing, [&](double r) { return 4 * pi * sq(r) / sq(spacing); });
+    points.start = first_of_layers(sphere.radius, spacing,
+                                   [&](double r) { return 4 * pi * sq(r) / sq(spacing); });
     return points;
 }
 

@@ -15,15 +15,10 @@ namespace {
 
 // In spacings.
 constexpr double clearly = 0.45; // nearer than that to a surface; cells are rounded to as near
-constexpr double apart = 0.875;  // distance to which pairs are moved
-constexpr double around = 2.5;   // radius about moved particles in which others move away
-constexpr double crowded = 0.4;  // nearer than that, a pair is parted
-constexpr double parted = 0.6;   // distance to which it is moved
-
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
+constexpr double distance_apart = 0.875; // distance to which pairs are moved
+constexpr double around = 2.5;           // radius about moved particles in which others move away
+constexpr double crowded = 0.4;          // nearer than that, a pair is parted
+constexpr double parted = 0.6;           // distance to which it is moved
 
 // Rows of the points in the cells that a box reaches.
 std::vector<std::size_t> rows_in(const CellGrid& grid, const Bounds& box)
@@ -248,8 +243,8 @@ std::vector<std::uint8_t> in_pairs_of_all(const FillRegion& region, double spaci
 void stand_off_bodies(const Scene& scene, Filling& filling)
 {
     const double spacing = scene.spacing;
-    move_apart(scene, nullptr, too_near(scene, filling.fluid), around * spacing, apart * spacing,
-               filling);
+    move_apart(scene, nullptr, too_near(scene, filling.fluid), around * spacing,
+               distance_apart * spacing, filling);
 }
 
 void part_pairs(const Scene& scene, const FillRegion* region, Filling& filling)

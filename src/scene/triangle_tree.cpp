@@ -13,16 +13,11 @@ namespace {
 
 constexpr int leaf_size = 4;
 // Features of a triangle: the face, edge k from corner k on, corner k.
-constexpr std::size_t face = 0, edges = 1, corners_of = 4;
+constexpr std::size_t on_face = 0, edges = 1, corners_of = 4;
 
 using Triangle = TriangleTree::Triangle;
 using Numbers = std::vector<std::array<int, 3>>;
 using Corners = std::array<Vec3, 3>; // of a triangle [m]
-
-std::size_t at(int k)
-{
-    return static_cast<std::size_t>(k);
-}
 
 Corners corners_of_triangle(const std::vector<Vec3>& corners, const std::array<int, 3>& t)
 {
@@ -213,7 +208,7 @@ private:
 // (Ericson 2005, sec. 5.1.5).
 struct Foot {
     Vec3 place{0, 0, 0};
-    std::size_t feature = face;
+    std::size_t feature = on_face;
 };
 
 Foot foot_on(const Corners& t, const Vec3& p)
@@ -249,7 +244,7 @@ Foot foot_on(const Corners& t, const Vec3& p)
         return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), edges + 1};
     }
     const double scale = 1 / (va + vb + vc);
-    return {a + ab * (vb * scale) + ac * (vc * scale), face};
+    return {a + ab * (vb * scale) + ac * (vc * scale), on_face};
 }
 
 double distance_to_box(const Bounds& box, const Vec3& p)
@@ -325,7 +320,7 @@ void search(const TriangleTree& tree, int node, const Vec3& p, Best& best)
 // The normal that decides on which side of a feature a point is.
 Vec3 side_normal(const TriangleTree& tree, const Triangle& t, std::size_t feature)
 {
-    if (feature == face) {
+    if (feature == on_face) {
         return normal_of(corners_of_triangle(tree.corners, t.corner));
     }
     return feature < corners_of ? tree.edge_normals[at(t.edge[feature - edges])]

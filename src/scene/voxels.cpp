@@ -11,13 +11,13 @@ namespace {
 
 constexpr double on_lattice = 1e-6; // of a cell
 
-using Cell = std::array<long long, 3>; // z y x: the order in which boxes grow
-using Cells = std::set<Cell>;
+using VoxelCell = std::array<long long, 3>; // z y x: the order in which boxes grow
+using VoxelCells = std::set<VoxelCell>;
 
 // The cells on the lattice of the first point; fewer than points if one is off it or taken.
-Cells cells_of(const std::vector<Vec3>& points, const Vec3& cell)
+VoxelCells cells_of(const std::vector<Vec3>& points, const Vec3& cell)
 {
-    Cells cells;
+    VoxelCells cells;
     for (const Vec3& p : points) {
         const Vec3 steps = (p - points.front()).cwiseQuotient(cell);
         const Vec3 whole = steps.array().round();
@@ -30,11 +30,11 @@ Cells cells_of(const std::vector<Vec3>& points, const Vec3& cell)
 }
 
 // Takes the largest box out that begins at the first cell.
-std::array<Cell, 2> take_box(Cells& cells)
+std::array<VoxelCell, 2> take_box(VoxelCells& cells)
 {
-    const Cell low = *cells.begin();
-    Cell high = low;
-    const auto all = [&](const Cell& from, const Cell& to) {
+    const VoxelCell low = *cells.begin();
+    VoxelCell high = low;
+    const auto all = [&](const VoxelCell& from, const VoxelCell& to) {
         for (long long k = from[0]; k <= to[0]; ++k) {
             for (long long j = from[1]; j <= to[1]; ++j) {
                 for (long long i = from[2]; i <= to[2]; ++i) {
@@ -48,8 +48,8 @@ std::array<Cell, 2> take_box(Cells& cells)
     };
     for (const std::size_t axis : {2U, 1U, 0U}) {
         while (true) {
-            Cell from = low;
-            Cell to = high;
+            VoxelCell from = low;
+            VoxelCell to = high;
             from[axis] = to[axis] = high[axis] + 1;
             if (!all(from, to)) {
                 break;
@@ -67,7 +67,7 @@ std::array<Cell, 2> take_box(Cells& cells)
     return {low, high};
 }
 
-Vec3 place(const Cell& c, const Vec3& origin, const Vec3& cell)
+Vec3 place_of_voxel(const VoxelCell& c, const Vec3& origin, const Vec3& cell)
 {
     return origin + cell.cwiseProduct(Vec3(static_cast<double>(c[2]), static_cast<double>(c[1]),
                                            static_cast<double>(c[0])));
@@ -77,28 +77,28 @@ Vec3 place(const Cell& c, const Vec3& origin, const Vec3& cell)
 
 std::optional<std::vector<Bounds>> merged_cells(const std::vector<Vec3>& points, const Vec3& cell)
 {
-    Cells cells = cells_of(points, cell);
+    VoxelCells cells = cells_of(points, cell);
     if (points.empty() || cells.size() != points.size()) {
         return std::nullopt;
     }
     std::vector<Bounds> boxes;
     while (!cells.empty()) {
         const auto [low, high] = take_box(cells);
-        boxes.push_back({place(low, points.front(), cell) - cell / 2,
-                         place(high, points.front(), cell) + cell / 2});
+        boxes.push_back({place_of_voxel(low, points.front(), cell) - cell / 2,
+                         place_of_voxel(high, points.front(), cell) + cell / 2});
     }
     return boxes;
 }
 
 Index exposed_cells(const std::vector<Vec3>& points, const Vec3& cell)
 {
-    const Cells cells = cells_of(points, cell);
+    const VoxelCells cells = cells_of(points, cell);
     Index exposed = 0;
-    for (const Cell& c : cells) {
+    for (const VoxelCell& c : cells) {
         bool inner = true;
         for (std::size_t axis = 0; axis < 3 && inner; ++axis) {
             for (const long long step : {-1LL, 1LL}) {
-                Cell next = c;
+                VoxelCell next = c;
                 next[axis] += step;
                 inner = inner && cells.contains(next);
             }

@@ -17,11 +17,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // A place in the layers of a wall. Wall particles are numbered by copy, wall and number.
 struct LayerPlace {
     std::int32_t copy = 0; // 0: the place itself; else it is shifted by `wall_shifts[copy]`

@@ -11,11 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // Cuts stay while the longest working time is at most this multiple of the mean. Chosen, not
 // measured.
 constexpr double tolerated = 1.05;

@@ -14,11 +14,6 @@ namespace {
 constexpr double column_width = 4; // spacings
 constexpr double fine = 1 << 30;   // parts of c0 that velocities are added in, as integers
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // Whole columns across the domain, so that those of a periodic one are alike.
 void lay_columns(const Fluid& fluid, BedFriction& bed)
 {

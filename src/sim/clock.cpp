@@ -9,7 +9,7 @@ namespace hyoryu {
 namespace {
 
 // Rounding of a sum of steps, as a share of the time between outputs.
-constexpr double rounding = 1e-9;
+constexpr double rounding_of_times = 1e-9;
 
 double frame_time(const Clock& clock, const Scene& scene)
 {
@@ -19,19 +19,19 @@ double frame_time(const Clock& clock, const Scene& scene)
 // Rows that are not spaced in time are due after every step.
 bool row_due(double time, std::int64_t number, double every)
 {
-    return every <= 0 || time >= static_cast<double>(number) * every - rounding * every;
+    return every <= 0 || time >= static_cast<double>(number) * every - rounding_of_times * every;
 }
 
 } // namespace
 
 bool finished(const Clock& clock, const Scene& scene)
 {
-    return clock.time >= scene.time.end * (1 - rounding);
+    return clock.time >= scene.time.end * (1 - rounding_of_times);
 }
 
 bool frame_due(const Clock& clock, const Scene& scene)
 {
-    return clock.time >= frame_time(clock, scene) - rounding * scene.output.every;
+    return clock.time >= frame_time(clock, scene) - rounding_of_times * scene.output.every;
 }
 
 bool history_due(const Clock& clock, const Scene& scene)
@@ -49,8 +49,9 @@ NextStep next_step(const Clock& clock, const Scene& scene, const TimeLimit& limi
     if (scene.time.step) {
         const double end = static_cast<double>(clock.step + 1) * *scene.time.step;
         const double last = std::min(end, scene.time.end);
-        return {end > scene.time.end * (1 + rounding) ? last - clock.time : *scene.time.step, last,
-                "fixed"};
+        return {end > scene.time.end * (1 + rounding_of_times) ? last - clock.time
+                                                               : *scene.time.step,
+                last, "fixed"};
     }
     // A frame that is due now has been or will be written at this time; the next one is the goal.
     const auto due = frame_due(clock, scene) ? clock.frame + 1 : clock.frame;

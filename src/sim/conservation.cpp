@@ -13,11 +13,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 bool locked(const Body& body, int axis)
 {
     return body.locks[static_cast<std::size_t>(axis)];

@@ -71,7 +71,7 @@ Spent spent(const Simulation& sim)
     return total;
 }
 
-double sum(std::span<const double> values)
+double total(std::span<const double> values)
 {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -102,7 +102,7 @@ public:
     double slowdown() const
     {
         const double free = static_cast<double>(all_else_.size()) * mean_without_stalls(all_else_);
-        return free > 0 ? std::max(sum(all_else_) / free, 1.0) : 1.0;
+        return free > 0 ? std::max(total(all_else_) / free, 1.0) : 1.0;
     }
 
 private:
@@ -354,11 +354,11 @@ std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool
     const std::span<const double> all(steps);
     const std::size_t half = all.size() / 2;
     const bool done = finished(sim.clock, sim.scene);
-    if (half == 0 || (!done && sum(all.last(half)) > grows * sum(all.first(half)))) {
+    if (half == 0 || (!done && total(all.last(half)) > grows * total(all.first(half)))) {
         return {};
     }
     const auto count = static_cast<double>(all.size());
-    cost.seconds = cost.bodies = sum(all) / count;
+    cost.seconds = cost.bodies = total(all) / count;
     cost.impacts *= done ? 1 : std::max(1.0, sim.plan.expected_steps / count);
     return cost;
 }

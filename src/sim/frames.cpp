@@ -11,11 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 void push(std::vector<float>& numbers, const Vec3& v)
 {
     for (int axis = 0; axis < 3; ++axis) {

@@ -12,11 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // Sum of the viscous forces on the particles of a wall or body; zero where the fluid slips.
 Vec3 viscous_force(const Simulation& sim, int target)
 {

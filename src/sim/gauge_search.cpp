@@ -5,11 +5,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // The bounds of every tile, by a function of its number, and of the groups.
 template <class BoundsOfTile>
 TileBounds bounds_by_tile(const Tiles& tiles, const BoundsOfTile& bounds_of_tile)

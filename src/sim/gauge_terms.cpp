@@ -14,11 +14,6 @@ namespace {
 // Bounds of tiles at rest are in single precision: searches are extended by the rounding.
 constexpr double wider = 1 + 1e-5;
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // Least distance of an extent from bounds along each axis; below zero where they overlap.
 Vec3 gap_between(const Fluid& fluid, const TileExtent& a, const TileExtent& b)
 {

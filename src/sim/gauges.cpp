@@ -8,11 +8,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 void push(std::vector<double>& readings, const Vec3& v)
 {
     readings.insert(readings.end(), v.begin(), v.end());

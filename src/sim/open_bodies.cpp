@@ -10,11 +10,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // Whether the body is through that window.
 bool has_passed(const Simulation& sim, const OpenSide& side, const Body& body, const Vec3& place)
 {

@@ -14,11 +14,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 Carpet make_carpet(const Scene& scene, const OpenSettings& open)
 {
     Carpet carpet;

@@ -11,11 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // A run of particles in a tile.
 struct TileRun {
     std::uint64_t tile = 0;

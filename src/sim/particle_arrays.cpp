@@ -16,11 +16,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 const std::string wall_tiles = "wall/tiles";
 const std::string body_tiles = "body/tiles";
 

@@ -9,11 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // Sets positions and velocities of body particles from the poses and motions of the bodies.
 void place_bodies(Simulation& sim)
 {

@@ -14,11 +14,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // The compressible hydrostatic density at a depth: rho0 exp(g d / c0^2). Starting from rest
 // pressure instead would ring for seconds.
 double hydrostatic_density(const FluidParameters& f, double depth)

@@ -16,11 +16,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 // Where the fluid of a range of tiles is in a part: in the order of the tiles.
 struct FluidShare {
     std::size_t first = 0, last = 0; // of its tiles

@@ -21,11 +21,6 @@ constexpr double slack = 1;
 constexpr double steps_to_surface = 20;
 constexpr double fastest_way_out = 0.02; // of the speed of sound
 
-std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 // A bound of how far any point of any solid is from where it was.
 double farthest_way(const WallBarrier& barrier)
 {

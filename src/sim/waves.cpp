@@ -14,7 +14,7 @@ namespace hyoryu {
 namespace {
 
 constexpr double strip = 4; // of the fluid before a paddle that is looked at [spacings]
-const FixedUnit count_unit = fixed_unit(1); // of sums of weights
+const FixedUnit unit_of_weights = fixed_unit(1); // of sums of weights
 
 // Sum of the weights of the particles before a paddle: 1 at its face, falling to 0 across the
 // strip.
@@ -26,7 +26,7 @@ double weight_before(const Simulation& sim, const Absorber& absorber)
     const double face = absorber.face + displacement(motion, sim.clock.time).x();
     const double width = strip * fluid.parameters.spacing;
     const bool planar = sim.scene.dimensions == 2;
-    return sum_over_fluid<1>(fluid, {count_unit}, [&](Index i) {
+    return sum_over_fluid<1>(fluid, {unit_of_weights}, [&](Index i) {
         const double away = absorber.side * (x[i].x() - face);
         const bool before = planar || (x[i].y() >= absorber.low && x[i].y() <= absorber.high);
         return std::array{before && away >= 0 ? std::max(0.0, 1 - away / width) : 0.0};

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace hyoryu {
+namespace hyoryu::test_added_effect {
 namespace {
 
 // A column of water that falls apart, at a spacing.
@@ -243,4 +243,4 @@ TEST(Steps, GiveTheSameBitsForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_added_effect

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <map>
 
-namespace hyoryu {
+namespace hyoryu::test_accuracy {
 namespace {
 
-using testing::put_text_into;
+using test_help::put_text_into;
 
 const std::string pool =
     "dimensions = 2\n[time]\nend = 1.0\n[particles]\nspacing = 0.05\n[fluid]\n"
@@ -25,7 +25,7 @@ const std::string stone =
     "name = \"stone\"\nshape = \"box\"\nsize = [1.0, 0.2, 0.2]\ndensity = 2500.0\n"
     "position = [0.0, 0.0, 0.5]\n";
 
-class Accuracy : public testing::ResultsTest {
+class Accuracy : public test_help::ResultsTest {
 protected:
     std::vector<ExpectedError> expected(const std::string& text,
                                         const std::vector<std::string>& set = {}) const
@@ -212,4 +212,4 @@ TEST_F(Accuracy, ASceneWithoutAnyOfItSaysSo)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_accuracy

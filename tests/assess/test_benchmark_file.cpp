@@ -6,16 +6,16 @@
 
 #include <fmt/format.h>
 
-namespace hyoryu {
+namespace hyoryu::test_benchmark_file {
 namespace {
 
-using testing::put_text_into;
+using test_help::put_text_into;
 
 const std::string head = "title = \"a test\"\ngroup = \"tests\"\nsource = \"none\"\n";
 const std::string check = "[[check]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\n"
                           "expected = 1\ntolerance = 0.1\nbecause = \"a test\"\n";
 
-class BenchmarkFiles : public testing::ResultsTest {
+class BenchmarkFiles : public test_help::ResultsTest {
 protected:
     Benchmark read(const std::string& text) const
     {
@@ -288,4 +288,4 @@ TEST_F(BenchmarkFiles, AGridIsCountedBeforeItIsMade)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_benchmark_file

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace hyoryu {
+namespace hyoryu::test_fit {
 namespace {
 
 // Round-off of logarithms of order one.
@@ -156,4 +156,4 @@ TEST(Median, IsTheMiddle)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_fit

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_formula {
 namespace {
 
 std::string fault_of(const auto& call)
@@ -50,4 +50,4 @@ TEST(Formula, SaysWhatIsWrong)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_formula

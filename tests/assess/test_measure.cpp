@@ -10,12 +10,12 @@
 #include <cmath>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_measure {
 namespace {
 
-using testing::put_text_into;
+using test_help::put_text_into;
 
-class Measures : public testing::ResultsTest {
+class Measures : public test_help::ResultsTest {
 protected:
     void SetUp() override
     {
@@ -208,4 +208,4 @@ TEST_F(Measures, AFrameIsATableOfParticles)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_measure

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_reflection {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
@@ -99,7 +99,7 @@ TEST(Reflection, NeedsAPeriodAndAWave)
     }
 }
 
-class ReflectionOfAFile : public testing::ResultsTest {};
+class ReflectionOfAFile : public test_help::ResultsTest {};
 
 TEST_F(ReflectionOfAFile, TakesTheRowsAndGaugesThatItIsGiven)
 {
@@ -111,7 +111,7 @@ TEST_F(ReflectionOfAFile, TakesTheRowsAndGaugesThatItIsGiven)
         text += fmt::format("{},{},{},{}\n", t, start + flume.elevation(3, t),
                             flume.elevation(3.45, t), flume.elevation(4.13, t));
     }
-    testing::put_text_into(folder / "gauges.csv", text);
+    test_help::put_text_into(folder / "gauges.csv", text);
     RunFiles files(folder, folder);
     const Scope scope{.numbers = {{"T", 2}, {"k", turn / 4.5}}};
     const Quantity quantity{.series = {.file = "gauges", .value = "a"},
@@ -122,4 +122,4 @@ TEST_F(ReflectionOfAFile, TakesTheRowsAndGaugesThatItIsGiven)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_reflection

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-namespace hyoryu {
+namespace hyoryu::test_study_file {
 namespace {
 
-using testing::put_text_into;
+using test_help::put_text_into;
 using Texts = std::vector<std::string>;
 
 const std::string head = "title = \"a test\"\ncase = \"case.toml\"\n";
@@ -19,7 +19,7 @@ const std::string law = "[[sweep]]\nkey = \"contact.law\"\nvalues = [\"coupled\"
 const std::string place = "[[quantity]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\n"
                           "expected = 1\n";
 
-class StudyFiles : public testing::ResultsTest {
+class StudyFiles : public test_help::ResultsTest {
 protected:
     void SetUp() override { put_text_into(folder / "case.toml", ""); }
 
@@ -284,4 +284,4 @@ TEST_F(StudyFiles, AnOverrideThatCannotBeEvaluatedIsRefusedBeforeAnyRun)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_study_file

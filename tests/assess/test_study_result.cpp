@@ -9,10 +9,10 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_study_result {
 namespace {
 
-using testing::put_text_into;
+using test_help::put_text_into;
 using Runs = std::vector<std::size_t>;
 
 /// What a run wrote: x at the end, pair interactions, steps.
@@ -22,7 +22,7 @@ struct Wrote {
     int steps = 1;
 };
 
-class StudyResults : public testing::ResultsTest {
+class StudyResults : public test_help::ResultsTest {
 protected:
     static StudySweep sweep(const std::vector<double>& values,
                             const std::string& key = "particles.spacing")
@@ -241,4 +241,4 @@ TEST_F(StudyResults, APictureShowsTheErrorsOfEveryRunAgainstCostAndNumbers)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_study_result

@@ -7,12 +7,12 @@
 
 #include <tuple>
 
-namespace hyoryu {
+namespace hyoryu::test_verdict {
 namespace {
 
-using testing::put_text_into;
+using test_help::put_text_into;
 
-class Verdicts : public testing::ResultsTest {
+class Verdicts : public test_help::ResultsTest {
 protected:
     void SetUp() override
     {
@@ -316,4 +316,4 @@ TEST_F(Verdicts, AReportCountsThemAndNamesTheCost)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_verdict

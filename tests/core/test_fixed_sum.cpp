@@ -7,7 +7,7 @@
 
 #include <numeric>
 
-namespace hyoryu {
+namespace hyoryu::test_fixed_sum {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -168,4 +168,4 @@ TEST_P(FixedSumFamily, OfTilesDependsNeitherOnRowsNorOnThreads)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_fixed_sum

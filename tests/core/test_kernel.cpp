@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_kernel {
 namespace {
 
 // Places of a lattice but for the origin, one a unit of volume. `cell`: its edges are the columns.
@@ -245,4 +245,4 @@ TEST(Kernel, AsksForStepsByTheFastestWaveOfItsLattice)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_kernel

@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_list_steps {
 namespace {
 
 constexpr std::size_t chunks = 200; // the last one is nothing
@@ -113,4 +113,4 @@ TEST(ListSteps, EveryNumberComesBackAndAllElseIsNothing)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_list_steps

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_motion {
 namespace {
 
 Motion path()
@@ -53,4 +53,4 @@ TEST(Motion, OfConstantVelocityNeedsNoPoints)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_motion

@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-namespace hyoryu {
+namespace hyoryu::test_name {
 namespace {
 
 TEST(Names, EveryControlCharacterIsRefusedAndShownAsItsCode)
@@ -63,4 +63,4 @@ TEST(InputFiles, SayWhyTheyCannotBeRead)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_name

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-namespace hyoryu {
+namespace hyoryu::test_neighbours {
 namespace {
 
 constexpr real radius = 0.1;
@@ -169,4 +169,4 @@ TEST(PairList, EveryThirtyFirstChunkIsNothingAndTheLast)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_neighbours

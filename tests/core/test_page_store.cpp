@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace hyoryu {
+namespace hyoryu::test_page_store {
 namespace {
 
 constexpr std::size_t page = std::size_t(1) << 20;
@@ -36,4 +36,4 @@ TEST(PageStore, GivesBackWhatStaysEmptyAndKeepsWhatIsFilled)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_page_store

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_particles {
 namespace {
 
 // A field that an effect brings along.
@@ -131,4 +131,4 @@ TEST(Parallel, SumsDoNotDependOnTheNumberOfThreads)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_particles

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_sweep {
 namespace {
 
 /// f = q_j - q_i along r, with a made-up field: the density.
@@ -293,4 +293,4 @@ TEST(Kernel, FIsTheDerivativeOfWOverR)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_sweep

@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-namespace hyoryu {
+namespace hyoryu::test_tiles {
 namespace {
 
 /// Points by number, with numbers that have gaps.
@@ -97,4 +97,4 @@ TEST(Tiles, TheirOrderFollowsFromPlacesAndNumbers)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_tiles

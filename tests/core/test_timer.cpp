@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_timer {
 namespace {
 
 TEST(StageTimer, CountsTheStagesInTheOrderInWhichTheyWereMet)
@@ -36,4 +36,4 @@ TEST(StageTimer, ACopyOfARunningTimerCountsInItsOwnStages)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_timer

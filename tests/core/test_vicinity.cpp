@@ -8,7 +8,7 @@
 
 #include <numeric>
 
-namespace hyoryu {
+namespace hyoryu::test_vicinity {
 namespace {
 
 /// Points by slot, and their tiles.
@@ -89,4 +89,4 @@ TEST(Vicinity, MarksThePointsNearOthersAndNoMore)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_vicinity

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace hyoryu {
+namespace hyoryu::test_coupling {
 namespace {
 
 // A lattice of fluid with a body of 4 x 4 x 4 particles in its middle.
@@ -243,4 +243,4 @@ TEST(Coupling, FreeFlightTurnsAboutTheCentre)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_coupling

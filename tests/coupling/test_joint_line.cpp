@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hyoryu {
+namespace hyoryu::test_joint_line {
 namespace {
 
 // Lines of cells that follow each other; between lines some cells are not joined.
@@ -76,4 +76,4 @@ TEST(JointLine, TheDirectSolutionOfAWetLineIsThatOfTheSweeps)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_joint_line

@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_joint_surface {
 namespace {
 
 double area(const BodyFaces& body, const Vec3& normal)
@@ -89,4 +89,4 @@ TEST(JointSurface, WallsOfEveryShapeAreMet)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_joint_surface

@@ -12,11 +12,6 @@ namespace hyoryu {
 
 constexpr real dp = 0.1;
 
-inline std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
-
 struct Choice {
     Precision precision;
     InstructionSet set;

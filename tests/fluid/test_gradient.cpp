@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_gradient {
 namespace {
 
 struct Cloud {
@@ -355,4 +355,4 @@ TEST(CorrectedGradient, AbsentHasNoColumnAndNoRecords)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_gradient

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_lattices {
 namespace {
 
 // A cube that repeats itself in every direction is everywhere inside: on its lattice nothing pulls,
@@ -108,4 +108,4 @@ TEST(Shifting, LeavesALatticeAndEvensOutACrowd)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_lattices

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_loops {
 namespace {
 
 bool is_mps(const Fluid& fluid)
@@ -440,4 +440,4 @@ TEST(Loops, TwoParticlesFeelOppositeForces)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_loops

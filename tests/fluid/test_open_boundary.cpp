@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_open_boundary {
 namespace {
 
 constexpr double g = 9.81;
@@ -112,4 +112,4 @@ TEST(OpenBoundary, ALevelAloneIsASimpleWave)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_open_boundary

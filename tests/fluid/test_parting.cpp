@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_parting {
 namespace {
 
 TEST(Parting, UnderPressureAllGoesToTheDensity)
@@ -72,4 +72,4 @@ TEST(Parting, TheSumBesideAPlaneIsWhatTheRowLeavesOfOne)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_parting

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace hyoryu {
+namespace hyoryu::test_stages {
 namespace {
 
 // Fluid alone on a jittered lattice of an edge, spacing and seed; each column has its own numbers.
@@ -136,4 +136,4 @@ TEST(Stages, SumEveryEffectAsItsReferenceDoes)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_stages

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_terms {
 namespace {
 
 using One =
@@ -284,4 +284,4 @@ TEST(Effects, AnAbsentEffectHasNoColumn)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_terms

@@ -115,7 +115,7 @@ bool equal(const Snapshot& one, const Snapshot& other)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hyoryu;
-    static const testing::Scratch scratch;
+    static const test_help::Scratch scratch;
     const auto folder = scratch.put("checkpoint.h5", data, size).parent_path();
     try {
         read_newest_checkpoint(folder);

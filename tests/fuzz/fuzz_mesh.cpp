@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hyoryu;
-    static const testing::Scratch scratch;
+    static const test_help::Scratch scratch;
     const bool obj = size > 0 && (data[0] == 'v' || data[0] == '#');
     const auto file = scratch.put(obj ? "mesh.obj" : "mesh.stl", data, size);
     try {

@@ -42,7 +42,7 @@ void read_as_benchmark(const std::filesystem::path& folder)
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    static const testing::Scratch scratch;
+    static const test_help::Scratch scratch;
     scratch.put("case.toml", nullptr, 0);
     const auto study = scratch.put("study.toml", data, size);
     read_as_study(study);

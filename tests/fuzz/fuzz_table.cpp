@@ -13,7 +13,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace hyoryu;
-    static const testing::Scratch scratch;
+    static const test_help::Scratch scratch;
     const auto file = scratch.put("table.csv", data, size);
     constexpr std::array<NumberColumn, 4> all{{{"time", "s"}, {"x", "m"}, {"y", "m"}, {"z", "m"}}};
     using Columns = std::span<const NumberColumn>;

@@ -9,7 +9,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace hyoryu::testing {
+namespace hyoryu::test_help {
 
 class Scratch {
 public:
@@ -41,4 +41,4 @@ private:
     std::filesystem::path folder_;
 };
 
-} // namespace hyoryu::testing
+} // namespace hyoryu::test_help

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace hyoryu {
+namespace hyoryu::test_grid_formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ TEST_F(GridFormats, WithoutGdalTheWayToAGridIsTold)
 #endif
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_grid_formats

@@ -20,7 +20,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace hyoryu {
+namespace hyoryu::test_height_grid {
 namespace {
 
 namespace fs = std::filesystem;
@@ -297,4 +297,4 @@ TEST_F(HeightGrids, TheSolidHasTheVolumeBelowItsHeights)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_height_grid

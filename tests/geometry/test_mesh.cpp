@@ -9,7 +9,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace hyoryu {
+namespace hyoryu::test_mesh {
 
 namespace {
 
@@ -211,4 +211,4 @@ TEST_F(MeshFile, BinaryWithATextualHeaderIsRead)
 
 #endif
 
-} // namespace hyoryu
+} // namespace hyoryu::test_mesh

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_outline {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
@@ -257,4 +257,4 @@ TEST(Outlines, FaultsNameTheirCorners)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_outline

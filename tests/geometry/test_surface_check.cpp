@@ -9,7 +9,7 @@
 #include <functional>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_surface_check {
 namespace {
 
 // A grid of cells of `cell` about the origin, 60 m each way.
@@ -124,4 +124,4 @@ TEST(SurfaceCheck, LevelAreasSetTheirPoints)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_surface_check

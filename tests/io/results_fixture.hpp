@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace hyoryu::testing {
+namespace hyoryu::test_help {
 
 inline std::string text_of(const std::filesystem::path& file)
 {
@@ -93,4 +93,4 @@ inline Surface make_surface(std::int64_t index)
             .columns = {{"Body", "", 1, std::vector<std::int32_t>{0, 0, 0, 0}}}};
 }
 
-} // namespace hyoryu::testing
+} // namespace hyoryu::test_help

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <limits>
 
-namespace hyoryu {
+namespace hyoryu::test_checkpoint {
 namespace {
 
-using testing::put_text_into;
-using testing::text_of;
+using test_help::put_text_into;
+using test_help::text_of;
 
-class Checkpoint : public testing::ResultsTest {};
+class Checkpoint : public test_help::ResultsTest {};
 
 Snapshot make_snapshot()
 {
@@ -68,7 +68,7 @@ TEST_F(Checkpoint, IsReplacedWhole)
     write_checkpoint(folder, make_snapshot());
     write_checkpoint(folder, Snapshot{{}, {{"step", "2"}}});
     EXPECT_EQ(read_checkpoint(folder).texts.at("step"), "2");
-    EXPECT_EQ(testing::content_of(folder),
+    EXPECT_EQ(test_help::content_of(folder),
               (std::vector<std::string>{"checkpoint.h5", "checkpoint.previous.h5"}));
 }
 
@@ -80,7 +80,7 @@ TEST_F(Checkpoint, KeepsTwoGenerations)
     const NewestCheckpoint newest = read_newest_checkpoint(folder);
     EXPECT_EQ(newest.snapshot.texts.at("step"), "3");
     EXPECT_EQ(newest.passed_over, "");
-    EXPECT_EQ(testing::content_of(folder),
+    EXPECT_EQ(test_help::content_of(folder),
               (std::vector<std::string>{"checkpoint.h5", "checkpoint.previous.h5"}));
     std::filesystem::rename(folder / "checkpoint.previous.h5", folder / "checkpoint.h5");
     EXPECT_EQ(read_checkpoint(folder).texts.at("step"), "2");
@@ -144,15 +144,15 @@ TEST_F(Checkpoint, InPartsKeepsTwoGenerationsAndNoOtherParts)
         EXPECT_EQ(newest.snapshot.texts.size(), 1U);
         EXPECT_THROW(read_checkpoint(folder), IoError); // its particles are elsewhere
     }
-    EXPECT_EQ(testing::content_of(folder).size(), 2U + 2 + 3);
+    EXPECT_EQ(test_help::content_of(folder).size(), 2U + 2 + 3);
     // Whatever a kill leaves of a set that was never named does not hinder the next one.
     write_checkpoint_part(folder, next_part_set(folder), 0, Snapshot{});
     write_in_parts(folder, 7, 2);
     EXPECT_EQ(number_of(folder, read_newest_checkpoint(folder)), 7);
-    EXPECT_EQ(testing::content_of(folder).size(), 2U + 3 + 2);
+    EXPECT_EQ(test_help::content_of(folder).size(), 2U + 3 + 2);
     write_checkpoint(folder, make_snapshot());
     write_checkpoint(folder, make_snapshot());
-    EXPECT_EQ(testing::content_of(folder).size(), 2U);
+    EXPECT_EQ(test_help::content_of(folder).size(), 2U);
 }
 
 TEST_F(Checkpoint, WithAPartThatIsNotItsOwnGivesWayToTheOneBefore)
@@ -244,4 +244,4 @@ TEST_F(Checkpoint, ThatIsMissingTornOrForeignIsAnError)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_checkpoint

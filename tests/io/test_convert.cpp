@@ -18,10 +18,10 @@
 #include <limits>
 #include <regex>
 
-namespace hyoryu {
+namespace hyoryu::test_convert {
 namespace {
 
-using testing::text_of;
+using test_help::text_of;
 
 constexpr int runs_drawn = 25;
 
@@ -84,7 +84,7 @@ struct RandomRun {
     Cloud walls;
 };
 
-class Convert : public testing::ResultsTest {
+class Convert : public test_help::ResultsTest {
 protected:
     RandomRun write_run(std::uint64_t seed) const
     {
@@ -416,19 +416,20 @@ TEST_F(Convert, SeriesThatLeadAwayAreDamage)
     write_run(1);
     for (const char* name : {"../../etc/passwd", "/etc/passwd", "frames/bodies_000000.hdf",
                              "frames/fluid_000000.hdf/../../x.hdf", "frames/fluid_0.hdf"}) {
-        testing::put_text_into(folder / "fluid.hdf.series",
-                               fmt::format(R"({{"files": [{{"name": "{}", "time": 0}}]}})", name));
+        test_help::put_text_into(
+            folder / "fluid.hdf.series",
+            fmt::format(R"({{"files": [{{"name": "{}", "time": 0}}]}})", name));
         EXPECT_THROW(frame_sets(folder), IoError) << name;
     }
-    testing::put_text_into(folder / "fluid.hdf.series",
-                           R"({"files": [{"name": "frames/fluid_000001.hdf", "time": 1},
+    test_help::put_text_into(folder / "fluid.hdf.series",
+                             R"({"files": [{"name": "frames/fluid_000001.hdf", "time": 1},
                                          {"name": "frames/fluid_000000.hdf", "time": 0}]})");
     EXPECT_THROW(frame_sets(folder), IoError);
 }
 
 TEST_F(Convert, FramesBeforeAFaultStay)
 {
-    Cloud cloud = testing::make_cloud("fluid", 0, 10);
+    Cloud cloud = test_help::make_cloud("fluid", 0, 10);
     {
         FrameWriter writer(folder);
         writer.write(cloud);
@@ -437,12 +438,12 @@ TEST_F(Convert, FramesBeforeAFaultStay)
         writer.write(cloud);
         writer.finish();
     }
-    testing::put_text_into(folder / "frames" / "fluid_000001.hdf", "no HDF5");
+    test_help::put_text_into(folder / "frames" / "fluid_000001.hdf", "no HDF5");
     EXPECT_THROW(export_vtp(folder, set_named("fluid"), out()), IoError);
-    EXPECT_EQ(testing::content_of(out()), std::vector<std::string>{"fluid_000000.vtp"});
+    EXPECT_EQ(test_help::content_of(out()), std::vector<std::string>{"fluid_000000.vtp"});
     EXPECT_THROW(export_vtkhdf(folder, frame_sets(folder), folder / "all.vtkhdf"), IoError);
     EXPECT_FALSE(std::filesystem::exists(folder / "all.vtkhdf"));
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_convert

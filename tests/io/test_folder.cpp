@@ -4,15 +4,15 @@
 #include "hyoryu/io/results.hpp"
 #include "results_fixture.hpp"
 
-namespace hyoryu {
+namespace hyoryu::test_folder {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::content_of;
-using testing::make_cloud;
-using testing::put_text_into;
+using test_help::content_of;
+using test_help::make_cloud;
+using test_help::put_text_into;
 
-class Folder : public testing::ResultsTest {
+class Folder : public test_help::ResultsTest {
 protected:
     /// One of everything that the program writes.
     void fill()
@@ -130,4 +130,4 @@ TEST_F(Folder, ThatIsAFileIsRefused)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_folder

@@ -15,15 +15,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace hyoryu {
+namespace hyoryu::test_frames {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::content_of;
-using testing::make_cloud;
-using testing::make_surface;
+using test_help::content_of;
+using test_help::make_cloud;
+using test_help::make_surface;
 
-class Frames : public testing::ResultsTest {};
+class Frames : public test_help::ResultsTest {};
 
 void expect_equal(const Cloud& a, const Cloud& b)
 {
@@ -128,9 +128,9 @@ TEST_F(Frames, ThatAreMissingOrForeignAreErrors)
 {
     EXPECT_THROW(read_frame(folder / "none.hdf"), IoError);
     EXPECT_THROW(read_series(folder / "none.hdf.series"), IoError);
-    testing::put_text_into(folder / "foreign.hdf", "not HDF5 at all");
+    test_help::put_text_into(folder / "foreign.hdf", "not HDF5 at all");
     EXPECT_THROW(read_frame(folder / "foreign.hdf"), IoError);
-    testing::put_text_into(folder / "foreign.hdf.series", "{\"files\": 3}");
+    test_help::put_text_into(folder / "foreign.hdf.series", "{\"files\": 3}");
     EXPECT_THROW(read_series(folder / "foreign.hdf.series"), IoError);
     write_checkpoint(folder, Snapshot{});
     EXPECT_THROW(read_frame(folder / "checkpoint.h5"), IoError);
@@ -186,7 +186,7 @@ TEST_F(Frames, SurviveADiskThatRefuses)
 
 TEST_F(Frames, TellWhyAFolderCannotBeWritten)
 {
-    testing::put_text_into(folder / "file", "");
+    test_help::put_text_into(folder / "file", "");
     EXPECT_THROW(FrameWriter(folder / "file"), IoError);
     try {
         write_text(folder / "missing/x.json", "{}");
@@ -242,4 +242,4 @@ TEST_F(Frames, ThatClaimWhatTheyDoNotHoldAreErrors)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_frames

@@ -10,13 +10,13 @@
 #include <cstring>
 #include <limits>
 
-namespace hyoryu {
+namespace hyoryu::test_history {
 namespace {
 
-using testing::put_text_into;
-using testing::text_of;
+using test_help::put_text_into;
+using test_help::text_of;
 
-class Histories : public testing::ResultsTest {
+class Histories : public test_help::ResultsTest {
 protected:
     const Table table{"bodies", {{"time", "s"}, {"body", ""}, {"x", "m"}}};
 };
@@ -142,4 +142,4 @@ TEST_F(Histories, OfAMissingFolderAreErrors)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_history

@@ -13,10 +13,10 @@
 #include <span>
 #include <sys/resource.h>
 
-namespace hyoryu {
+namespace hyoryu::test_kept_state {
 namespace {
 
-using KeptStates = testing::ResultsTest;
+using KeptStates = test_help::ResultsTest;
 
 // Arrays of every type, of random lengths, with numbers that are easily spoiled.
 Snapshot random_snapshot(unsigned seed)
@@ -103,4 +103,4 @@ TEST_F(KeptStates, ThatCannotBeWrittenSayWhy)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_kept_state

@@ -7,16 +7,16 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace hyoryu {
+namespace hyoryu::test_master {
 namespace {
 
-class Master : public testing::ResultsTest {
+class Master : public test_help::ResultsTest {
 protected:
     /// Runs Python lines with `f` the open master file; true if no assertion failed.
     bool python_agrees(const std::string& lines) const
     {
         const auto script = folder / "script.py";
-        testing::put_text_into(script, "import h5py, sys\nf = h5py.File(sys.argv[1])\n" + lines);
+        test_help::put_text_into(script, "import h5py, sys\nf = h5py.File(sys.argv[1])\n" + lines);
         const std::string command =
             "/usr/bin/python3 " + script.string() + " " + (folder / "results.h5").string();
         return std::system(command.c_str()) == 0;
@@ -30,10 +30,10 @@ TEST_F(Master, LeadsToEverything)
     }
     FrameWriter writer(folder);
     for (std::int64_t index = 0; index < 3; ++index) {
-        writer.write(testing::make_cloud("fluid", index, 70000));
-        writer.write(testing::make_surface(index));
+        writer.write(test_help::make_cloud("fluid", index, 70000));
+        writer.write(test_help::make_surface(index));
     }
-    writer.write_static(testing::make_cloud("walls", 0, 5));
+    writer.write_static(test_help::make_cloud("walls", 0, 5));
     writer.finish();
     {
         History history(folder, {"bodies", {{"time", "s"}, {"body", ""}, {"x", "m"}}});
@@ -69,4 +69,4 @@ TEST_F(Master, OfAnEmptyRunIsWritten)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_master

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-namespace hyoryu {
+namespace hyoryu::test_impacts {
 namespace {
 
-using testing::put_text_into;
+using test_help::put_text_into;
 
 constexpr const char* contacts_text =
     "# s,-,-,m,m,m,-,-,-,m/s,N s,N s,N s,N s,J,kg,-\n"
@@ -21,7 +21,7 @@ constexpr const char* contacts_text =
     "0.7,log,crate,0,0,0,1,0,0,2,6,0,0,0,1,4,impact\n"
     "0.8,crate,house,0,0,0,1,0,0,1,20,0,0,0,2,25,impact\n";
 
-class Impacts : public testing::ResultsTest {
+class Impacts : public test_help::ResultsTest {
 protected:
     std::vector<Impact> read(const DeclaredContact& declared, const char* text = contacts_text)
     {
@@ -212,4 +212,4 @@ TEST_F(Impacts, UnitsAreReadFromTheLineAboveTheNames)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_impacts

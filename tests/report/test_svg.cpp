@@ -13,7 +13,7 @@
 #include <limits>
 #include <set>
 
-namespace hyoryu {
+namespace hyoryu::test_svg {
 namespace {
 
 constexpr double nan_ = std::numeric_limits<double>::quiet_NaN();
@@ -403,4 +403,4 @@ TEST(PlanView, BothAxesHaveOneScale)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_svg

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_balance {
 namespace {
 
 using namespace test;
@@ -80,4 +80,4 @@ TEST(Balance, OfMomentumHoldsForEachBodyInEachStep)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_balance

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_bodies {
 namespace {
 
 using namespace test;
@@ -246,4 +246,4 @@ TEST(Painleve, SlidingRodTerminates)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_bodies

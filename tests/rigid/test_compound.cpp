@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_compound {
 namespace {
 
 using namespace test;
@@ -343,4 +343,4 @@ TEST(Matrix, EveryShapeOnEveryShape)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_compound

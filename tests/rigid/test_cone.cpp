@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_cone {
 namespace {
 
 using namespace test;
@@ -81,4 +81,4 @@ TEST(Cone, NearerImpulsesEndAtTheExactOne)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_cone

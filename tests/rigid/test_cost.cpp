@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_cost {
 namespace {
 
 using namespace test;
@@ -38,4 +38,4 @@ TEST(Cost, ABoxThatSlidesSteadilyIsPlannedOnceAndNotSolvedAnew)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_cost

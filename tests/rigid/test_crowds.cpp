@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_crowds {
 namespace {
 
 using namespace test;
@@ -340,4 +340,4 @@ TEST(Crowds, BlocksAreEliminatedAsADenseMatrixIs)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_crowds

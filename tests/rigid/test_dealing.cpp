@@ -10,7 +10,7 @@
 #include <array>
 #include <bit>
 
-namespace hyoryu {
+namespace hyoryu::test_dealing {
 namespace {
 
 using namespace test;
@@ -125,7 +125,7 @@ TEST(Dealing, RanksComeToTheBitsOfOneProcess)
         const Numbers one = outcome(seed, dt, nullptr);
         for (const int ranks : {2, 3, 5}) {
             std::vector<Numbers> many(static_cast<std::size_t>(ranks));
-            testing::on_ranks(ranks, [&](CountedComm& comm) {
+            test_help::on_ranks(ranks, [&](CountedComm& comm) {
                 many[static_cast<std::size_t>(comm.rank())] = outcome(seed, dt, &comm);
                 if (comm.rank() == 0) {
                     calls += comm.traffic().calls;
@@ -142,7 +142,7 @@ TEST(Dealing, RanksComeToTheBitsOfOneProcess)
 // A body that flies, or a crate that lies alone, is not worth a message.
 TEST(Dealing, LittleWorkIsNotDealtOut)
 {
-    testing::on_ranks(3, [](CountedComm& comm) {
+    test_help::on_ranks(3, [](CountedComm& comm) {
         Rigid rigid = on_floor(0.3, 0.3);
         for (int k = 0; k < 3; ++k) {
             rigid.bodies.push_back(box(Vec3::Constant(0.2), 500, {1.0 * k, 0, 0.1 + k}));
@@ -157,4 +157,4 @@ TEST(Dealing, LittleWorkIsNotDealtOut)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_dealing

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_direct {
 namespace {
 
 Response cube(double mass, double inverse_moment)
@@ -193,4 +193,4 @@ TEST(Work, IsCountedInUpdatesOfRows)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_direct

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_drop {
 namespace {
 
 using namespace test;
@@ -61,4 +61,4 @@ INSTANTIATE_TEST_SUITE_P(Heights, FlatDrop,
                                           testing::Values(3, 2)));
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_drop

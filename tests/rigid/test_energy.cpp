@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace hyoryu {
+namespace hyoryu::test_energy {
 namespace {
 
 using namespace test;
@@ -184,4 +184,4 @@ TEST(Energy, NorDoTowersThatAreTooCostlyToLocate)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_energy

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-namespace hyoryu {
+namespace hyoryu::test_hull {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -81,4 +81,4 @@ TEST(Hull, OfFrustaInSinglePrecisionIsWholeInAnyOrder)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_hull

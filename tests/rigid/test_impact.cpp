@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_impact {
 namespace {
 
 using namespace test;
@@ -212,4 +212,4 @@ TEST(SmallBox, RattlesToRestWithoutGain)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_impact

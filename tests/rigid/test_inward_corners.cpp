@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_inward_corners {
 namespace {
 
 using namespace test;
@@ -124,4 +124,4 @@ TEST(InwardCorners, MeshesShowWhatIsDeepInTwoSides)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_inward_corners

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <ostream>
 
-namespace hyoryu {
+namespace hyoryu::test_law {
 namespace {
 
 using namespace test;
@@ -253,4 +253,4 @@ TEST(SimultaneousLaw, TakesRestingContactsIntoTheBlow)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_law

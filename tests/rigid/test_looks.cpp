@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_looks {
 namespace {
 
 using namespace test;
@@ -74,4 +74,4 @@ TEST_P(LooksOfSeed, DoNotShowWhereBodiesAndWallsMoveAndRest)
 INSTANTIATE_TEST_SUITE_P(Family, LooksOfSeed, testing::Range(1, 13));
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_looks

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_manifold {
 namespace {
 
 constexpr double side = 0.1; // of both boxes [m]
@@ -68,4 +68,4 @@ TEST(Manifold, EdgesThatCrossAtAnAngleMeetInOnePoint)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_manifold

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_mass {
 namespace {
 
 using namespace test;
@@ -99,4 +99,4 @@ TEST_P(Spin, FlipsTenTimesInTwentySeconds)
 INSTANTIATE_TEST_SUITE_P(Steps, Spin, testing::Values(1e-2, 1e-3, 1e-4));
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_mass

@@ -14,7 +14,7 @@
 #include <array>
 #include <map>
 
-namespace hyoryu {
+namespace hyoryu::test_meetings {
 namespace {
 
 using namespace test;
@@ -339,4 +339,4 @@ TEST(Meetings, ACornerSlidesUnderASideOfABasin)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_meetings

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_mesh_walls {
 namespace {
 
 using namespace test;
@@ -184,4 +184,4 @@ TEST(MeshOverlap, IsToldForPlans)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_mesh_walls

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_moving_walls {
 namespace {
 
 using namespace test;
@@ -94,4 +94,4 @@ TEST(Corner, SlidingIntoATankCornerKeepsAxesApart)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_moving_walls

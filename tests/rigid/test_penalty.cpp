@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-namespace hyoryu {
+namespace hyoryu::test_penalty {
 namespace {
 
 using namespace test;
@@ -306,4 +306,4 @@ TEST(PenaltyPlane, TheSectionBouncesAsTheRowsInSpace)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_penalty

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_piles {
 namespace {
 
 using namespace test;
@@ -194,4 +194,4 @@ TEST(Piles, MasonryStandsWithTheSameBitsForAnyThreads)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_piles

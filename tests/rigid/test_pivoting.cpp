@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_pivoting {
 namespace {
 
 using test::Dice;
@@ -118,4 +118,4 @@ TEST(Pivoting, EveryContactEitherPressesOrIsFasterThanAsked)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_pivoting

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace hyoryu {
+namespace hyoryu::test_rattle {
 namespace {
 
 using namespace test;
@@ -69,4 +69,4 @@ TEST(Rattle, LightBoxesUnderHeavyOnesStayOutOfThemAndOfTheGround)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_rattle

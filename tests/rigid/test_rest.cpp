@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace hyoryu {
+namespace hyoryu::test_rest {
 namespace {
 
 using namespace test;
@@ -99,4 +99,4 @@ TEST(Rest, OfAWallOfManyCoursesComesSoonAtLongSteps)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_rest

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_ridges {
 namespace {
 
 using namespace test;
@@ -106,4 +106,4 @@ TEST(Ridges, CarryWhatFallsOnThemAndLetNothingIn)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_ridges

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <set>
 
-namespace hyoryu {
+namespace hyoryu::test_rocking {
 namespace {
 
 using namespace test;
@@ -80,4 +80,4 @@ TEST(Rocking, EachEndOfAChordIsAContactOfItsOwn)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_rocking

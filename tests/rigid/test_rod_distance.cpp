@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_rod_distance {
 namespace {
 
 using namespace test;
@@ -82,4 +82,4 @@ TEST(RodDistance, IsThatOfAlternatingProjections)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_rod_distance

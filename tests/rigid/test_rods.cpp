@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_rods {
 namespace {
 
 using namespace test;
@@ -336,4 +336,4 @@ TEST(RodOnMesh, MovesAsOnTheBlockOfTheSameSurface)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_rods

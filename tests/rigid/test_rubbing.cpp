@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_rubbing {
 namespace {
 
 using namespace test;
@@ -144,4 +144,4 @@ TEST(Rubbing, APatchThatSticksRubsAtTheSamePlacesOfAPairThatTumbles)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_rubbing

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_scales {
 namespace {
 
 using namespace test;
@@ -83,4 +83,4 @@ TEST(Scales, TheyDoSoOnAMesh)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_scales

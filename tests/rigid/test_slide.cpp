@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_slide {
 namespace {
 
 using namespace test;
@@ -94,4 +94,4 @@ TEST(Roll, SkidTurnsIntoRolling)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_slide

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_spin_slide {
 namespace {
 
 using namespace test;
@@ -62,4 +62,4 @@ TEST(SpinSlide, IsOfSecondOrder)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_spin_slide

@@ -10,7 +10,7 @@
 
 #include <sys/resource.h>
 
-namespace hyoryu {
+namespace hyoryu::test_table_cost {
 namespace {
 
 double most_memory() // of the process so far [B]
@@ -57,4 +57,4 @@ TEST(TableCost, OfHalfAMillionTriangles)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_table_cost

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_timber {
 namespace {
 
 using namespace test;
@@ -115,4 +115,4 @@ TEST(TimberConvergence, AtOneMillisecondIsAHundredTimesAsNearAsThePeersAtATenth)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_timber

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_warm_start {
 namespace {
 
 // Corner i of body 1 on face f of body 0, at a place on the top of body 0.
@@ -82,4 +82,4 @@ TEST_F(WarmStart, PlacesMoveWithTheBody)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_warm_start

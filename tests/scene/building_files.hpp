@@ -37,7 +37,7 @@ protected:
 };
 
 // A ground that is a plane: its lowest place under a polygon is at a corner.
-struct Plane {
+struct SlopingGround {
     Complex origin; // easting + i northing [m]
     double azimuth_deg = 0;
     double east = 0, north = 0; // slopes
@@ -54,7 +54,7 @@ struct Plane {
     }
 };
 
-inline Plane draw_plane(Dice& dice)
+inline SlopingGround draw_plane(Dice& dice)
 {
     return {{dice.between(3e5, 4e5), dice.between(4e6, 5e6)},
             dice.between(-180, 360),
@@ -63,7 +63,7 @@ inline Plane draw_plane(Dice& dice)
             dice.between(-5, 5)};
 }
 
-inline std::string grid_of(const Plane& plane)
+inline std::string grid_of(const SlopingGround& plane)
 {
     constexpr int half = 20; // cells of 5 m each way
     constexpr double cell = 5;
@@ -128,7 +128,7 @@ inline std::string case_of(const std::string& ground, const std::string& keys, d
                        spacing, ground, keys);
 }
 
-inline std::string terrain_of(const Plane& plane)
+inline std::string terrain_of(const SlopingGround& plane)
 {
     return fmt::format(
         "[[wall]]\nname = \"ground\"\nshape = \"terrain\"\nfile = \"g.asc\"\norigin = "

@@ -10,14 +10,14 @@
 
 #include <sys/stat.h>
 
-namespace hyoryu {
+namespace hyoryu::test_buildings {
 namespace {
 
 TEST_F(BuildingFiles, StandOnTheGroundInAnyMap)
 {
     Dice dice(21);
     for (int k = 0; k < 40; ++k) {
-        const Plane plane = draw_plane(dice);
+        const SlopingGround plane = draw_plane(dice);
         const double spacing = k % 2 == 0 ? 0.5 : 0.3;
         const double height = dice.between(2, 30);
         const Complex middle = plane.origin + Complex(dice.between(-20, 20), dice.between(-20, 20));
@@ -68,7 +68,7 @@ TEST_F(BuildingFiles, AResolvedCaseHoldsThemWithoutTheirFile)
 {
     Dice dice(22);
     for (int k = 0; k < 10; ++k) {
-        const Plane plane = draw_plane(dice);
+        const SlopingGround plane = draw_plane(dice);
         write("g.asc", grid_of(plane));
         write("b.geojson",
               collection(
@@ -108,7 +108,7 @@ TEST_F(BuildingFiles, PartsOfAFeatureAreNumbered)
 TEST_F(BuildingFiles, WhatIsLeftOutOrOverlapsIsTold)
 {
     Dice dice(23);
-    const Plane plane{{4e5, 4e6}, 90, 0, 0, 0};
+    const SlopingGround plane{{4e5, 4e6}, 90, 0, 0, 0};
     const auto box = [&](double x, double y) {
         const Complex p = plane.origin + Complex(x, y);
         return feature("{}", listed(text_of({p, p + 4.0, p + Complex(4, 4), p + Complex(0, 4)})));
@@ -133,7 +133,7 @@ TEST_F(BuildingFiles, ThoseAcrossTheEdgeOfTheTerrainAreToldOf)
 {
     Dice dice(29);
     for (int k = 0; k < 8; ++k) {
-        const Plane plane = draw_plane(dice);
+        const SlopingGround plane = draw_plane(dice);
         const auto building = [&](double x) { // of a radius of 4 m
             const double turn = (90 - plane.azimuth_deg) * std::numbers::pi / 180;
             const Complex middle =
@@ -219,7 +219,7 @@ TEST_F(BuildingFiles, MistakesAreToldWithTheirPlace)
 
 TEST_F(BuildingFiles, OtherMapsThanThatOfTheTerrainAreRefused)
 {
-    const Plane plane{{4e5, 4e6}, 90, 0, 0, 0};
+    const SlopingGround plane{{4e5, 4e6}, 90, 0, 0, 0};
     write("g.asc", grid_of(plane));
     const std::string text = case_of(terrain_of(plane), "height = 5");
     write("b.geojson", feature("{}", "[[[140, 38], [140.1, 38], [140, 38.1]]]"));
@@ -324,4 +324,4 @@ TEST_F(BuildingFiles, OverlappingOnesAreOneSolidForTheWater)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_buildings

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_case_file {
 
 namespace {
 
@@ -252,4 +252,4 @@ TEST(CaseFile, DiagnosticAtAPlaceShowsTheLine)
     std::filesystem::remove(file);
 }
 
-} // namespace hyoryu
+} // namespace hyoryu::test_case_file

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace hyoryu {
+namespace hyoryu::test_case_file_entry {
 
 TEST(CaseFileEntry, SyntaxIsToldWithItsPlace)
 {
@@ -354,4 +354,4 @@ TEST(CaseFileEntry, E11AHeightOfAnElevationGaugeIsToldToHaveNoEffect)
     EXPECT_TRUE(notices("pressure", "[0.2, 0.1, 0.3]").empty());
 }
 
-} // namespace hyoryu
+} // namespace hyoryu::test_case_file_entry

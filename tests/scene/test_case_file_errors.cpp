@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <set>
 
-namespace hyoryu {
+namespace hyoryu::test_case_file_errors {
 
 namespace {
 
@@ -334,4 +334,4 @@ TEST(CaseFileErrors, OverridesAreNamedAsTheirPlace)
     EXPECT_EQ(mistake_at(all, "fluid.densty").hint, "did you mean \"density\"?");
 }
 
-} // namespace hyoryu
+} // namespace hyoryu::test_case_file_errors

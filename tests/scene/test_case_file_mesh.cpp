@@ -11,7 +11,7 @@
 
 #ifdef HYORYU_HAS_VTK
 
-namespace hyoryu {
+namespace hyoryu::test_case_file_mesh {
 
 namespace {
 
@@ -145,6 +145,6 @@ TEST_F(CaseMesh, InTwoDimensionsIsNotThereYet)
     EXPECT_EQ(wrong("dimensions = 2\n" + body_of("cube.obj"))[0].key, "body[0].shape");
 }
 
-} // namespace hyoryu
+} // namespace hyoryu::test_case_file_mesh
 
 #endif

@@ -14,7 +14,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_debris {
 namespace {
 
 Scene read(const std::string& debris, int dimensions = 3, const std::string& ground = {})
@@ -355,4 +355,4 @@ TEST(Debris, YardsAreFilledBesideTheBodiesThatAreThere)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_debris

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_effect_keys {
 
 namespace {
 
@@ -129,4 +129,4 @@ TEST(EffectKeys, ThePlanNamesTheModelAndMakesItsTerm)
     });
 }
 
-} // namespace hyoryu
+} // namespace hyoryu::test_effect_keys

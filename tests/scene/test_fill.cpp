@@ -11,7 +11,7 @@
 #include <ctime>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_fill {
 namespace {
 
 constexpr const char* tank = R"(
@@ -403,4 +403,4 @@ TEST(Fill, E8ManyBodiesBesideWaterAreGroupedQuickly)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_fill

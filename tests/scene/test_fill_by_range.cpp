@@ -18,7 +18,7 @@
 #include <mutex>
 #include <optional>
 
-namespace hyoryu {
+namespace hyoryu::test_fill_by_range {
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,7 +141,7 @@ Whole filled_by(const Scene& scene, int ranks)
         return whole;
     }
     std::mutex one_at_a_time;
-    testing::on_ranks(ranks, [&](Comm& comm) {
+    test_help::on_ranks(ranks, [&](Comm& comm) {
         const Filling filling = fill(scene, {&comm});
         const Plan plan = make_plan(scene, filling, &comm);
         const std::lock_guard lock(one_at_a_time);
@@ -364,4 +364,4 @@ TEST(FillByRange, ShippedCasesAreFilledAsByOneProcess)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_fill_by_range

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_fill_layers {
 namespace {
 
 constexpr double dp = 0.1;
@@ -167,4 +167,4 @@ TEST(FillLayers, NoParticleIsLeftUnderWhatStandsOnTheGround)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_fill_layers

@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_flotation {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -99,4 +99,4 @@ TEST(Flotation, WhatIsHeavierThanWaterDoesNotFloat)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_flotation

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_forecast {
 namespace {
 
 const std::string fall = R"(
@@ -145,4 +145,4 @@ TEST(Forecast, OfMemoryIsThatOfTheProgramAndWhatItHolds)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_forecast

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-namespace hyoryu {
+namespace hyoryu::test_level_areas {
 namespace {
 
-std::string quay_of(const Plane& plane, const std::string& keys)
+std::string quay_of(const SlopingGround& plane, const std::string& keys)
 {
     const std::string ball = "[[body]]\nshape = \"sphere\"\nradius = 1\ndensity = 500\nposition = "
                              "[0, 0, 90]\n";
@@ -20,7 +20,7 @@ TEST_F(BuildingFiles, AQuayIsLevelInAnyMap)
 {
     Dice dice(25);
     for (int k = 0; k < 20; ++k) {
-        const Plane plane = draw_plane(dice);
+        const SlopingGround plane = draw_plane(dice);
         const double z = dice.between(-9, 9);
         const auto ring =
             star(dice, plane.origin + Complex(dice.between(-9, 9), dice.between(-9, 9)), 12, 30);
@@ -56,7 +56,7 @@ TEST_F(BuildingFiles, AQuayIsLevelInAnyMap)
 
 TEST_F(BuildingFiles, MistakesOfLevelAreasAreTold)
 {
-    const Plane plane{{4e5, 4e6}, 90, 0, 0, 0};
+    const SlopingGround plane{{4e5, 4e6}, 90, 0, 0, 0};
     write("g.asc", grid_of(plane));
     const auto told = [&](const std::string& keys) { return fault(quay_of(plane, keys)); };
     const std::string corners = "corners = [[0, 0, 0], [20, 0, 0], [20, 20, 0], [0, 20, 0]]\n";
@@ -84,4 +84,4 @@ TEST_F(BuildingFiles, MistakesOfLevelAreasAreTold)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_level_areas

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <map>
 
-namespace hyoryu {
+namespace hyoryu::test_motion {
 namespace {
 
 class WallMotion : public testing::Test {
@@ -174,4 +174,4 @@ TEST(Piston, IsReadFromTheCase)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_motion

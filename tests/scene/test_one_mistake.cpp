@@ -14,7 +14,7 @@
 #include <set>
 #include <sstream>
 
-namespace hyoryu {
+namespace hyoryu::test_one_mistake {
 namespace {
 
 namespace fs = std::filesystem;
@@ -150,4 +150,4 @@ kind = "absorb"
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_one_mistake

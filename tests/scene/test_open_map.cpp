@@ -8,13 +8,13 @@
 
 #include <algorithm>
 
-namespace hyoryu {
+namespace hyoryu::test_open_map {
 namespace {
 
 class GaugesInAMap : public BuildingFiles {
 protected:
     // A window in one side of a tank over the terrain, that follows the gauge g.txt.
-    static std::string case_of_window(const Plane& plane, int into, const std::string& keys)
+    static std::string case_of_window(const SlopingGround& plane, int into, const std::string& keys)
     {
         constexpr std::array<const char*, 4> names{"+x", "-x", "+y", "-y"};
         constexpr std::array<const char*, 4> mins{"[-6, -6, -50]", "[6, -6, -50]", "[-6, -6, -50]",
@@ -36,7 +36,7 @@ TEST_F(GaugesInAMap, LieInTheCaseAsTheTerrainDoes)
 {
     Dice dice(31);
     for (int n = 0; n < 24; ++n) {
-        const Plane plane = draw_plane(dice);
+        const SlopingGround plane = draw_plane(dice);
         const Complex current(dice.between(-3, 3), dice.between(-3, 3)); // to the east, the north
         const double eta = dice.between(-1, 1);
         write("g.asc", grid_of(plane));
@@ -59,7 +59,7 @@ TEST_F(GaugesInAMap, ADirectionThatIsNotThatOfTheTerrainIsToldOf)
 {
     Dice dice(32);
     for (int n = 0; n < 12; ++n) {
-        const Plane plane = draw_plane(dice);
+        const SlopingGround plane = draw_plane(dice);
         write("g.asc", grid_of(plane));
         write("g.txt", "1 0 2 1 1 0\n1 9 2 1 1 0\n");
         const std::array<double, 4> from_x{0, 180, -90, 90}; // clockwise, +y being left of +x
@@ -81,7 +81,7 @@ TEST_F(GaugesInAMap, AStepAtTheStartIsToldOf)
 {
     Dice dice(33);
     for (int n = 0; n < 4; ++n) {
-        Plane plane = draw_plane(dice);
+        SlopingGround plane = draw_plane(dice);
         plane.east = plane.north = 0;
         write("g.asc", grid_of(plane));
         const double off = dice.between(1.2, 3) * (dice.chance(0.5) ? 1 : -1); // spacing 1 m
@@ -106,4 +106,4 @@ TEST_F(GaugesInAMap, AStepAtTheStartIsToldOf)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_open_map

@@ -17,7 +17,7 @@
 #include <fstream>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_open_settings {
 namespace {
 
 // A basin of water in space with a window in its lower side along x.
@@ -426,4 +426,4 @@ TEST(OpenSettings, WallsCarriedOutAreMadeAgainBitForBit)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_open_settings

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace hyoryu {
+namespace hyoryu::test_packing_grid {
 namespace {
 
 // Clouds of fluid and of solids about some places, each as dense as a lattice. Lengths in spacings.
@@ -176,4 +176,4 @@ TEST(PackingGrid, EmptySpaceBetweenParticlesTakesNoMemory)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_packing_grid

@@ -10,7 +10,7 @@
 
 #include <set>
 
-namespace hyoryu {
+namespace hyoryu::test_parameter {
 
 namespace {
 
@@ -113,4 +113,4 @@ TEST(Parameters, DefaultsOfTheSceneAreThoseOfTheTable)
     EXPECT_EQ(scene.seed, Scene{}.seed);
 }
 
-} // namespace hyoryu
+} // namespace hyoryu::test_parameter

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <fstream>
 
-namespace hyoryu {
+namespace hyoryu::test_particle_bodies {
 namespace {
 
 using Points = std::vector<Vec3>;
@@ -236,4 +236,4 @@ TEST(Voxels, AConvexUnionIsOneBox)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_particle_bodies

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hyoryu {
+namespace hyoryu::test_plan_contact {
 namespace {
 
 const std::string yard = R"(
@@ -117,4 +117,4 @@ TEST(PlanOfContact, WarnsOfLongPenaltySubSteps)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_plan_contact

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_plan_leaks {
 namespace {
 
 constexpr std::array sides{"-x", "+x", "-y", "+y"};
@@ -70,7 +70,7 @@ const std::string drop = "water can flow to a drop";
 TEST(PlanLeaks, WaterAtAnOpenSideIsToldWithItsDirection)
 {
     Dice dice(71);
-    for (int n = 0; n < 32; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 32); ++n) {
         const int dimensions = n % 4 == 0 ? 2 : 3;
         Tank tank = drawn(dice, dimensions);
         const int side = dice.below(dimensions == 2 ? 2 : 4);
@@ -91,7 +91,7 @@ TEST(PlanLeaks, WaterAtAnOpenSideIsToldWithItsDirection)
 TEST(PlanLeaks, WaterThatFallsBelowARoofIsTold)
 {
     Dice dice(80);
-    for (int n = 0; n < 12; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 12); ++n) {
         Tank tank = drawn(dice, n % 3 == 0 ? 2 : 3);
         const bool flat = tank.dimensions == 2;
         tank.open = ", \"-x\"";
@@ -110,7 +110,7 @@ TEST(PlanLeaks, WaterThatFallsBelowARoofIsTold)
 TEST(PlanLeaks, WaterThatIsHeldIsNot)
 {
     Dice dice(72);
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 16); ++n) {
         Tank tank = drawn(dice, 3);
         const int side = dice.below(4);
         tank.open = fmt::format(", \"{}\"", sides[static_cast<std::size_t>(side)]);
@@ -139,7 +139,7 @@ TEST(PlanLeaks, WaterThatIsHeldIsNot)
 TEST(PlanLeaks, WaterThatPassesBelowAGateIsTold)
 {
     Dice dice(77);
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 16); ++n) {
         Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
         const bool flat = tank.dimensions == 2;
         tank.open = ", \"+x\"";
@@ -166,7 +166,7 @@ TEST(PlanLeaks, WaterThatPassesAGateOnceItHasRisenIsTold)
 {
     const std::string risen = "once \"gate\" has risen";
     Dice dice(80);
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 16); ++n) {
         Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
         const bool flat = tank.dimensions == 2;
         const double gate = tank.high.x() - dice.between(0.1, 0.3);
@@ -193,7 +193,7 @@ TEST(PlanLeaks, WaterThatPassesAGateOnceItHasRisenIsTold)
 TEST(PlanLeaks, TheGateThatLetsWaterOutIsNamed)
 {
     Dice dice(81);
-    for (int n = 0; n < 8; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 8); ++n) {
         Tank tank = drawn(dice, 2);
         tank.clear[0] = dice.between(0.1, 0.2);
         tank.clear[1] = dice.between(0.1, 0.2);
@@ -215,7 +215,7 @@ TEST(PlanLeaks, TheGateThatLetsWaterOutIsNamed)
 TEST(PlanLeaks, AHoleBelowAPlugThatRisesIsTold)
 {
     Dice dice(82);
-    for (int n = 0; n < 8; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 8); ++n) {
         Tank tank = drawn(dice, 2);
         tank.open = ", \"-z\"";
         const double plug = tank.low.x() + dice.between(0.15, 0.2);
@@ -239,7 +239,7 @@ TEST(PlanLeaks, AHoleBelowAPlugThatRisesIsTold)
 TEST(PlanLeaks, WaterAboveItsSidesIsToldAndADropAboveATankIsNot)
 {
     Dice dice(76);
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 16); ++n) {
         Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
         const bool flat = tank.dimensions == 2;
         const Vec3 middle = (tank.low + tank.high) / 2;
@@ -260,7 +260,7 @@ TEST(PlanLeaks, WaterAboveItsSidesIsToldAndADropAboveATankIsNot)
 TEST(PlanLeaks, AreNotToldWhereWaterMayLeave)
 {
     Dice dice(73);
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 16); ++n) {
         Tank tank = drawn(dice, 3);
         if (n % 2 == 0) { // a column of the warning has its middle just beyond the period
             tank.low.x() = tank.dp * (dice.below(20) + 0.5 - dice.between(0, 0.05));
@@ -278,7 +278,7 @@ TEST(PlanLeaks, AreNotToldWhereWaterMayLeave)
 TEST(PlanLeaks, AWindowLetsOutAsFarAsItReaches)
 {
     Dice dice(79);
-    for (int n = 0; n < 8; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 8); ++n) {
         Tank tank = drawn(dice, 3);
         tank.open = ", \"+x\"";
         const auto with_window_to = [&](double end) {
@@ -297,7 +297,7 @@ TEST(PlanLeaks, AWindowLetsOutAsFarAsItReaches)
 TEST(PlanLeaks, ABodyBesideTheTankIsTold)
 {
     Dice dice(74);
-    for (int n = 0; n < 24; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 24); ++n) {
         Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
         const bool flat = tank.dimensions == 2;
         const double edge = dice.between(0.1, 0.2);
@@ -322,7 +322,7 @@ TEST(PlanLeaks, ABodyBesideTheTankIsTold)
 TEST(PlanLeaks, ABodyBelowTheTankFallsAndDoesNotFloatUp)
 {
     Dice dice(78);
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 16); ++n) {
         Tank tank = drawn(dice, n % 4 == 0 ? 2 : 3);
         const Vec3 middle = (tank.low + tank.high) / 2;
         const auto with_body_at = [&](double z) {
@@ -345,7 +345,7 @@ TEST(PlanLeaks, ABodyBelowTheTankFallsAndDoesNotFloatUp)
 TEST(PlanLeaks, ABasinOfFewSpacingsIsNotResolved)
 {
     Dice dice(75);
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 16); ++n) {
         Tank tank = drawn(dice, 3);
         EXPECT_FALSE(warns(tank.text(), "is not resolved")) << tank.text();
         const int axis = dice.below(2);
@@ -367,4 +367,4 @@ TEST(PlanLeaks, ACourantNumberBeyondStabilityIsTold)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_plan_leaks

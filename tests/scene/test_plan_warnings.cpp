@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_plan_warnings {
 namespace {
 
 // A plank of two spacings, and of less than a third of the density of water: on end it would tip.
@@ -194,4 +194,4 @@ TEST(PlanWarnings, OfTheForceOnAnObstacleWhoseParticlesHaveAnotherVolume)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_plan_warnings

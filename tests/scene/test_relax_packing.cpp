@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_relax_packing {
 namespace {
 
 // A basin with a slope in it: the upper face of a box turned about y, through (`x`, 0, `height`).
@@ -282,4 +282,4 @@ TEST(RelaxPacking, GivesTheSameBitsForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_relax_packing

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_solid_surface {
 namespace {
 
 Vec3 random_point(std::mt19937& random, double reach)
@@ -143,4 +143,4 @@ TEST(SolidSurface, ABasinIsItsSides)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_solid_surface

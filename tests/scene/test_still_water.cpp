@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_still_water {
 namespace {
 
 std::string basin_case(int dimensions, double spacing, const std::string& block,
@@ -254,4 +254,4 @@ TEST(StillWater, AGapBesideAWindowIsToldOf)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_still_water

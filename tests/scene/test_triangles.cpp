@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_triangles {
 namespace {
 
 // By the divergence theorem: positive if corners wind counter-clockwise from outside.
@@ -44,4 +44,4 @@ TEST(Triangles, WindCounterClockwiseFromOutside)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_triangles

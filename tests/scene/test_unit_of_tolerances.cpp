@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_unit_of_tolerances {
 namespace {
 
 // One cube of the given edge at the given height [m].
@@ -47,4 +47,4 @@ TEST(UnitOfTolerances, IsTheMetreForASmallBodyFarFromTheOrigin)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_unit_of_tolerances

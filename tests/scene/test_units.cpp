@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_units {
 
 TEST(Units, ValuesAreExactWhereDecimalsAre)
 {
@@ -50,4 +50,4 @@ TEST(Units, NonsenseIsRefused)
     EXPECT_FALSE(parse_quantity("1 " + std::string(100000, 'm'), "m").fault.empty());
 }
 
-} // namespace hyoryu
+} // namespace hyoryu::test_units

@@ -14,7 +14,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_waves {
 namespace {
 
 constexpr double g = 9.81;
@@ -260,4 +260,4 @@ TEST(Waves, DampersWithoutWaterAreWarnedOf)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_waves

@@ -16,11 +16,6 @@ namespace hyoryu::by_all_particles {
 
 inline constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-inline std::size_t at(Index row)
-{
-    return static_cast<std::size_t>(row);
-}
-
 inline Pair<real> pair_at(const Fluid& fluid, const Vec3& r)
 {
     return fluid.kernel(Vec<real>{r.x(), r.y(), r.z()});

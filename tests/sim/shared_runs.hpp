@@ -159,7 +159,7 @@ inline Outcome shared(const Case& of, int ranks, int steps, Cutting cutting)
     Outcome all;
     std::vector<Outcome> each(static_cast<std::size_t>(ranks));
     std::mutex one_at_a_time;
-    testing::on_ranks(ranks, [&](Comm& comm) {
+    test_help::on_ranks(ranks, [&](Comm& comm) {
         Simulation sim = of.start(&comm);
         Dice dice(static_cast<std::uint64_t>(ranks));
         std::vector<double> history;
@@ -353,7 +353,7 @@ velocity = [-0.7, 0, -0.2]
 inline Snapshot saved(const Case& of, int ranks, int steps, const Snapshot* before = nullptr)
 {
     Snapshot state;
-    testing::on_ranks(ranks, [&](Comm& comm) {
+    test_help::on_ranks(ranks, [&](Comm& comm) {
         Simulation sim = before != nullptr ? of.blank(&comm) : of.start(&comm);
         if (before != nullptr) {
             restore(sim, &comm, one_part(sim, comm.rank() == 0 ? *before : Snapshot{}));

@@ -40,7 +40,7 @@ void operator delete(void* memory, std::size_t) noexcept
     std::free(memory);
 }
 
-namespace hyoryu {
+namespace hyoryu::test_allocations {
 namespace {
 
 // By one thread: which of several is dealt a larger piece of the lists than it had before, and
@@ -83,4 +83,4 @@ open = ["+z"]
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_allocations

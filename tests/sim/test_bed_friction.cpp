@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_bed_friction {
 namespace {
 
 // A slope as a level bed on which gravity has a part along x; it repeats itself.
@@ -196,4 +196,4 @@ TEST(BedFriction, RoughnessThatHasNoMeaningIsRefused)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_bed_friction

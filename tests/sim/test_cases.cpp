@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_cases {
 namespace {
 
 Simulation open_case(const std::string& name, const std::vector<std::string>& overrides = {})
@@ -216,4 +216,4 @@ TEST(Cases, PortTakesTheTsunamiIn)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_cases

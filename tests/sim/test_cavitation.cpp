@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_cavitation {
 namespace {
 
 // A square that expands evenly by a fifth in each second, without weight.
@@ -126,4 +126,4 @@ TEST(Cavitation, OpensAtThePressureOfTheVoid)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_cavitation

@@ -12,7 +12,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_centre_of_mass {
 namespace {
 
 Simulation started(const std::string& text)
@@ -139,4 +139,4 @@ TEST(CentreOfMass, BoxesBounceAsTheSameCornersShiftedByHand)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_centre_of_mass

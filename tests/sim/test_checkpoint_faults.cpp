@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hyoryu {
+namespace hyoryu::test_checkpoint_faults {
 namespace {
 
 constexpr const char* flood = R"(
@@ -124,4 +124,4 @@ TEST(CheckpointFaults, NumbersThatNoRunMakesAreNotFollowed)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_checkpoint_faults

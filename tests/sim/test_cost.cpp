@@ -12,7 +12,7 @@
 #include <array>
 #include <limits>
 
-namespace hyoryu {
+namespace hyoryu::test_cost {
 namespace {
 
 constexpr const char* tank = R"(
@@ -320,4 +320,4 @@ TEST(Cost, OfARowIsAFewLooksAtAllParticles)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_cost

@@ -12,7 +12,7 @@
 #include <map>
 #include <numeric>
 
-namespace hyoryu {
+namespace hyoryu::test_creation_order {
 namespace {
 
 enum class SceneKind { bodies, leaving, periodic, moving };
@@ -279,4 +279,4 @@ TEST(CreationOrder, ChangesNoBitNorDoesTheNumberOfThreads)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_creation_order

@@ -9,13 +9,8 @@
 #include <cmath>
 #include <set>
 
-namespace hyoryu {
+namespace hyoryu::test_dry_walls {
 namespace {
-
-std::size_t at(Index k)
-{
-    return static_cast<std::size_t>(k);
-}
 
 // A column of water in a long flume, with what follows it.
 std::string flume(int dimensions, double spacing, const std::string& more = "")
@@ -168,4 +163,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DryWalls,
                          name_of);
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_dry_walls

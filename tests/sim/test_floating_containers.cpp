@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_floating_containers {
 namespace {
 
 constexpr double level = 2.4; // [m]
@@ -82,4 +82,4 @@ TEST(FloatingContainers, StandOrRollOverByTheirMetacentricHeight)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_floating_containers

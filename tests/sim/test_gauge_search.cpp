@@ -11,7 +11,7 @@
 
 #include <bit>
 
-namespace hyoryu {
+namespace hyoryu::test_gauge_search {
 namespace {
 
 using namespace gauge_scenes;
@@ -132,4 +132,4 @@ TEST(GaugeSearch, D1AGaugeOfAnEmptyPlaceReadsWhatItReadWithoutWater)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_gauge_search

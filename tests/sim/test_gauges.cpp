@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_gauges {
 namespace {
 
 // A square of water in flight along x at 2 m/s, without gravity and walls.
@@ -268,4 +268,4 @@ TEST(Gauges, ColumnsAreUnique)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_gauges

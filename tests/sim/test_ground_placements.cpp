@@ -18,7 +18,7 @@
 #include <cstdlib>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_ground_placements {
 namespace {
 
 enum class Ground { bed, plane, slope, step, mesh };
@@ -422,4 +422,4 @@ TEST(GroundPlacements, WaterBesideABodyStartsAtThePressureOfItsDepth)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_ground_placements

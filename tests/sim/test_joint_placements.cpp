@@ -13,7 +13,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_joint_placements {
 namespace {
 
 enum class Ground { plane, box, mesh, body };
@@ -420,4 +420,4 @@ TEST(JointPlacements, AHalfWetCrateOnASlopeFeelsTheWaterBelowItsLine)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_joint_placements

@@ -12,7 +12,7 @@
 #include <array>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_joint_water {
 namespace {
 
 // A ram crushes a box in water against the end of a basin; fastest it gets before they all meet, in
@@ -315,4 +315,4 @@ TEST(Seepage, ASealedCrateNeverLifts)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_joint_water

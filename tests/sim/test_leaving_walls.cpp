@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace hyoryu {
+namespace hyoryu::test_leaving_walls {
 namespace {
 
 // A patch of water beside a wall, without gravity, diffusion or viscosity: what is left is the pair
@@ -115,4 +115,4 @@ TEST(LeavingWalls, WhatBouncesOffGainsNothing)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_leaving_walls

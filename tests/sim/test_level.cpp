@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_level {
 namespace {
 
 struct Wave {
@@ -92,4 +92,4 @@ TEST(Level, WaterInWavesPacksNoMoreThanItsDensitySays)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_level

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_light_bodies {
 namespace {
 
 // An empty container or a car, of one to three and a half spacings, before a bore.
@@ -66,4 +66,4 @@ TEST(LightBodies, AreNotThrownByABore)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_light_bodies

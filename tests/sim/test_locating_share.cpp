@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace hyoryu {
+namespace hyoryu::test_locating_share {
 namespace {
 
 // A row of boxes that slide into a pile beside a puddle.
@@ -62,4 +62,4 @@ TEST(LocatingShare, BuysTheLocationOfImpacts)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_locating_share

@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_logs {
 namespace {
 
 constexpr double water_density = 1000;
@@ -81,4 +81,4 @@ TEST(Logs, ALogOnItsSideFloatsOff)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_logs

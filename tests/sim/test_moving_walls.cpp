@@ -6,7 +6,7 @@
 
 #include <map>
 
-namespace hyoryu {
+namespace hyoryu::test_moving_walls {
 namespace {
 
 // A paddle at the left end of a channel, in the plane.
@@ -91,4 +91,4 @@ TEST(Paddle, RestartContinuesWithTheSameBits)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_moving_walls

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace hyoryu {
+namespace hyoryu::test_one_place {
 namespace {
 
 constexpr const char* tank = R"(
@@ -86,4 +86,4 @@ TEST(OnePlace, SeveralPartTheSameWayInEveryRun)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_one_place

@@ -13,7 +13,7 @@
 #include <array>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_open_bodies {
 namespace {
 
 std::string floating_box(const std::string& name, double size, double x, const Reach& r,
@@ -390,4 +390,4 @@ TEST(OpenBodies, StopOrLeaveAsTheCaseSays)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_open_bodies

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_open_sides {
 namespace {
 
 // Any flow at either end, in two or three dimensions.
@@ -373,4 +373,4 @@ TEST(OpenSides, AreFreeWhereThereAreNone)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_open_sides

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_pairing {
 namespace {
 
 // Vortices of 1 m/s in a periodic square or cube of 1 m, at a pressure that no vortex takes below
@@ -107,4 +107,4 @@ TEST(Pairing, DoesNotHappenInThreeDimensions)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_pairing

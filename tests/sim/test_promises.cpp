@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hyoryu {
+namespace hyoryu::test_promises {
 namespace {
 
 constexpr const char* flood = R"(
@@ -254,4 +254,4 @@ TEST(Promises, AnEffectOfNoStrengthGivesTheBitsOfItsAbsence)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_promises

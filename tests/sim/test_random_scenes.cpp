@@ -13,7 +13,7 @@
 
 #include <cstdlib>
 
-namespace hyoryu {
+namespace hyoryu::test_random_scenes {
 namespace {
 
 using namespace random_scene;
@@ -95,4 +95,4 @@ TEST(RandomScenes, StaySound)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_random_scenes

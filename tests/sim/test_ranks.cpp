@@ -6,7 +6,7 @@
 
 #include <fmt/ranges.h>
 
-namespace hyoryu {
+namespace hyoryu::test_ranks {
 namespace {
 
 using namespace shared_runs;
@@ -198,7 +198,7 @@ SavedParts saved_in_parts(const Case& of, int ranks, int most, int steps)
     SavedParts saved;
     const Groups groups = group_ranks(ranks, most);
     saved.parts.resize(static_cast<std::size_t>(groups.count));
-    testing::on_ranks(ranks, [&](Comm& comm) {
+    test_help::on_ranks(ranks, [&](Comm& comm) {
         Simulation sim = of.start(&comm);
         run(sim, steps);
         Snapshot state = save(sim);
@@ -230,7 +230,7 @@ Snapshot continued(const Case& of, const SavedParts& from, int ranks, int steps)
         return save(sim);
     }
     Snapshot state;
-    testing::on_ranks(ranks, [&](Comm& comm) {
+    test_help::on_ranks(ranks, [&](Comm& comm) {
         Simulation sim = of.blank(&comm);
         restore(sim, &comm, state_for(comm.rank()));
         run(sim, steps);
@@ -290,4 +290,4 @@ TEST(Ranks, ScenesDrawnAtRandomHaveTheBitsOfOneProcess)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_ranks

@@ -3,7 +3,7 @@
 // each other.
 #include "shared_runs.hpp"
 
-namespace hyoryu {
+namespace hyoryu::test_ranks_limits {
 namespace {
 
 using namespace shared_runs;
@@ -63,7 +63,7 @@ TEST(RanksAtLimits, NothingIsReadOfGhostsThatWasNotSent)
         }
         Outcome many;
         std::mutex one_at_a_time;
-        testing::on_ranks(3, [&](Comm& comm) {
+        test_help::on_ranks(3, [&](Comm& comm) {
             Simulation sim = of.start(&comm);
             for (int k = 0; k < 150; ++k) {
                 poison_ghosts(*sim.fluid->ghosts, *sim.fluid);
@@ -99,7 +99,7 @@ TEST(RanksAtLimits, AFailureIsThatOfOneProcessOnAllRanks)
     const std::string one = failure_of(nullptr);
     ASSERT_NE(one, "");
     std::vector<std::string> said(3);
-    testing::on_ranks(
+    test_help::on_ranks(
         3, [&](Comm& comm) { said[static_cast<std::size_t>(comm.rank())] = failure_of(&comm); });
     for (const std::string& text : said) {
         EXPECT_EQ(text, one);
@@ -116,7 +116,7 @@ TEST(RanksAtLimits, BodiesThatDifferBetweenRanksAreNamed)
           std::tuple(ground + crates, 1, 1)}) {
         const Case of(text, {});
         std::vector<std::string> said(3);
-        testing::on_ranks(3, [&](Comm& comm) {
+        test_help::on_ranks(3, [&](Comm& comm) {
             Simulation sim = of.start(&comm);
             run(sim, 120);
             if (comm.rank() == rank) {
@@ -172,7 +172,7 @@ position = [0.4, 0, 0.62]
         {dam, 5}, {dam + floating, 6}, {dam + crates, 7}};
     for (const auto& scene : scenes) {
         const Case of(scene.first, {});
-        testing::on_ranks(3, [&](CountedComm& comm) {
+        test_help::on_ranks(3, [&](CountedComm& comm) {
             look_at_steps(of, comm, [&](const Simulation&, const Traffic& step) {
                 EXPECT_EQ(step.calls, scene.second);
             });
@@ -188,7 +188,7 @@ position = [0.4, 0, 0.62]
 TEST(RanksAtLimits, AStepSendsWhatItsCopiesNeed)
 {
     const Case of(dam, {});
-    testing::on_ranks(3, [&](CountedComm& comm) {
+    test_help::on_ranks(3, [&](CountedComm& comm) {
         look_at_steps(of, comm, [](const Simulation& sim, const Traffic& step) {
             const auto sent = [](const Links& links) {
                 std::size_t sum = 0;
@@ -209,4 +209,4 @@ TEST(RanksAtLimits, AStepSendsWhatItsCopiesNeed)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_ranks_limits

@@ -9,7 +9,7 @@
 
 #include <bit>
 
-namespace hyoryu {
+namespace hyoryu::test_ranks_start {
 namespace {
 
 using namespace shared_runs;
@@ -108,7 +108,7 @@ TEST(RanksAtTheStart, GaugesReadWhatTheyReadOfOneProcess)
         const auto one = gauge_rows(of, nullptr);
         for (const int ranks : {2, 5}) {
             std::vector<std::vector<std::uint64_t>> many;
-            testing::on_ranks(ranks, [&](Comm& comm) {
+            test_help::on_ranks(ranks, [&](Comm& comm) {
                 auto rows = gauge_rows(of, &comm);
                 if (comm.rank() == 0) {
                     many = std::move(rows);
@@ -123,7 +123,7 @@ TEST(RanksAtTheStart, GaugesReadWhatTheyReadOfOneProcess)
 std::string fault_of(const Case& of, const Snapshot& state)
 {
     try {
-        testing::on_ranks(3, [&](Comm& comm) {
+        test_help::on_ranks(3, [&](Comm& comm) {
             Simulation sim = of.blank(&comm);
             restore(sim, &comm, one_part(sim, comm.rank() == 0 ? state : Snapshot{}));
         });
@@ -169,4 +169,4 @@ TEST(RanksAtTheStart, DamagedCheckpointsAreTold)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_ranks_start

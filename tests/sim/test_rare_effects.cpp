@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace hyoryu {
+namespace hyoryu::test_rare_effects {
 namespace {
 
 // A driven channel that repeats itself, with a lid that slides along the period.
@@ -200,4 +200,4 @@ TEST(RareEffects, EddiesOfNoLengthGiveTheBitsOfLaminarFlow)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_rare_effects

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_restart {
 namespace {
 
 struct Features {
@@ -162,4 +162,4 @@ TEST(Restart, FramesOfMovingWallsAreTheSame)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_restart

@@ -10,7 +10,7 @@
 
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_seepage {
 namespace {
 
 // A crate in a flat tank, with water on its left and right, in a tank four times as wide.
@@ -408,4 +408,4 @@ TEST(Seepage, CostsNothingWhereNoFaceRests)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_seepage

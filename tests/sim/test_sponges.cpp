@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace hyoryu {
+namespace hyoryu::test_sponges {
 namespace {
 
 struct Stream {
@@ -228,4 +228,4 @@ TEST(Sponges, HoldThePressureOfAClosedBox)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_sponges

@@ -16,7 +16,7 @@
 #include <functional>
 #include <numbers>
 
-namespace hyoryu {
+namespace hyoryu::test_terrain_contact {
 namespace {
 
 namespace fs = std::filesystem;
@@ -345,4 +345,4 @@ TEST_F(TerrainContact, BuildingsThatOverlapArePushedAsOne)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_terrain_contact

@@ -10,7 +10,7 @@
 #include <map>
 #include <random>
 
-namespace hyoryu {
+namespace hyoryu::test_wall_barrier {
 namespace {
 
 constexpr double spacing = 0.04;
@@ -361,4 +361,4 @@ TEST(WallBarrier, GivesTheSameBitsForAnyThreadsAndFromACheckpoint)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_wall_barrier

@@ -7,7 +7,7 @@
 
 #include "dice.hpp"
 
-namespace hyoryu {
+namespace hyoryu::test_watch {
 namespace {
 
 const std::string tank = R"(
@@ -303,4 +303,4 @@ TEST(Watch, AtRestNeitherNoiseNorRoundOffIsTrouble)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_watch

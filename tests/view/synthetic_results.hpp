@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace hyoryu::testing {
+namespace hyoryu::test_help {
 
 /// The eight corners and twelve triangles of a box, turned outwards or, for a tank, inwards.
 inline void add_box(Surface& surface, std::vector<std::int32_t>& owner, const Vec3& centre,
@@ -164,4 +164,4 @@ inline void write_flood(const std::filesystem::path& folder, double spacing, std
     writer.finish();
 }
 
-} // namespace hyoryu::testing
+} // namespace hyoryu::test_help

@@ -20,12 +20,12 @@
 #include <array>
 #include <cmath>
 
-namespace hyoryu {
+namespace hyoryu::test_render {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Render : public testing::ResultsTest {
+class Render : public test_help::ResultsTest {
 protected:
     static RenderSettings small()
     {
@@ -82,7 +82,7 @@ void expect_picture(const fs::path& file)
 
 TEST_F(Render, MakesAPictureOfEveryFrame)
 {
-    testing::write_flood(folder, 0.08, 3);
+    test_help::write_flood(folder, 0.08, 3);
     const RenderResult result = rendered(small());
     if (!no_context.empty()) {
         GTEST_SKIP() << no_context;
@@ -97,8 +97,8 @@ TEST_F(Render, MakesAPictureOfEveryFrame)
 
 TEST_F(Render, MakesThePicturesAskedFor)
 {
-    testing::write_flood(folder, 0.1, 4);
-    testing::put_text_into(folder / "pictures/frame_000009.png", "of an earlier call");
+    test_help::write_flood(folder, 0.1, 4);
+    test_help::put_text_into(folder / "pictures/frame_000009.png", "of an earlier call");
     RenderSettings settings = small();
     settings.times = {0.21};
     const RenderResult result = rendered(settings);
@@ -106,7 +106,7 @@ TEST_F(Render, MakesThePicturesAskedFor)
         GTEST_SKIP() << no_context;
     }
     ASSERT_EQ(result.pictures.size(), 1U);
-    EXPECT_EQ(testing::content_of(folder / "pictures"),
+    EXPECT_EQ(test_help::content_of(folder / "pictures"),
               std::vector<std::string>{"frame_000002.png"});
     EXPECT_FALSE(result.animation.has_value());
     EXPECT_FALSE(result.note.empty());
@@ -116,7 +116,7 @@ TEST_F(Render, MakesThePicturesAskedFor)
 TEST_F(Render, ShowsBodiesAlone)
 {
     FrameWriter writer(folder);
-    writer.write(testing::make_timbers(0, 4));
+    writer.write(test_help::make_timbers(0, 4));
     writer.finish();
     const RenderResult result = rendered(small());
     if (!no_context.empty()) {
@@ -160,13 +160,13 @@ TEST_F(Render, ShowsWallsWhereTheyAre)
                      .triangles = {},
                      .columns = {}};
         std::vector<std::int32_t> owner;
-        testing::add_box(wall, owner, {x, 0.2, 0.5}, {0.3, 0.3, 0.4}, Mat3::Identity(), 0, false);
+        test_help::add_box(wall, owner, {x, 0.2, 0.5}, {0.3, 0.3, 0.4}, Mat3::Identity(), 0, false);
         wall.columns = {{"Wall", "", 1, owner}};
         return wall;
     };
     writer.write_static(wall_at(0, 0));
     for (std::int64_t index = 0; index < 2; ++index) {
-        Surface timber = testing::make_timbers(0, 1);
+        Surface timber = test_help::make_timbers(0, 1);
         timber.time = 0.1 * static_cast<double>(index);
         timber.index = index;
         writer.write(timber);
@@ -188,7 +188,7 @@ TEST_F(Render, ShowsAPlaneCaseFromItsSide)
         timber.points.insert(timber.points.end(), {x, 0.0F, 0.8F});
     }
     FrameWriter writer(folder);
-    writer.write(testing::make_plane_water(0, 0.05));
+    writer.write(test_help::make_plane_water(0, 0.05));
     writer.write(timber);
     writer.finish();
     const RenderResult result = rendered(small());
@@ -215,8 +215,8 @@ TEST_F(Render, FramesAreWhatVtkReads)
 {
     constexpr std::size_t points = 70000; // more than one chunk
     FrameWriter writer(folder);
-    writer.write(testing::make_cloud("fluid", 4, points));
-    writer.write(testing::make_surface(4));
+    writer.write(test_help::make_cloud("fluid", 4, points));
+    writer.write(test_help::make_surface(4));
     writer.finish();
     vtkNew<vtkHDFReader> reader;
     auto* const cloud = grid_of(reader, folder / "frames/fluid_000004.hdf");
@@ -243,8 +243,8 @@ TEST_F(Render, FramesInPartsAreWhatVtkReads)
     CloudOfParts whole{.name = "fluid", .time = 0.4, .index = 4, .points = {}, .columns = {}};
     double last = 0;
     for (const std::size_t points : {70000U, 0U, 3U, 500U}) {
-        Cloud part = testing::make_cloud("fluid", 4, points);
-        whole.columns = testing::make_cloud("fluid", 4, 0).columns;
+        Cloud part = test_help::make_cloud("fluid", 4, points);
+        whole.columns = test_help::make_cloud("fluid", 4, 0).columns;
         last = points > 0 ? part.points[3 * points - 3] : last;
         writer.write_part(std::move(part), static_cast<int>(whole.points.size()));
         whole.points.push_back(static_cast<std::int64_t>(points));
@@ -288,7 +288,7 @@ TEST_F(Render, OfNothingIsAnError)
 }
 
 } // namespace
-} // namespace hyoryu
+} // namespace hyoryu::test_render
 #else
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/view/render.hpp"

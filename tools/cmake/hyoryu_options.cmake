@@ -10,7 +10,7 @@ endif()
 
 add_library(hyoryu_options INTERFACE)
 target_compile_options(hyoryu_options INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -Wpedantic $<$<BOOL:${HYORYU_STRICT}>:-Werror>
+  -Wall -Wextra -Wconversion -Wpedantic $<$<BOOL:${HYORYU_STRICT}>:-Werror>
   # Members left out of a designated initialiser take their defaults; that is the point of them.
   -Wno-missing-field-initializers
   # In C++ GCC leaves these out of -Wconversion, as Eigen counts with signs and the standard library without.
@@ -27,6 +27,12 @@ target_compile_options(hyoryu_options INTERFACE
   # A pack wider than the registers of the target is split by the compiler; its note on that says
   # that libraries built with other flags could not exchange packs, which no interface does.
   -Wno-psabi)
+# Files that are compiled together see each other's constants, which names within functions may repeat.
+if(NOT HYORYU_UNITY)
+  target_compile_options(hyoryu_options INTERFACE -Wshadow)
+else()
+  target_compile_options(hyoryu_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
+endif()
 if(HYORYU_NATIVE)
   target_compile_options(hyoryu_options INTERFACE -march=native)
 endif()
