@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The commands and options as plain data, from which besides `--help` are made: manual pages,
-// and scripts by which shells complete command lines.
+// The commands and options as plain data: the source of the manual pages and of the scripts by
+// which shells complete command lines.
 #pragma once
 
 #include <string>

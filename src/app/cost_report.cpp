@@ -68,8 +68,9 @@ ordered_json per_fluid_particle(const ordered_json& bytes, const ordered_json& p
     return told ? ordered_json(bytes.get<double>() / fluid.get<double>()) : ordered_json();
 }
 
-// A few particles are stepped by one thread: their loops are shared out or not as the water
-// spreads, and what it takes to wake other threads is not how the work develops.
+// Limits cases with few particles to one thread: otherwise the number of threads of a loop would
+// change as the water spreads, and the time to wake threads would distort the development of the
+// work.
 class ThreadsFor {
 public:
     explicit ThreadsFor(Index particles) : before_(thread_count())
@@ -102,7 +103,7 @@ std::optional<Development> develop(const CaseSource& source, const Plan& plan, d
     const ThreadsFor threads(coarse.counts.fluid);
     Simulation sim = make_simulation(scene, coarse, filling);
     Simulation again = make_simulation(scene, coarse, filling);
-    // Small scenes have steps of a few microseconds, of which it takes more to tell.
+    // Small scenes have steps of a few microseconds, so that more of them must be timed.
     first = std::max(first, static_cast<int>(part_that_is_early * coarse.expected_steps));
     using Wall = std::chrono::steady_clock;
     const auto end = Wall::now() + std::chrono::duration<double>(3 * most_seconds);

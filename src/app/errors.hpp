@@ -10,15 +10,15 @@ namespace hyoryu {
 inline constexpr const char* out_of_memory =
     "error: out of memory; `hyoryu check` prints the memory that a case needs";
 
-/// What an exception says to a user, and the exit code for it.
+/// The message of an exception for a user, and the exit code for it.
 struct Meaning {
     std::string message;
     int code = 0;
 };
 Meaning meaning_of(const std::exception_ptr& error);
 
-/// Prints what an exception says, behind `who`, and returns the exit code for it. The code comes
-/// out even where the message cannot.
+/// Prints the message of an exception, behind `who`, and returns its exit code, even if the message
+/// cannot be printed.
 int tell_error(const std::exception_ptr& error, const std::string& who = "");
 
 } // namespace hyoryu

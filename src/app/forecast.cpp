@@ -213,7 +213,7 @@ double untimed_step(const Plan& plan, int processes)
 double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed, int processes)
 {
     double step = timed ? seconds_of_run(*timed) : untimed_step(plan, processes);
-    if (timed && plan.fluid && !timed->development) { // which would hold what enters
+    if (timed && plan.fluid && !timed->development) { // which would include entering fluid
         const auto wall = static_cast<double>(plan.counts.wall);
         step *= (mean_fluid(plan) + wall) / (static_cast<double>(plan.counts.fluid) + wall);
     }

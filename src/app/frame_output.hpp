@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Frames of a run. Of several processes each packs and writes its own particles, or those of a
-// group of processes; the first one writes what all have, and the frame over the parts.
+// group of processes; the first one writes the data that all processes have, and the frame over the
+// parts.
 #pragma once
 
 #include "hyoryu/io/results.hpp"
@@ -17,7 +18,8 @@ public:
     /// `comm`: null for one process. `groups`: of processes that write a file together.
     FrameOutput(const std::filesystem::path& folder, Comm* comm, const Groups& groups);
 
-    /// Writes what does not change during the run: wall particles and surfaces of structures.
+    /// Writes the data that do not change during the run: wall particles and surfaces of
+    /// structures.
     void write_static(const Simulation& sim, const Bounds& domain);
     void write(const Simulation& sim);
     /// Removes every frame later than `time` [s].

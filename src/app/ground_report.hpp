@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `check` tells of the grounds of a case.
+// The report of `check` on the terrains of a case.
 #pragma once
 
 #include "hyoryu/scene/scene.hpp"

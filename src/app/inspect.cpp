@@ -21,7 +21,7 @@ namespace hyoryu {
 
 namespace {
 
-// Of `check --time`.
+// Steps that `check --time` times.
 constexpr int timed_steps = 60;
 
 // Limits of the trial run that follows the developing flow: a share of the run, within bounds [s].

@@ -25,7 +25,7 @@ struct Job {
     RankLog* ranks = nullptr;
     Groups groups = {}; // of processes that write their particles to one file
     std::optional<FrameOutput> frames = {};
-    /// Those of the process that writes the histories.
+    /// Lock and histories exist only on the process that writes the histories.
     std::optional<FolderLock> lock = {};
     std::optional<Outputs> outputs = {};
     Progress progress = {};
@@ -42,7 +42,7 @@ struct Job {
     std::map<std::string, std::string> given = {}; // texts of checkpoints beside the case
 };
 
-/// What a run begins with.
+/// Input for the start of a run.
 struct Beginning {
     const RunOptions& options;
     std::filesystem::path folder;

@@ -13,7 +13,7 @@ namespace hyoryu {
 
 namespace {
 
-// What a restart needs of the outputs.
+// The state of the outputs that a restart needs.
 struct OutputState {
     std::int64_t bodies = 0, contacts = 0, energy = 0, gauges = 0,
                  open = 0; // rows of the histories

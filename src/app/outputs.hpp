@@ -10,7 +10,7 @@
 
 namespace hyoryu {
 
-/// What a pair has exchanged since the last history row.
+/// Impulses that a pair in contact has exchanged since the last row for it.
 struct RestingPair {
     double time = 0; // of the last contact [s]
     Contact sum;
@@ -23,7 +23,7 @@ public:
     Outputs(std::filesystem::path folder, const Simulation& sim);
     Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot& resumed);
 
-    // What is due, in this order; called after each step and once before the first.
+    // Output that is due, in this order; called after each step and once before the first.
     /// The contacts of the step.
     void log_contacts(const Simulation& sim);
     /// A row of the histories; `now`: its sums.
@@ -32,7 +32,7 @@ public:
     void write_gauges(const Simulation& sim, const std::vector<double>& readings);
     /// The contacts that rest since the last call: with a frame, and at the end of a run.
     void write_resting(const Simulation& sim);
-    /// Adds what a restart needs of the histories.
+    /// Adds the state of the histories that a restart needs.
     void save(Snapshot& state) const;
     /// Waits until all rows so far are on disk.
     void settle();

@@ -200,7 +200,7 @@ std::string busy_lines(const Plan& plan, const StepCost& timed)
                        readable_seconds(wall_forecast(plan, free)));
 }
 
-// What enters by open sides makes the steps longer.
+// A line on the fluid that enters through open sides, which makes the steps longer.
 std::string entering_line(const Plan& plan, const std::optional<StepCost>& timed)
 {
     if (plan.most_fluid <= plan.counts.fluid) {

@@ -12,7 +12,7 @@ namespace hyoryu {
 
 namespace {
 
-// What a process tells of itself.
+// The state that each process reports for a row of ranks.csv.
 struct RankState {
     std::array<char, 64> host{};
     double particles = 0, ghosts = 0; // of the fluid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each process of a shared run does: `ranks.csv`, and their balance.
+// The work of each process of a shared run: `ranks.csv`, and the balance of the load.
 #pragma once
 
 #include "hyoryu/io/results.hpp"

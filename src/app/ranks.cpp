@@ -41,7 +41,7 @@ int number_of(const char* variable)
     return number;
 }
 
-// How many processes the launchers of OpenMPI, MPICH and Slurm tell of; 1 without a launcher.
+// The number of processes that the launcher announces (OpenMPI, MPICH, Slurm); 1 without one.
 int processes_announced()
 {
     const int of_slurm = number_of("PMIX_RANK") >= 0 ? number_of("SLURM_NTASKS") : 1;
@@ -96,10 +96,10 @@ Function function_of(void* module, const char* name)
     return reinterpret_cast<Function>(found);
 }
 
-// Within it the process that tells of an error ends the others.
+// Time within which the process that reports an error ends the others.
 constexpr auto patience = std::chrono::seconds(10);
 
-// Whether every process meets an error, because all of them know what it follows from.
+// Whether an error occurs on every process, because all of them have the data that cause it.
 bool is_of_all(const std::exception_ptr& error)
 {
     try {
@@ -172,9 +172,9 @@ void Ranks::together(const std::function<void()>& f)
 
 void Ranks::end(const std::exception_ptr& error)
 {
-    // What all processes meet, rank 0 tells: it ends the others within the time that they wait.
-    // What some of them may meet, as a full disk, the first of those: each waits longer than those
-    // before it take to end the run.
+    // An error of all processes is reported by rank 0, which ends the others while they wait. An
+    // error of some, such as a full disk, is reported by the first of these: each process waits
+    // longer than those before it take to end the run.
     constexpr auto head_start = std::chrono::milliseconds(1000);
     constexpr auto each_later = std::chrono::milliseconds(200);
     if (const int rank = comm_->rank(); rank > 0) {

@@ -25,10 +25,10 @@ public:
 
     /// Null for a process that is alone.
     CountedComm* comm() { return comm_ ? &*comm_ : nullptr; }
-    /// Does what any of the processes may fail to do. If some do, the first of them tells why, and
-    /// all end.
+    /// Calls f, which may fail on any process. If it fails on some, the first of them reports the
+    /// error, and all processes end.
     void together(const std::function<void()>& f);
-    /// Tells of an error, once for all processes, and ends them with its exit code.
+    /// Reports an error, once for all processes, and ends them with its exit code.
     [[noreturn]] void end(const std::exception_ptr& error);
 
 private:
@@ -38,11 +38,11 @@ private:
     void* module_ = nullptr;
 };
 
-/// Whether this process speaks for all before they are connected: it is alone, or the first one by
-/// what its environment says.
+/// Whether this process prints messages for all before the processes are connected: it is alone, or
+/// rank 0 according to its environment.
 bool is_first();
 
-/// Of this machine.
+/// The name of this machine.
 std::string host_name();
 
 /// The processes that fill a case together, with the part of them that is on this machine.
@@ -51,17 +51,17 @@ Fillers fillers_of(Comm* comm);
 /// Whether this process is the one that writes: alone, or rank 0.
 bool writes(const Comm* comm);
 
-/// What processes that share a run must have in common.
+/// A text that must be the same on all processes that share a run.
 struct Common {
     std::string what; // "case", for the message
     std::string text; // that must be the same
 };
-/// Throws CaseError, on all processes, where it is not: they would wait for each other for ever, or
-/// compute what neither case says.
+/// Throws CaseError, on all processes, if one of the texts differs: the processes would wait for
+/// each other for ever, or compute a mixture of the cases.
 void expect_common(Comm* comm, const std::vector<Common>& things);
 
-/// Decisions that depend on a clock or a signal, which must be those of all processes: whether any
-/// of them wishes each of some things.
+/// Makes decisions that depend on a clock or a signal common to all processes: for each wish,
+/// returns whether any process has it.
 template <std::size_t n>
 std::array<bool, n> any_wishes(Comm* comm, std::array<bool, n> wishes)
 {

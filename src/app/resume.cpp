@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the differences that a refusal lists.
+// Most differences that a refusal lists.
 constexpr std::size_t most_listed = 20;
 // Between overrides in a checkpoint: none of them holds it.
 constexpr char separator = '\0';
@@ -54,7 +54,7 @@ constexpr char separator = '\0';
     throw CaseError(mistakes);
 }
 
-// Without a file that can be read, nothing.
+// The case as the user gave it; empty if its file cannot be read.
 GivenCase given_case(const RunOptions& options)
 {
     return why_unreadable(options.case_file, largest_text).empty()

@@ -40,8 +40,8 @@ fs::path results_folder(const RunOptions& options)
                                   : options.folder;
 }
 
-// Tells what needs the memory: particles, or the histories of very many steps.
-// `part`: of the particles that are on this machine.
+// Throws CaseError if the memory does not suffice; the hint names the cause: particles, or the
+// histories of very many steps. `part`: of the particles that are on this machine.
 void check_memory(const Scene& scene, const Plan& plan, double part)
 {
     const double memory = machine_memory();
@@ -79,7 +79,8 @@ Closing closing_of(const Job& job)
     return now;
 }
 
-// What is on disk at the end, whatever its reason. `now`: the state of all processes.
+// Writes the summary and results.h5 at the end, whatever its reason. `now`: the state of all
+// processes.
 void write_closing(Job& job, const std::string& reason, const Closing& now)
 {
     write_text(job.folder / "summary.json",
@@ -151,10 +152,10 @@ bool step_or_recover(Job& job)
     }
 }
 
-// What is to be done after a step; of all processes the last in this order.
+// The action after a step. Of the requests of all processes, the last one in this order counts.
 enum class Request : std::uint8_t { none, checkpoint, stop };
 
-// Processes that share fluid know from the survey of the step what any of them wished before it.
+// Processes that share fluid get the largest request of all from the survey of the step.
 Request request_of_all(Job& job, Request now)
 {
     if (job.comm != nullptr && job.sim.fluid) {

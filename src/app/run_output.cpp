@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run writes while it goes on.
+// Output of a run in progress: histories, frames and checkpoints.
 #include "job.hpp"
 
 #include "ranks.hpp"
@@ -13,7 +13,7 @@ namespace hyoryu {
 
 namespace {
 
-// What the process that writes the histories does meanwhile, for the summary.
+// Times a stage of output for the summary, on the process that writes the histories.
 class Stage {
 public:
     Stage(Job& job, const char* name) : job_(job)
@@ -35,7 +35,7 @@ private:
     Job& job_;
 };
 
-// What the process that writes the histories adds to its state.
+// Data that the process that writes the histories adds to its state.
 Snapshot beside_simulation(const Job& job)
 {
     Snapshot more;

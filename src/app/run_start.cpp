@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a run begins: the folder and its files, the simulation, and the first output.
+// The start of a run: the folder and its files, the simulation, and the first output.
 #include "build_info.hpp"
 #include "cost_report.hpp"
 #include "forecast.hpp"
@@ -52,7 +52,8 @@ void check_disk(const fs::path& folder, const Scene& scene, const Plan& plan)
     }
 }
 
-// The case itself may lie in the folder and be named as a run names its copy.
+// Refuses to overwrite the case: it may lie in the folder under the name of the copy that a run
+// makes.
 void keep_the_case(const RunOptions& options, const fs::path& folder, const std::string& case_text)
 {
     std::error_code fault;
@@ -85,7 +86,7 @@ Groups groups_of(const Beginning& from)
     return from.comm == nullptr ? Groups{} : group_ranks(from.comm->size(), from.options.parts);
 }
 
-// What processes begin with that do not write.
+// The job of a process that does not write.
 Job follower(const Beginning& from, Simulation sim)
 {
     return {.folder = from.folder,
@@ -146,7 +147,8 @@ void continue_folder(const Beginning& from, const Resumption& state)
     }
 }
 
-// Puts the state of a checkpoint into the simulation, and returns what is not of the particles.
+// Puts the state of a checkpoint into the simulation, and returns the data that do not belong to
+// particles.
 Snapshot take_up(const Beginning& from, Resumption& found, Simulation& sim)
 {
     if (from.comm == nullptr && found.parts.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How bodies float and what the resolution means, as text and as JSON of a plan.
+// Flotation of bodies and consequences of the resolution, as text and as JSON of a plan.
 #pragma once
 
 #include "hyoryu/scene/plan.hpp"

@@ -8,7 +8,7 @@ namespace hyoryu {
 
 namespace {
 
-// A signal handler can reach nothing else.
+// A signal handler may set a variable of this type only.
 volatile std::sig_atomic_t requested = 0;
 
 void request(int)

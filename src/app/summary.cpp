@@ -103,7 +103,7 @@ ordered_json open_sides(const Simulation& sim, Index fluid)
             {"bodies_left", bodies_left(sim)}};
 }
 
-// What has run, and how far.
+// Adds the program, the extent and the settings of the run.
 void add_run(ordered_json& json, const Simulation& sim, const std::string& exit_reason,
              double wall_seconds)
 {
@@ -151,7 +151,7 @@ ordered_json momenta(const Simulation& sim, const Totals& end)
 
 double peak_memory()
 {
-    // What getrusage tells is that of the process that started this one, where that was larger.
+    // getrusage reports the peak of the process that started this one if that peak was larger.
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);) {
         double kib = 0;

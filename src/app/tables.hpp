@@ -16,9 +16,9 @@ Table bodies_table(int dimensions);
 Table contacts_table(int dimensions);
 /// ranks.csv: what each process of a shared run does, since the start of the program.
 Table ranks_table();
-/// energy.csv; with open sides also what these gave.
+/// energy.csv; with open sides also their energy and impulse.
 Table energy_table(const Scene& scene);
-/// open.csv: level, velocity and discharge of each open side, and what has passed it.
+/// open.csv: level, velocity and discharge of each open side, and the volumes that have passed it.
 Table open_table(const Scene& scene);
 Table gauges_table(std::vector<Table::Head> gauges);
 

@@ -175,7 +175,7 @@ ExpectedError pressure_at_rest(const Scene& scene, const Plan& plan, double dept
         expected.halving = fmt::format("fluid.sound_speed = {:.3g}: {:.2g} times the cost",
                                        plan.fluid->eos.c0 * *halved / k, *halved / k);
     } else if (std::isfinite(expected.error)) {
-        expected.halving = "nothing that was studied: its floor is near";
+        expected.halving = "no studied setting: the error is close to its floor";
     }
     return unless_covered(std::move(expected), not_covered(still_water_study, scene, plan, depth));
 }
@@ -202,7 +202,7 @@ double longest_edge(const BodySettings& body, int dimensions)
     return (box.max - box.min).maxCoeff();
 }
 
-// Of bodies in water no study has converged.
+// No error is given for the motion of bodies in water: no study of it has converged.
 ExpectedError motion_in_water()
 {
     return {.quantity = "motion of bodies in contact, in water",

@@ -169,7 +169,7 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
     return check;
 }
 
-// Gauges that see the waves half a wavelength apart see the same: three tell it.
+// Two gauges half a wavelength apart record the same wave; a third one resolves the ambiguity.
 constexpr std::size_t fewest_gauges = 3;
 
 WaveGauges read_waves(Section& section)

@@ -30,10 +30,10 @@ namespace {
         }
     }
     if (known.empty()) {
-        throw FormulaError(fmt::format("nothing is named \"{}\"; there are no names", name));
+        throw FormulaError(fmt::format("unknown name \"{}\"; no names are defined", name));
     }
     const std::string near = did_you_mean(name, known);
-    throw FormulaError(fmt::format("nothing is named \"{}\"; {}", name,
+    throw FormulaError(fmt::format("unknown name \"{}\"; {}", name,
                                    near.empty() ? "there are: " + quoted_list(known) : near));
 }
 

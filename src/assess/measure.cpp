@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One number out of many.
+// The measures of benchmarks: each reduces the samples of a run to one number.
 #include "hyoryu/assess/measure.hpp"
 
 #include "hyoryu/assess/fit.hpp"

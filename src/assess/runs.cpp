@@ -159,7 +159,7 @@ void append_run(Section& section, const Constants& constants, Tier tier,
         }
         if (!is_folder_name(run.name)) {
             section.error("name",
-                          fmt::format("the run \"{}\" cannot give its name to a folder", run.name),
+                          fmt::format("the run name \"{}\" is not a valid folder name", run.name),
                           "leave `/`, `\\` and control characters out");
             return;
         }

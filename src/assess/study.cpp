@@ -103,7 +103,7 @@ StudySweep read_sweep(Section& section)
         section.error("", "give one of `values` and `choices`");
     }
     if (!has_choices && !section.has("set") && !section.has("key")) {
-        section.error("", "says nothing to vary", "give `key`, or `set` with a `name`");
+        section.error("", "does not name a setting to vary", "give `key`, or `set` with a `name`");
     }
     sweep.key = section.text("key");
     if (section.has("key") && sweep.key.empty()) {

@@ -95,7 +95,7 @@ std::size_t finest_like(const StudyResult& result, std::size_t k)
     return static_cast<std::size_t>(found - result.runs.begin());
 }
 
-// Whether the run stands on a ladder: another has its texts and other numbers.
+// Whether the run is part of a refinement: another run has the same texts and other numbers.
 bool has_finer_and_coarser(const StudyResult& result, std::size_t k)
 {
     const auto& own = result.runs[k].run.value_of;

@@ -122,7 +122,7 @@ std::string interval(const std::optional<Power>& power, double sign)
 
 constexpr const char* no_fall = "does not fall";
 
-// Of the error in the cost, which falls where the exponent is negative.
+// The fit of the error over the cost. The error falls if the exponent is negative.
 std::string floor_text(const std::optional<PowerWithFloor>& fit)
 {
     if (!fit) {
@@ -133,7 +133,8 @@ std::string floor_text(const std::optional<PowerWithFloor>& fit)
                              : no_fall;
 }
 
-// Of the error in the swept number, which falls towards the finest where the exponent is positive.
+// The fit of the error over the swept number. The error falls towards the finest number if the
+// exponent is positive.
 std::string order_and_floor(const std::optional<PowerWithFloor>& fit)
 {
     if (!fit) {

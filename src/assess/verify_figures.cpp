@@ -94,7 +94,7 @@ DrawnFigures draw_figures(const std::vector<BenchmarkResult>& results, const fs:
         for (const Figure& figure : result.benchmark.figures) {
             std::string why = missing_runs(result, figure);
             why = why.empty() ? why : fmt::format("without results of {}", why);
-            // A picture that cannot be made takes nothing from the verdicts.
+            // A figure that cannot be drawn does not affect the verdicts.
             try {
                 if (why.empty()) {
                     figures.files[result.benchmark.name].push_back(

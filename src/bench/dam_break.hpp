@@ -14,8 +14,8 @@ inline constexpr double reference_volume = 0.4 * 0.67 * 0.3;
 /// [m]: artificial viscosity 0.05, sound speed 20 sqrt(g H), the other effects as by default.
 Simulation make_dam_break(double spacing);
 
-/// Steps until that time [s], or from the state that `folder` keeps if it fits the scene; keeps the
-/// state there otherwise. An empty folder keeps nothing.
+/// Advances to that time [s], or restores the state in `folder` if it fits the scene. A state that
+/// was computed is saved there; with an empty folder nothing is saved.
 void develop(Simulation& sim, double time, const std::filesystem::path& folder);
 
 /// Times steps from the present state on, by one thread and by all in turn.

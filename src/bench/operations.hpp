@@ -11,7 +11,8 @@
 
 namespace hyoryu::bench {
 
-/// The operations so far; equal ones are one, as a compiler would find them.
+/// The operations recorded so far. Equal ones count once, as after common subexpression
+/// elimination.
 class Operations {
 public:
     /// A value from outside: a field of a particle, or a parameter.

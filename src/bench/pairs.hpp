@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pairs that count.
+// The number of interacting pairs in a neighbour list.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"

@@ -34,7 +34,7 @@ double stage_sum(const StepRates& rates, double StageTime::*which)
                            [&](double sum, const StageTime& stage) { return sum + stage.*which; });
 }
 
-/// Share of a step by one thread that does not become faster by more: Amdahl's law turned round.
+/// Serial share of a step by Amdahl's law, from the times with one thread and with all threads.
 double serial_share(const StepRates& r)
 {
     return r.threads > 1 ? (r.threads * r.all / r.one - 1) / (r.threads - 1) : 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Counting sort of points into the cells of a uniform grid.
 #include "hyoryu/core/cell_grid.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -10,7 +11,8 @@ namespace hyoryu {
 
 namespace {
 
-// More cells than this would cost more than they save; the cells grow instead.
+// Upper limit of the number of cells, above which they cost more than they save; beyond it the
+// cells are made larger.
 constexpr real most_cells = 5e7;
 
 struct Bounds {

@@ -14,7 +14,8 @@ namespace hyoryu {
 
 namespace {
 
-// In the order of the file; of many, the first and how many more there are.
+// Lists the mistakes in the order of the file; of many, the first ones and the number of the
+// others.
 std::vector<Diagnostic> sorted(std::vector<Diagnostic> diagnostics)
 {
     constexpr std::size_t most = 100;
@@ -79,7 +80,7 @@ std::string unguarded_text(const Diagnostic& d)
 
 } // namespace
 
-// What a user typed is quoted in messages and must not steer a terminal.
+// Messages quote user input, which must not send control characters to a terminal.
 std::string to_string(const Diagnostic& diagnostic)
 {
     return printable(unguarded_text(diagnostic));

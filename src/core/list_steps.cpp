@@ -15,7 +15,8 @@ using Words = std::uint16_t __attribute__((vector_size(16)));
 using Bytes = std::uint8_t __attribute__((vector_size(16)));
 static_assert(steps_together == sizeof(Bytes));
 
-// Eight steps from the numbers before, their low bytes at even places, their high ones at odd.
+// Eight differences between consecutive numbers; low bytes at even places, high bytes at odd
+// places.
 Bytes eight_steps(const std::uint16_t* number)
 {
     Words to, from;
@@ -24,7 +25,7 @@ Bytes eight_steps(const std::uint16_t* number)
     return reinterpret_cast<Bytes>(to - from);
 }
 
-// The farthest number that is nothing and one step away.
+// The farthest first slot of a padding chunk that one step reaches.
 int nothing_after(int number)
 {
     constexpr int period = nothing_period * chunk_slots;
@@ -32,7 +33,8 @@ int nothing_after(int number)
     return (number + widest_step - first) / period * period + first;
 }
 
-// Writes steps from the numbers before; returns how many come before one that is too wide.
+// Writes up to `steps_together` steps; returns how many of them precede the first step that is too
+// wide for one byte.
 std::size_t write_together(const std::uint16_t* number, std::uint8_t* step)
 {
     const Bytes a = eight_steps(number);
@@ -43,12 +45,12 @@ std::size_t write_together(const std::uint16_t* number, std::uint8_t* step)
         __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
     std::memcpy(step, &low, sizeof low);
     std::uint64_t parts[2];
-    std::memcpy(parts, &high, sizeof high); // none of their bits is set in a step of one byte
+    std::memcpy(parts, &high, sizeof high); // zero for every step that fits into one byte
     const int first = parts[0] != 0 ? std::countr_zero(parts[0]) : 64 + std::countr_zero(parts[1]);
     return static_cast<std::size_t>(first / 8);
 }
 
-// Steps from one number to another, over what is nothing between them; returns their end.
+// Writes the steps from one number to another by way of padding chunks; returns their end.
 std::uint8_t* write_way(int from, int number, std::uint8_t* step)
 {
     while (number - from > widest_step) {
@@ -60,7 +62,7 @@ std::uint8_t* write_way(int from, int number, std::uint8_t* step)
     return step;
 }
 
-// Steps from the last number to what is nothing, up to a whole pack; returns how many there are.
+// Pads a list to whole packs with a slot of a padding chunk; returns the number of steps.
 std::size_t fill_up(int number, std::size_t chunks, int lanes, std::uint8_t* first,
                     std::uint8_t* end)
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Builds neighbour lists tile by tile: chunks of eight points within the radius of the bounds of a
+// tile are collected as candidates, then each point is tested against these candidates.
 #include "hyoryu/core/neighbours.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -19,12 +21,12 @@ const ListLoops* loops_of(InstructionSet set)
         set, []<int bytes>(RegisterSizes<bytes>) { return list_loops<bytes>(); }, CompiledSets{});
 }
 
-// Chunks whose slots 16 bits can number.
+// Largest number of chunks whose slots can be numbered with 16 bits.
 constexpr std::size_t most_chunks_of_a_block = 65536 / chunk_slots;
-// Rounding of single precision, as a share of an edge of a tile: what positions and squared
-// distances lose.
+// Bound on the rounding error of positions and squared distances in single precision, relative to
+// the edge of a tile.
 constexpr float rounding = 2e-6F;
-// Positions of no point: their squared distances are finite and beyond every radius.
+// Coordinate of padding points: their squared distances are finite and exceed every radius.
 constexpr float far = 1e15F;
 
 ChunkBox shifted(ChunkBox box, const std::array<float, 3>& step)
@@ -84,7 +86,8 @@ private:
         return destination_.box[at(destination_.chunk_start[at(tile_)] + chunk)];
     }
 
-    // Lists of [first, last), or of its halves if they look at more than 16 bits can number.
+    // Builds the lists of [first, last), or of its two halves if the candidates need more than 16
+    // bits.
     void list_slots(Index first, Index last)
     {
         if (!any_wanted(first, last)) {
@@ -105,7 +108,7 @@ private:
         }
     }
 
-    // The chunks of the sources that any point of [first, last) may meet.
+    // Collects the source chunks that lie within the radius of the bounds of [first, last).
     void collect(Index first, Index last)
     {
         shop_.chunks.clear();
@@ -178,7 +181,7 @@ private:
         }
     }
 
-    // The bounds of one more chunk, none of whose points is anywhere yet; returns its place.
+    // Appends the bounds of a chunk and sets its points to padding; returns the index of the chunk.
     std::size_t add_box(const ChunkBox& box)
     {
         const std::size_t place = shop_.chunks.size();
@@ -196,7 +199,7 @@ private:
         shop_.chunks.push_back({0, {0, 0, 0}, 0});
     }
 
-    // Room for so many chunks and what the loops see behind them.
+    // Makes room for the given number of chunks and for the spare chunks that the loops read.
     void reserve(std::size_t chunks)
     {
         if (chunks + spare_chunks > shop_.low[0].size()) {
@@ -208,7 +211,7 @@ private:
         }
     }
 
-    // The lists of [first, last); returns the number of their entries.
+    // Builds the lists of [first, last); returns the number of their entries.
     std::size_t filter(Index first, Index last)
     {
         const std::size_t chunks = shop_.chunks.size();
@@ -239,8 +242,8 @@ private:
         return count;
     }
 
-    // Finds the numbers of the candidates that are near a point and not of its own owner; returns
-    // how many.
+    // Finds the candidates within the radius of a point that have another owner; returns their
+    // count.
     std::size_t find_near(Index k, const Candidates& all)
     {
         std::uint16_t* const number = shop_.numbers.data();
@@ -323,7 +326,7 @@ void PairList::clear()
 
 void PairList::mark_met(std::vector<std::uint8_t>& marks) const
 {
-    // Blocks may mark the same slot at once; whichever comes last, it is marked.
+    // Several threads may mark the same slot at once; all of them write the same value.
     parallel_blocks(0, static_cast<Index>(blocks_.size()), [&](Index block) {
         for_each_pair_of(blocks_[at(block)], [&](Index, Index j) {
             std::atomic_ref(marks[at(j)]).store(1, std::memory_order_relaxed);

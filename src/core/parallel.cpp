@@ -15,8 +15,8 @@ namespace hyoryu {
 
 namespace {
 
-// Starts the other threads of a loop once. OpenMP would end the program by itself, with a message
-// of its own, where one of them cannot be started.
+// Starts the threads of a loop once as a test: if OpenMP cannot start a thread, it ends the program
+// with a message of its own.
 void expect_threads(int threads)
 {
     std::latch all(1);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Sorting of points into tiles: cell keys from Morton numbers of the tiles and a Hilbert curve
+// within each tile, ordered by a parallel radix sort.
 #include "hyoryu/core/tiles.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -15,7 +17,7 @@ namespace {
 constexpr int cell_bits = 6; // of a cell number, within its tile
 constexpr std::uint64_t outside = ~std::uint64_t(0);
 
-// The lowest 21 bits of a number, two zeros after each, and back.
+// `spread` inserts two zero bits after each of the lowest 21 bits; `gather` is the inverse.
 std::uint64_t spread(std::uint64_t a)
 {
     a &= 0x1fffff;
@@ -44,9 +46,9 @@ std::uint64_t interleave(const std::array<std::int64_t, 3>& a)
            spread(static_cast<std::uint64_t>(a[2])) << 2;
 }
 
-// Where each cell of a tile, numbered x + 4 y + 16 z, comes along a Hilbert curve of two levels:
-// cells that follow each other touch, so that eight points in a row fill a small box. Source:
-// Skilling (2004), Programming the Hilbert curve.
+// Position of each cell of a tile, numbered x + 4 y + 16 z, along a Hilbert curve of two levels.
+// Consecutive cells touch, so that eight consecutive points fill a small box. Source: Skilling
+// (2004), Programming the Hilbert curve.
 constexpr std::array<std::uint8_t, 64> hilbert_order()
 {
     std::array<std::uint8_t, 64> order{};
@@ -73,7 +75,7 @@ constexpr std::array<std::uint8_t, 64> hilbert_order()
 }
 constexpr std::array<std::uint8_t, 64> place_along_curve = hilbert_order();
 
-// So many values, and no more room than that: growing by itself a vector takes twice what it had.
+// Resizes a vector without spare capacity; a vector that grows by itself doubles its capacity.
 template <class T>
 void make_room(std::vector<T>& values, std::size_t count)
 {
@@ -81,9 +83,9 @@ void make_room(std::vector<T>& values, std::size_t count)
     values.resize(count);
 }
 
-// Stable sort by digits of 11 bits. Every chunk of rows counts its digits and later moves its rows
-// to places known beforehand, so that chunks go in parallel and their number alone, not that of the
-// threads, lays out the work.
+// Stable sort by digits of 11 bits. Every chunk of rows counts its digits; prefix sums then give
+// each chunk the places of its rows. The chunks run in parallel, and their number does not depend
+// on the number of threads.
 class RadixSort {
 public:
     RadixSort(SortSpace& space, Index count) : space_(space), count_(count)
@@ -155,8 +157,8 @@ private:
     Index chunks_ = 1;
 };
 
-// Puts the rows of each cell into the order of their numbers. A block of keys has the cells that
-// begin in it: the order of one cell has one writer.
+// Sorts the rows of each cell by the numbers of their points. A block of keys handles the cells
+// that begin in it, so that each cell has one writer.
 void order_cells(SortSpace& space, Index count, std::span<const std::int64_t> id)
 {
     constexpr Index block = 1024;
@@ -204,7 +206,7 @@ std::uint64_t TileLattice::cell_of(const Vec3& point) const
     for (std::size_t axis = 0; axis < 3; ++axis) {
         auto place =
             static_cast<std::int64_t>(std::floor(scaled[static_cast<Index>(axis)])) + reach;
-        if (period[axis] > 0) { // what rounding puts on the far side belongs to the last cell
+        if (period[axis] > 0) { // a point that rounding puts past the end belongs to the last cell
             place = std::min(place, reach + cells * period[axis] - 1);
         }
         tile[axis] = place / cells;
@@ -272,7 +274,7 @@ Vec3 TileLattice::wrapped(const Vec3& point) const
     return image;
 }
 
-// Whole periods are taken off, so that the image is as exact as the point.
+// Subtracts whole periods, so that the image is as exact as the point.
 Vec3 TileLattice::image_near(const Vec3& point, const Vec3& other) const
 {
     Vec3 image = point;

@@ -13,8 +13,8 @@ namespace hyoryu {
 
 namespace {
 
-// Rounding of single precision, as a share of an edge of a tile: what positions and squared
-// distances lose.
+// Bound on the rounding error of positions and squared distances in single precision, relative to
+// the edge of a tile.
 constexpr float rounding_of_cells = 2e-6F;
 
 using Step = std::array<float, 3>;
@@ -26,7 +26,7 @@ struct OtherChunk {
     Index first = 0, last = 0;
 };
 
-// Those that are tested together.
+// The chunks of the other set that are tested together.
 struct Batch {
     std::array<OtherChunk, 256> chunk;
     std::size_t count = 0;
@@ -132,7 +132,8 @@ private:
         batch.count = 0;
     }
 
-    // Marks the points of a chunk that are near one of another; returns how many more that are.
+    // Marks the points of a chunk that are near a point of another; returns the number of new
+    // marks.
     Index mark_chunk(Index first, Index last, const OtherChunk& other) const
     {
         Index found = 0;

@@ -97,7 +97,7 @@ void collect_wall_forces(const Fluid& fluid, std::size_t walls, OwnerSums<3>& su
     };
     const FixedUnit unit = sum_units(fluid.parameters).force;
     sums.begin(walls, {unit, unit, unit});
-    // Dry walls feel nothing, but for friction of the step before.
+    // On walls away from fluid only the friction of the last step may act.
     const std::vector<std::int32_t>& wet = fluid.neighbours.wet_walls;
     const bool all = force.has_friction();
     parallel_blocks(0, all ? tiles.tiles() : static_cast<Index>(wet.size()), [&](Index k) {

@@ -244,7 +244,7 @@ private:
     }
 
     // Particles belong to the nearer of two opposite faces, those in the middle to both: the films
-    // of a thin body on one side are nothing to the joint on the other.
+    // on one side of a thin body do not affect the joint on the other side.
     double half_depth(const auto& depth) const
     {
         double least = infinity;

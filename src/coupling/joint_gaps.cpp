@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Finds near solids by a sweep along x, and casts a ray from each cell of a face to them.
 #include "joint_gaps.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ void find_near_walls(JointTables& tables, int b, const Vec3& centre)
     }
 }
 
-// Spheres about the bodies meet; those that start left of its right end are looked at.
+// Sweep along x: tests bodies whose bounding spheres begin left of the right end of this one.
 void find_near_bodies(JointTables& tables, const std::vector<Pose>& poses, int b)
 {
     std::vector<int>& near = tables.bodies[at(b)].near;

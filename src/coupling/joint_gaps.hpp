@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which cells of a body's faces lie opposite another solid, and how far off.
+// Finds by ray casting which cells of a body's faces lie opposite another solid, and the gap there.
 #pragma once
 
 #include "joint_faces.hpp"
@@ -15,7 +15,7 @@ namespace hyoryu {
 struct JointNode {
     static constexpr int none = std::numeric_limits<int>::max();
     int other = none;     // opposite: a body, -1 - (index of the boundary), or none
-    bool sealed = false;  // no water gets in
+    bool sealed = false;  // no water enters
     double gap = 0;       // [m]
     double opening = 0;   // speed at which the two faces part [m/s]
     double mass = 0;      // that parts from the other side: reduced of two bodies [kg]
@@ -67,7 +67,7 @@ struct OtherHit {
 OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, int b,
                      const Ray& ray, const RayPart& part);
 
-/// What water does in the gap between two faces.
+/// The kind of the gap between two faces: no joint, sealed, or open to water.
 enum class JointKind { none, sealed, open };
 
 /// The joint of body b and another solid, if it belongs to the cells of b; `normal` is that of the

@@ -9,15 +9,15 @@ namespace hyoryu {
 
 namespace {
 
-constexpr int most_rounds = 8; // three where a half-wet rim changes sides
+constexpr int most_rounds = 8; // three if the flow through a half-wet rim reverses
 
 // One row: -below q[c-1] + own q[c] - above q[c+1] = right.
 struct LineRow {
     double below = 0, own = 1, above = 0, right = 0;
 };
 
-// Of a line that is wet all along, whatever `pressure` says: that only tells which way the water
-// goes at the rims.
+// Sets up the equations of a completely wet line; `pressure` only decides the directions of flow at
+// the rims.
 LineRow row_of(const JointWays& ways, std::span<const double> pressure, int cell)
 {
     const double own = pressure[static_cast<std::size_t>(cell)];
@@ -34,8 +34,8 @@ LineRow row_of(const JointWays& ways, std::span<const double> pressure, int cell
     return row.own > 0 ? row : LineRow{0, 1, 0, own};
 }
 
-// Elimination without pivoting: the rows are diagonally dominant. A piece of the line that nothing
-// flows out of keeps the pressure of its last cell.
+// Elimination without pivoting: the rows are diagonally dominant. A section of the line without
+// outflow keeps the pressure of its last cell.
 std::vector<double> eliminate(std::span<const double> before, std::vector<LineRow>& rows)
 {
     constexpr double round_off = 1e-12;
@@ -62,7 +62,7 @@ double open_conductance(const JointWay& way, double own, std::span<const double>
         return way.conductance * (way.pressure > own ? way.enters : 1);
     }
     const double its = pressure[static_cast<std::size_t>(way.next)];
-    return its > 0 || its + way.rise < own ? way.conductance : 0; // air gives none
+    return its > 0 || its + way.rise < own ? way.conductance : 0; // none out of air
 }
 
 double balanced(const JointWays& ways, std::span<const double> pressure, int cell)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Seepage through a gap of uniform width: div grad (p - rho0 g . x) = 0 within the joint, p of the
-// fluid at rims and where particles of the fluid have come in between, no flow through rims that
-// another solid closes. Finite volumes on the cells of a face; p >= 0 by projection, since the
-// joint bears no tension (successive over-relaxation with projection: Cryer 1971).
+// Seepage through a gap of uniform width: div grad (p - rho0 g . x) = 0 within the joint, with the
+// pressure of the fluid at rims and where fluid particles lie between the faces, and no flow
+// through rims that another solid closes. Finite volumes on the cells of a face; p >= 0 by
+// projection, since the joint bears no tension (successive over-relaxation with projection: Cryer
+// 1971).
 #include "joint_pressure.hpp"
 
 #include "joint_line.hpp"
@@ -15,18 +16,19 @@ namespace hyoryu {
 
 namespace {
 
-// Sweeps end when one changes less than this of the largest pressure: round-off in two dimensions,
-// where they are cheap and mirrored scenes have to stay so, less in space.
+// Sweeps end when the largest change is below this part of the largest pressure: round-off in two
+// dimensions, where sweeps are cheap and mirrored scenes must stay symmetric; a looser value in
+// space.
 constexpr int most_sweeps = 2000;
 constexpr double settled_flat = 1e-14;
 constexpr double settled_in_space = 1e-8;
 
-// A gap beside a rim that is narrower than this holds too few columns of particles for a true
-// pressure (measured: up to three spacings too much at its bottom).
+// A gap beside a rim narrower than this holds too few columns of particles for a reliable pressure
+// (measured: up to three spacings of water too much at its bottom).
 constexpr double widest_gap = 4; // spacings
 
-// The share of its conductance that a rim keeps beside a gap of that many spacings: where the joint
-// has a rim in open water that one decides, and a joint between two gaps still fills.
+// The share of its conductance that a rim keeps beside a gap of the given width in spacings. If the
+// joint also has a rim in open water, that rim dominates; a joint between two gaps still fills.
 double through_gap(double gap)
 {
     constexpr double narrow = 3;
@@ -36,9 +38,9 @@ double through_gap(double gap)
 
 // Fluid particles between the two faces.
 struct Filled {
-    double taken = 0;    // share of the film forces that is kept beside them, 0 to 1
-    double pushes = 0;   // share of their pressure that acts on the faces by them and these films
-    double pressure = 0; // theirs, at the centre of the cell [Pa]
+    double taken = 0;    // share of the film forces that is kept, 0 to 1
+    double pushes = 0;   // share of their pressure that they and these films transmit
+    double pressure = 0; // of these particles, at the centre of the cell [Pa]
     double trapped = 0;  // share of a gap too narrow for a row of them that they fill, 0 to 1
 };
 
@@ -94,7 +96,8 @@ private:
         return edge < 2 ? face_.dv / face_.du : face_.du / face_.dv;
     }
 
-    // All ways out of a cell but those to its neighbours; whether water enters by any.
+    // Sets the flow paths of a cell to its neighbours and rims; returns whether water enters
+    // through a rim.
     bool find_ways(int c)
     {
         look_inside(c);
@@ -114,7 +117,7 @@ private:
         return open;
     }
 
-    // Whether a cell ends at a place that no other solid closes.
+    // Whether any cell has a rim that no other solid closes.
     bool has_rim()
     {
         for (int c = face_.first; c < face_.last; ++c) {
@@ -127,7 +130,7 @@ private:
         return false;
     }
 
-    // Particles of the fluid between the faces, for which there is room from half a spacing on.
+    // Evaluates the fluid particles between the faces; they fit from a gap of half a spacing on.
     void look_inside(int c)
     {
         double wet = 0;
@@ -146,7 +149,7 @@ private:
                      width < 1 ? std::min(rows / std::max(width, 1e-3), 1.0) : 0};
     }
 
-    // Whether the particles at a cell are too far from every open rim to see fluid outside.
+    // Whether the particles at a cell are farther than the support from every open rim.
     bool sheltered(int c)
     {
         for (int edge = 0; edge < edges_; ++edge) {
@@ -166,8 +169,8 @@ private:
         return true;
     }
 
-    // Water or air beyond the rim, or a solid nearer than a spacing that closes it. What is sealed
-    // is dry at its rims.
+    // The flow path through a rim, to water or air; none if a solid nearer than a spacing closes
+    // the rim. No water enters a sealed joint.
     JointWay rim(int c, int edge)
     {
         const Pose& pose = poses_[at(b_)];
@@ -175,7 +178,7 @@ private:
         const Vec3 outward =
             pose.orientation * ((edge % 2 == 0 ? -1 : 1) * (edge < 2 ? face_.u : face_.v));
         const Ray ray{place - 0.5 * fluid_.spacing * node(c).normal, outward};
-        const double room = 0.9; // that a particle needs
+        const double room = 0.9; // least width for a particle
         const RayPart part{-overlap_of(tables_), widest_gap * fluid_.spacing};
         const double gap = first_other(tables_, poses_, b_, ray, part).hit.enter / fluid_.spacing;
         if (gap < room) {
@@ -185,9 +188,9 @@ private:
         if (node(c).sealed) {
             return way;
         }
-        // Where the face goes on beyond what it rests on, its water lies below the next cell.
-        // Beside what the face rests on half of a row is missing there, and to a gap of the lattice
-        // more: a quarter of it is water.
+        // If the face extends beyond its support, the water lies below the next cell. Beside the
+        // support half of a row of particles is missing there, and more because of gaps in the
+        // lattice: a quarter of the row counts as water.
         const int next = cell(c).next[at(edge)];
         const int probe = cell(next >= 0 ? next : c).probe[at(edge)];
         if (probe >= 0) {
@@ -209,7 +212,7 @@ private:
         return std::max(fluid_.p[row] + fluid_.weight.dot(place - fluid_.x[row]), 0.0);
     }
 
-    // The hydrostatic field of the mean of the ways by which water enters.
+    // Starts from the hydrostatic pressure of the mean head at the rims through which water enters.
     void start()
     {
         double head = 0;
@@ -235,16 +238,16 @@ private:
     // Water that enters through the rim while the faces separate is accelerated: by Bernoulli's law
     // the pressure falls by rho u^2 / 2, u the flow divided by the wet section of the rim; the dry
     // part admits air. The section counts as at least a spacing high: the unevenness of real
-    // joints. Implicit in the speed of separation, to which the pressure of the joint, less the
-    // weight, adds within the step: that of a light body doubles in one step, and a drop by the
-    // speed before it would leave a joint that presses with water that cannot have entered.
+    // joints. Implicit in the speed of separation, which the pressure of the joint, less the
+    // weight, increases within the step: the speed of a light body doubles in one step, and a drop
+    // computed from the old speed would leave a pressure of water that cannot have entered.
     double inflow_drop()
     {
         double flow = 0;
         double area = 0;
         double section = 0;
         double push = 0;  // of the joint, without the drop [N]
-        double apart = 0; // flow that the weight adds in a second
+        double apart = 0; // change of the flow by the weight per second
         double mass = infinity;
         const Vec3 gravity = fluid_.weight / fluid_.density;
         for (int c = face_.first; c < face_.last; ++c) {
@@ -272,11 +275,10 @@ private:
         return k * sq(later) / area;
     }
 
-    // The joint adds the pressure that the particles in it do not transmit yet: the first ones,
-    // drawn into a gap that opens, have no pressure. From two spacings on they act alone. Water
-    // trapped between closing faces, at more than the seepage pressure, holds them apart: it did so
-    // before they came near enough for a joint, and continues to. In a gap of width w it fills w/dp
-    // of a row.
+    // The joint adds the pressure that the particles in it do not transmit yet: the first particles
+    // in an opening gap have no pressure. From two spacings on only the particles act. Water
+    // trapped between closing faces at more than the seepage pressure keeps them apart, as it did
+    // before they were near enough for a joint. In a gap of width w it fills w/dp of a row.
     void hand_over(int c, double drop)
     {
         JointNode& n = node(c);

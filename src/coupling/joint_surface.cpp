@@ -30,7 +30,7 @@ ConvexPiece piece_of(const Polytope& shape, int dimensions)
     return piece;
 }
 
-// Narrows the stretch of a ray to where a + b t + c t^2 <= 0, c >= 0. False if nothing is left.
+// Intersects the interval of a ray with a + b t + c t^2 <= 0, c >= 0. Returns false if it is empty.
 bool clip_round(double a, double b, double c, RayHit& hit)
 {
     if (c < 1e-12) {

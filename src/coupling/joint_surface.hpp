@@ -17,7 +17,7 @@ struct Ray {
     Vec3 direction{0, 0, -1};
 };
 
-/// The part of a ray that is looked at, from a distance to a distance [m].
+/// The searched part of a ray, between two distances from its origin [m].
 struct RayPart {
     double from = -infinity;
     double to = infinity;
@@ -87,8 +87,9 @@ RayWall ray_wall(const Boundary& boundary, int dimensions);
 /// Whether anything of the wall lies within `reach` of a point.
 bool near_wall(const RayWall& wall, const Vec3& point, double reach);
 
-/// Where the ray first enters the wall. Triangles count in a part of the ray only, since there is
-/// none that all of a ray lies before: the part bounds their number, too.
+/// Where the ray first enters the wall. Triangles are tested only in the given part of the ray:
+/// unlike a solid they define no interval of the ray inside the wall. The part also bounds their
+/// number.
 std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const RayPart& part);
 
 } // namespace hyoryu

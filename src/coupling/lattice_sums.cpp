@@ -23,8 +23,8 @@ double row_sum(const Fluid& fluid, int first_x, double z)
     return total;
 }
 
-// Sums -F z of a row of fluid at a distance from a face, in spacings, over the rows of solid
-// behind.
+// Sum of -F z between a row of fluid at a distance from a face, in spacings, and the rows of solid
+// behind the face.
 double push_on_face(const Fluid& fluid, double distance)
 {
     const double dp = fluid.parameters.spacing;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a regular lattice of fluid particles gives before a flat face: with it the joints tell how
-// much water there is at a rim or in a gap.
+// Kernel sums of a regular lattice of fluid particles in front of a flat face. The joints compare
+// them with the actual sums to find the amount of water at a rim or in a gap.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
@@ -34,7 +34,7 @@ struct LatticeSums {
     /// films that are kept there: all of it from a width of 1 on, none below 1/4.
     double transmitted(double width) const;
 };
-/// Those of the kernel, spacing and dimensions of a fluid, which do not change during a run.
+/// The sums for the kernel, spacing and dimensions of a fluid, which are constant during a run.
 LatticeSums lattice_sums(const Fluid& fluid);
 
 } // namespace hyoryu

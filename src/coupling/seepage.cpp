@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Seepage forces: kind and life of the joints, their loads, and the film forces that they replace.
 #include "hyoryu/coupling/seepage.hpp"
 
 #include "joint_pressure.hpp"
@@ -16,8 +17,8 @@ namespace {
 
 constexpr double widest = 2; // largest width of a joint in spacings; wider gaps contain particles
 
-// The kind of each joint, and the body whose cells carry it. Water does not get under a sealed
-// body; the sides of a sealed body have no joints.
+// Decides the kind of each joint and the body whose cells represent it. No water enters below a
+// sealed body; the sides of a sealed body have no joints.
 class KindOfJoint {
 public:
     KindOfJoint(const Seepage& seepage, const JointTables& tables, const std::vector<Pose>& poses,
@@ -29,7 +30,7 @@ public:
 
     JointKind operator()(int b, int other, const Vec3& normal) const
     {
-        constexpr double steep = 0.3; // cosine below which neither is the support of the other
+        constexpr double steep = 0.3; // cosine below which neither body supports the other
         const double downward = normal.dot(down_);
         if (other < 0) {
             return downward > steep ? under(b) : beside(b, b);
@@ -45,10 +46,11 @@ public:
     }
 
 private:
-    // The smaller body carries the cells: its face more likely lies within the other's, and all
-    // particles behind it leave their films to the joint. In a stack that is the narrower one: a
-    // wide base of low height pushed with the films of its ledge. Widths within 1 % count as
-    // equal, so that rounding does not move a joint from one body to the other.
+    // The cells belong to the smaller body: its face more likely lies within that of the other, and
+    // the joint replaces the film forces of all particles behind it. In a stack the narrower body
+    // is chosen: with the cells on a wide, low base the films of its ledge would push on the body
+    // above. Widths within 1 % count as equal, so that rounding does not move a joint from one body
+    // to the other.
     bool carries(int b, int other, bool stacked) const
     {
         constexpr double equal = 1.01;
@@ -92,7 +94,8 @@ ParticlePressure pressure_of(const Fluid& fluid)
             .density = fluid.parameters.eos.rho0};
 }
 
-// The faces see the particles in the order of their numbers, whatever that of the rows.
+// Makes the faces from the particles in the order of their numbers, independent of the order of
+// rows.
 void make_faces(BodyJoints& body, const Body& rigid, std::span<const Vec3> points, Index first,
                 const Fluid& fluid, double particle_mass)
 {
@@ -118,8 +121,8 @@ void make_faces(BodyJoints& body, const Body& rigid, std::span<const Vec3> point
     body.has_faces = true;
 }
 
-// A joint begins where the faces touch: particles that stand in between keep them apart. It lasts
-// while any cell lies opposite something. Whether the body has any.
+// A joint begins when the faces touch, since particles between them keep them apart. It lasts while
+// any cell lies opposite another solid. Returns whether the body has a joint.
 bool keep_joined(BodyJoints& body, bool opposite, double spacing)
 {
     constexpr double touching = 0.25; // spacings
@@ -146,7 +149,7 @@ bool keep_joined(BodyJoints& body, bool opposite, double spacing)
     return any;
 }
 
-// Speed at which the faces separate, and the mass that moves.
+// Sets the speed at which the faces separate, and the (reduced) mass that moves.
 void find_speeds(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses,
                  std::size_t b, double time)
 {
@@ -182,8 +185,8 @@ void book_loads(const BodyJoints& body, std::vector<JointLoad>& loads)
     }
 }
 
-// What is in the middle of a thin body between two joints leaves its films once, to each by its
-// pressure, and not to each: what stands on a body feels nothing of the film below that.
+// Divides the film force of a particle behind two joints of a thin body between them by pressure,
+// so that it is removed only once: a body on top must not feel the film below its support.
 void share_between_opposite_faces(std::span<FilmCut> cuts)
 {
     constexpr double opposite = -0.9; // cosine
@@ -200,7 +203,7 @@ void share_between_opposite_faces(std::span<FilmCut> cuts)
     }
 }
 
-// The particles under a cell leave their films to it.
+// Lists for each particle behind a cell the part of its film force that the joint replaces.
 void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t> id,
                std::vector<FilmCut>& cuts)
 {
@@ -217,8 +220,8 @@ void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t
                             .normal = node.normal});
         }
     }
-    // A particle behind several cells of a face leaves what the one that takes most takes. By
-    // number, so that the sums do not depend on the order of the rows.
+    // If a particle is behind several cells of a face, the largest part counts. Sorted by number,
+    // so that the sums do not depend on the order of the rows.
     const auto by_particle = [&](const FilmCut& a, const FilmCut& b) {
         return std::tuple(id[at(a.row)], a.face, -a.part) <
                std::tuple(id[at(b.row)], b.face, -b.part);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which rows the carpets of open sides hold. A carpet is a lattice that moves with its flow: the
-// next column of a row stands one spacing behind its outermost particle, so that the places of the
-// particles are all that a carpet remembers.
+// Emission and removal of the particles of the carpets (buffer zones) of open sides. A carpet is a
+// lattice that moves with its flow: the next column of a row stands one spacing behind its
+// outermost particle, so that the places of the particles are all that a carpet remembers.
 #include "hyoryu/fluid/totals.hpp"
 
 #include "carpet.hpp"
@@ -17,8 +17,8 @@ namespace hyoryu {
 namespace {
 
 constexpr real least_distance = 0.6; // of a new particle from any other of the water [spacings]
-// From those of a body: its lattice is stretched to fit it, and has room in its cells for places
-// that are nearer [spacings].
+// From body particles: the lattice of a body is stretched to its size, so that a place inside it
+// may be farther than `least_distance` from its particles [spacings].
 constexpr real least_from_body = 1;
 constexpr real highest = 0.75;   // above the level, of a particle that stays [spacings]
 constexpr real step_back = 0.25; // of a place that is taken [spacings]
@@ -46,8 +46,8 @@ public:
     {
     }
 
-    // `own`: the particles of the lane behind the plane; `inside`: distance of the nearest one of
-    // the lowest row before it.
+    // `own`: the particles of the lane behind the plane; `inside`: distance of the nearest particle
+    // of the lowest row in front of it.
     void fill_lane(int lane, const std::vector<Vec3>& own, real inside)
     {
         const real dp = f_.spacing;
@@ -104,13 +104,13 @@ private:
         taken_.water.add(x);
         return true;
     }
-    // Columns on the far edge of a row; returns the new ones.
+    // Appends columns at the far end of a row; returns the new ones.
     std::vector<real> extend(int row, std::vector<real>& s, real begin)
     {
         const real dp = f_.spacing;
         real outermost = s.empty() ? begin : *std::ranges::min_element(s);
         std::vector<real> added;
-        while (outermost > far_ + 1e-6 * dp) { // rounding makes no column
+        while (outermost > far_ + 1e-6 * dp) { // with a tolerance for rounding
             if (emit(outermost - dp, row)) {
                 outermost -= dp;
                 s.push_back(outermost);
@@ -121,7 +121,7 @@ private:
         }
         return added;
     }
-    // Where the level has risen: particles above those of the row below; returns the new ones.
+    // Adds particles above those of the row below if the level has risen; returns the new ones.
     std::vector<real> stack(int row, const std::vector<real>& below, std::vector<real>& s)
     {
         std::vector<real> added;
@@ -133,9 +133,9 @@ private:
         }
         return added;
     }
-    // The top row is filled in part: of the new columns that share gets one more particle that
-    // makes the volume of the water that of the level. A particle whose place is taken is not made
-    // later.
+    // Fills the top row in part: the share `part` of the new columns gets one more particle, so
+    // that the volume of the water matches the level. A particle whose place is taken is omitted
+    // for good.
     void cover(int row, real part, const std::vector<real>& added)
     {
         real& carry = carpet_.carry[at(lane_)];
@@ -176,7 +176,7 @@ struct Lanes {
     std::vector<real> inside;           // distance of the nearest of the lowest row inside
 };
 
-// A row about a plane, as all ranks know it.
+// A row near a plane, replicated on all ranks.
 struct NearRow {
     std::int64_t number = 0; // of the particle
     int rank = 0;
@@ -187,7 +187,8 @@ struct NearRow {
     std::pair<int, std::int32_t> name() const { return {rank, row}; }
 };
 
-// In the order of their numbers: before the first lists, rows of ranks are in no order of tiles.
+// Sorted by particle number, since before the first lists the rows of ranks are not sorted by
+// tiles.
 std::vector<NearRow> near_rows(const Fluid& fluid, const Carpet& carpet)
 {
     const auto x = fluid.particles.fluid[field::position];
@@ -284,8 +285,8 @@ void book_dropped(const Fluid& fluid, const std::vector<std::uint8_t>& left, Ope
     open.impulse -= momentum;
 }
 
-// Puts the new particles behind the rows that stay; all of them on one rank, from which they go to
-// their owners when lists are made.
+// Appends the new particles to the remaining rows; all on one rank, from which they migrate to
+// their owners when lists are built.
 void change_rows(Fluid& fluid, const std::vector<std::uint8_t>& left,
                  const std::vector<NewParticle>& made, OpenBoundary& open)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the carpets of open sides share: the flow of a lane, and its velocity and density.
+// Functions shared by the parts of open sides: the flow of a lane, its velocity and density.
 #pragma once
 
 #include "hyoryu/fluid/open_boundary.hpp"

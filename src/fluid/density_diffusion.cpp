@@ -9,7 +9,8 @@ namespace hyoryu {
 
 namespace {
 
-// M^-1 G where the moments tell a gradient, else none: a row of particles has no gradient across.
+// M^-1 G, or zero if the moments are nearly singular: a row of particles has no transverse
+// gradient.
 Vec3 renormalised(const Vec3& G, const Mat3& M)
 {
     constexpr real least_determinant = 1e-3;

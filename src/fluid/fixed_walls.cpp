@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Steps of an update: tiles of walls that touch a tile of the fluid or of wet bodies are found from
-// these; the particles of those that are new are made as candidates; candidates within reach are
-// marked; the store is gathered anew from the rows that stay and from new ones.
+// Steps of an update: find the wall tiles that touch a tile of the fluid or of wet bodies; make the
+// particles of newly found tiles as candidates; mark the candidates within reach; rebuild the store
+// from the remaining and the new rows.
 #include "hyoryu/fluid/fixed_walls.hpp"
 
 #include "hyoryu/core/vicinity.hpp"
@@ -104,7 +104,7 @@ void copy_candidates(const Tiles& from, Index tile, Tiles& to, Index slot)
     }
 }
 
-// The candidates of the tiles that are near now: those that were keep theirs.
+// Collects the candidates of the near tiles; tiles that were near before keep theirs.
 void update_candidates(FixedWalls& walls, const TileLattice& lattice,
                        std::span<const std::int32_t> near)
 {
@@ -157,7 +157,7 @@ void find_rows(FixedWalls& walls, const Store& store)
     });
 }
 
-// Gives the store the rows of the candidates that exist, behind those of walls that move.
+// Fills the store with the rows of existing candidates, behind those of moving walls.
 void gather_rows(FixedWalls& walls, Store& store, std::span<std::byte> room)
 {
     find_rows(walls, store);

@@ -33,7 +33,7 @@ real stand_in_mass(const Fluid& fluid, std::int32_t owner)
 
 namespace {
 
-// An effect that a scene asks for is never left out in silence.
+// Reports an effect that the scene requests but this build does not contain.
 void expect_built(const FluidEffects& effects)
 {
     const auto look = []<class Effect>(const Effect*) {
@@ -60,7 +60,7 @@ struct ColumnsOf<Effect> {
     using type = typename Effect::Columns;
 };
 
-// The columns that an effect needs: those of solids have them only if it acts on them.
+// Adds the columns that an effect needs, to solids only if the effect acts on them.
 template <class Effect>
 void add_columns_of(Fluid& fluid, const Effect&)
 {
@@ -101,7 +101,7 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
 
 namespace {
 
-// Leaves to the gap what solids would stretch of the fluid in dt, see fluid/parting.
+// Adds the stretching of the fluid by solids within dt to the gap instead, see fluid/parting.
 void part_from_solids(Fluid& fluid, real dt)
 {
     Store& store = fluid.particles.fluid;
@@ -116,7 +116,7 @@ void part_from_solids(Fluid& fluid, real dt)
     });
 }
 
-// Keeps account of the density that the correction of the divergence makes.
+// Integrates the density due to the correction of the divergence.
 void keep_corrections(Store& store, real dt)
 {
     const auto made = store[field::correction];
@@ -157,7 +157,7 @@ void drift(Fluid& fluid, real dt)
 
 namespace {
 
-// The pressure before solids and the density and volume that belong to it.
+// Extrapolates the fluid pressure to solid particles and sets their density and volume.
 void extrapolate_pressure(Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -207,9 +207,8 @@ void update_pressure(Fluid& fluid)
 
 namespace {
 
-// Forces of solids on each other in thin films, less what is left to joints: of each particle
-// behind one the part along its normal. The joint returns it to the other side, so that momentum
-// closes.
+// Forces between solids in thin films. For particles behind a joint the part along its normal is
+// removed, as the joint replaces it; the opposite side gets it back, so that momentum is conserved.
 void add_film_forces(Fluid& fluid, const FluidTerms& terms)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -228,8 +227,8 @@ void add_film_forces(Fluid& fluid, const FluidTerms& terms)
     }
 }
 
-// Forces between fluid and solids, and of solids in thin films. Fluid that has parted from them
-// shows them no pressure.
+// Forces between fluid and solids, and between solids in thin films. Fluid with a gap exerts no
+// pressure on solids.
 void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -298,8 +297,7 @@ void kick(Fluid& fluid, real dt)
 
 namespace {
 
-// The largest of f over the fluid rows, NaN if any is NaN: a comparison that fails keeps the
-// culprit.
+// The largest f over the fluid rows, NaN if any value is NaN: failed comparisons keep the NaN.
 real worst(const Fluid& fluid, const auto& f)
 {
     return reduce(0, fluid.particles.fluid.size(), real(0), f,

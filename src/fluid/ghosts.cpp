@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Ghost particles: exchange of the fields that the stages of a step read from other ranks.
 #include "hyoryu/fluid/ghosts.hpp"
 
 #include "lists.hpp"
@@ -119,7 +120,7 @@ void send_velocities(Fluid& fluid)
     if (!fluid.ghosts) {
         return;
     }
-    receive_pressures(fluid); // where no forces were wanted
+    receive_pressures(fluid); // if no forces were computed
     Delivery delivery;
     deliver_fluid(delivery, fluid, Fields<Velocity>{});
     if (fluid.moving_walls) {
@@ -139,7 +140,7 @@ void receive_velocities(Fluid& fluid)
 
 namespace {
 
-// Gives all ranks the listed columns of all body particles, whose rows are the same everywhere.
+// Sends the listed columns of own body particles to all ranks; body rows are the same on all ranks.
 template <class... F>
 void replicate_bodies(Fluid& fluid, Fields<F...>)
 {
@@ -193,7 +194,7 @@ void migrate_fluid(Fluid& fluid, const TileLattice& lattice)
 
 namespace {
 
-// What the loops read of neighbours before a stage sends it anew.
+// Fields of ghosts that loops read before a stage sends them again.
 using ReadOfGhosts = Fields<Position, Velocity, Density, Gap, GradientCorrection, MixedCorrection>;
 
 void make_ghosts(Ghosts& g, GhostsOfKind& kind, const Tiles& tiles, const Store& own, Store& ghosts)
@@ -281,7 +282,7 @@ FrictionOnTheMove::FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice)
         put(to, F[row]);
     }
     wall_ = g.comm.exchange(std::move(out));
-    std::ranges::fill(F, Vec3(0, 0, 0)); // rows of walls that move stay
+    std::ranges::fill(F, Vec3(0, 0, 0)); // rows of moving walls are kept
 }
 
 void FrictionOnTheMove::arrive(Fluid& fluid) const
@@ -295,7 +296,7 @@ void FrictionOnTheMove::arrive(Fluid& fluid) const
         for (Unpacking from(parcel); !from.empty();) {
             const auto found = row_of.find(from.take<std::int64_t>());
             const Vec3 force = from.take<Vec3>();
-            if (found != row_of.end()) { // dry walls are dropped
+            if (found != row_of.end()) { // walls away from fluid are dropped
                 wall[field::viscous_force][found->second] = force;
             }
         }

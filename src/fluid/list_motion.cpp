@@ -23,8 +23,8 @@ void measure_walls(Fluid& fluid)
 
 namespace {
 
-// The farthest that particles of tiles beside fixed walls have moved, besides walls that move: the
-// tiles of walls that do not exist yet are in no list of tiles that touch.
+// Largest displacement of particles in tiles next to fixed walls, for scenes that also have moving
+// walls: tiles of walls that do not exist yet are missing in the lists of touching tiles.
 real motion_beside_fixed_walls(const Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -49,8 +49,8 @@ real motion_beside_fixed_walls(const Fluid& fluid)
     return most;
 }
 
-// What is measured between tiles of this rank and ghosts, and the largest of all ranks. A pair of
-// two ranks is measured by one of them at least: with walls by the rank that has the walls.
+// Adds the motion between own tiles and ghosts. A pair of two ranks is measured by at least one of
+// them: a pair with walls by the rank that owns the walls.
 void add_motion_of_ghosts(Fluid& fluid, Displacement& motion)
 {
     FluidNeighbours& n = fluid.neighbours;
@@ -74,7 +74,7 @@ real measure_own(Fluid& fluid)
                     bound_motion(n.body, particles.body[field::position], n.body_motion.box));
 }
 
-// The boxes of ghosts came with their places.
+// The displacement boxes of ghosts were received with their positions.
 Displacement measure(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;

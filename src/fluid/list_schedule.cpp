@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Bounds of displacements by tile, and the choice of the skin with the least cost per step.
 #include "hyoryu/fluid/list_schedule.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -89,12 +90,12 @@ Skins first_skins(real spacing)
 Skins best_skins(const Displacement& motion, long long steps, const EntryCounts& entries,
                  const Skins& now, real support, real spacing)
 {
-    // To make an entry costs as much as to go over it so many times (measured); a step goes over
-    // the lists twice.
+    // Cost of making an entry relative to processing it (measured); a step processes the lists
+    // twice.
     constexpr real making = 3;
     constexpr real sweeps = 2;
     constexpr int most_steps = 40;
-    const real least_skin = 0.05 * spacing; // what noise moves in no time is no use to follow
+    const real least_skin = 0.05 * spacing; // smaller skins would be exceeded by noise at once
     const real most_skin = 0.25 * support;
     const auto entries_with = [&](Index count, real skin_now, real skin) {
         const real ratio = (support + skin) / (support + skin_now);

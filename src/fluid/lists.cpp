@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lists of all pair kinds, from tiles that are in order.
+// Builds the neighbour lists of all pair kinds from sorted tiles.
 #include "lists.hpp"
 
 #include "sharing.hpp"
@@ -10,7 +10,7 @@ namespace hyoryu {
 
 namespace {
 
-// Which own tiles the ghosts touch.
+// Finds the own tiles that touch ghost tiles.
 void connect_ghosts(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
@@ -22,7 +22,7 @@ void connect_ghosts(Fluid& fluid)
     }
 }
 
-// Which tiles touch, and which tiles of walls matter.
+// Finds the touching tiles, and the wall tiles with neighbour lists.
 void connect(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
@@ -64,7 +64,7 @@ void collect_owners(Fluid& fluid)
     append(n.wall, fluid.particles.wall);
     append(n.body, fluid.particles.body);
     if (const Ghosts* const g = fluid.ghosts.get()) {
-        n.owner.resize(n.owner.size() + at(g->fluid.tiles.count())); // which have none
+        n.owner.resize(n.owner.size() + at(g->fluid.tiles.count())); // no owners
         append(g->wall.tiles, g->particles.wall);
         append(g->body.tiles, g->particles.body);
     }
@@ -106,7 +106,7 @@ Index number_slots(Fluid& fluid)
     return next;
 }
 
-// The points of all kinds among which lists look.
+// The points of all kinds, own and ghosts, as sources of lists.
 struct Sources {
     ListSource fluid, wall, body;
 };
@@ -119,7 +119,7 @@ Sources sources_of(const Fluid& fluid)
             {&n.body, g != nullptr ? &g->body.tiles : nullptr}};
 }
 
-// Marks the points that stand in a list of any rank.
+// Marks the points that are a neighbour in a list of any rank.
 void mark_met(Fluid& fluid, const PairList& list, Index slots)
 {
     FluidNeighbours& n = fluid.neighbours;
@@ -134,7 +134,7 @@ void mark_met(Fluid& fluid, const PairList& list, Index slots)
     }
 }
 
-// How long the lists of all ranks are, and how many entries this one goes over in a step.
+// Counts the list entries of all ranks, and those that this rank processes in a step.
 void count_entries(Fluid& fluid)
 {
     FluidNeighbours& n = fluid.neighbours;
@@ -169,7 +169,7 @@ void build_lists(Fluid& fluid)
     n.fluid_fluid.build(n.fluid, of_fluid, of_pairs);
     if (has_solids(fluid)) {
         n.fluid_solid.build(n.fluid, of_solids, settings);
-        // Dry walls have met nothing and get no lists of their own.
+        // Wall particles away from fluid are in no list and need none of their own.
         mark_met(fluid, n.fluid_solid, slots);
         n.wall_fluid.build(n.wall, of_fluid, settings, {.wanted = n.met});
         n.body_fluid.build(n.body, of_fluid, settings, {.wanted = n.met});

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The parts of making neighbour lists, see fluid.hpp.
+// The steps of rebuilding neighbour lists, see fluid.hpp.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
 
 namespace hyoryu {
 
-/// The tiles of walls against which others are measured. Fixed walls that do not exist yet count:
-/// the fluid that comes to them is what makes them.
+/// The tiles of walls against which relative motion is measured. They include fixed walls that do
+/// not exist yet, as these are made when fluid approaches.
 const Tiles& measured_walls(const Fluid& fluid);
 /// Bounds of how far particles of walls have moved.
 void measure_walls(Fluid& fluid);
@@ -16,7 +16,7 @@ real measure_own(Fluid& fluid);
 /// The largest motions since the lists were made, of all ranks.
 Displacement measure(Fluid& fluid);
 
-/// Makes the fixed walls that lists may know, and drops the others.
+/// Makes the fixed-wall particles that lists may contain, and drops the others.
 void update_fixed_walls(Fluid& fluid);
 /// Puts all particles into the order of tiles, and makes the ghosts anew.
 void sort_particles(Fluid& fluid);

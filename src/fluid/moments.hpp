@@ -31,7 +31,8 @@ inline bool is_above(const Mat3& M, real bound)
 }
 
 /// Where the least eigenvalue of M lies from `surface`, 0, to `inside`, 1: inside the fluid it is
-/// 1, on a flat surface about one half. It is computed for the few particles between alone.
+/// 1, on a flat surface about one half. The eigenvalue is computed only for the few particles in
+/// between.
 inline real share_between(const Mat3& M, real surface, real inside)
 {
     if (!is_above(M, surface)) {

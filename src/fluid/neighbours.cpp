@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When the lists of the fluid are made, and from what.
+// Decides when the neighbour lists of the fluid are rebuilt, and prepares their input.
 #include "hyoryu/fluid/whole.hpp"
 
 #include "lists.hpp"
@@ -10,15 +10,15 @@ namespace hyoryu {
 
 namespace {
 
-// An edge of a tile over the support: about a hundred particles in a tile, in the plane as in
-// space. A skin may be as much as the edge is longer.
+// Edge of a tile relative to the support: about a hundred particles per tile in two and in three
+// dimensions. A skin is at most the difference between edge and support.
 real tile_ratio(int dimensions)
 {
     return dimensions == 2 ? 2.5 : 2.0;
 }
 
-// Whether a pair that is not listed may have come within the support: one of tiles that touch, by
-// its relative displacement; any other, by what lies between tiles that do not.
+// Whether an unlisted pair may have come within the support. Pairs of touching tiles are checked by
+// their relative displacement, all others by the distance between tiles that do not touch.
 bool stale(const Fluid& fluid, const Displacement& motion)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -27,8 +27,8 @@ bool stale(const Fluid& fluid, const Displacement& motion)
            2 * motion.absolute > between;
 }
 
-// What solid particles are that no fluid is near: without pressure and force. The steps look after
-// the others.
+// Resets all solid particles to the state far from fluid: no pressure, no force. The stages of a
+// step update those near fluid.
 void dry(Fluid& fluid)
 {
     for_solids(fluid.particles, [&](Store& store) {
@@ -108,7 +108,7 @@ void rebuild_neighbours(Fluid& fluid)
     }
     make_ghosts_of_walls(fluid);
     build_lists(fluid);
-    dry(fluid); // a store that was just made holds the pressures of time 0
+    dry(fluid); // a new store holds the pressures of time 0
     if (!fluid.moving_walls) {
         measure_walls(fluid);
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Open boundaries: the flow at the plane from the Riemann invariants, and the state of the carpet
+// particles.
 #include "hyoryu/fluid/totals.hpp"
 
 #include "carpet.hpp"
@@ -60,21 +62,21 @@ real OpenSide::station_strip(int station) const
 
 namespace {
 
-// Water that is wanted at a discharge: it enters at least at the critical depth.
+// The flow at a prescribed discharge: inflow is at least as deep as the critical depth.
 StationFlow with_discharge(StationFlow flow, real q, const StationGround& ground, real gravity)
 {
     const real inside = std::max(flow.depth + ground.strip - ground.bed, real(0));
     const real critical = std::cbrt(sq(q) / gravity);
     const real depth = std::max(inside, critical);
     flow.velocity = depth > 0 ? q / depth : 0;
-    flow.velocity = std::max(flow.velocity, -std::sqrt(gravity * inside)); // no more can be drawn
+    flow.velocity = std::max(flow.velocity, -std::sqrt(gravity * inside)); // limit of the outflow
     flow.level = ground.bed + (q > 0 ? depth : inside);
     return flow;
 }
 
-// u_n from the incoming invariant, u + 2 sqrt(g h) = `invariant`, and the depth inside. Where that
-// is so small that the outgoing wave would not reach the plane, the flow there is critical: h is at
-// least (R/3)^2/g. What flows out is critical at most: no wave from outside speeds it up.
+// u_n from the incoming invariant, u + 2 sqrt(g h) = `invariant`, and the depth inside. If the
+// depth is so small that the outgoing wave would not reach the plane, the flow there is critical: h
+// is at least (R/3)^2/g. Outflow is at most critical, as no wave from outside accelerates it.
 StationFlow with_invariant(StationFlow flow, real invariant, const StationGround& ground,
                            real gravity)
 {
@@ -145,7 +147,7 @@ void find_rows(const Fluid& fluid, OpenBoundary& open)
 {
     const FluidParameters& f = fluid.parameters;
     const auto x = fluid.particles.fluid[field::position];
-    // Between two lists no particle comes farther than the support.
+    // Between two rebuilds no particle moves farther than the support.
     const real inward = 2 * strip_half * f.spacing + fluid.kernel.support;
     for (Carpet& carpet : open.carpets) {
         carpet.near.clear();

@@ -16,7 +16,7 @@ real gravity_of(const Fluid& fluid)
     return fluid.parameters.gravity.norm();
 }
 
-// Hat of the strip: the particles of a lattice sum to its depth whatever their phase.
+// Hat function of the strip: the sum over a lattice gives the depth independent of its phase.
 real strip_weight(real s, real spacing)
 {
     const real a = strip_half * spacing;
@@ -28,7 +28,7 @@ struct StripSums {
     real displaced = 0;         // sum of w V of what bodies displace
 };
 
-// What a particle adds to the sums of its station.
+// The contribution of a particle to the sums of its station.
 struct StripTerm {
     std::int64_t number = 0; // of the particle
     int station = 0;
@@ -69,9 +69,9 @@ std::vector<StripSums> strip_sums(const OpenSide& side, std::span<const StripTer
     return sums;
 }
 
-// Adds what bodies displace to the volumes of the strips: water that carries a body stands as high
-// as if the part of the body below its surface were water. `depth` of the stations: where the
-// surface is.
+// Adds the volume that bodies displace to the strips: the level of water with a floating body is
+// that with the submerged part of the body replaced by water. The surface is given by the `depth`
+// of the stations.
 void add_displaced(const Fluid& fluid, const Carpet& carpet, std::vector<StripSums>& sums)
 {
     const OpenSide& side = carpet.side;
@@ -115,10 +115,10 @@ real drift_of(const StripSums& sums)
 
 void measure_start(const Fluid& fluid, OpenBoundary& open)
 {
-    constexpr int turns = 4; // the surface and what bodies displace below it depend on each other
+    constexpr int turns = 4; // surface and displaced volume depend on each other
     for (Carpet& carpet : open.carpets) {
-        // In the order of the numbers, which is that of the filling: before the first lists, rows
-        // of ranks are in no order of tiles.
+        // Sorted by particle number, since before the first lists the rows of ranks are not sorted
+        // by tiles.
         std::vector<StripTerm> terms = strip_terms(fluid, carpet);
         std::ranges::sort(terms, {}, &StripTerm::number);
         for (int turn = 0; turn < turns; ++turn) {

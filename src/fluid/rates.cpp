@@ -9,7 +9,8 @@ namespace hyoryu {
 
 namespace {
 
-// The velocity that solid particles show to the viscosity, in the column of the velocity sums.
+// Computes the mirrored velocity of solid particles for the viscosity, in the column of the
+// velocity sums.
 void mirror_velocities(Fluid& fluid)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -54,7 +55,8 @@ void show_velocities(Fluid& fluid, SolidVelocity which)
         fluid.pair_data);
 }
 
-// Calls f while the records of solids hold the mirrored velocities; then they hold their own again.
+// Calls f with the mirrored velocities in the records of solids, then restores their own
+// velocities.
 void with_mirrored_velocities(Fluid& fluid, const auto& f)
 {
     show_velocities(fluid, SolidVelocity::mirrored);
@@ -101,8 +103,7 @@ void add_friction(Fluid& fluid)
     replicate_body_friction(fluid);
 }
 
-// The part of the density rate that solids make, and the end of gaps where there is no room for
-// one.
+// Sets the density rate due to solids, and closes gaps that are too near to solids.
 void update_solid_rates(Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the stages of a step send to the ranks that have ghosts of a particle.
+// The messages by which the stages of a step update ghosts on other ranks.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
@@ -84,15 +84,15 @@ void migrate_fluid(Fluid& fluid, const TileLattice& lattice);
 void make_ghosts_of_fluid(Fluid& fluid);
 void make_ghosts_of_walls(Fluid& fluid);
 void make_ghosts_of_bodies(Fluid& fluid);
-/// Gives all ranks the friction on all body particles: it acts a step later, when other ranks may
-/// own them.
+/// Sends the friction on all body particles to all ranks: it acts a step later, when other ranks
+/// may own them.
 void replicate_body_friction(Fluid& fluid);
 /// Friction on wall particles, on its way to the ranks that own them from now on.
 class FrictionOnTheMove {
 public:
     /// Sends the friction on own particles to the ranks that own them from now on.
     FrictionOnTheMove(Fluid& fluid, const TileLattice& lattice);
-    /// Gives it to the particles, which are in the stores now.
+    /// Stores it in the particles after the stores were remade.
     void arrive(Fluid& fluid) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The particles in the order of the tiles, and the ghosts of other ranks, when lists are made.
+// Sorts the particles by tiles and remakes the ghosts of other ranks before lists are built.
 #include "hyoryu/core/vicinity.hpp"
 #include "hyoryu/fluid/sum_units.hpp"
 #include "hyoryu/fluid/totals.hpp"
@@ -20,7 +20,7 @@ namespace {
 const Vec3 everywhere_low = Vec3::Constant(-infinity);
 const Vec3 everywhere_high = Vec3::Constant(infinity);
 
-// Adds up the particles that left the domain, which are in no order.
+// Adds up the particles that left the domain; they are unsorted.
 void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
 {
     const Store& store = fluid.particles.fluid;
@@ -46,7 +46,7 @@ void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
     }
 }
 
-// Whether a row behind this one, of the same cell, is at the same place.
+// Whether a later row of the same cell is at the same place.
 bool is_met(std::span<const Vec3> x, std::span<const std::uint64_t> key, Index row)
 {
     for (std::size_t k = at(row) + 1; k < x.size() && key[k] == key[at(row)]; ++k) {
@@ -72,9 +72,9 @@ void set_on_ring(Store& store, std::span<std::size_t> ring, real radius)
     }
 }
 
-// No direction leads from one particle at a place to another, so that no force would ever part
-// them. They are set on a ring about it, by their numbers; its radius is small enough to change
-// nothing else. `key`: the cells of the rows, which are in their order.
+// Pair forces between coincident particles have no direction and cannot separate them. Such
+// particles are placed on a small ring about their place, in the order of their numbers. `key`: the
+// cells of the rows, which are in their order.
 void part_coincident(Fluid& fluid, std::span<const std::uint64_t> key)
 {
     Store& store = fluid.particles.fluid;
@@ -123,7 +123,7 @@ void sort_fluid(Fluid& fluid)
     make_ghosts_of_fluid(fluid);
 }
 
-// Leaves the sorted rows of own tiles; returns how many.
+// Removes the sorted rows of other ranks' tiles; returns the number of own rows.
 Index keep_own(const TileRange& own, SortSpace& space, Index count)
 {
     Index kept = 0;
@@ -172,8 +172,8 @@ void mark_wet_bodies(Fluid& fluid, real reach)
 // Makes the fixed walls that lists may know, and drops the others.
 void update_fixed_walls(Fluid& fluid)
 {
-    // Friction acts half a step after lists are made: a particle that fluid leaves within that time
-    // has felt none if this is its way at most.
+    // Friction acts half a step after lists are built. With this extra reach a wall particle that
+    // is dropped has felt no friction, provided that fluid moves at most this far in half a step.
     constexpr real way_of_half_step = 0.1; // spacings
     FluidNeighbours& n = fluid.neighbours;
     const WallReach which{fluid.kernel.support + n.skins.solid +
@@ -192,7 +192,7 @@ void update_fixed_walls(Fluid& fluid)
     } else {
         changed = update(own);
     }
-    if (changed && !fluid.moving_walls) { // those that move are sorted with all lists
+    if (changed && !fluid.moving_walls) { // moving walls are sorted with every rebuild
         make_tiles(fluid.fixed_walls, n.wall);
         n.wall.first_slot = 0;
     }

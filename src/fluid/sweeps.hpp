@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the stages of the fluid run the pair loops.
+// Functions by which the stages of the fluid run the pair loops.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
@@ -72,7 +72,7 @@ void load_solids(Fluid& fluid, const auto& fields)
 }
 
 /// For the walls that fluid or a body may be near and for the bodies: `of_store(store)` is called
-/// for each store and gives what is called with each row. Dry walls cost nothing.
+/// for each store and gives what is called with each row. Walls away from fluid cost nothing.
 void for_wet_solids(Fluid& fluid, const auto& of_store)
 {
     const FluidNeighbours& n = fluid.neighbours;
@@ -166,10 +166,10 @@ PassRecords records_of(const Fluid& fluid, PairData<Real>& data, Among which,
 }
 
 /// Runs the loop of a pass over all blocks of some lists: with the kernel of the formulation if
-/// they are of fluid alone, else with that of SPH. Solids act on the fluid of MPS by the smooth
-/// kernel, as its weight makes their rows bumps over which fluid does not slide. The pass must be
-/// part of this build: passes of effects that are left out have no loop, and nothing that holds
-/// such an effect can be made.
+/// they are of fluid alone, else with that of SPH. In MPS solids act on the fluid by the smooth
+/// kernel, too: with the weight of MPS the rows of solid particles act as bumps over which fluid
+/// does not slide. The pass must be part of this build: passes of effects that are left out have no
+/// loop, and nothing that holds such an effect can be made.
 template <class Pass>
 void run(Fluid& fluid, std::initializer_list<Sweep> sweeps, const FluidTerms& terms)
 {

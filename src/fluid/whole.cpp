@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Functions that compare or assemble the fluid of one rank with the fluid of the whole case.
 #include "hyoryu/fluid/whole.hpp"
 
 #include "hyoryu/ranks/rows.hpp"

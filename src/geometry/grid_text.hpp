@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the readers of height grids share.
+// Declarations that the readers of height grids share.
 #pragma once
 
 #include "hyoryu/core/error.hpp"
@@ -15,7 +15,7 @@
 namespace hyoryu {
 
 inline constexpr double most_grid_cells = 2e8;
-/// Stands for no height where nothing else does: the default of ESRI's grids.
+/// The mark of a missing height if the file declares none: the default of ESRI's grids.
 inline constexpr double none_given = -9999;
 inline constexpr const char* grid_in_degrees =
     "the grid seems to be in degrees; reproject it to metres, for instance by `gdalwarp -t_srs "

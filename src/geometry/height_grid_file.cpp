@@ -232,16 +232,18 @@ HeightGrid read_ascii_grid(const std::filesystem::path& file, const std::string&
     return grid;
 }
 
-// What stands for no height though the file does not say so. A number beyond all heights of the
-// Earth is another such mark: it must not become a cliff.
+// Replaces the default mark of missing heights even if the file does not declare it. A number
+// beyond all heights of the Earth is an undeclared mark: it is refused, so that it does not become
+// a cliff.
 void forget_missing(const std::filesystem::path& file, double none, HeightGrid& grid)
 {
     constexpr double farthest = 12000; // of the ground from the sea [m]
     for (double& height : grid.height) {
         height = height == none_given ? none : height;
         if (std::abs(height) > farthest) {
-            throw IoError(fmt::format("{}: no ground has the height {:.6g} m; if it stands for "
-                                      "none, name it: `NODATA_value {:.6g}` in the header",
+            throw IoError(fmt::format("{}: the height {:.6g} m is impossible for terrain; if it "
+                                      "marks missing data, declare it in the header as "
+                                      "`NODATA_value {:.6g}`",
                                       file.string(), height, height));
         }
     }

@@ -168,7 +168,7 @@ std::vector<Triangle2> triangles_in(const Ring& ring)
     return found;
 }
 
-// What a triangle leaves of a convex ring (Sutherland and Hodgman 1974).
+// The part of a convex ring inside a triangle (Sutherland and Hodgman 1974).
 Ring clipped(Ring ring, const Triangle2& t)
 {
     for (std::size_t side = 0; side < 3; ++side) {

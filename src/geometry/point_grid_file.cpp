@@ -11,7 +11,8 @@ namespace {
 
 // Rounding of the coordinates in a file, as a part of the cells.
 constexpr double off_grid = 0.05;
-// A grid of which less than this part is given is none: scattered points have lines of their own.
+// Points that fill less than this part of a grid form none: scattered points have lines of their
+// own.
 constexpr double least_given = 0.1;
 
 struct Point {
@@ -98,7 +99,8 @@ struct Axis {
     double count = 0;
 };
 
-// From the distances of neighbouring values: the median of those that are no rounding.
+// The grid lines along an axis. The cell is the median distance of neighbouring values, without
+// distances that are round-off.
 Axis axis_of(std::vector<double> values)
 {
     std::ranges::sort(values);

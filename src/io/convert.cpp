@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which frames a results folder holds, and how exports of them are named.
+// The frame sets of a results folder, and the names of their exports.
 #include "hyoryu/io/convert.hpp"
 
 #include "atomic_file.hpp"
@@ -27,8 +27,8 @@ constexpr std::array known_sets{Known{"fluid", false}, Known{"bodies", false},
                                 Known{"walls", false}, Known{"surfaces", true},
                                 Known{"structures", true}};
 
-/// The entries of a series, each a file that a run names so: anything else would lead out of the
-/// folder.
+/// The entries of a series. Throws IoError for a file name that no run writes: it could lead out of
+/// the folder.
 std::vector<SeriesEntry> checked_series(const fs::path& series, const std::string& name)
 {
     const std::regex pattern("frames/" + name + "_[0-9]{6,18}\\.hdf");

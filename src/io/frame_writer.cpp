@@ -145,8 +145,8 @@ void FrameWriter::State::wait_until_idle(std::unique_lock<std::mutex>& lock)
     changed.wait(lock, [&] { return error || (queue.empty() && !working); });
 }
 
-/// The border of the thread: no exception may leave it, so the first one waits for the solver's
-/// side.
+/// The main function of the thread. No exception may leave it: the first one is kept for the
+/// solver's side.
 void FrameWriter::State::run()
 {
     std::unique_lock lock(mutex);

@@ -80,7 +80,7 @@ Kept kept_of(const std::filesystem::path& file, const Table& table, double keep_
     return {kept, rows};
 }
 
-/// Of each new column, the place of the one of that name before; none: it is new.
+/// For each column of `table`, the index of the column of that name in `before`; none: it is new.
 std::vector<std::optional<std::size_t>> origins(const std::vector<std::string>& before,
                                                 const Table& table)
 {

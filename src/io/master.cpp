@@ -193,7 +193,7 @@ std::vector<fs::path> tables_in(const fs::path& folder)
     return tables;
 }
 
-/// As text: as numbers they take no more.
+/// Size of the tables as text, an upper bound of their size as numbers [B].
 std::size_t bytes_of_tables(const fs::path& folder)
 {
     std::size_t total = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames read back, and what is wrong with them.
+// Reading of VTKHDF frames and their parts, with checks for damage.
 #include "vtkhdf.hpp"
 
 #include "hdf5.hpp"
@@ -87,7 +87,7 @@ std::string damaged_frame(const std::filesystem::path& file, const std::string& 
     return fmt::format("`{}` is not a frame of Hyoryu, or is damaged: {}", file.string(), why);
 }
 
-/// What a frame says of its parts; empty if its arrays are its own.
+/// The list of parts in a frame; empty if the frame holds its arrays itself.
 std::string parts_named_in(hid_t file)
 {
     if (!hdf5::has_link(file, "meta")) {
@@ -97,7 +97,7 @@ std::string parts_named_in(hid_t file)
     return H5Aexists(meta, "parts") > 0 ? hdf5::text_attribute(meta, "parts") : std::string();
 }
 
-/// Which cloud a file is of, and when.
+/// The cloud that a file belongs to, and its time and index.
 struct Moment {
     std::string name;
     double time = 0;

@@ -43,7 +43,7 @@ Reading reading_of(const std::string& column, const std::string& gauge)
 }
 
 /// Whether a column is the mean contact force since the row before: an impulse over the time
-/// between rows, which says more of that time than of any force.
+/// between rows, whose value depends more on that time than on a force.
 bool is_mean_of_contact(const std::string& column, const std::string& gauge)
 {
     const std::string rest = column.substr(gauge.size());

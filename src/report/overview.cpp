@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sections of words and tables: case, plan, run, cost.
+// The sections of text and tables: case, plan, run, cost.
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/table.hpp"
 #include "sections.hpp"
@@ -48,13 +48,13 @@ std::string counted(const ordered_json& counts)
                        counts.at("body").get<std::int64_t>());
 }
 
-/// Two columns: what, and its value.
+/// A table of two columns: names and their values.
 std::string facts(std::vector<std::vector<std::string>> rows)
 {
     return html_table({.heads = {{"quantity"}, {"value"}}, .rows = std::move(rows)});
 }
 
-/// What the resolution means at the scale of the scene; of a run with fluid.
+/// The consequences of the resolution at the scale of the scene, for a run with fluid.
 std::string scale_table(const RunResults& run)
 {
     if (!run.plan.contains("scale")) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How several processes shared a run: what each had and did, and how even that was.
+// The section on processes: particles, work and waiting time of each, and the balance of the load.
 #include "hyoryu/report/html.hpp"
 #include "hyoryu/report/svg.hpp"
 #include "hyoryu/report/table.hpp"
@@ -70,7 +70,7 @@ std::string charts(const CsvTable& ranks, std::size_t count)
            "</div>\n";
 }
 
-// The last rows, one a process; of many processes those that worked longest.
+// The last rows, one a process; if there are many processes, of those that worked longest.
 std::string table_of(const CsvTable& ranks, std::size_t count)
 {
     constexpr std::size_t most_rows = 64;
@@ -109,7 +109,7 @@ std::string table_of(const CsvTable& ranks, std::size_t count)
                 : std::string());
 }
 
-// What much waiting means.
+// The explanation of a large share of waiting.
 std::string waiting_text(const nlohmann::ordered_json& shared)
 {
     constexpr double noteworthy = 0.5;
@@ -131,9 +131,10 @@ std::string process_section(const RunResults& run)
     std::string text =
         "<h2>Processes</h2>\n" +
         html_paragraph(fmt::format(
-            "{} processes shared the run. Until its end the busiest one worked {} times as long as "
-            "the mean. {:.1f} % of the time was spent sending and waiting.{} The parts were cut "
-            "anew {} times.",
+            "{} processes shared the run. Over the whole run the busiest process worked {} times "
+            "as "
+            "long as the mean. {:.1f} % of the time was spent sending and waiting.{} The domain "
+            "was repartitioned {} times.",
             count, readable(number(shared.at("imbalance"))),
             100 * number(shared.at("waited_share")), waiting_text(shared),
             shared.at("rebalances").get<long long>()));

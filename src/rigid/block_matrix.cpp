@@ -39,7 +39,7 @@ int next_body(const std::vector<std::vector<int>>& of, const std::vector<int>& s
     return best;
 }
 
-// Takes the body out; those that it coupled are coupled to each other from now on.
+// Removes the body from the graph and couples its neighbours to each other.
 void eliminate(std::vector<std::vector<int>>& of, int body)
 {
     const std::vector<int>& left = of[static_cast<std::size_t>(body)];

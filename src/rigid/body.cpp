@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What follows from the state of one body.
+// Quantities derived from the state of one body: velocities, energy, support function.
 #include "hyoryu/rigid/body.hpp"
 #include "rotor.hpp"
 

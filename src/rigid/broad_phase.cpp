@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Broad phase: sweeps bounding boxes through a box tree and joins bodies that may meet by
+// union-find.
 #include "broad_phase.hpp"
 
 #include "compound.hpp"
@@ -15,12 +17,12 @@ namespace hyoryu {
 
 namespace {
 
-// Passes of widening the boxes by the speeds of their clusters; clusters that still grow afterwards
-// are met in the next step.
+// Passes of widening the boxes by the speeds of their clusters; if clusters still grow afterwards,
+// the additional pairs are found in the next step.
 constexpr int widenings = 3;
 // Added to every box so that contacts at rest stay paired [units].
 constexpr double skin = 1e-4;
-// Bodies that share a list of found pairs, whatever the number of threads.
+// Number of bodies that share a list of found pairs, independent of the number of threads.
 constexpr int bodies_per_block = 64;
 
 double skin_of(const ContactMemory& memory)

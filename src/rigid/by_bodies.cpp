@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The linear problem of many contacts in the velocities of their bodies: W = G A, with A what unit
-// impulses do to the bodies and G what the contacts see of them, so that
+// The linear problem of many contacts, solved for the velocities of their bodies: W = G A, where A
+// maps impulses to velocities of the bodies and G these to velocities at the contacts, so that
 // (G A + S)^-1 = S^-1 (1 - G (1 + A S^-1 G)^-1 A S^-1) for a diagonal S (Woodbury). The matrix in
-// the middle couples only bodies that touch, six rows for each: its elimination costs a stack of n
-// bodies n steps, where that of W costs n^3.
+// the middle couples only bodies that touch, with six rows for each body: its elimination costs
+// O(n) for a stack of n bodies, that of W O(n^3).
 #include "solver.hpp"
 
 #include <algorithm>
@@ -12,14 +12,15 @@ namespace hyoryu {
 
 namespace {
 
-// Shift of each contact as a part of its own inverse mass, so that no mass ratio outweighs it.
+// Shift of each contact relative to its own inverse mass, so that it is effective at any mass
+// ratio.
 constexpr double shift = 1e-8;
-// Each leaves the part shift / (shift + eigenvalue) of what was off.
+// Most corrections; each reduces the error to the part shift / (shift + eigenvalue).
 constexpr int corrections = 20;
-// What the corrections may leave of the right-hand side; and what is as good as they get.
+// Residuals relative to the right-hand side: at which corrections end, and which is still accepted.
 constexpr double corrected = 1e-13;
 constexpr double acceptable = 1e-9;
-// A correction that leaves more than this of what was off leads nowhere.
+// Corrections end if one of them leaves more than this part of the residual.
 constexpr double progress = 0.9;
 // Cost of one product of two 6 x 6 blocks, in updates of rows.
 constexpr double updates_of_product = 0.5;
@@ -29,7 +30,7 @@ int place_of(const BlockWork& work, int body)
     return body >= 0 ? work.place[static_cast<std::size_t>(body)] : -1;
 }
 
-// Numbers the bodies that move.
+// Numbers the movable bodies.
 void number_bodies(std::span<const Row> rows, const std::vector<Response>& bodies, BlockWork& work)
 {
     work.place.resize(bodies.size(), -1);
@@ -47,7 +48,7 @@ void number_bodies(std::span<const Row> rows, const std::vector<Response>& bodie
     }
 }
 
-// The rows of the problem: what each unknown sees and does, by the place of its bodies.
+// Sets the rows of the problem, with bodies by their place in the elimination.
 void lay_out(std::span<const Row> rows, SolverWork& work)
 {
     BlockWork& blocks = work.blocks;
@@ -61,7 +62,7 @@ void lay_out(std::span<const Row> rows, SolverWork& work)
             blocks.ends.emplace_back(place_of(blocks, row.a), place_of(blocks, row.b));
             blocks.shifts.push_back(shift * inverse_mass);
         }
-        if (work.across[k] >= 0) { // held in part
+        if (work.across[k] >= 0) { // partly sticking
             const auto m = static_cast<std::size_t>(work.across[k]);
             work.unknowns[m].sight_a *= work.held[k];
             work.unknowns[m].sight_b *= work.held[k];
@@ -90,7 +91,7 @@ void assemble(SolverWork& work)
     }
 }
 
-// The velocities that impulses lead to: A x.
+// The velocities due to impulses: A x.
 void answer(const SolverWork& work, const Eigen::VectorXd& x, std::vector<Vec6>& velocities)
 {
     velocities.assign(work.blocks.members.size(), Vec6::Zero());
@@ -106,7 +107,7 @@ void answer(const SolverWork& work, const Eigen::VectorXd& x, std::vector<Vec6>&
     }
 }
 
-// What unknown m sees of the velocities: the row m of G v.
+// Row m of G v: the contact velocity in equation m.
 double seen(const SolverWork& work, std::size_t m, const std::vector<Vec6>& velocities)
 {
     const auto [a, b] = work.blocks.ends[m];
@@ -116,7 +117,7 @@ double seen(const SolverWork& work, std::size_t m, const std::vector<Vec6>& velo
     return u;
 }
 
-// Adds the solution of the shifted problem for what is left over.
+// Adds the solution of the shifted problem for the residual.
 void correct(SolverWork& work)
 {
     BlockWork& blocks = work.blocks;
@@ -133,7 +134,7 @@ void correct(SolverWork& work)
     }
 }
 
-// Sets what the solution leaves of the right-hand side, and returns its size.
+// Computes the residual and returns its maximum norm.
 double find_left_over(SolverWork& work)
 {
     BlockWork& blocks = work.blocks;

@@ -9,10 +9,10 @@ namespace hyoryu {
 
 namespace {
 
-constexpr int most_colours = 63; // and one for the groups that find none
+constexpr int most_colours = 63; // and one for groups without a free colour
 constexpr std::uint64_t all_colours = ~std::uint64_t(0) >> 1;
 
-// The lowest colour free at both bodies of the row; walls and held bodies have all free.
+// The lowest colour free at both bodies of the row; at walls and immovable bodies all are free.
 int take_colour(const Row& row, const std::vector<Response>& bodies,
                 std::vector<std::uint64_t>& taken)
 {

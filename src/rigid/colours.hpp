@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which rows of a contact problem may be swept side by side.
+// Graph colouring of the rows of a contact problem: rows of one colour can be swept in parallel.
 #pragma once
 
 #include "row.hpp"
@@ -27,7 +27,7 @@ void sort_by_colour(std::span<Row> rows, const std::vector<Response>& bodies, Co
 
 /// Rows below which sweeping them side by side costs more than it saves.
 inline constexpr std::size_t worth_colouring = 512;
-/// Groups of a colour below which waking the other threads costs more than they save.
+/// Number of groups of a colour below which waking the other threads costs more than they save.
 inline constexpr Index worth_sharing_groups = 256;
 
 /// Calls f(k) for every row k, colour after colour.

@@ -8,11 +8,11 @@ namespace hyoryu {
 
 namespace {
 
-// How far beside a point its face is looked at, and how far a covering part may be recessed, as
-// parts of the reach of the compound.
+// Distance of the test points from a point of a face, and the largest recess of a covering part,
+// relative to the reach of the compound.
 constexpr double look_aside = 1e-5;
 constexpr double touching = 1e-7;
-// A direction this near to the normal of a face is that normal (1 - cosine).
+// Tolerance for a direction to equal the normal of a face (1 - cosine).
 constexpr double same_direction = 1e-12;
 
 bool holds(const Solid& part, const Vec3& p, double slack)
@@ -21,7 +21,7 @@ bool holds(const Solid& part, const Vec3& p, double slack)
                        [&](const Face& face) { return face.normal.dot(p) - face.offset < slack; });
 }
 
-// Whether something of the compound lies right in front of the face at the point.
+// Whether another part of the compound lies directly in front of the face at the point.
 bool covered(const Solid& whole, const Solid& part, const Face& face, const Vec3& p)
 {
     const Vec3 front = p + look_aside * whole.reach * face.normal;
@@ -120,7 +120,7 @@ bool face_is_open(const Solid& whole, const Solid& part, int f, const Vec3& poin
         centre += part.corners[static_cast<std::size_t>(corner)];
     }
     centre /= static_cast<double>(face.corners.size());
-    // around the point, and into the face where it is too sharp for these
+    // four points around the foot, and one towards the centre of the face for acute corners
     for (const Vec3& d : {Vec3(u + 0.9 * w), Vec3(w - 0.9 * u), Vec3(-u - 0.9 * w),
                           Vec3(0.9 * u - w), Vec3((centre - foot).normalized())}) {
         const Vec3 p = foot + aside * d;

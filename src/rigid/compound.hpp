@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solids made of several convex parts.
+// Solids made of several convex parts: their tables, and tests whether a face or edge of a part
+// lies on the surface of the compound ("open") or is covered by another part.
 #pragma once
 
 #include "mesh_separation.hpp"
@@ -22,15 +23,15 @@ const Solid& part_of_corner(const Solid& solid, int corner);
 /// the face is open.
 bool face_is_open(const Solid& whole, const Solid& part, int f, const Vec3& point);
 
-/// Deeper than this in a corner that looks inwards each part may cover the faces of the other [m].
+/// Overlap in a concave corner beyond which each part may cover the faces of the other [m].
 double depth_of_cover(const Solid& whole);
 
-/// Whether both faces beside an edge are open at a point of it: an edge within the surface, or in a
-/// corner that looks inwards, has no normal of its own.
+/// Whether both faces beside an edge are open at a point of it: an edge within the surface or in a
+/// concave corner has no normals of its own.
 bool edge_is_open(const Solid& whole, const Solid& part, const Edge& edge, const Vec3& point);
 
-/// The face of a part that has the point, with the direction n as its normal; -1 if there is none:
-/// the point is on an edge or a corner.
+/// The face of a part that contains the point and has the normal n; -1 if there is none, as on an
+/// edge or corner.
 int face_at(const Solid& whole, const Solid& part, const Vec3& point, const Vec3& n);
 
 /// Whether all faces of a part at a point of an edge or corner are open there.

@@ -22,7 +22,7 @@ using Vec2 = Eigen::Vector2d;
 constexpr double painleve = 1e-12;
 // A determinant below this part of the product of the diagonal means a direction that cannot move.
 constexpr double singular = 1e-13;
-// Newton's method converges quadratically from the fixed-point guess; more steps mean it does not.
+// Most Newton steps: from the fixed-point guess the method converges quadratically or not at all.
 constexpr int newton_steps = 12;
 constexpr double settled_turn = 1e-9; // the square of it is below round-off [rad]
 constexpr int fixed_point_steps = 3;
@@ -32,7 +32,7 @@ constexpr int bisections = 60; // to the last bit
 
 struct SlidingContact {
     double p_n = 0;
-    Vec2 u{0, 0}; // what is left of the tangential velocity
+    Vec2 u{0, 0}; // remaining tangential velocity
     bool exists = false;
 };
 
@@ -107,7 +107,7 @@ std::optional<Vec3> slide_by_newton(const Cone& cone, const Vec3& b, Vec2 d, int
             return std::nullopt;
         }
         const double change = -f.at(d) / slope;
-        // the turn by `change` up to a length that the normalisation takes out
+        // rotation by `change`, up to a length that normalisation removes
         d = Vec2(d.x() - change * d.y(), d.y() + change * d.x()).normalized();
         if (std::abs(change) < settled_turn) {
             break;
@@ -158,7 +158,7 @@ std::optional<Vec3> slide_by_scan(const Cone& cone, const Vec3& b)
     return std::nullopt;
 }
 
-// The earlier direction mostly needs a correction only.
+// The direction of the guess usually needs only a Newton correction.
 std::optional<Vec3> slide_in_space(const Cone& cone, const Vec3& b, const Vec3& stick,
                                    const Vec3& guess, int steps)
 {
@@ -184,7 +184,8 @@ std::optional<Vec3> slide_in_plane(const Cone& cone, const Vec3& b)
     return std::nullopt;
 }
 
-// Fast sliding that no impulse of sliding can answer is stopped at once (a tangential impact).
+// Whether no sliding impulse exists for fast sliding; it is then stopped at once (tangential
+// impact).
 bool jams(const Cone& cone, const Vec3& b)
 {
     const Vec2 t = b.tail<2>();

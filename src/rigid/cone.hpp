@@ -29,8 +29,8 @@ struct ConeImpulse {
 /// velocity; `guess` is an earlier impulse, for the direction of sliding.
 ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess);
 
-/// The same with the direction of sliding of `guess` after one step of Newton's method, for sweeps,
-/// which come again: the exact impulse is the only one that it leaves as it is.
+/// The same with only one Newton step for the direction of sliding from that of `guess`, for
+/// sweeps. The exact impulse is its only fixed point.
 ConeImpulse nearer_impulse(const Cone& cone, const Vec3& b, const Vec3& guess);
 
 /// The nearest point of the friction cone |p_t| <= mu p_n; components beyond `size` become zero.

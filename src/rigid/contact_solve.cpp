@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The smooth motion of a sub-step with persistent contacts.
+// The smooth motion of a sub-step: choice of persistent contacts, their impulses and the paths.
 #include "friction_patches.hpp"
 #include "sub_step.hpp"
 
@@ -10,15 +10,16 @@ namespace hyoryu {
 
 namespace {
 
-// Passes of a patch that slides, and the change of where it rubs that needs no other [units].
+// Most passes for a sliding patch, and the change of its friction points below which no further
+// pass is needed [units].
 constexpr int most_passes = 4;
 constexpr double settled_rub = 1e-8;
-// The first pass only tells the next where the paths lead.
+// The first pass only predicts the ends of the paths for the next one.
 constexpr Effort first_effort{
     .enough = 1e-3, .direct_tries = 1, .updates = 200, .stuck = contacts_of_a_pile + 1};
-// An end of a path that is guessed as well as this is known: the noise of positions [units].
+// A path end is known if its guess is off by less than this, the noise of positions [units].
 constexpr double settled_end = 1e-12;
-// In a pile both are a hundredth of what its solution leaves open.
+// Both tolerances for a pile: a hundredth of the residual of its solution.
 constexpr double settled_rub_of_a_pile = 1e-6;
 constexpr double settled_end_of_a_pile = 1e-10;
 
@@ -27,13 +28,13 @@ bool is_pile(const ContactMemory& memory)
     return memory.persistent.size() > contacts_of_a_pile;
 }
 
-// Touching contacts that do not fly apart; everything that the event search must not look for is
-// held.
+// Chooses the touching contacts that do not separate as persistent. The features that the event
+// search must ignore are listed in `held`.
 void choose_persistent(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
-    const double located = 1e-10 * settings.unit; // deeper than an event leaves a contact [m]
+    const double located = 1e-10 * settings.unit; // deeper than an event leaves an overlap [m]
     memory.persistent.clear();
     memory.held.clear();
     for (const Candidate& c : memory.candidates) {
@@ -44,8 +45,8 @@ void choose_persistent(const StepContext& context, const SubStep& sub)
         if (rests) {
             memory.persistent.push_back({c});
         }
-        // What bounces off opens at once, and may come back within the sub-step, though the
-        // projection of the contacts beside it has pushed it in a little.
+        // A contact that bounces opens at once and may close again within the sub-step, even if the
+        // projection of neighbouring contacts made it overlap slightly.
         const bool opens = apart * sub.h > -2 * c.touch.gap;
         if (rests || (c.touch.gap < -located && !opens)) {
             memory.held.push_back(f);
@@ -81,7 +82,7 @@ void add_impulse(ContactMemory& memory, int k, const Vec3& P, const Vec3& dL)
     }
 }
 
-// Poses halfway and `ahead` of the start on the paths as they are planned now.
+// Sets the poses on the planned paths at the times `ahead` / 2 and `ahead` after the start.
 void predict(ContactMemory& memory, const SubStep& sub, double ahead)
 {
     for (const int k : sub.cluster.bodies) {
@@ -103,7 +104,8 @@ void set_end_responses(const StepContext& context, const SubStep& sub)
     }
 }
 
-// Where a patch that sticks rubs: it turns with the pair, in which neither body turns on the other.
+// The friction point of a sticking patch turns with the pair, as the bodies do not turn relative to
+// each other.
 void carry_rub(const ContactMemory& memory, Persistent& p)
 {
     const int a = p.candidate.feature.a;
@@ -112,7 +114,7 @@ void carry_rub(const ContactMemory& memory, Persistent& p)
     p.touches.see_rub = memory.end[a].R * rub;
 }
 
-// The touches of the contacts at the middle and the end, and where the patches rub there.
+// Sets the touches at the middle and the end, and the friction points of the patches there.
 void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
 {
     const Configuration middle = configuration(memory, memory.middle, sub.time + 0.5 * ahead);
@@ -141,26 +143,26 @@ void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
     }
 }
 
-// Whether friction opposes the mean slip of the contact over the sub-step.
+// Whether friction opposes the mean slip of the contact over the sub-step, not the slip at its end.
 bool slides_through(const ContactMemory& memory, const SubStep& sub, const Row& row, double ahead)
 {
     const Persistent& p = memory.persistent[row.contact];
     const Vec3& n = p.candidate.touch.normal;
     const double slow = no_slip * std::sqrt(memory.geometry.unit);
-    // in a plane a slide has one direction until it ends
+    // in two dimensions the direction of sliding is constant until it stops
     return sub.slip == Slip::mean && ahead > 0 && !is_pile(memory) && row.cone.size == 3 &&
            (p.before - n * n.dot(p.before)).norm() > slow;
 }
 
-// Whether the contact at the middle and the end of the planned motion is the one of its start. The
-// low point of a cap may run to its other side where the cap rocks through flat, the crossing of a
-// log and an edge or another log to its other end, a corner over a rim, and a guess of the forces
-// may turn a body too far: the answer of the bodies is then that of two places, may be negative,
-// and no impulse solves it.
+// Whether the contact at the middle and the end of the planned motion is still the one at its
+// start. The low point of a cap may jump to its other side as the cap rocks through the horizontal,
+// the crossing of a rod and an edge or another rod to its other end, and a corner may pass a rim; a
+// poor guess of the forces may turn a body too far. The inverse mass then mixes two places, may be
+// negative, and no impulse solves the contact.
 bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& bodies)
 {
     constexpr double same_way = 0.5; // cosine
-    constexpr double same_arm = 0.5; // of the answer of the masses alone, the least without turns
+    constexpr double same_arm = 0.5; // relative to the inverse mass without rotation, its bound
     const Vec3& n = p.candidate.touch.normal;
     Vec3 inverse_mass = bodies[row.a].inverse_mass;
     inverse_mass += row.b >= 0 ? bodies[row.b].inverse_mass : Vec3::Zero();
@@ -172,10 +174,10 @@ bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& b
     return same;
 }
 
-// The wanted normal velocity at the end of the sub-step. A gap that the projection closes is no
-// freedom: v = gap / h of its noise would rattle. What opens at the start, and comes back within
-// the sub-step, may come as fast as it went: to stop it at the end, when it is still open, would
-// give the energy of the height that it has gained by then.
+// The target normal velocity at the end of the sub-step. A gap that the projection closes gives no
+// room to move: with v = -gap / h its noise would excite vibration. A contact that opens at the
+// start and closes again within the sub-step may return at its speed of separation. A stop at the
+// end, while it is still open, would add the potential energy that it has gained by then.
 double target_of(const ContactMemory& memory, const SubStep& sub, const Persistent& p)
 {
     const Touch& touch = p.candidate.touch;
@@ -183,7 +185,7 @@ double target_of(const ContactMemory& memory, const SubStep& sub, const Persiste
     return sub.arms == Arms::now ? std::min(closing, -touch.normal.dot(p.before)) : closing;
 }
 
-// Returns whether all contacts go on.
+// Builds the rows of all contacts; returns whether each contact is still the one at its start.
 bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
 {
     ContactMemory& memory = context.memory;
@@ -205,7 +207,7 @@ bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
         complete(row, p.touches, centres, memory.responses, context.rigid.settings.dimensions);
         same = same && goes_on(p, row, memory.responses);
         if (row.cone.K(0, 0) <= 0) {
-            p.impulse.setZero(); // between bodies that nothing moves
+            p.impulse.setZero(); // no body can move along the normal
         } else {
             p.effective_mass = 1 / row.cone.K(0, 0);
             if (slides_through(memory, sub, row, ahead)) {
@@ -230,9 +232,9 @@ void note_unsolved(ContactMemory& memory)
     }
 }
 
-// Solves for the impulses with the arms at the middle and the end of the paths as planned so far,
-// up to `ahead`, and plans the paths with them. Returns what is left [m/s]; plans nothing and
-// returns infinity where one of the contacts does not go on till there.
+// Solves for the impulses with the arms at the middle and the end of the planned paths, up to
+// `ahead`, and adds the impulses to the paths. Returns the residual [m/s]. If a contact changes its
+// place before `ahead`, it changes no path and returns infinity.
 double solve_pass(const StepContext& context, const SubStep& sub, double ahead,
                   const Effort& effort)
 {
@@ -266,7 +268,7 @@ double solve_pass(const StepContext& context, const SubStep& sub, double ahead,
     return left;
 }
 
-// The known forces act on the first prediction with the arms of the start.
+// Adds the recalled impulses to the first prediction, with the arms at the start.
 void add_known_impulses(ContactMemory& memory)
 {
     for (const Persistent& p : memory.persistent) {
@@ -288,7 +290,7 @@ Vec3 tangential(const Vec3& u, const Vec3& n)
     return u - n * n.dot(u);
 }
 
-// The velocity of a body at a contact, along the tangents where friction acts: `rub` from there.
+// Velocity of a body at a contact, with tangential components at the friction point (`rub`).
 Vec3 velocity_at(const Response& body, const Vec3& arm, const Vec3& rub, const Vec3& n)
 {
     return body.v + body.omega.cross(arm) + tangential(body.omega.cross(rub), n);
@@ -305,8 +307,8 @@ Vec3 velocity_after(const ContactMemory& memory, const Row& row, const TwoTouche
 }
 
 // Energy that friction takes over the whole sub-step: - P . (u0 + u1) / 2 at the contact, and the
-// slip at its ends. A row that opposes the mean slip has the arms of the middle, which tell the sum
-// of the two but neither of them.
+// slip at its ends. A row that opposes the mean slip gives only the sum of the slips at the two
+// ends, not each of them.
 void book_dissipation(const StepContext& context)
 {
     ContactMemory& memory = context.memory;
@@ -343,8 +345,8 @@ void set_velocities_before(ContactMemory& memory, const SubStep& sub)
     }
 }
 
-// Whether the contacts of a patch rub elsewhere than in the last pass by more than its round-off:
-// where they rub follows from the loads, which follow from where they rub.
+// Whether a friction point has moved since the last pass by more than round-off: friction points
+// depend on the loads, and the loads on the friction points.
 bool rubs_elsewhere(const ContactMemory& memory)
 {
     const double settled = is_pile(memory) ? settled_rub_of_a_pile : settled_rub;
@@ -364,8 +366,8 @@ void guess_ends(ContactMemory& memory, const SubStep& sub)
     }
 }
 
-// Whether the pass found the ends of the paths where they were guessed, so that another with the
-// arms that it foresees would find the same: what rests or slides steadily needs one pass.
+// Whether the path ends agree with the guess, so that a second pass with the new arms would give
+// the same result. Bodies at rest or in steady sliding need only one pass.
 bool ends_as_guessed(const ContactMemory& memory, const SubStep& sub)
 {
     const double most =
@@ -380,9 +382,9 @@ bool ends_as_guessed(const ContactMemory& memory, const SubStep& sub)
     });
 }
 
-// Passes with the arms at the middle and the end of the paths, each with the impulses of the one
-// before: the first tells the others where the paths lead, and is the last where they lead to what
-// was guessed. Returns what is left [m/s]; infinity where a contact does not go on till there.
+// Fixed-point passes with the arms at the middle and the end of the paths, each starting from the
+// impulses of the last. The first pass predicts the path ends and is the only one if they agree
+// with the guess. Returns the residual [m/s], or infinity if a contact changes its place.
 double solve_ahead(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
@@ -419,7 +421,7 @@ void plan_motion(const StepContext& context, const SubStep& sub)
     if (!memory.persistent.empty()) {
         set_velocities_before(memory, sub);
         double left = sub.arms == Arms::ahead ? solve_ahead(context, sub) : infinity;
-        if (left == infinity) { // with the arms as they are
+        if (left == infinity) { // with the arms at the start
             left = solve_pass(context, sub, 0, sub.contact_effort);
         }
         double& worst = context.rigid.counters.worst_residual;

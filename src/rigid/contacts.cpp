@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contact search of a cluster and its islands.
+// Contact search of a cluster, and the solution of its contact problem island by island.
 #include "sub_step.hpp"
 #include "union_find.hpp"
 
@@ -16,9 +16,9 @@ namespace {
 
 // Contacts below which waking the other threads costs more than they save.
 constexpr std::size_t worth_sharing_contacts = 64;
-// What locating may cost: sixteen times a step of a stack of ten, so that a box whose faces slide
-// as it rattles has its passes, and what keeps a rattling heap within a fifth of what its steps
-// cost without [updates of rows].
+// Cost limits for locating impacts [updates of rows]. Per cluster: sixteen times a step of a stack
+// of ten, enough for the passes of a box that slides on its faces between many impacts. Per body: a
+// value at which locating adds at most a fifth to the cost of a heap with many impacts.
 constexpr double work_of_cluster = 8000;
 constexpr double work_of_body = 100;
 
@@ -39,8 +39,8 @@ void join_bodies(const std::vector<Row>& rows, ContactMemory& memory)
     }
 }
 
-// Sorts the rows by the islands that share no movable body, in the order of their first rows, and
-// returns where each island ends.
+// Sorts the rows into islands, which share no movable body, in the order of their first rows.
+// Returns the end of each island.
 std::vector<std::size_t> sort_into_islands(std::vector<Row>& rows, ContactMemory& memory)
 {
     join_bodies(rows, memory);
@@ -129,7 +129,7 @@ double solve_islands(std::vector<Row>& rows, ContactMemory& memory, const Effort
         memory.left[island] =
             solve(rows_of(island), memory.responses, memory.solvers[island], effort);
     };
-    // Those whose sweeps use all threads come one after another, the others side by side.
+    // Islands whose sweeps use all threads are solved one after another, the others in parallel.
     const auto is_shared = [&](std::size_t island) {
         return rows_of(island).size() >= worth_colouring;
     };

@@ -7,7 +7,8 @@ namespace hyoryu {
 
 namespace {
 
-// An open contact shows an overlap if it is this part as deep, and no farther away than twice that.
+// An open contact represents an overlap if it has at least this part of its depth and lies within
+// `beside` times this depth.
 constexpr double as_deep = 0.5;
 constexpr double beside = 2;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts in corners that look inwards, where each face ends at the other.
+// Contacts in concave corners (those of meshes and compounds), where each face ends at the other.
 #pragma once
 
 #include "feature.hpp"
@@ -8,10 +8,9 @@
 
 namespace hyoryu {
 
-/// Where solids are deep in a corner that looks inwards, all contacts there are covered by another
-/// face. Appends to `found`, from the shallowest on, those of `covered` that overlap by more than
-/// `depth`, unless an open contact (of `found`, from `first` on) or an appended one beside them
-/// shows it.
+/// In a deep overlap at a concave corner all contacts are covered by another face. Appends those of
+/// `covered` that overlap by more than `depth` to `found`, shallowest first, unless an open contact
+/// (in `found`, from `first` on) or an appended one near them already represents the overlap.
 void add_covered(std::vector<Candidate>& covered, double depth, std::size_t first,
                  std::vector<Candidate>& found);
 

@@ -11,12 +11,12 @@ namespace hyoryu {
 
 namespace {
 
-// A message costs about as much as this [updates of rows, of 0.1 us each].
+// Approximate cost of a message [updates of rows, of 0.1 us each].
 constexpr double work_of_message = 2000;
-// What every rank does itself: it costs less than its place in a message.
+// Owner of a group that every rank advances itself, since it costs less than its part of a message.
 constexpr int everyone = -1;
 
-// What a cluster may cost, as far as the last step tells; 0 for bodies that fly [updates of rows].
+// Expected cost of a cluster from that of the last step; 0 for free flight [updates of rows].
 double expected_work(const ContactMemory& memory, const Cluster& cluster)
 {
     if (cluster.pairs.empty()) {
@@ -29,7 +29,7 @@ double expected_work(const ContactMemory& memory, const Cluster& cluster)
     return std::max(last, look_work * static_cast<double>(cluster.pairs.size()));
 }
 
-// Which rank advances what, and how much less than all the busiest of them has to do.
+// The rank that advances each group, and the work saved: the total less that of the busiest rank.
 struct Deal {
     std::vector<int> owner; // of each outcome, or `everyone`
     double saved = 0;       // [updates of rows]
@@ -59,7 +59,7 @@ Deal deal_out(const ContactMemory& memory, const std::vector<Outcome*>& outcomes
     return deal;
 }
 
-// What a step made of a body.
+// The state of a body after the step.
 struct BodyOutcome {
     Vec3 position{0, 0, 0};              // [m]
     std::array<double, 4> orientation{}; // x, y, z, w
@@ -118,7 +118,7 @@ void take_outcome(Unpacking& from, const StepContext& context, Outcome& outcome)
     outcome.done = true;
 }
 
-// Gives all ranks the outcomes of each.
+// Sends the outcomes of each rank to all others.
 void share_outcomes(const StepContext& context, const std::vector<Outcome*>& outcomes,
                     const Deal& deal, Comm& comm)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The direct solution of a contact problem: Newton's method on the condition that every impulse is
 // the projection of p - r (u - u*) onto the friction cone (Alart and Curnier 1991), r an effective
-// mass. It comes down to an active set, contacts that stick, slide or are open, in which the
-// direction of sliding is an unknown, too.
+// mass. This is an active-set method with the states stick, slide and open, in which the direction
+// of sliding is an additional unknown.
 #include "solver.hpp"
 
 #include <Eigen/QR>
@@ -16,22 +16,22 @@ namespace {
 
 enum State { open = 0, slides = 1, sticks = 2 };
 
-// Changes of the active set after which the iteration takes over.
+// Most changes of the active set; the sweeps take over afterwards.
 constexpr int most_active_sets = 12;
-// And rounds in a row that do not leave less than this part of the least so far.
+// Most consecutive rounds that do not reduce the least residual so far to this part.
 constexpr int rounds_without_gain = 3;
 constexpr double improvement = 0.7;
-// A direction of sliding that turns by less has settled, since what is left is the square [rad].
+// A sliding direction that turns by less has converged: the remaining error is its square [rad].
 constexpr double settled_direction = 3e-8;
-// What is this part below the cone lies on it.
+// Friction less than this part below the limit counts as on the cone.
 constexpr double on_cone = 1e-9;
 // Relative rank tolerance of the redundant, symmetric problem (round-off times condition).
 constexpr double rank_tolerance = 1e-11;
 constexpr int most_corrections = 6;
-// What the corrections may leave of the right-hand side.
+// Residual at which the corrections end, relative to the right-hand side.
 constexpr double left_by_corrections = 1e-13;
 
-// A factorisation takes as long as so many updates of rows as the cube of its unknowns over this.
+// A factorisation of n unknowns costs as much as n^3 over this number of updates of rows.
 constexpr double factored_in_an_update = 250;
 
 double cubed(double x)
@@ -42,18 +42,19 @@ double cubed(double x)
 int unknowns(const Row& row, int state)
 {
     if (state == slides) {
-        return row.cone.size == 3 ? 2 : 1; // in space its direction is one, too
+        return row.cone.size == 3 ? 2 : 1; // in space the direction of sliding is an unknown, too
     }
     return state == sticks ? row.cone.size : 0;
 }
 
-// Across the direction of sliding, in the tangent plane.
+// The unit tangent perpendicular to the direction of sliding.
 Vec3 across(const Vec3& d)
 {
     return {0, -d[2], d[1]};
 }
 
-// Unknown m of the impulse of a contact in its state, in its axes.
+// Direction of unknown m of the impulse of a contact in the given state, in the axes of the
+// contact.
 Vec3 direction(const Row& row, int state, const Vec3& d, int m)
 {
     if (state == sticks) {
@@ -62,7 +63,7 @@ Vec3 direction(const Row& row, int state, const Vec3& d, int m)
     return m == 0 ? Vec3(Vec3(1, 0, 0) - row.cone.mu * d) : across(d);
 }
 
-// The component of the velocity that equation m of a contact asks for.
+// The velocity component that equation m of a contact constrains.
 Vec3 asked(int state, const Vec3& d, int m)
 {
     return state == slides && m == 1 ? across(d) : Vec3(Vec3::Unit(m));
@@ -73,16 +74,17 @@ double tangential_mass(const Row& row)
     return 1 / row.cone.K(1, 1);
 }
 
-// The point of which friction is the projection onto the disc of radius mu p_n, turned round: the
-// direction in which the contact slides, if it does [N s].
+// Minus the point whose projection onto the disc of radius mu p_n is the friction; its direction is
+// the direction of sliding if the contact slides [N s].
 Vec3 sliding_point(const Row& row, const Vec3& u)
 {
     const double r = tangential_mass(row);
     return {0, r * u[1] - row.p[1], row.cone.size == 3 ? r * u[2] - row.p[2] : 0};
 }
 
-// How much of the direction across holds like that of a contact that sticks [1]; the rest yields
-// with the mass r: w u + (1 - w) q / r = 0 for the impulse q across.
+// The weight w of the sticking condition in the direction perpendicular to sliding [1]; with the
+// rest the contact yields with the mass r: w u + (1 - w) q / r = 0 for the impulse q in this
+// direction.
 double part_held(const Row& row, const Vec3& u)
 {
     const double cap = row.cone.mu * std::max(row.p[0], 0.0);
@@ -102,13 +104,14 @@ Vec6 joined(const Vec3& linear, const Vec3& angular)
     return both;
 }
 
-// The velocities of a body that the impulse P with this moment leads to.
+// The change of the velocities of a body under the impulse P with the given moment.
 Vec6 answer(const Response& body, const Vec3& P, const Vec3& moment)
 {
     return joined(body.inverse_mass.cwiseProduct(P), body.inverse_inertia * moment);
 }
 
-// Numbers the unknowns, and lays out what each does to its bodies and sees of them.
+// Numbers the unknowns, and sets the response of the bodies to each and the coefficients of its
+// equation.
 void lay_out(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work)
 {
     work.columns.clear();
@@ -138,7 +141,7 @@ void lay_out(std::span<const Row> rows, const std::vector<Response>& bodies, Sol
     work.columns.push_back(static_cast<int>(work.unknowns.size()));
 }
 
-// The block of row i by row j.
+// Sets the block (i, j) of W.
 void couple(const Row& i, const Row& j, SolverWork& work, std::size_t at_i, std::size_t at_j)
 {
     for (int m = work.columns[at_j]; m < work.columns[at_j + 1]; ++m) {
@@ -155,7 +158,7 @@ void couple(const Row& i, const Row& j, SolverWork& work, std::size_t at_i, std:
     }
 }
 
-// What the velocities are asked to change by.
+// Sets the right-hand side: the required changes of the velocities.
 void set_right_side(std::span<const Row> rows, SolverWork& work)
 {
     work.rhs.setZero(static_cast<Index>(work.unknowns.size()));
@@ -188,9 +191,9 @@ void assemble(std::span<const Row> rows, SolverWork& work)
     }
 }
 
-// W x = rhs by a shifted problem: W is singular where contacts share a load in many ways, as the
-// corners of a box do, and corrections lead to the solution of the smallest norm (iterated
-// regularisation, Riley 1955). False if they do not.
+// Solves W x = rhs by a shifted problem. W is singular for redundant contacts such as the corners
+// of a box; corrections converge to the solution of least norm (iterated regularisation, Riley
+// 1955). Returns false if they do not converge.
 bool solve_shifted(SolverWork& work)
 {
     const Index n = work.W.rows();
@@ -209,7 +212,7 @@ bool solve_shifted(SolverWork& work)
     return false;
 }
 
-// The same to the last bit, or the best there is, for ten times the cost.
+// The least-squares solution of least norm to machine precision, at ten times the cost.
 void solve_orthogonally(SolverWork& work)
 {
     Eigen::CompleteOrthogonalDecomposition<DenseMatrix> decomposition;
@@ -241,7 +244,7 @@ void apply(std::span<Row> rows, std::vector<Response>& bodies, const SolverWork&
     }
 }
 
-// The state of a contact whose impulse and velocity these are; of one that slides, the direction.
+// The state of a contact with the given impulse and velocity; sets the direction if it slides.
 int state_of(const Row& row, const Vec3& u, double p_n, Vec3& d)
 {
     if (p_n <= 0) {
@@ -255,7 +258,7 @@ int state_of(const Row& row, const Vec3& u, double p_n, Vec3& d)
     return slides;
 }
 
-// Takes over the states that the solution shows; false if they are those that it was made with.
+// Updates the states from the solution; returns whether any of them changed.
 bool improve_states(std::span<const Row> rows, const std::vector<Response>& bodies,
                     SolverWork& work)
 {
@@ -266,7 +269,7 @@ bool improve_states(std::span<const Row> rows, const std::vector<Response>& bodi
         const Vec3 u = velocity(row, bodies);
         const Vec3 last = work.directions[k];
         const int now = work.states[k];
-        // What is shut has the normal velocity that it is asked for, up to round-off.
+        // A closed contact has its target normal velocity up to round-off.
         const double approach = row.target - u[0];
         const double p_n = now != open         ? row.p[0]
                            : approach > solved ? approach / row.cone.K(0, 0)
@@ -279,9 +282,9 @@ bool improve_states(std::span<const Row> rows, const std::vector<Response>& bodi
     return changed;
 }
 
-// The impulses that the states allow nearest to what the rows hold. Where contacts share a load in
-// many ways, the solution nearest to those is the one whose states are most likely to be right:
-// that of the smallest norm would load every contact of a pile anew.
+// Sets the base to the impulses nearest to those of the rows that the states allow. For redundant
+// contacts the solution nearest to them most likely has the right states; the solution of least
+// norm would redistribute the load of a whole pile.
 void choose_base(std::span<const Row> rows, SolverWork& work)
 {
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -296,7 +299,7 @@ void choose_base(std::span<const Row> rows, SolverWork& work)
     }
 }
 
-// Applies the base, and takes the velocities that it leads to.
+// Applies the base impulses and stores the resulting contact velocities.
 void start_from_base(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
     work.momenta.clear();
@@ -350,7 +353,7 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
         order_bodies(rows, bodies, work);
     }
     work.base.assign(rows.size(), Vec3::Zero());
-    if (!by_bodies) { // a pile starts from the impulses that it holds
+    if (!by_bodies) { // a pile starts from its present impulses
         start_from_base(rows, bodies, work);
     }
     bool changed = true;
@@ -366,7 +369,7 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
         set_right_side(rows, work);
         const bool solved = by_bodies ? solve_by_bodies(rows, work) : solve_densely(rows, work);
         if (!solved || !work.solution.allFinite()) {
-            return false; // the impulses of the round before stay
+            return false; // keeps the impulses of the last round
         }
         apply(rows, bodies, work);
         changed = improve_states(rows, bodies, work);
@@ -392,7 +395,7 @@ bool solve_sticking(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     for (const int body : work.blocks.members) {
         work.velocities.push_back({bodies[body].v, bodies[body].omega});
     }
-    const auto take_back = [&] { // to the last bit
+    const auto take_back = [&] { // exactly
         for (std::size_t k = 0; k < work.velocities.size(); ++k) {
             Response& body = bodies[work.blocks.members[k]];
             body.v = work.velocities[k].v;
@@ -403,7 +406,7 @@ bool solve_sticking(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
         }
         return false;
     };
-    constexpr int passes = 2; // the second takes the round-off of the first out
+    constexpr int passes = 2; // the second removes the round-off of the first
     for (int pass = 0; pass < passes; ++pass) {
         choose_base(rows, work);
         start_from_base(rows, bodies, work);

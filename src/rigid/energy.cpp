@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The energy that contacts give in a planned sub-step. Contacts that push at the middle of it and
-// are seen at its end are of second order, but what they do then is not bound to take energy: the
-// error is of third order in the length of the sub-step, and of either sign.
+// The energy balance of contacts in a planned sub-step. Impulses at its middle with constraints at
+// its end are of second order, but their work is not necessarily dissipative: the error is of third
+// order in the length of the sub-step, and of either sign.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -10,13 +10,13 @@ namespace hyoryu {
 
 namespace {
 
-// Energy from contacts that is left in a sub-step, as a part of what the cluster moves with.
+// Energy gain from contacts that is accepted in a sub-step, relative to the kinetic energy.
 constexpr double no_gain = 1e-6;
-// Round-off of their work, as a part of the kinetic energy.
+// Round-off of their work, relative to the kinetic energy.
 constexpr double round_off = 1e-13;
 
-// The work of the contacts on a body along a path that ends at a rotation: what its kinetic energy
-// gains beyond the work of gravity and loads.
+// The work of the contacts on a body along a path that ends at the rotation `end`: the gain of
+// kinetic energy less the work of gravity and loads.
 double work_on(const StepContext& context, int k, const Path& path, const Mat3& end)
 {
     const Rotor& rotor = context.memory.rotors[k];
@@ -32,9 +32,9 @@ double work_on(const StepContext& context, int k, const Path& path, const Mat3& 
     return work;
 }
 
-// The gain that is left, but for what the contacts exchange: by the kinetic energy at the end of
-// the paths, seen from the centre of mass of the cluster, so that a current that carries all bodies
-// on does not count.
+// The accepted gain without the part for the energy exchanged by contacts: relative to the kinetic
+// energy at the end of the paths in the frame of the centre of mass of the cluster, so that a
+// common drift of all bodies does not count.
 double gain_left(const StepContext& context, const SubStep& sub)
 {
     const ContactMemory& memory = context.memory;
@@ -52,8 +52,9 @@ double gain_left(const StepContext& context, const SubStep& sub)
     return no_gain * (energy - of_centre) + round_off * energy;
 }
 
-// What the projection will do against gravity and loads where the path changes a gap: it moves the
-// two bodies, whose contact has that acceleration in free flight, until the gap is what it was.
+// Work of the projection against gravity and loads if the path changes a gap: the projection moves
+// the two bodies until the gap has its former value. `apart` is the acceleration of the gap in free
+// flight.
 double work_of_projection(const StepContext& context, const Row& row, double change)
 {
     const ContactMemory& memory = context.memory;
@@ -66,7 +67,7 @@ double work_of_projection(const StepContext& context, const Row& row, double cha
     return change * apart / row.cone.K(0, 0);
 }
 
-// The first part of a path.
+// The part of a path up to the time s.
 Path up_to(double s, Path path)
 {
     const double part = path.h > 0 ? s / path.h : 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Time of impact: the root of the smallest gap that is not held.
+// Time of impact: bracketing and root finding (Illinois method) for the smallest gap of each pair,
+// without the features in `held`.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -11,17 +12,17 @@ namespace {
 
 // A gap is an event when it is below this at the end of the sub-step [units].
 constexpr double closed = -1e-10;
-// Two polytopes in contact may describe one contact by other features a moment later; only a gap
-// deeper than that play of the description is a new contact [units].
+// Two polytopes in contact may describe the same contact by other features a moment later; only a
+// gap below this bound is a new contact [units].
 constexpr double closed_in_contact = -1e-6;
-// What stays closed all through, as where a contact has just been let go, is an event when it is
-// deeper by this [units].
+// A pair that is closed throughout the interval, for instance after a contact was released, is an
+// event once it overlaps more by this [units].
 constexpr double closed_again = -1e-7;
 constexpr double located = 1e-11; // gap at the time found [units]
 constexpr int root_steps = 60;
 // Halvings of the time at which a contact that has just bounced off is found open.
 constexpr int open_halvings = 40;
-// Rotation above which the middle of the sub-step is looked at as well [rad].
+// Rotation above which the middle of the sub-step is sampled as well [rad].
 constexpr double half_look = 0.1;
 constexpr int most_looks = 1024;
 
@@ -108,8 +109,8 @@ private:
                                   velocity_at(c.feature.a, c.touch.point, s));
     }
 
-    // Whether the pair has closed at the trial poses. What falls fast enough to bounce is no play
-    // of the description.
+    // Whether the pair has closed at the trial poses. A feature that approaches fast enough to
+    // bounce always counts as a new contact.
     bool closes(const BodyPair& pair, double s)
     {
         if (!has_axis(pair, memory_.geometry) || !holds(pair)) {
@@ -123,7 +124,7 @@ private:
         });
     }
 
-    // The smallest gap of the pair at the trial poses, held features left out.
+    // The smallest gap of the pair at the trial poses, without the features in `held`.
     double clearance(const BodyPair& pair, double s)
     {
         const Configuration at = configuration(memory_, memory_.trial, sub_.time + s);
@@ -147,8 +148,8 @@ private:
         return clearance(pair, s);
     }
 
-    // The time in between at which an open pair closes. One that stays closed, as where a contact
-    // has just been let go, is caught when it is deeper.
+    // The time in the interval at which an open pair closes. For a pair that is closed throughout,
+    // the time at which its overlap has grown by `closed_again`.
     double closing_time(const BodyPair& pair, double low, double high)
     {
         const double zero = located * unit_;
@@ -205,7 +206,7 @@ private:
         return at.high;
     }
 
-    // So many that no body turns or moves past another between two looks.
+    // Number of samples such that no body turns or moves past another between two of them.
     int count_looks() const
     {
         double looks = 1;
@@ -229,7 +230,7 @@ private:
                          : (memory_.rotors[k].movable ? memory_.paths[k].v1 : Vec3::Zero());
         };
         const double speed = (velocity(pair.a) - velocity(pair.b)).norm();
-        // A triangle may be smaller than what a turning end sweeps.
+        // A triangle may be smaller than the path of the end of a turning body.
         const bool mesh = pair.b < 0 && !memory_.geometry.walls[-1 - pair.b].mesh.triangles.empty();
         return sub_.h * (speed + (mesh ? tip_speed(pair.a) : 0));
     }

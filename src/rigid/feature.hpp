@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A contact by the features that touch: its identity from step to step, and where it is at any
+// A contact as a pair of touching features: its identity from step to step, and its location at any
 // pose.
 #pragma once
 
@@ -30,8 +30,8 @@ inline Vec3 in_frame(const SolidPose& pose, const Vec3& p)
     return pose.R.transpose() * (p - pose.x);
 }
 
-/// A boundary as the contact search sees it: a plane at time 0, a mesh, or a solid; a basin is the
-/// compound of its sides.
+/// A boundary in the contact search: a plane at time 0, a mesh, or a solid; a basin is the compound
+/// of its sides.
 struct ContactWall {
     std::optional<Plane> plane;
     MeshTable mesh;
@@ -61,8 +61,9 @@ enum class FeatureKind {
     round_corner  // ball a, corner i of a mesh
 };
 
-/// Bodies a and b (b as in Contact) and what touches. `owner` 0: i, j belong to a; 1: to b. Corners
-/// and faces of a compound are numbered through all parts; the rims of a rod are those of its caps.
+/// Bodies a and b (b as in Contact) and their touching features. `owner` 0: i, j belong to a; 1: to
+/// b. Corners and faces of a compound are numbered through all parts; the rims of a rod are those
+/// of its caps.
 struct Feature {
     int a = 0, b = 0;
     FeatureKind kind = FeatureKind::corner_plane;
@@ -71,7 +72,7 @@ struct Feature {
     auto operator<=>(const Feature&) const = default;
 };
 
-/// Where and how two features face each other.
+/// Contact point, normal and gap of two features.
 struct Touch {
     Vec3 point{0, 0, 0};
     Vec3 normal{0, 0, 1}; // from b to a
@@ -82,10 +83,10 @@ struct Touch {
 struct Candidate {
     Feature feature;
     Touch touch;
-    bool closing = false; // in a jam: open now, and closed before the sub-step ends
+    bool closing = false; // unlocated steps: open now, closes within the sub-step
 };
 
-/// All that geometry is made of; bodies by index, poses that change.
+/// The geometry of all bodies (by index) and boundaries; it does not contain the poses.
 struct Geometry {
     std::vector<Solid> solids;
     std::vector<ContactWall> walls;
@@ -102,7 +103,7 @@ struct Configuration {
 /// The pose of the axes of a solid, from that of its body about the centre of mass.
 SolidPose pose_of_shape(const Solid& solid, const SolidPose& body);
 
-/// A solid and where its axes are.
+/// A solid and the pose of its axes.
 struct PlacedSolid {
     const Solid& solid;
     SolidPose pose;

@@ -13,7 +13,8 @@ constexpr std::size_t most_contacts = 8;
 // Contacts of one patch: normals closer than this (1 - cosine), heights closer than that [units].
 constexpr double parallel_normals = 1e-9;
 constexpr double same_height = 1e-6;
-// Friction inside this part of the cone holds [1]: round-off, on top of what the solution calls so.
+// A contact sticks if its friction is inside this part of the cone [1]; the margin is for
+// round-off.
 constexpr double inside_cone = 1 - 1e-6;
 // The centre of pressure has not moved while it is within this part of the size of the patch.
 constexpr double settled_centre = 0.02;
@@ -24,7 +25,7 @@ bool same_plane(const Touch& a, const Touch& b, double unit)
            std::abs(a.normal.dot(b.point - a.point)) < same_height * unit;
 }
 
-// Takes the contacts that lie in one plane with the first of `left`.
+// Moves the contacts that lie in one plane with the first of `left` out of this list.
 std::vector<int> take_plane(const ContactMemory& memory, std::vector<int>& left)
 {
     const Touch base = memory.persistent[left[0]].candidate.touch;
@@ -36,8 +37,8 @@ std::vector<int> take_plane(const ContactMemory& memory, std::vector<int>& left)
     return taken;
 }
 
-// The lowest point of a rim that lies flat may be anywhere on it: the points that are fixed to the
-// rim carry the load.
+// Drops the lowest points of rims: on a flat rim their place is arbitrary, and the points fixed to
+// the rim carry the load.
 void leave_out_lowest(const ContactMemory& memory, std::vector<int>& contacts)
 {
     if (contacts.size() > most_contacts) {
@@ -48,7 +49,7 @@ void leave_out_lowest(const ContactMemory& memory, std::vector<int>& contacts)
     }
 }
 
-// The patch of the contacts that bound those given, in the order in which they stood.
+// The patch of the outermost of the given contacts, in their original order.
 FrictionPatch bounding(const ContactMemory& memory, std::vector<int> contacts)
 {
     leave_out_lowest(memory, contacts);
@@ -113,7 +114,7 @@ double size_of(const ContactMemory& memory, const FrictionPatch& patch)
     return size;
 }
 
-// Takes the contacts out that no patch kept, and numbers the others anew.
+// Removes the contacts that no patch kept and renumbers the others.
 void keep(const std::vector<char>& kept, ContactMemory& memory)
 {
     std::vector<int> number(kept.size());
@@ -218,7 +219,7 @@ void set_rubs(ContactMemory& memory)
             p.touches.see_rub = p.rub;
         }
     }
-    for (Persistent& p : memory.persistent) { // in no patch: at its contact point
+    for (Persistent& p : memory.persistent) { // of no patch: friction at the contact point
         p.rub = p.touches.push_rub;
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The persistent contacts of a sub-step as flat patches: thinned out, and with their friction.
+// Groups the persistent contacts of a sub-step into flat patches, reduces their number, and sets
+// where their friction acts.
 #pragma once
 
 #include "sub_step.hpp"
@@ -10,22 +11,22 @@ namespace hyoryu {
 
 /// Sorts the persistent contacts into patches, those of one pair in one plane. Of each patch the
 /// contacts at the corners of its hull stay, eight at most: the others lie between them and cannot
-/// approach on their own. Steps without location rub at the contact points: their sweeps settle
-/// faster.
+/// approach on their own. In unlocated steps friction acts at the contact points, as their sweeps
+/// then converge faster.
 void find_patches(const StepContext& context, const SubStep& sub);
 
-/// Sets where the contacts of each patch rub at the start of the sub-step (patch.hpp), by the
-/// impulses that they have from the last one. A patch that sticks rubs where it did while the
-/// centre of its pressure stays within a fiftieth of its size: where many contacts share a load, a
-/// solution shares it anew if friction moves, which moves friction, without end.
+/// Sets the friction points of each patch at the start of the sub-step (patch.hpp) from the
+/// impulses of the last one. A sticking patch keeps its friction points while its centre of
+/// pressure moves by less than a fiftieth of its size: among redundant contacts, moving the
+/// friction redistributes the load, which would move the friction again, without end.
 void set_rubs(ContactMemory& memory);
 
-/// Notes which patches stick: those that bear load, all of it inside the friction cones.
+/// Records which patches stick: those that carry load with all impulses inside the friction cones.
 void note_sticking(const StepContext& context);
 
-/// The centre of the pressure of a patch, by the impulses that its contacts have so far, through
-/// which the friction of a slide goes; the centroid while they have none. `point` gives the place
-/// of a contact [m].
+/// The centre of pressure of a patch from the present impulses of its contacts, through which
+/// sliding friction acts; the centroid if there are no impulses. `point` gives the place of a
+/// contact [m].
 Vec3 centre_of(std::span<const Persistent> contacts, const FrictionPatch& patch, const auto& point)
 {
     Vec3 centroid = Vec3::Zero();

@@ -13,13 +13,13 @@ namespace hyoryu {
 
 namespace {
 
-// Where the middle of a shape is whose centre of mass is there.
+// The centre of a shape, from the pose of its body.
 Vec3 middle_of(const Solid& solid, const SolidPose& body)
 {
     return solid.middle.isZero(0) ? body.x : Vec3(body.x + body.R * solid.middle);
 }
 
-// A solid in the world, without a copy of its turn.
+// A solid in world axes, without a copy of the rotation matrix.
 struct Frame {
     const Solid& solid;
     Vec3 x;
@@ -65,7 +65,7 @@ Touch plane_touch(const Feature& feature, const Configuration& at)
     return touch;
 }
 
-// The plane of a face, also where the next part of a compound takes over.
+// The touch on the plane of a face, which is extended beyond its rim.
 Touch over_face(const Face& face, const Vec3& p)
 {
     const double gap = face.normal.dot(p) - face.offset;

@@ -10,10 +10,10 @@ namespace hyoryu {
 
 namespace {
 
-// Repetitions after which what is left of the cluster is advanced as one group.
+// Repetitions after which the whole cluster is advanced as one group.
 constexpr int most_repetitions = 4;
-// The direction of an angular velocity changes in a sub-step, in which a body turns by 0.3 rad at
-// most: a bound on the speed between its ends [1].
+// Bound on the angular speed within a sub-step, relative to the larger one at its ends [1]: a body
+// turns by at most 0.3 rad, and its angular velocity changes direction.
 constexpr double more_turn = 1.2;
 // Two edges whose cross product is shorter than this count as parallel [1].
 constexpr double parallel_edges_of_blocks = 1e-6;
@@ -113,7 +113,7 @@ bool stays_apart(const ContactMemory& memory, const Link& link)
            clearly_apart(memory.geometry);
 }
 
-// The motion that the state of the start lets expect: the free one.
+// Sets the deviations to those of free motion from the start of the step.
 void expect_free_motion(const StepContext& context, const Cluster& cluster)
 {
     ContactMemory& memory = context.memory;
@@ -157,8 +157,8 @@ void join(std::vector<int>& parents, int a, int b)
     parents[std::max(root_a, root_b)] = std::min(root_a, root_b);
 }
 
-// The groups that the roots make of the cluster. What a group did is kept until another group turns
-// out to have been in its way.
+// The groups given by the union-find roots. A group keeps its outcome unless it was joined with
+// another group.
 std::vector<Outcome> groups_of(const StepContext& context, const Cluster& cluster,
                                std::vector<int>& parents, std::vector<Outcome>& last)
 {
@@ -192,7 +192,7 @@ std::vector<Outcome> groups_of(const StepContext& context, const Cluster& cluste
     return groups;
 }
 
-// Movable bodies of a cluster that the broad phase paired.
+// The links between movable bodies of a cluster that the broad phase paired.
 std::vector<Link> links_of(const StepContext& context, const Cluster& cluster)
 {
     const std::vector<Rotor>& rotors = context.memory.rotors;
@@ -205,7 +205,7 @@ std::vector<Link> links_of(const StepContext& context, const Cluster& cluster)
     return links;
 }
 
-// Joins the bodies that do not stay apart; whether there were any that were not joined before.
+// Joins bodies that do not stay apart; returns whether any of them were not joined before.
 bool join_near(const ContactMemory& memory, const std::vector<Link>& links,
                std::vector<int>& parents)
 {
@@ -321,7 +321,7 @@ void note_motion(const StepContext& context, const SubStep& sub, double s)
         const Vec3 a = acceleration(context, k);
         const Vec3 off =
             memory.poses[k].x - deviation.start - now * deviation.velocity - 0.5 * sq(now) * a;
-        // Between its ends the difference of two parabolas is off a straight line by this.
+        // Maximum distance between the difference of two parabolas and the chord between its ends.
         const Vec3 bow = sq(s) / 8 * ((path.v1 - path.v0) / path.h - a).cwiseAbs();
         deviation.low = deviation.low.cwiseMin(off - bow);
         deviation.high = deviation.high.cwiseMax(off + bow);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A cluster in parts that do not meet within the step: groups whose bodies, as they move now, do
-// not come near those of another group. Each is advanced on its own: an impact costs its group
-// alone, and is seen by no other. What impacts made of the motion is looked at afterwards. Groups
-// that might have met are put back and advanced again as one, so that no contact is missed (Mirtich
-// 2000, timewarp).
+// Splits a cluster into groups of bodies that are not expected to meet within the step. Each group
+// is advanced on its own, so that an impact costs only its group. Afterwards the actual motion is
+// checked: groups that might have met are reset to the start of the step and advanced again as one,
+// so that no contact is missed (Mirtich 2000, timewarp).
 #pragma once
 
 #include "outcome.hpp"
 
 namespace hyoryu {
 
-/// A pair of movable bodies that the broad phase found, and how they are apart at the start.
+/// A pair of movable bodies from the broad phase, and their separation at the start of the step.
 struct Link {
     int a = 0, b = 0;
     Vec3 normal{0, 0, 1};   // from b to a
@@ -25,7 +24,7 @@ struct ClusterStart {
     std::vector<Vec3> momenta;    // angular [kg m2/s]
 };
 
-/// A cluster on its way through the step.
+/// The state of a cluster that is advanced in groups.
 struct Splitting {
     const Cluster* cluster = nullptr;
     std::vector<Link> links;
@@ -38,19 +37,19 @@ struct Splitting {
 
 /// Splits a cluster by how its bodies move now.
 Splitting split(const StepContext& context, const Cluster& cluster);
-/// Makes the groups. Those that have not changed keep what they did; the bodies of all others are
-/// put back to the start of the step.
+/// Forms the groups. Unchanged groups keep their outcome; the bodies of all others are reset to the
+/// start of the step.
 void regroup(const StepContext& context, Splitting& splitting);
-/// Advances one group, and takes note of how its bodies come off their free paths.
+/// Advances one group and records the deviation of its bodies from their free paths.
 void advance_group(const StepContext& context, Outcome& group, const AdvanceCluster& advance);
-/// When all groups are done: joins those that might have met, and tells whether there were any.
+/// Joins the groups that might have met; returns whether there were any. Called when all are done.
 bool join_met(const StepContext& context, Splitting& splitting);
 
-/// Advances a cluster in groups until none has been in the way of another.
+/// Advances a cluster in groups until no two groups might have met.
 void advance_in_groups(const StepContext& context, const Cluster& cluster,
                        const AdvanceCluster& advance);
 
-/// How far a body came off its free path over a sub-step of which it went `s`.
+/// Records the deviation of bodies from their free paths over the time `s` of a sub-step.
 void note_motion(const StepContext& context, const SubStep& sub, double s);
 
 } // namespace hyoryu

@@ -64,9 +64,9 @@ constexpr double flat = 5e-11;
 // Rounding of distances in double precision, with room [sizes].
 constexpr double rounding = 1e-13;
 
-// Replaces the faces that see the point by a cone from their horizon to it. A point that is a
-// corner at all is seen by every face that it is above: with a play there, some faces of one nearly
-// flat side would see it and others not, and the hull would come apart.
+// Replaces the faces that see the point by a cone from their horizon to it. All faces below a new
+// corner are replaced, with no tolerance beyond round-off: with one, only some faces of a nearly
+// flat side would be replaced, and the hull would not be closed.
 void add_point(const std::vector<Vec3>& p, int point, double size, std::vector<HullFace>& faces)
 {
     const Vec3& x = p[static_cast<std::size_t>(point)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Impact rounds.
+// Impact rounds: repeats the rounds of the impact law until no contact approaches, and logs them.
 #include "impact_law.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace hyoryu {
 
 namespace {
 
-// Approaches that are left below this part of the first are rattle: 1e-4 of its energy.
+// Remaining approach speeds below this part of the first are negligible: 1e-4 of its energy.
 constexpr double rattle = 0.01;
 
 double solve_round(const StepContext& context, Round& round)
@@ -34,7 +34,7 @@ double fastest(const std::vector<Row>& rows)
     return most;
 }
 
-// Velocities and momenta of the bodies after the round.
+// Applies the impulses of the round to the velocities and momenta of the bodies.
 void apply_round(const std::vector<Row>& rows, const StepContext& context)
 {
     for (const Row& row : rows) {
@@ -78,8 +78,8 @@ int entry_at_same_point(const ContactMemory& memory, int contact)
     return -1;
 }
 
-// Books a round; the energy of the round is shared in proportion to what each contact lost, or, if
-// the law may gain energy, as it is.
+// Logs a round. Its total loss of energy is distributed in proportion to the losses of the
+// contacts; if the law may gain energy, each contact keeps its own value.
 void book(const std::vector<Row>& rows, const StepContext& context, const SubStep& sub, double time)
 {
     const bool located = sub.arms == Arms::ahead;
@@ -119,8 +119,7 @@ void book(const std::vector<Row>& rows, const StepContext& context, const SubSte
     }
 }
 
-// Removes the entries from `first` on that took part in rounds without an impulse: in a heap they
-// are half of all.
+// Removes the entries from `first` on without an impulse: in a heap they are half of all.
 void forget_idle(std::vector<Contact>& log, std::size_t first)
 {
     const auto is_idle = [](const Contact& contact) {
@@ -146,7 +145,7 @@ double solve_impacts(const StepContext& context, const SubStep& sub, double time
         if (memory.rows.empty()) {
             break;
         }
-        left = change; // of earlier rounds is made good by later ones
+        left = change; // later rounds correct the residual of earlier ones
         apply_round(memory.rows, context);
         book(memory.rows, context, sub, time);
         set_responses(context, sub.cluster);

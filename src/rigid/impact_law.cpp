@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the impact laws share, and the default: rounds with the coupled cone.
+// Functions shared by the impact laws, and the default law: rounds with the coupled cone.
 #include "impact_law.hpp"
 
 #include <algorithm>
@@ -32,7 +32,8 @@ double exchanged(const std::vector<Row>& rows)
     return sum;
 }
 
-// The inelastic impulse takes energy; as far as it was not solved for, only a share of it does.
+// Scales the inelastic impulses to their passive share: they dissipate energy only as far as they
+// were solved accurately.
 void take_passive_share(std::vector<Row>& rows, std::vector<Response>& bodies)
 {
     WorkOfShare work;

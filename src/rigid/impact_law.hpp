@@ -14,9 +14,9 @@ struct Round {
     bool closing = false; // no round after this one
 };
 
-// A round fills `memory.rows` with the contacts that took part and their impulses, which the
-// responses of the bodies know already; no rows: nothing approaches, and the event is closed.
-// Returns the largest speed by which a contact still wants to change [m/s].
+// A round fills `memory.rows` with the contacts that took part and their impulses, which are
+// already applied to the responses of the bodies. No rows: no contact approaches and the event
+// ends. Returns the residual [m/s].
 
 /// All contacts that approach together, each with its restitution. The closing round takes all
 /// touching contacts, without restitution, so that none is left approaching.
@@ -28,8 +28,8 @@ double simultaneous_round(const StepContext& context, Round& round);
 /// where they are impacts, else zero.
 void collect(const StepContext& context, const Round& round, double slower, std::vector<Row>& rows);
 
-/// If the round gained energy, goes back towards the inelastic impulse, which never does (Kane and
-/// Levinson 1985).
+/// If the round gained energy, moves the impulses towards the inelastic ones, which never gain any
+/// (Kane and Levinson 1985).
 void clamp_energy(std::vector<Row>& rows, ContactMemory& memory, const Effort& effort);
 
 } // namespace hyoryu

@@ -8,7 +8,7 @@ namespace hyoryu {
 
 namespace {
 
-// Leaves the rows of islands in which a contact approaches faster than the resting speed.
+// Removes the rows of islands in which no contact approaches faster than the resting speed.
 void keep_struck(const StepContext& context, const Round& round, std::vector<Row>& rows)
 {
     const ContactMemory& memory = context.memory;

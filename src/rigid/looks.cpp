@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The contacts of pairs whose bodies have not moved since they were last looked at: the end of a
-// sub-step is looked at by the event search, by the impacts there and by the sub-step that follows.
+// A cache of collision queries: the contacts of a pair are reused while its bodies have not moved.
+// The end of a sub-step is queried by the event search, by the impacts there and by the next
+// sub-step.
 #include "memory.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -16,7 +17,7 @@ bool same_place(const SolidPose& a, const SolidPose& b)
     return a.x == b.x && a.q.coeffs() == b.q.coeffs();
 }
 
-// Where the partner of a pair is: of a wall only how far it has gone changes.
+// The pose of the partner of a pair; of a wall the displacement, as it does not turn.
 SolidPose pose_of_partner(int b, const Configuration& at)
 {
     if (b >= 0) {

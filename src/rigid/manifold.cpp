@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Contact manifolds of polytopes: corners and edge crossings of the overlap of two faces, or one
+// pair of edges.
 #include "manifold.hpp"
 #include "tolerances.hpp"
 
@@ -9,16 +11,16 @@ namespace hyoryu {
 
 namespace {
 
-// Faces nearer to parallel than acos of this overlap face to face; corners of the reference then
-// count.
+// If the faces are parallel to within acos of this, corners of the reference face are contacts,
+// too.
 constexpr double face_to_face = 0.9;
-// Edges that meet along the normal of a face, but for this sine, are crossings of that face. Faces
-// at rest on each other tilt by the round-off of their gaps, and so touch at one crossing of their
-// rims, another one every step; the others, a micrometre away, carry the load with it.
+// An edge-edge axis within this sine of a face normal is replaced by the face. Resting faces tilt
+// by the round-off of their gaps and so touch at one crossing of their rims, a different one in
+// every step; the other corners, a micrometre away, share the load.
 constexpr double nearly_flush = 1e-3;
 
-// The reference face's solid r, the other i, and the normal out of the reference face in world
-// axes.
+// The solid r of the reference face, the incident solid i, and the outward normal of the reference
+// face in world axes.
 struct FaceMeeting {
     const BodyPair& pair;
     const Configuration& at;
@@ -112,7 +114,7 @@ void add_corners(const FaceMeeting& m, std::size_t first, std::vector<Candidate>
     }
 }
 
-// Edges of the incident face that pass a side of the reference face away from all corners.
+// Crossings of edges of the incident face with sides of the reference face, away from all corners.
 void add_crossings(const FaceMeeting& m, std::size_t first, std::vector<Candidate>& found)
 {
     const Face& reference = m.r.solid.faces[m.reference];
@@ -148,8 +150,8 @@ void add_faces(const FaceMeeting& m, double distance, std::vector<Candidate>& fo
     for (std::size_t k = first; k < found.size(); ++k) {
         lowest = std::min(lowest, found[k].touch.gap);
     }
-    // The axis says how near the solids are; a corner just past the rim may have left no point to
-    // show it.
+    // If a corner lies just past the rim, no candidate has a gap as small as the distance along the
+    // axis; the deepest corner is then added.
     if (lowest > distance + m.tolerance) {
         const Feature corner = corner_feature(m, m.owner, m.deepest, m.reference);
         found.push_back({corner, touch_of(corner, m.at)});
@@ -167,7 +169,7 @@ Vec3 axis_of_edges(const PartPair& parts, const Edge& ea, const Edge& eb)
     return axis.dot(outward) < 0 ? Vec3(-axis) : axis;
 }
 
-// The axis of the face of either solid whose normal the axis of the edges all but has; else itself.
+// Replaces an edge-edge axis by the axis of a face with nearly the same normal, if there is one.
 Separation flush(const PartPair& parts, const Separation& axis)
 {
     const Edge& ea = parts.a.solid.edges[axis.a];

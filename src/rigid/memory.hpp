@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the rigid layer keeps between steps, and its scratch.
+// State that the rigid layer keeps between steps, and its scratch memory.
 #pragma once
 
 #include "narrow_phase.hpp"
@@ -23,7 +23,7 @@ struct Remembered {
     Feature feature;
     Vec3 force{0, 0, 0}; // on a [N]
     Vec3 place{0, 0, 0}; // in the axes of a, from its centre of mass [m]
-    Vec3 rub{0, 0, 0};   // in the axes of a, from the contact point to that of its friction [m]
+    Vec3 rub{0, 0, 0};   // in the axes of a, from the contact point to the friction point [m]
     int stuck = 0;       // as of Persistent
 };
 
@@ -35,15 +35,15 @@ struct Cluster {
     std::vector<BodyPair> pairs;
 };
 
-/// The possible contacts of a pair as last found, and where its bodies were then.
+/// The contact candidates of a pair from the last collision query, and the poses at that time.
 struct PairLook {
     BodyPair pair;
-    SolidPose a, b; // of a wall x is its displacement [m], q no turn
+    SolidPose a, b; // of a wall: x is the displacement [m], q the identity
     std::vector<Candidate> found;
     bool known = false;
 };
 
-/// What a body's motion within a step had beyond its free path.
+/// Deviation of the motion of a body within a step from its free path.
 struct Deviation {
     Vec3 start{0, 0, 0};              // x at the start of the step [m]
     Vec3 velocity{0, 0, 0};           // V then [m/s]
@@ -62,14 +62,14 @@ struct Persistent {
     Candidate candidate;
     Vec3 impulse{0, 0, 0};     // over the whole sub-step, on a [N s]
     Vec3 place{0, 0, 0};       // as of Remembered
-    Vec3 rub{0, 0, 0};         // from the contact point to that of its friction, at the start [m]
-    bool recalled = false;     // a force of the last sub-step is its first guess
-    bool unsolved = false;     // its impulse keeps nothing apart
+    Vec3 rub{0, 0, 0};         // from contact point to friction point, at the start [m]
+    bool recalled = false;     // the first guess is a force of the last sub-step
+    bool unsolved = false;     // its impulse does not resolve the contact
     int stuck = 0;             // contacts of its patch, while none of them slides
     TwoTouches touches;        // at the middle and the end
     double effective_mass = 0; // [kg]
     double dissipated = 0;     // [J]
-    Vec3 before{0, 0, 0};      // relative velocity at the start, tangents where it rubs [m/s]
+    Vec3 before{0, 0, 0};      // relative velocity at the start, at the friction point [m/s]
     Vec3 slip_before{0, 0, 0}; // relative tangential velocity at the start [m/s]
     Vec3 slip_after{0, 0, 0};  // and at the end of the sub-step
 };
@@ -77,12 +77,12 @@ struct Persistent {
 /// Persistent contacts of one pair in one plane, by their indices.
 struct FrictionPatch {
     std::vector<int> contacts;
-    std::vector<int> hull; // of three contacts or more, by their place there, counter-clockwise
+    std::vector<int> hull; // indices into `contacts` if three or more, counter-clockwise
     PatchRule rule;
     double size = 0; // [m]
 };
 
-/// What a persistent contact did over a sub-step.
+/// The log entry of a persistent contact over a sub-step.
 struct Resting {
     Feature feature;
     Contact contact;
@@ -114,7 +114,7 @@ struct ContactMemory {
     std::vector<std::vector<Candidate>> found; // of each block of pairs
     std::vector<Persistent> persistent;
     std::vector<FrictionPatch> patches; // of more than one contact, with friction
-    std::vector<Feature> held;          // sorted; not looked for by the event search
+    std::vector<Feature> held;          // sorted; ignored by the event search
     std::span<const Remembered> known;  // forces of the last sub-step
     std::vector<Remembered> recent, fresh;
     std::vector<char> taken; // of `known`
@@ -126,8 +126,8 @@ struct ContactMemory {
     bool stepped = false;     // contacts of the cluster in hand were not located
     int event_limit = 0;      // of a body of the cluster in this step
     double work = 0;          // spent on the cluster in this step, in updates of rows
-    double lost = 0;          // taken by contacts in the step and not given back [J]
-    double worth = 0;         // what it may cost to locate
+    double lost = 0;          // dissipated by contacts in the step, less corrections [J]
+    double worth = 0;         // work limit for locating its impacts
     std::vector<int> entries; // in the log, of each candidate; -1 if none
     std::vector<int> parents, island_of_root, island_of_row;
     std::vector<std::size_t> island_ends; // of the rows as solved last
@@ -135,7 +135,7 @@ struct ContactMemory {
     std::vector<double> left;             // residual of each island [m/s]
 };
 
-/// What one step works on.
+/// Arguments of a step.
 struct StepContext {
     Rigid& rigid;
     ContactMemory& memory;
@@ -148,11 +148,10 @@ struct StepContext {
 /// Builds the tables if there are none for these bodies, and takes the poses of the bodies.
 void prepare(Rigid& rigid);
 
-/// Lists the pairs of the clusters, with what is known of those that were there in the last step.
+/// Lists the pairs of the clusters; pairs of the last step keep their cached contacts.
 void keep_looks(ContactMemory& memory);
-/// The features of a pair of the clusters that face each other and are not clearly apart, as
-/// `find_candidates` tells them: as last found where neither body has moved since, bit for bit.
-/// They hold until the next look at the pair.
+/// The contact candidates of a pair as `find_candidates` returns them. The cached ones are returned
+/// if neither pose has changed, bit for bit. The span is valid until the next query of the pair.
 std::span<const Candidate> look_at(ContactMemory& memory, const BodyPair& pair,
                                    const Configuration& at);
 

@@ -61,8 +61,8 @@ private:
         }
     }
 
-    // Whether the depth of a feature of the rod is that in this triangle: what is deeper than the
-    // rod overlaps it lies behind another one.
+    // Whether a feature of the rod belongs to this triangle: a feature much deeper than the overlap
+    // of rod and triangle lies behind another triangle.
     bool faces(const FlatTriangle& triangle, double gap)
     {
         const double slack = deep * at_.geometry.unit;
@@ -74,7 +74,7 @@ private:
         return so;
     }
 
-    // The low point of the rod, when overlap is so deep that no pair of features shows it.
+    // Adds the low point of the rod if no pair of features represents a deep overlap.
     void show_overlap(const FlatTriangle& triangle, const Patch& patch)
     {
         Feature f = feature(FeatureKind::rim_low);
@@ -95,7 +95,8 @@ private:
         }
     }
 
-    // In the region of the face, or in the Voronoi region of a crease or corner.
+    // Adds the contact of a ball whose centre is in the Voronoi region of the face, a crease or a
+    // corner.
     void ball_over(const FlatTriangle& triangle)
     {
         if (past_sides(triangle, pose_.x) <= 0) {
@@ -155,7 +156,7 @@ private:
         }
     }
 
-    // A point beside the triangle is no deep overlap with it: only one well within its sides is.
+    // A deep overlap counts only if its point lies well within the sides of the triangle.
     void add_rim(const Feature& f, const FlatTriangle& triangle)
     {
         const Touch touch = touch_of(f, at_);
@@ -182,8 +183,8 @@ private:
         }
     }
 
-    // A rim has the normals between its cap and the side only: where the rod reaches beyond its
-    // point along the normal, by twice the second part of it, no contact is there.
+    // A rim has only the normals between those of its cap and the side. If the rod extends beyond
+    // the point along the normal, by twice `inward`, the point is no contact.
     void add_curve(const FlatTriangle& triangle, const Feature& f, const Crease& crease)
     {
         const RodTouch found = rod_touch(f, at_);

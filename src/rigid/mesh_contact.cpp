@@ -13,12 +13,12 @@ namespace hyoryu {
 
 namespace {
 
-// Features of polytopes farther apart than this are no contact [units].
+// Largest gap of a contact between features of polytopes [units].
 constexpr double near_enough = 1e-5;
-// Part of an edge at its ends that belongs to the corners.
+// Part of an edge at each end that belongs to the corner.
 constexpr double edge_end = 1e-6;
 
-// Features show an overlap if they are this part as deep as the axis.
+// Features represent an overlap if their depth is at least this part of that along the axis.
 constexpr double shown = 0.5;
 
 // Collects the features of one convex part of a body and a mesh.
@@ -140,7 +140,7 @@ private:
         }
     }
 
-    // What the separating axis shows, when overlap is so deep that no pair of features does.
+    // Adds the contact of the separating axis if no pair of features represents a deep overlap.
     void add_axis(const TriangleAxis& axis, const FlatTriangle& triangle)
     {
         if (axis.kind == TriangleAxis::Kind::face) {
@@ -159,8 +159,8 @@ private:
         add(found);
     }
 
-    // Whether a point is past the triangle only where the next one leads on or rises from it: what
-    // leaves the triangle there is in the next one.
+    // Whether a point leaves the triangle only across flat or concave edges; it is then above or
+    // inside the next triangle.
     static bool ends_inwards(const FlatTriangle& t, const Vec3& p)
     {
         bool inwards = true;

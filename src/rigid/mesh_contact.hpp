@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bodies against a triangle surface. A triangle is looked at only while the middle of the convex
-// part in question is in front of it: that side cannot be changed, and the far side of a thin
-// mesh is never taken for the near one.
+// Contacts of bodies with a triangle surface. A triangle is tested only while the centre of the
+// convex part is in front of it: a body cannot change the side, and the far side of a thin mesh is
+// never mistaken for the near one.
 #pragma once
 
 #include "narrow_phase.hpp"
@@ -18,7 +18,7 @@ void find_mesh_candidates(const BodyPair& pair, const Configuration& at,
 /// overlap, infinite if no triangle is within the bounding box of the body.
 double mesh_distance(const BodyPair& pair, const Configuration& at);
 
-/// The touch of the features that only meshes have.
+/// The touch of the features that involve a crease or corner of a mesh.
 Touch mesh_touch(const Feature& feature, const Configuration& at);
 
 } // namespace hyoryu

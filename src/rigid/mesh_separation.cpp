@@ -36,7 +36,8 @@ TriangleAxis under_face(const PartAt& part, std::size_t f, const FlatTriangle& t
     return axis;
 }
 
-// Keeps the better of two axes; one that points behind the triangle only separates or touches.
+// Keeps the better of two axes; an axis that points behind the triangle counts only while it
+// separates or touches.
 void improve(TriangleAxis& best, const TriangleAxis& axis, const Vec3& n, const Patch& patch,
              double touch)
 {

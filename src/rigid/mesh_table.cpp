@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Builds the tables of a mesh: merges coplanar triangles into patches and finds creases and
+// corners.
 #include "mesh_table.hpp"
 
 #include <algorithm>
@@ -10,14 +12,14 @@ namespace hyoryu {
 
 namespace {
 
-// A corner this part of the size of the mesh off a plane lies in it: three times the rounding of a
-// file in single precision.
+// Distance within which a corner lies in a plane, relative to the size of the mesh: three times the
+// rounding of a file in single precision.
 constexpr double flat_crease = 2e-7;
 // Triangles whose unit normals differ by more are never one patch, however thin they are.
 constexpr double flat_angle = 1e-3;
 // Sine of the angle up to which two creases at a corner are one straight line.
 constexpr double straight = 1e-6;
-// Slack of a cone of normals, as the cosine with its border.
+// Slack of a cone of normals, as the cosine with its boundary.
 constexpr double cone_slack = 1e-6;
 
 // One side of an edge.
@@ -116,7 +118,7 @@ private:
         }
     }
 
-    // Seeds the largest triangles first: their planes are the best known.
+    // The largest triangles are the first seeds, since their planes are the most accurate.
     void grow_patches()
     {
         std::vector<std::pair<double, int>> seeds;

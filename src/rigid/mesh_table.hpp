@@ -13,7 +13,7 @@
 namespace hyoryu {
 
 /// Connected triangles in one plane. A contact belongs to the patch and not to the triangle, so
-/// that the edges within it do not exist for whatever slides over it.
+/// that a body that slides over the patch does not collide with its inner edges.
 struct Patch {
     Vec3 normal{0, 0, 1}; // unit, out of the solid
     double offset = 0;    // normal . x of the plane [m]

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Narrow phase: chooses the algorithm for the shapes of a pair and collects its contact candidates.
 #include "narrow_phase.hpp"
 #include "compound.hpp"
 #include "covered.hpp"
@@ -69,7 +70,7 @@ Form form_of(int index, const Geometry& geometry)
     return index >= 0 ? geometry.solids[index].form : geometry.walls[-1 - index].solid.form;
 }
 
-// How far the bounding sphere of one is at least from the bounding box of the other.
+// Lower bound on the distance of two parts: bounding sphere of one from bounding box of the other.
 double apart_at_least(const PartPair& parts)
 {
     const auto apart = [&](const PlacedSolid& box, const PlacedSolid& ball) {
@@ -81,8 +82,8 @@ double apart_at_least(const PartPair& parts)
     return std::max(apart(parts.b, parts.a), apart(parts.a, parts.b));
 }
 
-// Calls visit(parts) for all convex parts that may be nearer than that; returns how far the others
-// are apart at least.
+// Calls visit(parts) for all pairs of convex parts that may be nearer than `near`; returns a lower
+// bound on the distance of the others.
 double for_each_part_pair(const BodyPair& pair, const Configuration& at, double near,
                           const auto& visit)
 {
@@ -107,7 +108,8 @@ double for_each_part_pair(const BodyPair& pair, const Configuration& at, double 
     return others;
 }
 
-// Whether the surfaces go through the faces or edges that give the contact its normal.
+// Whether the face or edges that define the contact normal belong to the surface of the compound at
+// the contact point.
 bool is_open(const Candidate& c, const Separation& axis, const PartPair& parts,
              const Configuration& at)
 {
@@ -129,7 +131,7 @@ bool has_rod(const PartPair& parts)
     return parts.a.solid.form == Form::rod || parts.b.solid.form == Form::rod;
 }
 
-// Moves what another part of a compound covers, from `first` on, to `covered`.
+// Moves the candidates from `first` on that another part of a compound covers to `covered`.
 void part_covered(const Separation& axis, const PartPair& parts, const Configuration& at,
                   std::size_t first, std::vector<Candidate>& found, std::vector<Candidate>& covered)
 {
@@ -165,8 +167,8 @@ void between_parts(const BodyPair& pair, const Configuration& at, double near,
     add_covered(covered, depth, first, found);
 }
 
-// A ball and every convex part of the other; only what is nearer than that is asked whether another
-// part covers it.
+// A ball and every convex part of the other solid. Only parts nearer than `near` are tested for
+// cover by another part.
 void of_ball(const BodyPair& pair, const Configuration& at, double near,
              std::vector<Candidate>& found)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The possible contacts of a pair at given poses.
+// Contact candidates of a pair at given poses.
 #pragma once
 
 #include "feature.hpp"
@@ -14,15 +14,14 @@ struct BodyPair {
     auto operator<=>(const BodyPair&) const = default;
 };
 
-/// A pair of polytopes or rods farther apart than this has no contact that a located impact needs
-/// [m].
+/// Located impacts need no contacts of polytopes or rods farther apart than this [m].
 inline double clearly_apart(const Geometry& geometry)
 {
     return 1e-5 * geometry.unit;
 }
 
-/// Appends the features of the pair that face each other, in a fixed order. Of polytopes and
-/// rods that are more than `near` apart there are none.
+/// Appends the features of the pair that face each other, in a fixed order. Polytopes and rods more
+/// than `near` apart have none.
 void find_candidates(const BodyPair& pair, const Configuration& at, double near,
                      std::vector<Candidate>& found);
 

@@ -10,7 +10,7 @@ namespace hyoryu {
 
 namespace {
 
-// Nearer than this to a surface the difference of points gives no direction [m].
+// Distance from a surface below which the difference of two points defines no direction [m].
 constexpr double on_surface = 1e-12;
 
 Touch nearest_on_ball(const Solid& ball, const Vec3& p)
@@ -108,7 +108,8 @@ Polytope box_between(const Vec3& low, const Vec3& high, const Vec3& origin, int 
     return box;
 }
 
-// The closed sides as slabs that share the columns and corners between them, from the lower corner.
+// The closed sides as slabs that overlap at common edges and corners; the origin is the lower
+// corner.
 Compound slabs_of(const Basin& basin, int dimensions)
 {
     Compound slabs;

@@ -5,7 +5,7 @@
 // face, which resists a turn about the normal less than friction at the corners would. With the
 // uniform pressure p over the patch A the moment of a pure turn is mu p times the integral of |r|
 // over A (Contensou 1963, "Couplage entre frottement de glissement et frottement de pivotement").
-// Each contact of the patch rubs at a point drawn in towards the centre of the pressure o,
+// The friction of each contact acts at a point moved towards the centre of pressure o,
 //     q_k = o + s (r_k - o),   s = mean of |r - c| over A / mean of |r_k - c|,   c the centroid,
 // with the friction of its own normal force: exact for a slide, whose friction goes through o, and
 // for a turn under equal forces. A load off the centre weighs the points as it weighs the corners,
@@ -29,8 +29,9 @@ struct PatchRule {
 };
 
 /// The points at the corners of the hull of points in one plane with the unit normal `n`, by their
-/// indices, counter-clockwise; those on its sides are left out. More than `most`: those outermost
-/// in eight directions, the first of which is that of `along`, square to n.
+/// indices, counter-clockwise; those on its sides are left out. If there are more than `most`, only
+/// those outermost in eight directions are kept; the first of these is the direction `along`,
+/// perpendicular to n.
 std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Vec3& along,
                            std::size_t most);
 
@@ -38,7 +39,8 @@ std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Ve
 enum class PatchForm { hull, disc };
 
 /// The rule of a patch of contacts at these points [m], in one plane with the unit normal `n`.
-/// Points on one line are a line of uniform pressure; a single point rubs where it is.
+/// Points on one line count as a line of uniform pressure; a single point is its own friction
+/// point.
 PatchRule patch_rule(std::span<const Vec3> points, const Vec3& n, PatchForm form);
 /// The same with the corners of the hull known, by their indices, counter-clockwise about `n`.
 PatchRule patch_rule(std::span<const Vec3> points, std::span<const int> hull, const Vec3& n,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The penalty method: spring-dashpot pair forces, integrated by the symplectic Euler scheme.
 #include "penalty.hpp"
 
 #include "penalty_pairs.hpp"
@@ -13,11 +14,11 @@ namespace hyoryu {
 
 namespace {
 
-// How much farther than their range particles are paired up, in the smallest spacing: pairs hold
-// until bodies have moved by this.
+// Skin of the pair search in units of the smallest spacing: the pairs remain valid until bodies
+// have moved by this distance.
 constexpr double skin_spacings = 0.25;
 
-/// What two bodies, or a body and a boundary, did to each other over the step.
+/// Sums of the interaction of two bodies, or of a body and a boundary, over the step.
 struct Sum {
     Vec3 normal{0, 0, 0};   // impulse along the lines of the pairs, on a [N s]
     Vec3 friction{0, 0, 0}; // impulse of their friction, on a [N s]

@@ -9,7 +9,7 @@ namespace hyoryu {
 
 namespace {
 
-// Layers of particles that a basin has outside.
+// Number of layers of wall particles outside a basin.
 constexpr Index basin_layers = 2;
 
 /// The particles of a plane or basin, in the middle of the cells of a lattice.
@@ -72,7 +72,7 @@ Lattice lattice_of(const Basin& basin, double spacing, int dimensions)
     return lattice;
 }
 
-// Calls put(particle) for those of the lattice that are nearer than `range` to p.
+// Calls put(particle) for the particles of the lattice that are nearer than `range` to p.
 void over_near(const Lattice& lattice, const Vec3& p, double range, const auto& put)
 {
     Vec3 local = lattice.axes.transpose() * (p - lattice.origin);
@@ -168,7 +168,7 @@ private:
     {
         const Boundary& wall = context_.rigid.boundaries[static_cast<std::size_t>(w)];
         const int dimensions = context_.rigid.settings.dimensions;
-        // Walls are looked at where they are at time 0.
+        // Walls are searched at their place at time 0; the body is moved back instead.
         const Vec3 back = -displacement(wall.motion, time_);
         Meeting meeting{{a, -1 - w}, 0.5 * (cloud(a).spacing + penalty_.wall_spacing), {}};
         if (const auto* plane = std::get_if<Plane>(&wall.surface)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which particles of a body are near those of a wall or of another body.
+// Finds the particles of a body that are near those of a wall or of another body.
 #pragma once
 
 #include "memory.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts without friction, by block principal pivoting: with W p + u_free - u* = w, p >= 0,
-// w >= 0 and p w = 0, find which rows press.
+// Frictionless contacts by block principal pivoting: finds the pressed rows of the linear
+// complementarity problem W p + u_free - u* = w, p >= 0, w >= 0, p w = 0.
 #include "solver.hpp"
 
 #include <Eigen/Cholesky>
@@ -11,11 +11,11 @@ namespace hyoryu {
 
 namespace {
 
-// Exchanges of all wrong rows that need not leave fewer of them; then one row at a time.
+// Block exchanges allowed without reducing the number of wrong rows; then one row at a time.
 constexpr int patience = 3;
-// Murty's rule ends after finitely many exchanges; beyond so many for each row the iteration stops.
+// Murty's rule ends after finitely many exchanges; this limit per row stops it earlier.
 constexpr std::size_t exchanges_per_row = 4;
-// A change of speed that passes for met, as a part of the largest that is asked for.
+// Tolerance of the targets, relative to the largest required change of velocity.
 constexpr double met = 1e-9;
 
 struct Complementarity {
@@ -44,11 +44,11 @@ Complementarity without_impulses(std::span<Row> rows, std::vector<Response>& bod
         }
         push(row(j), Vec3(-1, 0, 0), bodies);
     }
-    c.W.diagonal() *= 1 + shift; // of each row alone: a heavy body yields little
+    c.W.diagonal() *= 1 + shift; // relative to each row, so that heavy bodies yield little
     return c;
 }
 
-// Impulses of the rows that press, such that those meet their targets.
+// Solves for the impulses of the pressed rows such that these meet their targets.
 void solve_pressing(Complementarity& c)
 {
     std::vector<Index> pressing;

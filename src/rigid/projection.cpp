@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moving along the paths, and the gap projection.
+// Motion along the planned paths, and the projection of gaps: position corrections of overlaps.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace hyoryu {
 namespace {
 
 constexpr int most_sweeps = 10;
-// Overlap that is put right at once; what is deeper was there from the start or was not located,
-// and goes by a share a step so that nothing jumps [units].
+// Overlap up to this depth is corrected at once. A deeper one existed at the start or was not
+// located, and is reduced by a share per step so that no body jumps [units].
 constexpr double at_once = 1e-5;
 constexpr double share_of_deep = 0.2;
 
@@ -47,8 +47,8 @@ struct Goal {
     }
 };
 
-// Moves both bodies, shared by inverse mass, until the gap of the feature is the wanted one;
-// returns how far it was off.
+// Moves both bodies in proportion to their inverse masses until the feature has the wanted gap;
+// returns the former deviation.
 double close_gap(const StepContext& context, const Goal& goal, double no_gap, double time)
 {
     ContactMemory& memory = context.memory;
@@ -81,7 +81,7 @@ double close_gap(const StepContext& context, const Goal& goal, double no_gap, do
     return std::abs(off);
 }
 
-// An event leaves a contact nearer to zero than this [units].
+// The event search leaves gaps closer to zero than this [units].
 constexpr double overlapping = -1e-10;
 
 double aim(double gap, double unit)
@@ -89,11 +89,12 @@ double aim(double gap, double unit)
     return gap < -at_once * unit ? (1 - share_of_deep) * gap : 0.0;
 }
 
-// A pile may press more contacts than its bodies have freedoms; then not all can have a gap of
-// zero, and a tenth of what passes for contact is left open [units].
+// A pile may have more pressed contacts than degrees of freedom. Not all gaps can then be zero, and
+// a tenth of the contact tolerance is left open [units].
 constexpr double play_of_a_pile = 1e-8;
 
-// Pressed contacts close in both senses, but for that play; all others only open.
+// Gaps of pressed contacts are opened or closed to zero, up to that play; all others are only
+// opened.
 std::vector<Goal> goals(const StepContext& context, double time)
 {
     ContactMemory& memory = context.memory;
@@ -126,18 +127,18 @@ std::vector<Goal> goals(const StepContext& context, double time)
     return list;
 }
 
-// Passes of the opening: the second for what turned on the way.
+// Passes of the opening; the second corrects the effect of finite rotations.
 constexpr int opening_passes = 2;
-// An overlap is opened to within a ten-thousandth of the deepest one that is corrected at once.
-// Sweeps get nowhere where a light body lies under a heavy one: few rows are solved exactly.
+// An overlap is opened to within a ten-thousandth of the deepest one that is corrected at once. As
+// sweeps converge slowly if a light body lies under a heavy one, few rows are solved exactly.
 constexpr Effort opening_effort{.enough = 1e-4, .direct_tries = 0, .sweeps = 60, .pivoted = 64};
-// Where walls leave no room, no displacement opens all: the exact solution then has one without
-// bound, and the sweeps share the overlap.
+// If walls leave no room, no displacement opens all contacts: the exact solution is then unbounded,
+// and sweeps are used instead, which distribute the overlap.
 constexpr Effort swept_opening{.enough = 1e-4, .direct_tries = 0, .sweeps = 60};
 constexpr double widest_move = 10; // times the widest opening
 
-// The contacts as rows without friction whose velocities are displacements, all still: what opens
-// their gaps.
+// Sets up the contacts as frictionless rows in which velocities stand for displacements, all zero
+// at first; the targets open the gaps.
 void lay_out_opening(const StepContext& context, const SubStep& sub, double time)
 {
     ContactMemory& memory = context.memory;
@@ -177,8 +178,8 @@ bool goes_too_far(const ContactMemory& memory, const Cluster& cluster)
     });
 }
 
-// What the displacements of the responses cost against gravity and loads, and what they give to
-// the spin, whose momentum stays [J].
+// Work of the displacements in `responses` against gravity and loads, plus the change of rotational
+// energy at constant angular momentum [J].
 double work_of_opening(const StepContext& context, const Cluster& cluster)
 {
     double work = 0;
@@ -192,11 +193,11 @@ double work_of_opening(const StepContext& context, const Cluster& cluster)
     return work;
 }
 
-// Overlap beyond what a step of 5 ms may leave: it was there from the start [units].
+// A deeper overlap existed at the start; a step of 5 ms leaves less [units].
 constexpr double from_before = 1e-3;
 
-// The part of displacements that cost `work` that the energy lost in this step pays for, and what
-// is `given` besides [J]; all of them where an overlap is from before it.
+// The share of displacements with the cost `work` that the energy dissipated in this step and the
+// amount `given` allow [J]; 1 if an overlap existed before the step.
 double share_of_opening(const StepContext& context, double work, double given)
 {
     ContactMemory& memory = context.memory;
@@ -211,8 +212,8 @@ double share_of_opening(const StepContext& context, double work, double given)
     return share;
 }
 
-// What the way from other poses costs against gravity and loads, and what it gives to the spin,
-// whose momentum stays [J].
+// Work of the displacement from the poses `trial` against gravity and loads, plus the change of
+// rotational energy at constant angular momentum [J].
 double work_from(const StepContext& context, const Cluster& cluster)
 {
     const ContactMemory& memory = context.memory;
@@ -237,8 +238,8 @@ double work_from(const StepContext& context, const Cluster& cluster)
     return work;
 }
 
-// What lies at rest has no energy to open what it overlaps by: in a sub-step it may rise by this,
-// so that a micrometre is gone in a thousand of them [units].
+// A body at rest dissipates no energy that could open its overlap. It may rise by this in a
+// sub-step, which removes a micrometre in a thousand sub-steps [units].
 constexpr double creep = 1e-9;
 
 double work_of_creep(const StepContext& context, const Cluster& cluster)
@@ -251,8 +252,8 @@ double work_of_creep(const StepContext& context, const Cluster& cluster)
     return creep * context.rigid.settings.unit * weight;
 }
 
-// Whether contacts of the sub-step overlapped when it began, by more than located ones are left
-// with: what is not located leaves them so.
+// Whether contacts overlapped at the start of the sub-step by more than the event search leaves, as
+// after unlocated sub-steps.
 bool overlapped_before(const StepContext& context)
 {
     constexpr double by_location = 1e-9; // [units]
@@ -261,8 +262,8 @@ bool overlapped_before(const StepContext& context)
                                [&](const Persistent& p) { return p.candidate.touch.gap < least; });
 }
 
-// Goes back on the way from `trial` as far as the energy lost in this step does not pay for it.
-// What the sub-step itself changed the gaps by has been looked at when it was planned.
+// Limits the displacement from `trial` to the share that the energy dissipated in this step allows.
+// The changes of gaps in the sub-step itself were checked by `gains_energy`.
 void pay_for_projection(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
@@ -354,7 +355,7 @@ void project_gaps(const StepContext& context, const SubStep& sub, double time)
         return off;
     };
     if (sweep() > no_gap && memory.persistent.size() > contacts_of_a_pile) {
-        for (Goal& goal : list) { // rather wide than overlapping
+        for (Goal& goal : list) { // open gaps are better than overlaps
             goal.play = infinity;
         }
         sweep();

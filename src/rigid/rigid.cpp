@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The step of the rigid layer.
+// The step of the rigid layer: broad phase, then each cluster by located or unlocated sub-steps.
 #include "broad_phase.hpp"
 #include "dealing.hpp"
 #include "groups.hpp"
@@ -16,10 +16,10 @@ namespace hyoryu {
 
 namespace {
 
-// A blow through a chain of n bodies takes n rounds.
+// An impact needs n rounds to pass through a chain of n bodies.
 constexpr int rounds_of_impacts = 50;
-// A sub-step of n bodies in contact costs about this times n^1.5, for the elimination of a heap
-// [updates of rows].
+// A sub-step of n bodies in contact costs about this times n^1.5, mostly for the elimination in a
+// heap [updates of rows].
 constexpr double work_of_sub_step = 8;
 
 void fly(const StepContext& context, const Cluster& cluster)
@@ -101,7 +101,8 @@ void close_step(Rigid& rigid)
     rigid.counters.capped_steps += memory.jammed ? 1 : 0;
 }
 
-// The motion over the sub-step, or over less of it where a contact turns or stops sliding.
+// Plans the motion over the sub-step, which is shortened if a contact turns too far or stops
+// sliding.
 void plan_located(const StepContext& context, SubStep& sub, double rest)
 {
     if (context.memory.stepped) {
@@ -120,8 +121,8 @@ bool needs_halving(const StepContext& context, const SubStep& sub)
            gains_energy(context, sub);
 }
 
-// Advances with impacts located in time until the step is over or the events are too many for the
-// cluster; returns how far it came.
+// Advances with impacts located in time until the step ends or locating has cost too much; returns
+// the time reached within the step.
 double locate_impacts(const StepContext& context, const Cluster& cluster)
 {
     const double slow = context.rigid.settings.resting_speed;

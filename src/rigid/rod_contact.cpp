@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Contacts of rods: separating axes over faces and pairs of curved features, and the features near
+// the best.
 #include "rod_contact.hpp"
 #include "compound.hpp"
 #include "rod_touch.hpp"
@@ -11,10 +13,10 @@ namespace hyoryu {
 
 namespace {
 
-// A gap below this and twice the overlap of the solids belongs to features that do not face each
+// Features with a gap below twice the overlap of the solids, less this tolerance, do not face each
 // other [units].
 constexpr double no_overlap = -1e-9;
-// Contacts show the distance of the solids to this [units].
+// The smallest gap of the contacts equals the distance of the solids to this accuracy [units].
 constexpr double exact = 1e-10;
 
 // max n . (x - origin of the body)
@@ -45,14 +47,14 @@ struct FaceAxis {
     double distance = -infinity; // [m]
 };
 
-// Two features of which one at least is curved, or a rod and a corner.
+// A pair of features of which at least one is curved, or a rod and a corner.
 struct RodMeeting {
     Feature feature;
     const Edge* edge = nullptr; // of the polytope, if it meets with an edge
     RodTouch at;
 };
 
-// All that may face each other, and the largest distance along a normal so far.
+// Faces and pairs of features that may face each other, and the largest separation so far.
 struct Look {
     const BodyPair& pair;
     const PartPair& parts;
@@ -86,21 +88,22 @@ void add_meeting(Look& look, const Feature& feature, const Edge* edge)
 {
     look.meetings.push_back({feature, edge, rod_touch(feature, look.at)});
     const Touch& touch = look.meetings.back().at.touch;
-    if (touch.gap <= look.distance) { // solids are not farther apart than what belongs to them
+    if (touch.gap <= look.distance) { // bounds the distance along the normal
         return;
     }
     const double distance = distance_along(look.parts, touch.normal);
     if (distance > look.distance) {
         look.distance = distance;
-        // A normal that is all but that of a face belongs to the face: the lines meet elsewhere.
+        // A normal that nearly equals that of a face belongs to the face: the lines cross
+        // elsewhere.
         if (touch.gap <= distance + exact * look.at.geometry.unit) {
             look.best_meeting = static_cast<int>(look.meetings.size()) - 1;
         }
     }
 }
 
-// A rim and a line: the end of the chord that the line goes into, and, where it lies so flat on the
-// cap that both ends may touch, the other one.
+// Adds the ends of the chord of a rim along a line: the end at which the line enters the cap, and
+// the other one if the line is so nearly parallel to the cap that both may touch.
 void add_rim_ends(Look& look, Feature rim, const Vec3& line, const Edge* edge, double enough)
 {
     const PlacedSolid& rod = look.part(rim.owner);
@@ -113,7 +116,7 @@ void add_rim_ends(Look& look, Feature rim, const Vec3& line, const Edge* edge, d
     }
 }
 
-// Both stop at a normal that separates by more than `enough`.
+// This and the next function stop at a normal that separates by more than `enough`.
 void add_meetings_of_rods(Look& look, double enough)
 {
     add_meeting(look, look.feature(FeatureKind::side_line, 0), nullptr);
@@ -182,7 +185,7 @@ Look look_at(const BodyPair& pair, const PartPair& parts, const Configuration& a
     return look;
 }
 
-// Whether a point is over a face, past its rim by the tolerance at most.
+// Whether a point lies above a face, or past its rim by at most the tolerance.
 bool is_over(const Look& look, const FaceAxis& axis, const Vec3& point)
 {
     const PlacedSolid& body = look.part(axis.owner);
@@ -196,7 +199,7 @@ bool is_over(const Look& look, const FaceAxis& axis, const Vec3& point)
     });
 }
 
-// Whether the surface of a compound goes through the feature at the touch.
+// Whether the feature lies on the surface of the compound at the touch.
 bool is_open(const Look& look, const RodMeeting& meeting)
 {
     const int other = 1 - meeting.feature.owner;
@@ -240,7 +243,7 @@ void add_crossings(Look& look, const FaceAxis& axis)
     }
 }
 
-// Points of the rim of a cap that stands on a face.
+// Adds the points of the rim of a cap that stands on a face.
 void add_cap(const Look& look, const FaceAxis& axis, int cap, std::vector<Candidate>& over)
 {
     Feature f = look.feature(FeatureKind::corner_face, 1 - axis.owner);
@@ -254,7 +257,7 @@ void add_cap(const Look& look, const FaceAxis& axis, int cap, std::vector<Candid
     }
 }
 
-// What of a rod lies over a face of the other solid.
+// The rim points of a rod above a face of the other solid.
 std::vector<Candidate> over_face(const Look& look, const FaceAxis& axis)
 {
     std::vector<Candidate> over;
@@ -277,7 +280,7 @@ std::vector<Candidate> over_face(const Look& look, const FaceAxis& axis)
     return over;
 }
 
-// The feature that has the best separation as its gap.
+// The feature whose gap is the best separation.
 Candidate nearest_feature(const Look& look)
 {
     if (look.best_meeting >= 0) {
@@ -303,8 +306,8 @@ Candidate nearest_feature(const Look& look)
     return lowest;
 }
 
-// Appends what is neither deeper than the solids overlap nor more than `near` farther apart than
-// they are, each point once.
+// Appends candidates whose gap is at least about twice the overlap of the solids and at most `near`
+// above their distance, each point once.
 class Collection {
 public:
     Collection(const Look& look, double near, std::vector<Candidate>& found)
@@ -356,7 +359,7 @@ bool lies_below(const Look& look, const RodMeeting& meeting)
            n.dot(d.cross(solid.faces[edge.right].normal)) <= lying_flat;
 }
 
-// Whether the solids lie on either side of the touch.
+// Whether the solids lie on opposite sides of the touch.
 bool separates(const Look& look, const RodMeeting& meeting, double near)
 {
     const Touch& touch = meeting.at.touch;

@@ -14,20 +14,21 @@ namespace hyoryu {
 
 namespace {
 
-// Lines this near to parallel (sine) touch by their ends, which are then 1e-11 m at most farther
-// apart than the lines where they cross.
+// Lines within this sine of parallel touch at their ends, where their distance exceeds that at the
+// crossing by at most 1e-11 m.
 constexpr double parallel_lines = 1e-5;
-// And below this their crossing is noise.
+// Sine below which the crossing of two lines is noise.
 constexpr double one_direction = 1e-9;
-// Newton steps and halvings of one of them; a handful is the rule.
+// Most Newton steps, and halvings of a step; a few are typical.
 constexpr int newton_steps_of_touch = 40;
 constexpr int most_halvings = 20;
-// A normal nearer to the axis than this is that of the cap, and the rim has no one point (unit
-// vectors).
+// A normal nearer to the axis than this is that of the cap; no unique point of the rim then touches
+// (unit vectors).
 constexpr double along_axis = 1e-5;
-// A normal nearer to an axis than this may have been caught by the edge of the gap there.
+// A normal nearer to an axis than this may be stuck at the axis, where the gap is not
+// differentiable.
 constexpr double near_axis = 1e-2;
-constexpr double longest_step = 0.4; // about what lies between two samples [rad]
+constexpr double longest_step = 0.4; // about the distance of two samples [rad]
 // Round-off of an angle, and as a part of a length.
 constexpr double round_off_of_angle = 1e-14;
 
@@ -91,8 +92,8 @@ EdgeOrAxis line_between(const Vec3& p, const Vec3& q)
     return {p, (q - p) / length, length, 0};
 }
 
-// The nearest points of the two segments, Ericson (2005), 5.1.9: beyond the ends the gap goes on as
-// that of the ends, while the normal of the whole lines would turn to nowhere.
+// The nearest points of the two segments, Ericson (2005), 5.1.9: beyond the ends the gap is that of
+// the ends, whereas the normal of the infinite lines becomes meaningless.
 RodTouch side_on_line(const EdgeOrAxis& side, const EdgeOrAxis& line)
 {
     const Vec3 cross = side.along.cross(line.along);
@@ -159,7 +160,7 @@ RodTouch cap_on_cap(const Rim& rim, int side, const Rim& other, int end)
     return {{rim.centre + p, -into, into.dot(d - p)}, root > 0 ? 0 : infinity};
 }
 
-// How far the discs within two rims are apart along n, from the first to the second.
+// Distance of the discs within two rims along n, from the first to the second.
 struct DiscGap {
     const Rim& a;
     const Rim& b;
@@ -167,7 +168,8 @@ struct DiscGap {
     Vec3 on_a(const Vec3& n) const { return a.centre + a.towards(n); }
     Vec3 on_b(const Vec3& n) const { return b.centre - b.towards(n); }
     double along(const Vec3& n) const { return n.dot(on_b(n) - on_a(n)); }
-    // The change along the sphere, the discs being round: 0 leaves out the first, 1 the second.
+    // Gradient on the sphere of normals; `left_out` 0 omits the radius of the first disc, 1 of the
+    // second.
     Vec3 slope(const Vec3& n, int left_out) const
     {
         const Vec3 d = (left_out == 1 ? b.centre : on_b(n)) - (left_out == 0 ? a.centre : on_a(n));
@@ -176,7 +178,7 @@ struct DiscGap {
     const Rim& disc(int k) const { return k == 0 ? a : b; }
 };
 
-// Goes along the sphere as long as the gap grows, with half the step after each try that failed.
+// Moves n along the sphere if the gap grows, halving the step after each failed attempt.
 bool climb(const DiscGap& discs, const Vec3& step, Vec3& n)
 {
     const double gap = discs.along(n);
@@ -208,7 +210,8 @@ Vec3 newton_step(const DiscGap& discs, const Vec3& n)
 }
 
 // The normal of the widest gap, which is concave where it is positive: Newton's method on the
-// sphere gets there from any side, but for the axes of the discs, where the gap has an edge.
+// sphere converges from any start, except at the axes of the discs, where the gap is not
+// differentiable.
 Vec3 widest(const DiscGap& discs, Vec3 n)
 {
     for (int k = 0; k < newton_steps_of_touch; ++k) {
@@ -239,7 +242,7 @@ Vec3 widest(const DiscGap& discs, Vec3 n)
 Vec3 first_normal(const DiscGap& discs, int i, const PlacedSolid& b, int j)
 {
     const Vec3 across = direction(discs.b.centre - discs.a.centre);
-    if (discs.along(across) > 0) { // from where the climb gets to the top, which is the only one
+    if (discs.along(across) > 0) { // concave: `climb` then finds the only maximum
         return across;
     }
     Vec3 best = direction(out_of(i) * discs.a.axis - out_of(j) * discs.b.axis);
@@ -284,7 +287,7 @@ Touch over_face(const Vec3& point, const PlacedSolid& other, int f)
     return {point, n, n.dot(point - other.pose.x) - face.offset};
 }
 
-// What a rod meets: another solid, or the creases and corners of a mesh.
+// The partner of a rod: another solid, or the creases and corners of a mesh.
 struct Partner {
     PlacedSolid solid;
     const MeshTable* mesh = nullptr;

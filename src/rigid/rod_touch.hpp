@@ -8,7 +8,7 @@
 
 namespace hyoryu {
 
-/// A touch, and how far its point lies past the ends of what touches [m].
+/// A touch, and the distance of its point past the ends of the touching features [m].
 struct RodTouch {
     Touch touch;
     double past = 0;

@@ -6,7 +6,7 @@
 
 namespace hyoryu {
 
-/// What a body's rotation and translation need, worked out once.
+/// Precomputed constants of the rotation and translation of a body.
 struct Rotor {
     Quat principal = Quat::Identity();       // principal axes to body axes
     Vec3 inverse_moments{1, 1, 1};           // 1/I of the principal axes, the middle one second

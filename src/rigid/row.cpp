@@ -9,10 +9,10 @@ namespace hyoryu {
 
 namespace {
 
-// A tangent in which the inverse mass is below this part of the normal one belongs to locked axes.
+// A tangent whose inverse mass is below this part of the normal one is locked.
 constexpr double locked_part = 1e-12;
 
-// Tangents that change smoothly with the normal: both configurations use the same helping axis.
+// Tangents that change smoothly with the normal: both configurations use the same helper axis.
 Mat3 axes(const Vec3& n, int helper, int dimensions)
 {
     Mat3 basis;
@@ -27,8 +27,8 @@ Mat3 axes(const Vec3& n, int helper, int dimensions)
     return basis;
 }
 
-// The moments about the centre of unit vectors along the axes: the normal at the contact point, the
-// tangents where friction acts.
+// Moments of unit forces along the axes about the centre of mass: the normal force acts at the
+// contact point, the tangential forces at the friction point.
 Mat3 moments(const Vec3& arm, const Vec3& rub, const Mat3& axes)
 {
     Mat3 result;
@@ -38,7 +38,7 @@ Mat3 moments(const Vec3& arm, const Vec3& rub, const Mat3& axes)
     return result;
 }
 
-// What the impulse of one body's side changes at the contact, for unit impulses along the axes.
+// Contribution of one body to K: change of the contact velocity under unit impulses along the axes.
 Mat3 inverse_mass(const Row& row, const Response& body, const Mat3& turn, const Mat3& lever)
 {
     return row.D.transpose() * body.inverse_mass.asDiagonal() * row.B +
@@ -64,7 +64,8 @@ void fill(Row& row, const TwoTouches& at, const Centres& c, const std::vector<Re
     set_answer(row, bodies);
 }
 
-// Turns the tangents into the axes of the tangential block; returns how many of them can move.
+// Rotates the tangents to the principal axes of the tangential block; returns the number of
+// tangents that are not locked.
 int movable_tangents(Row& row)
 {
     const Eigen::Matrix2d block = row.cone.K.block<2, 2>(1, 1);
@@ -134,7 +135,7 @@ void push(Row& row, const Vec3& dp, std::vector<Response>& bodies)
 {
     row.p += dp;
     const Vec3 P = row.B * dp;
-    // Immovable bodies are shared between islands that are solved side by side: never written.
+    // Immovable bodies are shared by islands that are solved in parallel; they are never written.
     Response& a = bodies[row.a];
     if (a.movable) {
         a.v += a.inverse_mass.cwiseProduct(P);

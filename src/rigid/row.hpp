@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One contact of a solve, and how bodies answer its impulse.
+// One contact of the contact problem: its Jacobian rows and the response of the bodies to its
+// impulse.
 #pragma once
 
 #include "cone.hpp"
@@ -25,13 +26,13 @@ struct Twist {
     Vec3 omega{0, 0, 0}; // [rad/s]
 };
 
-/// A contact at two configurations: the impulse acts at `push`, the velocity is asked for at `see`.
-/// They are the same in an impact; in a smooth step they are its middle and its end. Friction may
-/// act beside the contact point, in its tangent plane.
+/// A contact at two configurations: the impulse acts at `push`, the velocity is constrained at
+/// `see`. In an impact they are the same; in a smooth step they are its middle and its end.
+/// Friction may act at another point of the tangent plane.
 struct TwoTouches {
     Touch push;
     Touch see;
-    Vec3 push_rub{0, 0, 0}, see_rub{0, 0, 0}; // from the contact point to that of friction [m]
+    Vec3 push_rub{0, 0, 0}, see_rub{0, 0, 0}; // from contact point to friction point [m]
 };
 
 /// Rows of the contact problem: u = D^T (v_a - v_b - w) + S_a^T omega_a - S_b^T omega_b, and the
@@ -42,12 +43,12 @@ struct Row {
     int contact = 0;   // index of the contact in the caller's list
     Cone cone;
     Mat3 B = Mat3::Identity();                           // n, t1, t2 where the impulse acts
-    Mat3 D = Mat3::Identity();                           // the same where the velocity is seen
+    Mat3 D = Mat3::Identity();                           // the same where velocity is constrained
     Mat3 turn_a = Mat3::Zero(), turn_b = Mat3::Zero();   // T, moments of unit impulses [m]
     Mat3 lever_a = Mat3::Zero(), lever_b = Mat3::Zero(); // S, velocities of unit spins [m]
     Vec3 wall_velocity{0, 0, 0};
-    Vec3 slip{0, 0, 0};   // added to the velocity that is seen, in the axes of D [m/s]
-    double target = 0;    // wanted normal velocity [m/s]
+    Vec3 slip{0, 0, 0};   // added to the contact velocity, in the axes of D [m/s]
+    double target = 0;    // target normal velocity [m/s]
     Vec3 before{0, 0, 0}; // velocity at the start of the solve, in the axes of D [m/s]
     Vec3 p{0, 0, 0};      // impulse in the axes of B [N s]
     bool tangential = false;
@@ -64,8 +65,8 @@ struct Centres {
 void complete(Row& row, const TwoTouches& at, const Centres& centres,
               const std::vector<Response>& bodies, int dimensions);
 
-/// Lets friction oppose the mean of the slip before the solve, by those velocities, and after it,
-/// where it acts: the rule of the midpoint. What is seen is their sum.
+/// Midpoint rule: makes friction oppose the mean of the slips before the solve (from the given
+/// velocities) and after it. The tangential velocity of the row becomes the sum of the two slips.
 void see_mean_slip(Row& row, const Twist& a, const Twist& b, const Vec3& wall,
                    const std::vector<Response>& bodies);
 
@@ -75,7 +76,7 @@ Vec3 velocity(const Row& row, const std::vector<Response>& bodies);
 /// Adds dp to the impulse of the row and to the bodies.
 void push(Row& row, const Vec3& dp, std::vector<Response>& bodies);
 
-/// Sets the impulses of the rows, and the bodies accordingly.
+/// Sets the impulses of the rows and updates the velocities of the bodies.
 void set_impulses(std::span<Row> rows, const std::vector<Vec3>& p, std::vector<Response>& bodies);
 
 } // namespace hyoryu

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Separating-axis test of two polytopes with edge pruning on the Gauss map.
 #include "separation.hpp"
 #include "tolerances.hpp"
 
@@ -8,11 +9,11 @@ namespace hyoryu {
 
 namespace {
 
-// A face axis is kept unless another axis is better by more than this: near parallel features
-// describe one contact, and the face gives it more points [units].
+// A face axis is kept unless another axis is better by more than this: nearly parallel features
+// describe the same contact, and the face gives more contact points [units].
 constexpr double face_preference = 1e-7;
-// Solids that overlap deeply touch at their faces unless edges halve the depth: one point between
-// edges would let the others of a face sink in turn.
+// In a deep overlap a face axis is kept unless an edge axis halves the depth: with the single
+// contact point of two edges the corners of a face would sink in one after another.
 constexpr double overlap_preference = 0.5;
 
 // The pose of b in the frame of a.
@@ -61,7 +62,7 @@ Separation best_face(const PlacedSolid& a, const PlacedSolid& b, const Relative&
     return best;
 }
 
-// Whether the arcs of two edges cross on the Gauss map, the normals of b turned round.
+// Whether the arcs of two edges cross on the Gauss map, with the normals of b reversed.
 bool spans_face(const Solid& a, const Edge& ea, const Vec3& c, const Vec3& d, const Vec3& arc_b)
 {
     const double cba = c.dot(ea.arc);
@@ -107,7 +108,7 @@ void improve_by_edges(Separation& best, const PlacedSolid& a, const PlacedSolid&
     }
 }
 
-// Whether no edge can be nearer than the face of the axis.
+// Whether no edge axis can be better than the face axis.
 bool covers(const Separation& best, const PlacedSolid& a, const PlacedSolid& b)
 {
     return best.kind == AxisKind::face_of_a ? lies_over(b, a, best.a) : lies_over(a, b, best.b);

@@ -17,14 +17,13 @@ struct Separation {
     int b = 0; // face or edge of b
 };
 
-/// Whether the face stretches under the whole of the other solid: then nothing but the face can be
-/// nearest to it.
+/// Whether the whole other solid lies above the face: then only the face can be nearest to it.
 bool lies_over(const PlacedSolid& body, const PlacedSolid& under, int face);
 
 /// Separating axes of two polytopes: the normals of all faces, and the cross products of those
 /// edges that span a face of the Minkowski difference (Gregorius, GDC 2013). Returns early with the
-/// first face axis that separates by more than `enough`. Which axis is as good as another goes by
-/// `unit`, as of RigidSettings.
+/// first face axis that separates by more than `enough`. The tolerance between equivalent axes
+/// scales with `unit`, as in RigidSettings.
 Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough, double unit);
 
 } // namespace hyoryu

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The end of sliding within a sub-step. Friction jumps there, and a step across it would be of
-// first order: the sub-step ends where the first contact stops sliding.
+// Detects the end of sliding within a sub-step. Friction is discontinuous there, and a step across
+// it would be of first order: the sub-step therefore ends when the first contact stops sliding.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -10,20 +10,21 @@ namespace hyoryu {
 
 namespace {
 
-// The sub-step ends this part before the slip does, so that the direction of sliding holds in it;
-// more if that turns out to be too near.
+// The sub-step ends earlier than the slip by this part, so that the direction of sliding is defined
+// throughout; the margin grows by `more` if it proves too small.
 constexpr double short_of = 1e-6;
 constexpr double more = 30;
 constexpr int tries_of_slip = 8;
-// Sliding that stops within this part of the sub-step stops at once; what it loses till there tells
-// when other sliding will.
+// Sliding that ends within this part of the sub-step is stopped at once. The slip lost in this part
+// gives the first estimate of when the other contacts stop.
 constexpr double shortest_slide = 1.0 / 256;
-// A rest of sliding of this part of the sub-step is left to the next one.
+// Sliding that remains for less than this part of the sub-step is left to the next one.
 constexpr double settled = 1e-4;
-// Events of a body in this step beyond which it rattles: what slides between two of its impacts
-// does so for a moment, and the impacts matter more than where in it that stops.
+// With more events of a body than this in the step the search is skipped: between two of its
+// impacts it slides only for a moment, and the impacts matter more than the time at which sliding
+// stops.
 constexpr int rattling_events = 3;
-// Round-off of a slip that has stopped, as a part of what it was.
+// A slip has stopped at this part of its initial value: round-off.
 constexpr double stopped = 1e-9;
 
 bool slides_faster(const Persistent& p, double slow)
@@ -31,7 +32,7 @@ bool slides_faster(const Persistent& p, double slow)
     return p.slip_before.norm() > slow && p.impulse.squaredNorm() > 0;
 }
 
-// The time at which the first contact stops sliding, if its speed goes on as it does in `h`.
+// The time at which the first contact stops sliding, extrapolated linearly from the sub-step `h`.
 double extrapolated(const std::vector<Persistent>& contacts, double slow, double h)
 {
     double first = infinity;
@@ -59,7 +60,7 @@ bool rattles(const StepContext& context, const SubStep& sub)
                                [&](int k) { return context.memory.events[k] > rattling_events; });
 }
 
-// What stops at once stops by an impulse: there is no time before it.
+// Plans the whole sub-step with friction opposing the slip at its end: sliding stops by an impulse.
 void plan_to_the_end(const StepContext& context, SubStep& sub, double whole)
 {
     sub.slip = Slip::end;
@@ -94,7 +95,7 @@ void end_with_slip(const StepContext& context, SubStep& sub)
             end = known ? end : 0.5 * end;
             margin *= known ? more : 1;
             if (margin >= 1) {
-                break; // no time before it that is worth a sub-step
+                break; // the time before the stop is too short for a sub-step
             }
             continue;
         }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The strategy of the contact solver: direct solutions and Gauss-Seidel sweeps in turns.
 #include "solver.hpp"
 
 #include <algorithm>
@@ -8,14 +9,14 @@ namespace hyoryu {
 
 namespace {
 
-// Contacts up to which one body is left to Gauss-Seidel, which settles there in a few sweeps.
+// A single body with at most this number of contacts is solved by Gauss-Seidel in a few sweeps.
 constexpr std::size_t few_contacts = 24;
 constexpr int few_sweeps = 60;
 constexpr int sweeps_at_once = 20;
-// Sweeps of a turn in any case.
+// Least number of sweeps of a turn.
 constexpr std::size_t fewest_sweeps = 60;
 constexpr std::size_t fewest_between_tries = 20;
-// After so many turns all known impulses are dropped, as a pile of bodies drops them one by one.
+// All known impulses are dropped after this number of turns: a pile would drop them one by one.
 constexpr int turns_of_dropping = 3;
 
 bool one_body(std::span<const Row> rows, const std::vector<Response>& bodies)
@@ -25,7 +26,7 @@ bool one_body(std::span<const Row> rows, const std::vector<Response>& bodies)
     });
 }
 
-// The largest change of speed that the contacts are asked for.
+// The largest change of velocity required at a contact.
 double change_asked(std::span<const Row> rows)
 {
     double most = 0;
@@ -54,7 +55,7 @@ void keep_impulses(std::span<const Row> rows, SolverWork& work)
     }
 }
 
-// Tries the direct solution; goes back if it is worse than what there was.
+// Tries the direct solution; restores the former impulses if its residual is larger.
 double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                     double left)
 {
@@ -69,9 +70,9 @@ double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     return left;
 }
 
-// Whether the contacts share their load in many ways, of which sweeps take the one nearest to where
-// they began, and slide, so that the motion depends on it: the direct solution shares it evenly,
-// and depends on nothing else.
+// Whether the contacts are redundant and slide, so that their share of the load affects the motion.
+// Sweeps converge to the distribution nearest to the guess; the direct solution gives the even one,
+// which does not depend on the guess.
 bool slide_together(std::span<const Row> rows)
 {
     constexpr std::size_t determined = 3; // contacts of one body in a plane
@@ -79,7 +80,7 @@ bool slide_together(std::span<const Row> rows)
            std::ranges::any_of(rows, [](const Row& row) { return !row.slip.isZero(0); });
 }
 
-// What is left, if that is little; infinity if the impulses stay as they were.
+// Returns the residual of the direct solution, or infinity with the old impulses if it fails.
 double share_evenly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
     keep_impulses(rows, work);
@@ -96,11 +97,11 @@ double share_evenly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
     return infinity;
 }
 
-// Direct solutions and sweeps take turns: the sweeps find which contacts stick, slide and open,
-// which the direct solution takes up (Silcowitz, Niebe and Erleben 2010). What the known impulses
-// leave is never left as it is, little though it may be: it would add up to speeds that a later
-// solution takes back with as much too much force for the next sub-step, and so on. A direct
-// solution leaves round-off, which a sweep lets die down.
+// Alternates direct solutions and sweeps: the sweeps find which contacts stick, slide and open, and
+// the direct solution starts from these states (Silcowitz, Niebe and Erleben 2010). Even a small
+// residual of the known impulses is reduced further: it would accumulate to speeds that a later
+// solution cancels by an excessive force in the next sub-step, and so on. A direct solution leaves
+// round-off, which one sweep damps.
 double solve_in_turns(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                       const Turns& turns)
 {
@@ -120,16 +121,16 @@ double solve_in_turns(std::span<Row> rows, std::vector<Response>& bodies, Solver
     return left;
 }
 
-// What a known impulse adds to the function that the solution without friction is the least of,
-// p.(u_free + u)/2 - p_n u*, and which is zero without impulses [J].
+// The contribution of a known impulse to the objective function that the frictionless solution
+// minimises, p.(u_free + u)/2 - p_n u*; the function is zero without impulses [J].
 double share_of_guess(const Row& row, const std::vector<Response>& bodies)
 {
     return row.p.dot(0.5 * (row.before + velocity(row, bodies)) - Vec3(row.target, 0, 0));
 }
 
-// Where the known impulses are worse than none, takes those away that make them so, and those that
-// do then, and so on: a blow that was taken up in the last moment of a step looks like a huge force
-// in the next.
+// If the known impulses are worse than none, removes those with a positive contribution,
+// repeatedly: an impact absorbed at the very end of a step would appear as a huge force in the
+// next.
 void drop_bad_guess(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
     double sum = 1;
@@ -156,16 +157,17 @@ Turns turns_for(std::span<const Row> rows, const Effort& effort, double enough)
     return {effort.direct_tries, std::min(effort.sweeps, static_cast<int>(sweeps)), enough};
 }
 
-// `part`: that may be left of the largest change of speed that is asked for.
+// `part`: the allowed residual relative to the largest required change of velocity.
 double solve_rows(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                   const Effort& effort, double part)
 {
     const double asked = change_asked(rows);
     drop_bad_guess(rows, bodies, work);
     const double enough = std::max(part * asked, solved_speed * work.unit);
-    // A pile at rest first, with the load shared by the least impulses. Sweeps that begin without
-    // impulses leave forces between the contacts of a face that are nothing to the load, and beyond
-    // friction, which no direct solution gets rid of where heavy bodies stand on light ones.
+    // Without known impulses a large island is first solved as a pile at rest, with the impulses of
+    // least norm. Sweeps from zero would leave internal forces between the contacts of a face that
+    // carry no load and exceed friction; no direct solution removes them if heavy bodies stand on
+    // light ones.
     if (cold(rows) &&
         !(rows.size() >= effort.stuck && solve_sticking(rows, bodies, work, enough))) {
         gauss_seidel(rows, bodies, {sweeps_at_once, enough});
@@ -175,7 +177,7 @@ double solve_rows(std::span<Row> rows, std::vector<Response>& bodies, SolverWork
     return left;
 }
 
-// The contacts of one body.
+// Solves the contacts of a single body.
 double solve_alone(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                    const Effort& effort)
 {
@@ -204,7 +206,7 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
     }
     const double known = residual(rows, bodies);
     if (known <= settled_speed * work.unit) {
-        return known; // a steady slide, whose load is shared as in the last step
+        return known; // steady sliding with the load shared as in the last step
     }
     const double left = share_evenly(rows, bodies, work);
     if (left < infinity) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The impulses of many contacts at once.
+// Solvers for the impulses of many contacts: active sets, pivoting and accelerated Gauss-Seidel.
 #pragma once
 
 #include "block_matrix.hpp"
@@ -12,8 +12,9 @@
 
 namespace hyoryu {
 
-/// An unknown impulse of the direct solution: the velocities (v, omega) that a unit of it gives to
-/// the two bodies of its contact, and what its equation sees of theirs.
+/// An unknown impulse of the direct solution: the velocities (v, omega) that a unit impulse gives
+/// to the two bodies (`answer`), and the coefficients of their velocities in its equation
+/// (`sight`).
 struct Unknown {
     Vec6 answer_a, answer_b, sight_a, sight_b;
 };
@@ -29,14 +30,15 @@ struct BlockWork {
     BlockMatrix matrix;
 };
 
-/// Shifts of piles, whose matrices are far from regular, and of the few contacts of one face, where
-/// the load is shared to eleven digits.
+/// Diagonal shifts that make the matrix regular: the small one for piles, which are
+/// ill-conditioned, the large one for the few contacts of a face, whose load it distributes to
+/// eleven digits.
 inline constexpr double small_shift = 1e-8;
 inline constexpr double large_shift = 1e-5;
 
-/// More contacts are solved for by the velocities of their bodies.
+/// Problems with more contacts are solved for the velocities of their bodies.
 inline constexpr int dense_contacts = 8;
-/// The matrix of so many, which needs no memory from the heap.
+/// The matrix of at most `dense_contacts` contacts, stored without heap allocation.
 using DenseMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
                                   3 * dense_contacts, 3 * dense_contacts>;
 
@@ -48,42 +50,42 @@ struct SolverWork {
     Eigen::VectorXd solution;
     Eigen::VectorXd left_over;
     std::vector<int> states;
-    std::vector<int> columns; // where the unknowns of each row begin, and the end
+    std::vector<int> columns; // first unknown of each row, and the end
     std::vector<int> across;  // the unknown of each row across its direction of sliding; -1: none
     std::vector<Unknown> unknowns;
     std::vector<Vec3> directions, momenta, base;
-    std::vector<double> held; // of what moves across each direction of sliding [1]
+    std::vector<double> held; // held part across each sliding direction [1]
     BlockWork blocks;
     Colours colours;
-    std::vector<double> shares;    // of the known impulse of each row in the energy [J]
+    std::vector<double> shares;    // contribution of each known impulse [J]
     std::vector<double> changes;   // of each row in a sweep [m/s]
-    std::vector<Vec3> start;       // of the sweep, momentum included
+    std::vector<Vec3> start;       // impulses at the start of the sweep, with momentum
     std::vector<Vec3> impulses;    // after the last sweep
-    std::vector<int> moved;        // bodies that are not held, sorted
-    std::vector<Twist> velocities; // theirs after the last sweep
-    double unit = 1;               // of the speeds that pass for solved [m/s]
-    // Shift of the diagonal that makes the direct problem regular, as a part of its largest entry;
-    // the round-off in how redundant contacts share their load is that of the numbers over this.
+    std::vector<int> moved;        // movable bodies, sorted
+    std::vector<Twist> velocities; // their velocities after the last sweep
+    double unit = 1;               // scale of the speed tolerances [m/s]
+    // Shift of the diagonal that makes the direct problem regular, relative to its largest entry.
+    // The relative error of the load of redundant contacts is the machine precision over this
+    // shift.
     double shift = small_shift;
     double updates = 0; // of rows, since this was set to zero: what solves cost, on any machine
-    /// Half of what was asked for is left: no impulses keep all contacts apart, as where two walls
-    /// press a body from both sides.
+    /// Half of the required change of velocity is left: no impulses keep all contacts apart, for
+    /// instance if two walls press a body from both sides.
     bool unsolved = false;
 };
 
-/// Islands of more contacts are piles. Of those that rattle nine in ten do not settle in a direct
-/// solution, and other errors are larger than that of a contact that stops sliding within a
-/// sub-step or of a body that turns on it.
+/// Islands with more contacts are piles. Nine in ten direct solutions of piles with many impacts do
+/// not converge, and other errors exceed those of contacts that stop sliding or of bodies that turn
+/// on their contacts within a sub-step.
 inline constexpr std::size_t contacts_of_a_pile = 8;
 
-/// What a solve may cost and what it may leave.
+/// Limits on the cost and the residual of a solution.
 struct Effort {
-    /// Left as a part of the largest change of speed that is asked for [1].
+    /// Allowed residual relative to the largest required change of velocity [1].
     double enough = 1e-6;
     int direct_tries = 2; // direct solutions of a small island, each before sweeps
     int sweeps = 300;     // in each turn
-    /// Updates of rows that a turn of sweeps is worth; fewer sweeps of many rows, down to a fixed
-    /// number.
+    /// Work limit of a turn [updates of rows]: many rows get fewer sweeps, down to a fixed number.
     std::size_t updates = 2000;
     /// Rows of an island without friction up to which it is solved by pivoting.
     std::size_t pivoted = 0;
@@ -113,7 +115,7 @@ struct Sweeps {
 double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sweeps& sweeps);
 /// Whether no impulse is known yet.
 bool cold(std::span<const Row> rows);
-/// The states that impulses and velocities show; all stick if there are no impulses yet.
+/// Derives the states from impulses and velocities; without impulses all contacts stick.
 void guess_states(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
 /// Lets open contacts slide at first, so that they may take a share of the load.
 void load_all_that_slide(std::span<const Row> rows, const std::vector<Response>& bodies,
@@ -125,14 +127,15 @@ bool solve_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWo
 /// to pull or to hold more than friction does.
 bool solve_sticking(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                     double enough);
-/// Prepares `solve_by_bodies` for the rows, whatever their states.
+/// Orders the bodies for `solve_by_bodies`; the order does not depend on the states of the rows.
 void order_bodies(std::span<const Row> rows, const std::vector<Response>& bodies, SolverWork& work);
 /// Solves rows without friction exactly, blind to mass ratios, by block principal pivoting
 /// (Portugal, Judice and Vicente 1994): rows whose impulse pulls or whose velocity falls short of
-/// its target change sides, all at once while that gets on, else one by one. Costs the cube of the
-/// rows. Returns the residual; goes back to the impulses that there were if they leave less.
+/// its target change sides, all at once while this makes progress, else one by one. The cost grows
+/// with the cube of the number of rows. Returns the residual; keeps the former impulses if their
+/// residual is smaller.
 double solve_by_pivoting(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work);
-/// The solution of the linear problem that is laid out in `work`; false if it is none.
+/// Solves the linear problem set up in `work`; returns false if no solution is found.
 bool solve_by_bodies(std::span<const Row> rows, SolverWork& work);
 /// Sweeps with Nesterov's momentum and its restart (O'Donoghue and Candes 2015), which settle high
 /// piles in tens of sweeps where plain ones need thousands. Many rows are sorted by colour, and the

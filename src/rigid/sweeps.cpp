@@ -54,7 +54,7 @@ void remember_start(std::span<const Row> rows, const std::vector<Response>& bodi
     work.changes.resize(rows.size());
 }
 
-// Whether the last sweep went back on the way that momentum took.
+// Whether the last sweep opposes the momentum step (gradient criterion of the restart).
 bool leads_uphill(std::span<const Row> rows, const SolverWork& work)
 {
     double uphill = 0;
@@ -64,8 +64,8 @@ bool leads_uphill(std::span<const Row> rows, const SolverWork& work)
     return uphill > 0;
 }
 
-// Goes on by `beta` of the way that the last sweep went. Velocities are linear in the impulses, so
-// that those of the bodies go on by themselves, whatever rows they share.
+// Extrapolates by `beta` times the last change. Velocities are linear in the impulses, so that
+// those of the bodies can be extrapolated directly.
 void add_momentum(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work, double beta)
 {
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -103,7 +103,7 @@ double gauss_seidel(std::span<Row> rows, std::vector<Response>& bodies, const Sw
     double change = infinity;
     for (int sweep = 0; sweep < sweeps.most && change > sweeps.settled; ++sweep) {
         change = 0;
-        for (std::size_t k = 0; k < n; ++k) { // to and fro, so that no end is favoured
+        for (std::size_t k = 0; k < n; ++k) { // alternating direction for symmetry
             Row& row = rows[sweep % 2 == 0 ? k : n - 1 - k];
             change = std::max(change, change_of(row, bodies, cone_impulse));
         }
@@ -124,7 +124,8 @@ double accelerated_sweeps(std::span<Row> rows, std::vector<Response>& bodies, So
             work.changes[k] = change_of(rows[k], bodies, nearer_impulse);
         });
         const double last = std::exchange(change, *std::ranges::max_element(work.changes));
-        // Friction is no gradient: momentum that carries past the solution, or away from it, ends.
+        // Friction is not the gradient of a function: momentum that overshoots or diverges is
+        // reset.
         const bool astray = change > last || leads_uphill(rows, work);
         const double next = next_theta(theta);
         const bool goes_on = sweep < sweeps.most && change > sweeps.settled && !astray;

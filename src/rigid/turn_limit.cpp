@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bodies that turn on their contacts within a sub-step. The contact of two rods that cross at a
-// small angle runs along them much faster than they turn.
+// Limits of the sub-step for bodies that turn on their contacts. The contact point of two rods that
+// cross at a small angle moves along them much faster than they turn.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -10,20 +10,20 @@ namespace hyoryu {
 
 namespace {
 
-// A body that turns on a contact is driven by a force that turns with it, which costs more accuracy
-// than all else: a third of the step leaves a ninth of it.
+// A body that turns on a contact is driven by a force that turns with it; this is the largest error
+// of the scheme. A third of the step reduces it to a ninth.
 constexpr double parts_of_step = 3;
-// Round-off in the number of parts.
+// Tolerance for round-off in the number of parts.
 constexpr double part_tolerance = 1e-9;
 
-// A normal between two curves may turn by this much in a sub-step: over more, where the contact
-// will be is not foreseen and rods sink into each other [rad].
+// Largest turn of the normal between two curves in a sub-step. Beyond it the contact point cannot
+// be predicted and rods penetrate each other [rad].
 constexpr double most_turn = 0.01;
 constexpr double short_of_turn = 0.8;
 constexpr double most_shortening = 0.1;
 constexpr int tries_of_turn = 8;
 
-// A contact may sink by this in a sub-step [units].
+// Largest increase of the overlap of a contact in a sub-step [units].
 constexpr double shallow = 2e-6;
 
 // The largest turn of a normal between two curves within the sub-step [rad].
@@ -46,7 +46,7 @@ double part_on_contacts(const StepContext& context, double rest)
 {
     const ContactMemory& memory = context.memory;
     const RigidSettings& settings = context.rigid.settings;
-    // by its speed, not by the angle of a step: at any step the scheme is the same
+    // by speed, not by the angle per step, so that the scheme does not depend on the step
     const auto turns = [&](int k) {
         return k >= 0 && !turns_unseen(memory.geometry.solids[k]) &&
                memory.responses[k].omega.norm() * memory.geometry.solids[k].reach >

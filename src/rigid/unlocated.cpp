@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Unlocated (time-stepping) contact steps: of clusters of so many bodies, or with so many impacts,
-// that locating each would cost without end.
+// Unlocated (time-stepping) contact steps, for clusters with too many bodies or impacts to locate
+// each impact in time.
 #include "groups.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -12,29 +12,29 @@ namespace hyoryu {
 
 namespace {
 
-// Rotation of a body in one sub-step at most [rad].
+// Largest rotation of a body in one sub-step [rad].
 constexpr double most_turn_of_sub_step = 0.3;
-// Sub-steps a step is split into at most, however fast a body spins.
+// Largest number of sub-steps of a step, however fast a body spins.
 constexpr int most_sub_steps = 2000;
-// An approach that gravity and loads build up in this many sub-steps is that of a resting contact.
+// A contact rests if gravity and loads alone cause its approach speed in this number of sub-steps.
 constexpr double sub_steps_of_rest = 2;
-// Impacts that are not located do not deserve more.
+// Impact rounds per sub-step, and the effort of each.
 constexpr int rounds_of_unlocated = 4;
 constexpr Effort impact_effort{.enough = 1e-3, .direct_tries = 0, .sweeps = 40};
-// What is left of the contacts is made good by the next step, which starts from their impulses. But
-// sweeps hand a load on from course to course: with sixty of them at steps of 5 ms a wall of twenty
-// courses sinks into itself until it falls, and costs more than one that stands.
+// The next step starts from these impulses and corrects their residual. But each sweep transmits a
+// load only from course to course: with sixty sweeps at steps of 5 ms a wall of twenty courses
+// sinks into itself until it falls, and costs more than a standing one.
 constexpr Effort contact_effort{
     .enough = 1e-4, .direct_tries = 0, .sweeps = 500, .updates = 400000};
-// A pile hands a gap on from body to body; below this none is worth chasing [units].
+// Gaps below this are not projected: in a pile the correction of one gap opens others [units].
 constexpr double no_gap = 1e-9;
-// A sub-step may leave solids deeper in each other by this [units].
+// Largest increase of an overlap in a sub-step [units].
 constexpr double deeper_by = 1e-5;
-// Sub-steps of a cluster are shortened for it while that has cost less [updates of rows], so that
-// the cost grows no faster than the cluster: what a moving wall crushes goes deeper however short
-// they are, and a heap has some place that does in every step.
+// Work limit for shortening the sub-steps of a cluster because of overlaps [updates of rows]. It
+// keeps the cost proportional to the cluster: a body crushed by a moving wall overlaps more however
+// short the sub-step, and a large heap has such a place in every step.
 constexpr double shortening_work = 4e5;
-// Pairs that share a list of found contacts, whatever the number of threads.
+// Number of pairs that share a list of found contacts, independent of the number of threads.
 constexpr Index pairs_per_block = 32;
 
 double fastest_change(const StepContext& context, const Cluster& cluster)
@@ -84,17 +84,18 @@ void find_all_closing(const StepContext& context, const SubStep& sub)
     }
 }
 
-// Blows on what closes within the sub-step, and the motion with the contacts that they leave.
+// Solves the impacts of contacts that close within the sub-step, then plans the motion with the
+// contacts that remain.
 void plan_unlocated(const StepContext& context, const SubStep& sub)
 {
     set_responses(context, sub.cluster);
     predict_free_motion(context, sub);
     find_all_closing(context, sub);
-    solve_impacts(context, sub, sub.time); // what it leaves, the contacts of the motion take up
+    solve_impacts(context, sub, sub.time); // its residual is corrected by `plan_motion`
     plan_motion(context, sub);
 }
 
-// The deepest overlap in those poses of the pairs whose events are not looked for [m].
+// The deepest overlap at the given poses among the pairs without an event search [m].
 double deepest(const StepContext& context, const SubStep& sub, const std::vector<SolidPose>& poses,
                double time)
 {
@@ -208,7 +209,7 @@ void advance_unlocated(const StepContext& context, const Cluster& cluster, doubl
         memory.lost -= work.linear + work.square;
         move_to(context, sub, sub.h);
         remember(memory, sub.h);
-        find_contacts(context, cluster, sub.time + sub.h); // also those that the plan did not know
+        find_contacts(context, cluster, sub.time + sub.h); // including unplanned ones
         open_gaps(context, sub, sub.time + sub.h);
         note_motion(context, sub, sub.h);
         done = sub.h < rest ? done + sub.h : context.dt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The forces of the last sub-step as the first guess of the next.
+// Warm start: the contact forces of the last sub-step are the first guess of the next.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ std::span<const Remembered> of_pair(std::span<const Remembered> known, const Fea
     return {found.begin(), found.end()};
 }
 
-// The nearest force of the pair that no other contact took and that can push here; none: -1.
+// Index of the nearest force of the pair that is not yet assigned and pushes the bodies apart; -1
+// if there is none.
 std::ptrdiff_t nearest_untaken(const ContactMemory& memory, const Persistent& p,
                                std::span<const Remembered> forces)
 {
@@ -78,8 +79,8 @@ void recall_forces(ContactMemory& memory, double h)
     }
 }
 
-// Impulses that keep nothing apart are no guess: taken up again and again they grow until they are
-// no numbers.
+// Impulses that did not resolve their contacts are not reused: as repeated first guesses they would
+// grow without bound.
 void remember(ContactMemory& memory, double h)
 {
     memory.recent.clear();

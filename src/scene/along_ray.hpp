@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a function whose value changes no faster than the place changes its sign on a line: the
-// distance from a surface is one.
+// Sign changes along a line of a function with Lipschitz constant 1, such as the distance from a
+// surface. The bracket is closed by regula falsi.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -17,9 +17,9 @@ struct AxisRay {
     Vec3 at(double s) const { return from + s * along; }
 };
 
-/// The end of a bracket [from, to] of a ray, in which a value takes the other sign, after the
-/// bracket was made `narrow` [m]: regula falsi (Illinois, Dowell and Jarratt 1971), whose places
-/// keep from the ends by half of that, so that the bracket closes from both of them.
+/// Narrows a bracket [from, to] of a sign change on a ray to `narrow` [m] and returns its far end,
+/// by regula falsi (Illinois, Dowell and Jarratt 1971). Trial places keep half of `narrow` from
+/// both ends, so that the bracket closes from both sides.
 double narrowed(const AxisRay& ray, double from, double to, double narrow, const auto& value)
 {
     constexpr int most = 40; // a bracket as narrow as the numbers are fine shrinks no more
@@ -43,8 +43,8 @@ double narrowed(const AxisRay& ray, double from, double to, double narrow, const
     return to;
 }
 
-/// The next place on a ray, from s on, where a function whose value changes no faster than the
-/// place takes the other sign; `end` if there is none.
+/// The next place on a ray, from s on, at which a function with Lipschitz constant 1 changes its
+/// sign; `end` if there is none.
 double next_change(const AxisRay& ray, double s, double end, double least, const auto& value)
 {
     constexpr double narrow = 1e-10; // of the least step

@@ -37,7 +37,7 @@ inline bool has_axis(int dimensions, int axis)
     return dimensions == 3 || axis != 1;
 }
 
-/// Of one cell; in two dimensions its area.
+/// The volume of one cell; in two dimensions its area.
 inline double volume_of(const Cells& cells, int dimensions)
 {
     return cells.edge(0) * cells.edge(2) * (dimensions == 3 ? cells.edge(1) : 1);

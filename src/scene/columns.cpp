@@ -45,7 +45,7 @@ struct Interval {
     bool is_free = false;
 };
 
-// `depth` changes no faster than the place.
+// `depth` must have a Lipschitz constant of 1.
 std::vector<Interval> intervals_of(const AxisRay& ray, double length, double spacing,
                                    const auto& depth)
 {
@@ -187,7 +187,7 @@ double fair_share(const std::vector<double>& volumes, double cube)
     return share;
 }
 
-// Of the columns of all processes, in their order.
+// The volumes of the columns of all processes, in their order.
 std::vector<double> volumes_of_all(const std::vector<WaterColumn>& columns, Comm* comm)
 {
     std::vector<double> volumes;

@@ -18,10 +18,10 @@ struct ColumnParticles {
 
 /// Fills the free part of a block in columns of cells. A column has the particles of the free
 /// volume of its cells, rounded to whole ones, each in the middle of its share from the bottom up.
-/// The share is the same in all columns: nearly a cube of the spacing, so much more or less that
-/// the water of all columns is that of the block; with open sides, whose carpets are made of cubes,
-/// exactly a cube. Particles nearer to a surface than half a spacing move to that distance. Of
-/// several processes each fills a range of the columns.
+/// The share is the same in all columns: nearly a cube of the spacing, adjusted so that all columns
+/// together hold the water of the block; with open sides, whose carpets are made of cubes, exactly
+/// a cube. Particles nearer to a surface than half a spacing move to that distance. Of several
+/// processes each fills a range of the columns.
 ColumnParticles in_columns(const Scene& scene, const FreeSpace& space, const Placed& block,
                            const Cells& cells, Comm* comm);
 

@@ -21,13 +21,13 @@ struct Left {
     double density;
     double ids;
 };
-// Of the dam break of SPHERIC 2, the wedge and the debris flood.
+// Measured on the dam break of SPHERIC 2, the wedge and the debris flood.
 constexpr Left left_of_fluid{0.75, 0.8, 0.75, 0.45, 0.2};
-// Of the same and two more in three dimensions, where walls lie on lattices and stand still.
+// Measured on the same cases and two more in three dimensions, with fixed walls on lattices.
 constexpr Left left_of_still_walls{0.2, 0.002, 0.02, 0.01, 0.004};
-// Of a wedge that is driven into water.
+// Measured on a wedge that is driven into water.
 constexpr Left left_of_moving_walls{0.2, 0.002, 0.35, 0.2, 0.004};
-// Of heaps of 2,000 boxes, part of which rests.
+// Measured on heaps of 2,000 boxes, part of which rests.
 constexpr Left left_of_bodies{0.3, 0.2, 0.1, 0.1, 0.005};
 // Connectivity, offsets, kinds, bodies: nearly constant.
 constexpr double left_of_structure = 0.004;

@@ -57,7 +57,7 @@ double share_inside(const Cluster& cluster, const Vec3& middle, double edge)
     return std::min(inside, 1.0);
 }
 
-// That of the cell about p, by sub-cells.
+// The cover of the cell about p, computed from sub-cells.
 Cover covered(const Cluster& cluster, const Vec3& p, double edge)
 {
     constexpr int n = 4;
@@ -106,8 +106,8 @@ std::uint64_t morton(const Vec3& cells)
     return place;
 }
 
-// Where the group that begins at `first` ends: after eight cells, or where the curve jumps, since
-// what is on two sides of a shape, or beside it and in a gap, cannot make up for each other.
+// The end of the group that begins at `first`: after eight cells, or at a jump of the curve, since
+// cells on two sides of a shape, or beside it and in a gap, cannot balance each other.
 std::size_t end_of_group(const std::vector<CutCell>& cut, std::size_t first,
                          const std::vector<Vec3>& points, double spacing)
 {
@@ -121,12 +121,12 @@ std::size_t end_of_group(const std::vector<CutCell>& cut, std::size_t first,
     return end;
 }
 
-// Marks as many cut cells as the shape displaces, group by group of neighbours, the deepest cells
-// of each first and, among equals, those at a wall, since particles left there could not move away.
-// The fraction of a particle by which a group is over or short is carried to the next group. What
-// is shut in has no place to stand, whatever the count: its particle goes, and another one stays.
-// One count for all of them could take its last particles from one side, which sets the body
-// turning.
+// Marks the number of cut cells that the shape displaces, group by group of neighbours, the deepest
+// cells of each first and, among equals, those at a wall, since particles left there could not move
+// away. The fraction of a particle by which a group is over or short is carried to the next group.
+// A shut-in cell has no place for a particle: its particle is removed whatever the count, and
+// another one is kept. A single count over all cells could take its last particles from one side,
+// which would set the body turning.
 void choose(std::vector<CutCell>& cut, const std::vector<Vec3>& points, double spacing,
             std::vector<bool>& gone)
 {
@@ -146,7 +146,7 @@ void choose(std::vector<CutCell>& cut, const std::vector<Vec3>& points, double s
         for (auto cell = begin; cell != end; ++cell) {
             displaced += cell->covered.part;
         }
-        constexpr double round_off = 1e-9; // a half goes up, whatever rounding has done to it
+        constexpr double round_off = 1e-9; // a half is rounded up in spite of round-off
         const auto wanted = static_cast<std::size_t>(std::llround(displaced + round_off));
         for (auto cell = begin; cell != end && (cell->shut_in || taken < wanted); ++cell) {
             gone[cell->row] = true;
@@ -202,7 +202,7 @@ void drop(const std::vector<bool>& gone, Filling& filling)
     keep(filling.fluid_cut);
 }
 
-// About the cut cells, whether they keep their particle or not.
+// Marks the fluid about the cut cells, whether these keep their particle or not.
 void mark(const std::vector<CutCell>& cut, double spacing, Filling& filling)
 {
     constexpr double around = 4; // spacings: the region that evens out the errors of cut cells
@@ -256,8 +256,8 @@ Index longest_axis(const std::vector<Bounds>& boxes)
     return axis;
 }
 
-// For each body those before it with which it may cut a cell, by a sweep along the longest axis: of
-// many bodies all pairs cannot be looked at.
+// For each body, the earlier bodies with which it may cut a cell, by a sweep along the longest
+// axis: with many bodies, testing all pairs takes too long.
 std::vector<std::vector<std::size_t>> near_before(const std::vector<Bounds>& boxes, double spacing)
 {
     const auto meet = [&](const Bounds& a, const Bounds& b) { // both are a spacing too large
@@ -383,7 +383,7 @@ Bounds box_of(const Cluster& cluster)
     return box;
 }
 
-// Where sub-cells of the fluid are. `elsewhere`: bounds of particles that are not at hand.
+// Bounds of the cells of the fluid. `elsewhere`: bounds of the fluid that is not in `filling`.
 Bounds cells_of(const Filling& filling, const Bounds& elsewhere, double spacing)
 {
     Bounds fluid;

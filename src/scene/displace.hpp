@@ -13,7 +13,7 @@ double height(const Scene& scene, const Vec3& p);
 /// excess of a quarter of a layer would start the water with a jolt. Particles that remain of cut
 /// cells move to the open part of the cell; inside a body they would be pressed through the solids
 /// that it touches. Bodies that may cut a cell together count as one: there is no open part between
-/// two bodies that stand on each other. `elsewhere`: bounds of fluid that is not at hand, and is
+/// two bodies that stand on each other. `elsewhere`: bounds of fluid that is not in `filling` and
 /// not near a body.
 void take_out_bodies(const Scene& scene, const Bounds& elsewhere, Filling& filling);
 

@@ -136,7 +136,8 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
         scene, scene.fluid->blocks[block].place, fmt::format("fluid.block[{}]", block),
         fmt::format("{} of its {} particles are behind a wall and are omitted", particles.in_walls,
                     particles.all),
-        "nothing to do if the walls are to cut the block off; else make it smaller");
+        "ignore this warning if the walls are meant to cut the block; otherwise make the block "
+        "smaller");
     note.severity = Diagnostic::Severity::warning;
     filling.warnings.push_back(note);
 }
@@ -153,8 +154,8 @@ struct Start {
     bool fits() const { return speed_fits() && std::isfinite(pressure); }
 };
 
-// Fields are the user's formulas: a division by zero must not reach the first step. `faults`: of
-// this process; all tell the first of all.
+// Fields are the user's formulas: a division by zero must not reach the first step. `faults`: those
+// of this process; every process reports the first fault of all processes.
 void check_starts(const Scene& scene, Comm* comm, std::vector<Start> faults)
 {
     if (comm != nullptr) {
@@ -188,7 +189,7 @@ void append(std::vector<Vec3>& all, std::vector<Vec3> points)
     }
 }
 
-// Of several processes each fills a part of each block.
+// Fills all blocks; each of several processes fills a part of each block.
 void fill_fluid(const Scene& scene, Comm* comm, Filling& filling)
 {
     std::vector<BlockPoints> blocks;
@@ -322,8 +323,8 @@ void fill_bodies(const Scene& scene, Filling& filling)
     }
 }
 
-// Carpets of open sides are made of cubes of the spacing, and so is the water that they meet. A
-// volume that is theirs but for rounding is theirs.
+// Sets the volume of the fluid to that of cubes of the spacing if the two agree up to round-off,
+// and always with open sides, whose carpets are made of such cubes.
 void settle_volume(const Scene& scene, Filling& filling)
 {
     constexpr double round_off = 1e-9;

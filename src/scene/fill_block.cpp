@@ -18,7 +18,7 @@ namespace hyoryu {
 
 namespace {
 
-// Cells whose volume is right within this part are those of the spacing.
+// Largest relative error of the volume of cells that count as cubes of the spacing.
 constexpr double as_asked_for = 0.02;
 // A particle fits where it has this part of a cell's shortest edge to the nearest surface; or is
 // as deep in a wall.
@@ -43,8 +43,8 @@ bool is_stretched(const Cells& cells, double spacing, int dimensions)
     return any;
 }
 
-// A half goes up, also where round-off has taken something off it: the same block has the same
-// cells wherever it lies.
+// Rounds a half up even where round-off has reduced it, so that a block has the same cells wherever
+// it lies.
 Index whole(double number)
 {
     constexpr double round_off = 1e-9;
@@ -97,7 +97,7 @@ std::vector<Vec3> middles_in(const Placed& block, const Cells& cells, const Comm
     return points;
 }
 
-// Those of some points that are free, and whether all processes' fit the walls.
+// The free points among some points, and whether the points of all processes fit the walls.
 struct Fit {
     std::vector<Vec3> points;
     bool fits = true;

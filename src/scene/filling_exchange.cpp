@@ -8,7 +8,7 @@ namespace hyoryu {
 
 namespace {
 
-// By a column of numbers, ascending.
+// The order of rows by ascending numbers.
 std::vector<std::size_t> order_of(const std::vector<std::int64_t>& numbers)
 {
     std::vector<std::size_t> order(numbers.size());

@@ -75,8 +75,9 @@ public:
     double neutral() const { return neutral_; }
     int dimensions() const { return dimensions_; }
 
-    // What lies below the level: by cones over the surface from a point of the level, whose cap
-    // has no volume as seen from there; in two dimensions the triangles are the section itself.
+    // The part below the level, summed over cones from a point of the level to the surface; the cap
+    // in the level has no volume as seen from that point; in two dimensions the triangles are the
+    // section itself.
     Part part_below(const Vec3& up, double level) const
     {
         Part part;

@@ -21,14 +21,14 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_footprints = 100000;
-constexpr std::size_t most_faults = 10; // that are told of one file
+constexpr std::size_t most_faults = 10; // reported for one file
 
-// What is wrong with a file that is JSON.
+// A fault of a file that is valid JSON.
 struct Fault {
     std::string what;
 };
 
-// A polygon with what is told of it.
+// A polygon with its place in the file and its properties.
 struct Found {
     const json* polygon = nullptr;    // a list of rings
     const json* properties = nullptr; // none outside of a feature
@@ -36,7 +36,7 @@ struct Found {
     std::size_t part = 0;             // of a MultiPolygon of several, from 1 on; 0: the only one
 };
 
-// The beginning of a value, to tell it.
+// The beginning of a value, for messages.
 std::string text_of(const json& value)
 {
     constexpr std::size_t most = 40;

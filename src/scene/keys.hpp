@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The words in which the keys of the case file are declared, once for each struct (`keys_of`), and
-// what the visitors of such a declaration share. There are three: the reader (`TableReader`), the
-// writer of a resolved case (`KeyWriter`), and the collector of the table of keys (`KeyTable`).
+// the base class of the visitors of such a declaration. There are three: the reader
+// (`TableReader`), the writer of a resolved case (`KeyWriter`), and the collector of the table of
+// keys (`KeyTable`).
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -26,7 +27,7 @@ inline constexpr std::string_view required = "required"; // to be given in every
 inline constexpr std::string_view needed = "needed";     // to be given wherever it is asked for
 inline constexpr std::string_view no_default{};
 
-/// That struct, which the writer only looks at.
+/// The type is `Struct`, or const `Struct`, which the writer visits.
 template <class T, class Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
@@ -49,7 +50,8 @@ inline constexpr std::size_t list_length<std::optional<T>> = list_length<T>;
 template <class T>
 inline constexpr std::size_t list_length<const T> = list_length<T>;
 
-/// What a visitor does with a table: `what(visitor, ...)`, or else the keys of that struct.
+/// Visits the keys of a table: calls `what(visitor, ...)` if it is callable, else visits the keys
+/// of the struct `what`.
 template <class Visitor, class What, class... Context>
 void visit_keys(Visitor& keys, What&& what, Context&&... context)
 {
@@ -79,8 +81,8 @@ struct NumberOrName {
 };
 
 /// Each word declares one key: its name, the member that it stands for, its unit and what it means.
-/// A visitor defines `key` for all values, `pick` for one of some names, `table` and `tables`; and
-/// what it sees in another way than said here.
+/// A visitor defines `key` for all values, `pick` for one of some names, `table` and `tables`; it
+/// also overrides the functions below that it needs otherwise.
 template <class Visitor>
 class KeyWords {
     using Text = std::string_view;
@@ -150,7 +152,7 @@ public:
         rule.longest = most;
         self().key(rule, member, fallback);
     }
-    /// So many texts.
+    /// A list of `count` texts.
     void text_list(Text name, auto& member, int count, Text meaning, Default fallback = {})
     {
         Parameter rule = row(name, ValueKind::texts, "", meaning);
@@ -174,7 +176,7 @@ public:
             }
         }
     }
-    /// Three numbers, or in a vector of two dimensions and more as many as `shortest` at least.
+    /// Three numbers, or at least `shortest` numbers if the vector may also have two dimensions.
     void vector(Text name, auto& member, Text unit, Text meaning, Default fallback = {},
                 int shortest = 3)
     {
@@ -229,7 +231,7 @@ public:
         rule.longest = most_points;
         self().key(rule, member, fallback);
     }
-    /// One of the names, of which the value of the member is the number; false if it is mistaken.
+    /// One of the names; the member holds its index. Returns false if the value is mistaken.
     template <class T>
     bool choice(Text name, T& member, std::vector<Text> names, Text meaning, Default fallback = {})
     {
@@ -254,7 +256,7 @@ public:
         }
         return known;
     }
-    /// What joins several keys: only the reader calls it, with itself before the arguments.
+    /// A rule over several keys: only the reader calls it, with itself before the arguments.
     template <class... Arguments>
     void rule(Arguments&&... /*function_and_arguments*/)
     {

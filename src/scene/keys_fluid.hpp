@@ -92,7 +92,7 @@ std::vector<std::string_view> model_names(const std::variant<Models...>& /*choic
     return {name.template operator()<Models>()...};
 }
 
-/// What the models of a slot say of themselves, as one sentence.
+/// The descriptions of the models of a slot, joined to one sentence.
 template <class... Models>
 std::string_view models_text(const SlotTable& table, const std::variant<Models...>& /*choice*/)
 {

@@ -26,8 +26,7 @@ inline MapAxes map_of(const Scene& scene)
     return terrain != nullptr ? MapAxes{terrain->azimuth_deg, terrain->datum, true} : MapAxes{};
 }
 
-/// What a reader needs of the keys of a window and a writer does not write: they have become
-/// series.
+/// Keys of a window that only the reader needs. The writer omits them: they have become series.
 struct SeriesKeys {
     MapAxes map;
     std::optional<std::string> file;
@@ -97,7 +96,7 @@ inline void check_window(TableReader& table, const OpenSettings& open, const Sce
     }
 }
 
-/// What is asked for, in words; empty if it is sound.
+/// Checks that the prescribed flow is complete and consistent; notes the mistakes.
 inline void check_asked(TableReader& table, const OpenSettings& open, const SeriesKeys& keys)
 {
     const bool series = keys.file || !open.series.empty();
@@ -113,7 +112,7 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
                : open.level    ? "level"
                : open.velocity ? "velocity"
                                : "discharge",
-               "has no meaning with kind = \"outflow\", which asks for nothing",
+               "has no effect with kind = \"outflow\", which prescribes no flow",
                "kind = \"inflow\" follows a series; kind = \"absorb\" keeps a level");
         return;
     }
@@ -142,7 +141,7 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
     }
 }
 
-/// Keys that tell how a file is read, where none is.
+/// Notes keys that tell how a series file is read if there is no such file.
 inline void check_file_keys(TableReader& table, const OpenSettings& open, const SeriesKeys& keys)
 {
     const bool file = table.has("series") || table.has("station");
@@ -367,7 +366,7 @@ void series_keys(auto& keys, SeriesKeys& source)
     keys.rule(check_columns, source.columns);
 }
 
-/// What comes with water from outside must not drift out against it.
+/// By default bodies stop at an inflow, so that they do not drift out against the entering water.
 inline void default_bodies(TableReader& /*table*/, OpenSettings& open)
 {
     open.bodies = open.kind == OpenKind::inflow ? BodiesAtSide::stop : BodiesAtSide::leave;
@@ -389,7 +388,7 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
     keys.rule(check_window, open, scene);
     keys.choice("kind", open.kind, {"inflow", "outflow", "absorb"},
                 "inflow: follows a level, a level and a velocity, or a discharge, and lets the "
-                "waves from inside leave; outflow: asks for nothing, for flow that only leaves; "
+                "waves from inside leave; outflow: prescribes no flow, for water that only leaves; "
                 "absorb: keeps a level and a velocity outside, by default those of still water at "
                 "the level of the start, and lets waves leave.",
                 required);

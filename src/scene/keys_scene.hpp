@@ -57,7 +57,7 @@ inline void set_dimensions(TableReader& root, int dimensions)
     root.reading().dimensions_known = !root.mistaken({"dimensions"});
 }
 
-/// Without a direction of gravity that is known, none is judged by it.
+/// Sets a mistaken gravity to zero, so that no other key is checked against its direction.
 inline void forget_mistaken(TableReader& root, Vec3& gravity)
 {
     if (root.has("gravity") && !root.sound("gravity")) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where still water is, which follows from all walls.
+// The extent of still water, which follows from all walls.
 #pragma once
 
 #include "keys_walls.hpp"

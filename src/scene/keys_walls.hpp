@@ -123,7 +123,7 @@ inline void check_path(TableReader& table, Motion& motion)
     }
 }
 
-/// What a paddle that absorbs is told besides its path.
+/// Input of an absorbing paddle besides its path.
 struct AbsorbKeys {
     bool absorbs = false;
     std::optional<double> depth; // [m]
@@ -275,7 +275,7 @@ inline bool is_prism(const Wall& wall)
     return mesh != nullptr && mesh->prism;
 }
 
-/// The mesh of a wall, which a reader makes terrain or a prism.
+/// The mesh of a wall; a reader also adds its terrain or prism to it.
 template <class Part>
 auto& mesh_of(auto& keys, Is<SolidWall> auto& solid, Part MeshShape::*part)
 {

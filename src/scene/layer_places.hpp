@@ -13,7 +13,7 @@
 
 namespace hyoryu {
 
-/// What the layers of all walls have in common.
+/// Parameters common to the layers of all walls.
 struct LayerLattice {
     double spacing = 0; // [m]
     int layers = 0;
@@ -71,7 +71,7 @@ struct ObstaclePlaces {
     std::optional<Vec3> place(Index k) const;
 };
 
-/// The same of cubes.
+/// The same for an obstacle that consists of cubes.
 struct CubePlaces {
     const SolidWall* solid = nullptr;
     const std::vector<Vec3>* points = nullptr;
@@ -97,12 +97,12 @@ struct MeshPlaces {
 using LayerPlaces =
     std::variant<PlanePlaces, BasinPlaces, RoundPlaces, ObstaclePlaces, CubePlaces, MeshPlaces>;
 
-/// `surface`: that of the wall.
+/// The layers of a wall. `surface`: the surface of this wall.
 LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface,
                          const LayerLattice& lattice);
 
-/// Calls put(number, place) for every particle that the layers may have, in the order of numbers;
-/// of several processes each for a part of them.
+/// Calls put(number, place) for every place in the layers, in the order of numbers. Each of several
+/// processes handles a part of the places.
 void for_each_place(const LayerPlaces& places, Comm* comm, const auto& put)
 {
     if (const auto* mesh = std::get_if<MeshPlaces>(&places)) {

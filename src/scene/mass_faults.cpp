@@ -13,7 +13,7 @@ namespace {
 // Rounding of the numbers in a file.
 constexpr double rounding = 1e-9;
 
-// How far a point is outside the convex hull of points, by the faces of the hull.
+// Distance of a point outside the convex hull of points, from the faces of the hull.
 double outside_hull(const std::vector<Vec3>& points, const Vec3& p)
 {
     const Polytope hull = convex_hull(points);
@@ -92,24 +92,23 @@ std::string inertia_fault(const BodySettings& body, int dimensions)
         const double others = I.sum() - I[axis];
         if (dimensions == 3 && I[axis] > others * (1 + rounding)) {
             return fmt::format("I{0}{0} = {1:.6g} kg m2 exceeds the sum of the other two, {2:.6g} "
-                               "kg m2, which holds for no body",
+                               "kg m2, which is impossible for a rigid body",
                                name, I[axis], others);
         }
-        // A pole has 4e-4 of that about its axis; with less, contact turns the body about in
-        // every step.
+        // A pole has 4e-4 of `most` about its axis. Below the limit, contact would turn the body
+        // about in every step.
         constexpr double least_share = 1e-4;
         const double most = body.mass * sq(farthest(body, dimensions));
         if (I[axis] < least_share * most) {
             return fmt::format(
-                "I{0}{0} = {1:.6g} kg m2 is below {2:.6g} kg m2, a ten-thousandth of "
-                "that of all the mass at the farthest point of the shape",
+                "I{0}{0} = {1:.6g} kg m2 is below {2:.6g} kg m2 = 1e-4 m r^2, r being the "
+                "distance to the farthest point of the shape",
                 name, I[axis], least_share * most);
         }
         if (most > 0 && I[axis] > most * (1 + rounding)) {
-            return fmt::format(
-                "I{0}{0} = {1:.6g} kg m2 exceeds {2:.6g} kg m2, that of all the mass "
-                "at the farthest point of the shape",
-                name, I[axis], most);
+            return fmt::format("I{0}{0} = {1:.6g} kg m2 exceeds {2:.6g} kg m2 = m r^2, r being the "
+                               "distance to the farthest point of the shape",
+                               name, I[axis], most);
         }
     }
     return {};

@@ -17,16 +17,16 @@ namespace {
 constexpr double process = 17.2e6;
 constexpr double mesh_reader = 31e6;
 
-// Of a particle beside its columns: pair records, ids and owners, positions at the last build,
-// cells [B].
+// Memory of a particle besides its columns: pair records, ids and owners, positions at the last
+// build, cells [B].
 constexpr double of_particle = 64 + 24 + 16 + 12;
 
-// Of a fluid particle: two frames on their way to the disk, and the largest array of the state that
-// is copied there [B].
+// Output memory of a fluid particle: two queued frames, and the largest array of the state, which
+// is copied for a checkpoint [B].
 constexpr double on_its_way = 2 * 62 + 24;
 
-// A solid particle of a frame: numbers and cells, and where it was placed; that of a frame of what
-// moves, which wait two at a time and have tiles that lists are made from [B].
+// Output memory of a solid particle [B]: in a frame that is written once, its number, cell and
+// initial place; in frames of moving solids, two queued frames and the tiles for list making.
 constexpr double drawn_once = 100;
 constexpr double drawn_always = 2 * 62 + 30;
 

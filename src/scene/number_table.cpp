@@ -116,7 +116,7 @@ std::string read_header(const std::vector<std::string_view>& words,
                                                         order.size(), names_of(columns));
 }
 
-// A comma is then perhaps a decimal one, and what was meant cannot be known.
+// Whether a line has commas and semicolons: its commas may be decimal, so the line is ambiguous.
 bool mixes_separators(std::string_view line)
 {
     return line.find(',') != std::string_view::npos && line.find(';') != std::string_view::npos;

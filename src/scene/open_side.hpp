@@ -20,9 +20,9 @@ bool stands_on_ground(const Scene& scene, const OpenSide& side);
 /// is more than one and a half spacings away; at most the length of the carpet.
 double ground_behind(const Scene& scene, const OpenSide& side);
 
-/// How the fixed walls at a window go on outwards as they are at its plane, below and beside the
-/// carpet: particles outside are dropped, and those of the first spacing inside are copied column
-/// by column.
+/// Continues the fixed walls outwards from the plane of a window, below and beside the carpet:
+/// particles outside are dropped, and those of the first spacing inside are copied column by
+/// column.
 class CarriedWalls {
 public:
     CarriedWalls(const Scene& scene, const OpenSettings& open);

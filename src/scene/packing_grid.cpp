@@ -12,7 +12,8 @@ namespace hyoryu {
 
 namespace {
 
-// Sixteen lanes on every machine. The sums are of whole numbers, so that they do not depend on it.
+// Sixteen lanes on every machine. The sums are integer sums, so that they do not depend on the
+// number of lanes.
 using Lanes = Pack<float, 64>;
 constexpr Index lanes = Lanes::lanes;
 using Whole = std::int32_t __attribute__((vector_size(64)));
@@ -82,8 +83,8 @@ std::int64_t total(const Whole& lanes_of)
     return all;
 }
 
-// By how much more than the kernel has it two particles repel each other, so that the force grows
-// below the distance and is not zero at none.
+// The factor on the kernel force of a pair, max(1, apart/|r|): the force grows below the distance
+// `apart` and does not vanish at distance zero.
 Lanes repulsion(const Lanes& distance)
 {
     constexpr float far = PackingPressure::apart;

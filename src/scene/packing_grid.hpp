@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The particles about those whose packing is relaxed, and the pressure that they exert.
+// A cell grid of the particles near those whose packing is relaxed, and their pressure force.
 #pragma once
 
 #include "hyoryu/core/kernel.hpp"
@@ -14,8 +14,8 @@ namespace hyoryu {
 /// A place in whole numbers of a unit.
 using UnitPlace = std::array<std::int32_t, 3>;
 
-/// Places as whole numbers of a unit from a middle: differences of them are exact, so that what is
-/// made of them depends neither on where a scene lies nor on the order of a sum.
+/// Fixed-point places: whole numbers of a unit, relative to a middle. Their differences are exact,
+/// so that results depend neither on the position of the scene nor on the order of a sum.
 struct PackingUnits {
     static constexpr double in_spacings = 0x1p-20; // a unit, unless the points extend too far
 
@@ -51,10 +51,10 @@ bool any_within(const PackingGrid& grid, const UnitPlace& place, double reach);
 
 /// The pressure that particles see, lengths in spacings.
 struct PackingPressure {
-    /// Nearer than this the force F r of a pair is divided by their distance over `apart`
-    /// [spacings]. That of the kernel falls to zero with the distance, by which particles in
-    /// corners would come to lie in one place (pairing, Dehnen & Aly 2012). Nearer than 1e-3 it is
-    /// divided by no more.
+    /// Below this distance the force F r of a pair is divided by distance/`apart` [spacings]. The
+    /// force of the kernel alone falls to zero with the distance, so that particles in corners
+    /// would end up in one place (pairing, Dehnen & Aly 2012). Below a distance of 1e-3 the divisor
+    /// is constant.
     static constexpr float apart = 0.6F;
 
     Kernel kernel; // of a spacing of 1

@@ -11,7 +11,7 @@ namespace {
 constexpr double last_phase = 3.80; // tanh = 0.999, as Goring cut it
 // Points of the path: the cubics between them follow it to 1e-4 of its largest speed.
 constexpr int points = 201;
-// The same to 1e-4 of the stroke.
+// Points of a period: the cubics follow the path to 1e-4 of the stroke.
 constexpr int points_of_period = 64;
 
 double decay_number(double height, double depth, SolitaryTheory theory)

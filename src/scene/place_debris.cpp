@@ -271,7 +271,7 @@ Frame frame_about(const std::vector<Plan2>& polygon)
     return frame;
 }
 
-// What a yard holds already.
+// The pieces and bodies that a yard already holds.
 struct Occupied {
     std::vector<Taken> bodies;
     std::vector<Spot> pieces;

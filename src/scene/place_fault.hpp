@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with places that follow from several keys.
+// Faults of places that follow from several keys.
 #pragma once
 
 #include <string>
 
 namespace hyoryu {
 
-/// What is wrong with a place; without a hint the meaning of the key stands for one.
+/// The fault of a place. An empty hint stands for the meaning of the key.
 struct PlaceFault {
     std::string what;
     std::string hint = {};

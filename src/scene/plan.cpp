@@ -26,7 +26,7 @@ namespace hyoryu {
 
 namespace {
 
-// Time step of bodies without a fluid: located impacts make it a matter of taste, not of stability.
+// Time step of bodies without a fluid. Impacts are located in time, so stability does not limit it.
 constexpr double bodies_only_step = 1e-3; // [s]
 // Sound speed over the largest expected speed: Mach 0.1 keeps density within 1 %.
 constexpr double sound_over_speed = 10;
@@ -101,7 +101,7 @@ FluidParameters fluid_parameters(const Scene& scene, double particle_volume, dou
     return f;
 }
 
-// Of a fluid at rest [m2/s].
+// Effective viscosity of the scheme in a fluid at rest [m2/s].
 double viscosity_of_scheme(const Plan& plan)
 {
     return effective_viscosity(Fluid{.parameters = *plan.fluid, .effects = plan.effects});
@@ -199,7 +199,7 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
     for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
         const bool runs = !std::holds_alternative<Off>(plan.effects[slot]);
         list_slot(choices[slot], runs, fluid ? std::string(slot.table.off) : none, census);
-        if (std::same_as<decltype(slot), ViscositySlot>) { // of which friction is
+        if (std::same_as<decltype(slot), ViscositySlot>) { // wall friction is listed with viscosity
             list_walls_and_drive(scene, plan, census);
         }
     });
@@ -303,7 +303,7 @@ void estimate_cost(const Scene& scene, Plan& plan)
     plan.memory = memory_bytes(scene, plan, {.steps = plan.expected_steps});
 }
 
-// The part of a plan that a run goes by, without estimates, what is told to the user and checks of
+// The part of a plan that determines the run, without estimates, messages to the user and checks of
 // the filled scene.
 Plan plan_of(const Scene& scene, const PlanFacts& facts)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mistakes and doubts that only the filled scene shows.
+// Errors and warnings that depend on the filled scene.
 #pragma once
 
 #include "plan_facts.hpp"

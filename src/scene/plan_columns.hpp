@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Particles in vertical columns, for warnings of what lies above what.
+// Vertical extents of particles in columns, for warnings of missing support and of leaks.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -60,8 +60,8 @@ public:
                 (static_cast<double>(column[1]) + 0.5) * spacing_, 0};
     }
     const std::map<Number, Span>& spans() const { return spans_; }
-    /// Whether the points of a column begin no higher than the particles that lie on a body with
-    /// its top at a height [m]: water in a tank over it does not reach it.
+    /// Whether the lowest point of a column is at most 1.5 spacings above the top of a body at a
+    /// height [m]: water in a tank above the body does not reach it.
     bool reaches(const Number& column, double height) const
     {
         constexpr double on_it = 1.5; // [spacings]

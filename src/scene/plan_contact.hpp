@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part of the plan that tells how bodies meet.
+// The part of the plan on contact between bodies.
 #pragma once
 
 #include "plan_facts.hpp"

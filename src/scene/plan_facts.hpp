@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Input of a plan that is computed from the particles of a filling: counts, extremes, and maps of
-// vertical columns, which are small compared with the particles. Several processes reduce what each
-// of them finds.
+// vertical columns, which are small compared with the particles. Several processes reduce their
+// results to common ones.
 #pragma once
 
 #include "plan_columns.hpp"
@@ -32,7 +32,7 @@ struct PlanFacts {
     std::vector<double> sponge_is_wet;     // of each sponge: 1 if fluid is in it
     std::vector<std::vector<Vec3>> moving; // particles of each obstacle that moves [m]
 
-    // Of scenes with bodies, or in which things fall along z.
+    // Only for scenes with bodies, or with gravity along z.
     Columns water;
     std::vector<WallStack> walls; // ascending
     Index unsupported = 0;        // fluid particles without a wall below them

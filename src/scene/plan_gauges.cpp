@@ -207,8 +207,8 @@ void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
                 "no fluid can reach it"));
             continue;
         }
-        // A sensor flush with a wall is where it belongs; one deeper than the kernel reaches is
-        // not.
+        // A sensor flush with a wall is placed correctly; one deeper inside than the kernel support
+        // is not.
         for (const Wall& wall : scene.walls) {
             const double depth = gauge.type == GaugeType::elevation
                                      ? 0

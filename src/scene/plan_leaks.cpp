@@ -25,9 +25,9 @@ namespace hyoryu {
 
 namespace {
 
-// The ground of columns: the top of the lowest of their wall particles that follow each other. What
-// is farther above stands over a gap, by which water passes, unless that is the inside of a wall,
-// which has particles behind its surface only.
+// The ground of columns: the top of the lowest contiguous stack of wall particles. Wall particles
+// farther above stand over a gap through which water passes, unless the gap is the inside of a
+// wall, which has particles behind its surface only.
 class Grounds {
 public:
     // `walls`: ascending.
@@ -36,8 +36,8 @@ public:
     {
     }
 
-    /// Of a column and those about it [m]; -infinity without walls, or where all of them stand over
-    /// a gap above the ground `from` of the column beside it.
+    /// Ground of a column and its neighbours [m]; -infinity without walls, or if all walls stand
+    /// over a gap above the ground `from` of the column beside it.
     double about(const Columns::Number& column, double from = infinity) const
     {
         const std::vector<Span> heights = heights_about(column);
@@ -84,7 +84,7 @@ private:
     std::span<const WallStack> walls_;
 };
 
-// What stands where at the start.
+// The scene, the facts of its plan and the columns of its walls at the start.
 struct LeakContext {
     const Scene& scene;
     const PlanFacts& facts;
@@ -140,7 +140,7 @@ struct Drops {
     std::array<Index, 4> columns{};
 };
 
-// Height to which the water of a column may rise elsewhere: its own, less what it falls at first.
+// Height to which the water of a column may rise elsewhere: its top less its initial fall.
 double level_of(const Span& water, double ground, double spacing)
 {
     const double fall = ground < water.lowest ? water.lowest - ground - 2 * spacing : 0;
@@ -156,7 +156,7 @@ double after_fall(double level, double above, double below, double spacing)
 }
 
 // Spreads from each column of the fluid over walls that are lower than its water, and below walls
-// over a gap, the highest first. What waves reach beyond that is not found.
+// over a gap, the highest first. Places that only waves reach are not found.
 Drops drops_of(const Scene& scene, const Columns& fluid, const Grounds& grounds)
 {
     std::set<Columns::Number> reached;
@@ -286,7 +286,8 @@ Columns held_still(const LeakContext& start, const Columns& walls)
     return held;
 }
 
-// What the water can reach when some walls stand where they are highest; whether anything is told.
+// Warns of drops that the water reaches once some walls are at their highest. Returns whether it
+// warned.
 bool warn_about_raised(const LeakContext& start, std::span<const std::size_t> gates,
                        const Drops& before, Plan& plan)
 {
@@ -296,7 +297,7 @@ bool warn_about_raised(const LeakContext& start, std::span<const std::size_t> ga
     const Columns held = held_still(start, walls);
     Drops drops = drops_of(after.scene, held, Grounds(after.scene, walls, after.walls));
     for (std::size_t way = 0; way < directions.size(); ++way) {
-        drops.columns[way] = before.columns[way] > 0 ? 0 : drops.columns[way]; // told already
+        drops.columns[way] = before.columns[way] > 0 ? 0 : drops.columns[way]; // reported already
     }
     warn_about_drops(scene, scene.walls[gates.front()].place,
                      fmt::format("once {} risen, ", names_of(scene, gates)), drops, plan);
@@ -330,7 +331,7 @@ void warn_about_sides(const LeakContext& start, Plan& plan)
     warn_about_gates(start, drops, plan);
 }
 
-// Whether anything lies in the columns that a body covers that it may rest on or float in.
+// Whether the columns below a body hold water or a wall that it may float in or rest on.
 bool has_support(const LeakContext& start, const BodySettings& body)
 {
     const Bounds box = bounds(placed(body, start.scene.dimensions));

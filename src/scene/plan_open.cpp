@@ -285,9 +285,10 @@ void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
     const auto refuse_name = [&](std::string_view kind, const std::string& name) {
         if (name == open.name) {
             errors.push_back(note_at(scene, open, "name",
-                                     fmt::format("a {} is named \"{}\", too: contacts with the "
-                                                 "window could not be told from those with it",
-                                                 kind, name),
+                                     fmt::format("the name \"{}\" is already used by a {}: their "
+                                                 "contacts could not be distinguished in the "
+                                                 "results",
+                                                 name, kind),
                                      "give the window another name"));
         }
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a plan says of open sides.
+// The parts of a plan on open sides: their list, and checks of their windows.
 #pragma once
 
 #include "plan_facts.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a plan says of floating bodies, of waves, and of the scale of the scene.
+// The parts of a plan on floating bodies, waves and the scale of the scene.
 #pragma once
 
 #include "plan_facts.hpp"
@@ -15,8 +15,8 @@ void list_floating(const Scene& scene, Plan& plan);
 /// Warns of bodies that are lighter than the water and begin under it.
 void check_submerged(const Scene& scene, const PlanFacts& facts, Plan& plan);
 
-/// Resolution, shortest load, viscosity of the scheme and effective Reynolds number; warns where
-/// the last is below 100.
+/// Resolution, shortest load, viscosity of the scheme and effective Reynolds number; warns of a
+/// Reynolds number below 100.
 void list_scale(const Scene& scene, const PlanFacts& facts, double viscosity, Plan& plan);
 
 /// Warns of sponges shorter than a wave and of gates that open slowly.

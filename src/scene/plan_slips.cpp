@@ -74,7 +74,8 @@ Bounds rest_of(const Scene& scene, const Wall* wall, const BodySettings* body)
             add(box_of(scene, other));
         }
     }
-    // Of bodies alone the first one stands for all: thousands of copies are not gone through.
+    // In a scene of bodies alone the first body represents all, so that thousands of copies need no
+    // search.
     if (rest.empty() && !scene.bodies.empty() && &scene.bodies.front() != body) {
         add(box_of(scene, scene.bodies.front()));
     }

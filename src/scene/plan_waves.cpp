@@ -18,7 +18,8 @@ namespace {
 
 constexpr double highest = 0.78;   // height of a wave over the depth (McCowan 1894)
 constexpr double steepest = 0.142; // height over length in deep water (Miche 1944)
-// Of a depth that is as asked: cells are rounded to a spacing, ground may slope.
+// Accepted differences of a depth from the requested one: cells are rounded to a spacing, and the
+// ground may slope.
 constexpr double spacings_off = 1;
 constexpr double share_off = 0.02;
 

@@ -32,7 +32,7 @@ struct Reading {
     /// the key stands for one.
     void error(const Place& place, int override_number, std::string key, std::string what,
                std::string hint = {});
-    /// Notes what is worth knowing, in the same way.
+    /// Notes a warning, in the same way.
     void warn(const Place& place, std::string key, std::string what, std::string hint);
     /// A mistake at a value.
     void error(const TomlNode& node, std::string key, std::string what, std::string hint = {});
@@ -131,8 +131,8 @@ public:
     const TomlNode* find(std::string_view key) const;
     /// Whether a key is there and without mistake.
     bool sound(std::string_view key) const;
-    /// Whether the value of one of the keys, or of any key so far, was refused: what follows from
-    /// it is not known, and another message would mislead.
+    /// Whether the value of one of the keys, or of any key so far, was refused: its consequences
+    /// are unknown, and a further message would mislead.
     bool mistaken(std::initializer_list<std::string_view> keys) const;
     bool mistaken() const { return abandoned_ || !mistaken_.empty(); }
     /// Number of elements of a list that is sound.
@@ -202,16 +202,16 @@ public:
     void error(std::string_view key, std::string what, std::string hint = {});
     /// The same at an element of a list.
     void error_at(std::string_view key, std::size_t index, std::string what, std::string hint = {});
-    /// Notes what is worth knowing, in the same place.
+    /// Notes a warning, in the same place.
     void warn(std::string_view key, std::string what, std::string hint);
     /// In two dimensions takes y away, and warns of a speed or an acceleration that had one.
     void flatten(std::string_view name, std::string_view unit, Vec3& vector);
     /// A key that must be there in this case although not in every one.
     void require(std::string_view key);
-    /// No key of this table is judged as meaningless any more; for after a mistake.
+    /// After a mistake: stops reporting keys of this table as having no meaning.
     void abandon() { abandoned_ = true; }
 
-    /// Notes every key that is unknown or that nothing asked for. The last call.
+    /// Notes every key that is unknown or was never read. Must be the last call.
     void finish();
 
 private:

@@ -23,17 +23,17 @@ namespace {
 constexpr double rounding_of_places = 2e-6; // of places
 constexpr double least = 0.46;              // distance of a particle from a surface
 constexpr double strays = 0.15;     // distance that particles may move before they are sorted again
-constexpr double longest = 0.1;     // way of a particle in a round
-constexpr double farthest_move = 1; // that a particle is moved in all
-constexpr double beside = 2;        // farther from a surface than that none comes too near
+constexpr double longest = 0.1;     // largest displacement of a particle in a round
+constexpr double farthest_move = 1; // largest total displacement of a particle
+constexpr double beside = 2;        // particles farther from a surface never come too near
 constexpr double looked = 1;        // distance to which surfaces are looked for
 
-// With this momentum the missing water of a bed spreads by a layer in six rounds. In deeper water
-// than this its rest evens out while the case runs.
+// With this momentum the missing water of a bed spreads by a layer in six rounds. In water too deep
+// for `most_rounds`, the remainder evens out during the run.
 constexpr int rounds_of_layer = 6;
 constexpr int least_rounds = 100;
 constexpr int most_rounds = 600;
-constexpr double gain = 0.1; // of the descent, at twice of which it is unstable
+constexpr double gain = 0.1; // of the descent; twice this value is unstable
 // Heavy-ball descent (Polyak 1964): the share of the last step that the next round repeats. It is
 // smaller for a particle whose force points against its last step, so that it does not swing about
 // its place (after the restarts of O'Donoghue and Candes 2015, here for each particle alone).
@@ -45,7 +45,7 @@ constexpr Index block_slots = 256; // dealt out together
 struct Beside {
     std::vector<int> solids;
     double least = 0; // distance that it keeps from them [m]
-    // Way that it may go before it can be too near to one [m]; less: unknown.
+    // Distance that it may move before it can be too near to one [m]; not above 0: unknown.
     double room = 0;
 };
 
@@ -54,8 +54,8 @@ struct Beside {
 struct Packing {
     std::vector<std::int32_t> rows;          // of the fluid
     std::vector<Vec3> points;                // [m]
-    std::vector<Eigen::Vector3f> way;        // that those that move went last [units]
-    std::vector<std::uint8_t> sees_solids;   // whether those that move may
+    std::vector<Eigen::Vector3f> way;        // last displacement of the moving particles [units]
+    std::vector<std::uint8_t> sees_solids;   // of the moving particles
     std::vector<std::int32_t> beside_number; // in `beside`, of those that move; -1: none
     std::vector<Beside> beside;
     Index moving = 0;
@@ -92,7 +92,7 @@ void add_fluid(const Filling& filling, std::span<const std::uint8_t> rows, Packi
     }
 }
 
-// Those that some particle that moves may see.
+// Adds the solids that some moving particle may see.
 void add_solids(std::span<const Vec3> solids, double seen, double reach, Packing& packing)
 {
     CellGrid grid;
@@ -186,8 +186,8 @@ void part_coincident(const Filling& filling, const Vec3& down, double dp, Packin
     }
 }
 
-// Where those of other processes that move are among all: `moves` marks the own ones, then all
-// copies, of which the packing has those that it sees.
+// Indices in the packing of the moving particles of other processes; -1 if the packing does not see
+// them. `moves` marks own particles, then all copies.
 std::vector<std::int32_t> places_of_others(const Packing& packing, std::size_t own,
                                            std::span<const std::uint8_t> moves)
 {
@@ -264,9 +264,10 @@ Vec3 along_corner(const FreeSpace& space, double dp, const Beside& particle, con
     return nearest(p).distance < particle.least ? from : p;
 }
 
-// Keeps the way of a particle off the surfaces. A particle that was filled nearer to them than
-// others may come, in a corner, comes no nearer. Surfaces are looked at again only where it may
-// have come too near since the last look, as no way changes a distance by more than its length.
+// Keeps the path of a particle off the surfaces. A particle that was filled into a corner, nearer
+// than the usual distance, comes no nearer. Surfaces are searched again only if the particle may
+// have come too near since the last search: a displacement changes no distance by more than its
+// length.
 Vec3 off_surfaces(const FreeSpace& space, double dp, const PackingUnits& units, const Vec3& from,
                   const Vec3& to, Beside& particle)
 {
@@ -327,7 +328,7 @@ double descend(const Filling& filling, const PackingPressure& pressure, const Fr
     const auto all = static_cast<Index>(packing.points.size());
     const PackingUnits& units = packing.units;
     PackingGrid& grid = packing.grid;
-    // All see the places of the grid, which are those before the round.
+    // All particles use the places in the grid, which date from before the round.
     const auto move = [&](Index slot) {
         const auto k = at(grid.order[at(slot)]);
         if (static_cast<Index>(k) >= packing.moving) {

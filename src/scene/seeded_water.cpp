@@ -132,7 +132,7 @@ std::vector<Crossing> crossings_from(const SeededCells& cells, const std::vector
     return found;
 }
 
-// Whether what leaves the box from a place goes out through a window.
+// Whether a step from this place out of the box crosses a window.
 bool at_window(const Scene& scene, const Vec3& from, double edge)
 {
     return std::ranges::any_of(scene.open, [&](const OpenSettings& open) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Still water that fills what is connected with a seed: cells that are reached from it.
+// Still water that fills the space connected with a seed: a flood fill over cells.
 #pragma once
 
 #include "free_space.hpp"

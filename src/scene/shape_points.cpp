@@ -24,7 +24,8 @@ Index layer_of(const std::vector<Index>& start, Index k)
     return std::upper_bound(start.begin(), start.end(), k) - start.begin() - 1;
 }
 
-// First points of layers that hold so many points each, at so many radii below a radius.
+// The number of the first point of each layer below a surface of `radius`; a layer at radius r has
+// points_at(r) points. The last entry is the number of all points.
 std::vector<Index> first_of_layers(double radius, double spacing, const auto& points_at)
 {
     const Index count = cells(radius, spacing);

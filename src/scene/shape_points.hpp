@@ -54,7 +54,7 @@ ShapePoints shape_points(const BoxShape& box, double spacing, int dimensions);
 ShapePoints shape_points(const SphereShape& sphere, double spacing, int dimensions);
 ShapePoints shape_points(const CylinderShape& cylinder, double spacing, int dimensions);
 
-/// How many there are, and the one of number k < that.
+/// The number of points, and the point with number k below that.
 Index number_of(const ShapePoints& points);
 ShapePoint point_of(const ShapePoints& points, Index k);
 

@@ -102,7 +102,7 @@ Vec3 step_aside(const FreeSpace& space, std::span<const int> among, double dista
     return point;
 }
 
-// Moves pairs to a distance of which at least one is free to, and keeps those off the surfaces.
+// Moves pairs with at least one free particle to a distance, and keeps free particles off surfaces.
 void relax(const FreeSpace& space, double spacing, double distance,
            const std::vector<std::uint8_t>& is_free, std::vector<Vec3>& points)
 {
@@ -153,7 +153,8 @@ std::vector<Vec3> places_of(const Filling& filling, std::span<const std::uint8_t
     return places;
 }
 
-// Those that move, and those that they see, by number. `centres`: the marked particles of all.
+// The particles that move and those that they see, sorted by number. `centres`: the marked
+// particles of all processes.
 std::vector<Seen> seen_about(const Scene& scene, Comm* comm, const std::vector<Vec3>& centres,
                              double radius, const Filling& filling)
 {
@@ -224,7 +225,7 @@ std::vector<std::uint8_t> in_pairs(const Filling& filling, std::size_t own, doub
     return near;
 }
 
-// The same of the particles of this process, those of others being copied.
+// The same marks for the particles of this process, with copies of those of other processes.
 std::vector<std::uint8_t> in_pairs_of_all(const FillRegion& region, double spacing,
                                           Filling& filling)
 {

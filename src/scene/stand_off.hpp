@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fluid at its distance from bodies, and particles of fluid at theirs from each other.
+// Minimum distances of fluid particles: from bodies, and from each other.
 #pragma once
 
 #include "fill_region.hpp"

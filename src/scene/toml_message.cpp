@@ -83,7 +83,7 @@ bool ends_the_line(const std::string& line, int column)
     return static_cast<std::size_t>(std::max(column, 1)) > line.size();
 }
 
-// Of mistakes that are rarely made.
+// Messages for rare mistakes.
 Words rare_meaning_of(const std::string& description)
 {
     const auto says = [&](std::string_view part) {

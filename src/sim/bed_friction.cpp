@@ -61,7 +61,7 @@ void fill_columns(const Fluid& fluid, BedFriction& bed)
     });
 }
 
-// Adds what the columns of other ranks hold.
+// Adds the columns of other ranks.
 void add_other_columns(const Fluid& fluid, BedFriction& bed)
 {
     std::vector<std::int64_t> numbers(bed.particles.begin(), bed.particles.end());
@@ -142,7 +142,7 @@ void rub_row(Simulation& sim, Index i, double dt)
     }
 }
 
-// Whether a particle may be within a spacing of a solid, by what the barrier has seen.
+// Whether a particle may be within a spacing of a solid, according to the bounds of the barrier.
 bool may_be_near(const WallBarrier& barrier, Index i, const Vec3& from_centre)
 {
     const WallBarrier::Seen& seen = barrier.seen[at(i)];

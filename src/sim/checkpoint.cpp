@@ -18,7 +18,7 @@ namespace hyoryu {
 
 namespace {
 
-// Of solid particles: friction, which acts a step later, and the image that the lists know.
+// State of solid particles: friction, which acts a step later, and the image used by the lists.
 using LastingOfSolids = Fields<Position, ViscousForce>;
 
 bool lasts(const Fluid& fluid, Position)
@@ -252,7 +252,7 @@ void describe_absorbers(State& state, Simulation& sim)
     }
 }
 
-// Each body once, and each side one at which bodies leave.
+// Whether all bodies and open sides belong to the case, and no body is listed twice.
 bool are_of_case(const Simulation& sim, std::vector<int> bodies, std::span<const int> sides)
 {
     const auto is_below = [](std::size_t count) {

@@ -62,8 +62,7 @@ Vec3 weight(const Simulation& sim, Index particles)
     return total;
 }
 
-// The totals of the fluid; energies of the domain alone: what is behind an open side counts no
-// more, or not yet.
+// The totals of the fluid; energies of the domain alone: fluid behind an open side is excluded.
 Totals fluid_totals(const Fluid& fluid, const OpenBoundary& open)
 {
     const Store& store = fluid.particles.fluid;

@@ -15,8 +15,8 @@ namespace hyoryu {
 namespace {
 
 constexpr int least_rounds = 2;
-// Short steps are timed longer, up to so many times as many as asked for: other work has a core for
-// some milliseconds at a time.
+// Short steps are timed for this time at least, with up to `most_rounds` times the steps asked for,
+// since other work occupies a core for some milliseconds at a time.
 constexpr double shortest_timing = 0.05; // [s]
 constexpr int most_rounds = 4;
 
@@ -26,7 +26,7 @@ struct Variant {
     std::vector<double> seconds = {}; // of the step of each round, without making lists
 };
 
-// The effects as they are, then without each that runs.
+// All effects, then for each effect that runs all others.
 std::vector<Variant> variants(const Simulation& sim)
 {
     std::vector<Variant> all{{"", sim.plan.effects}};
@@ -53,7 +53,7 @@ std::vector<Variant> variants(const Simulation& sim)
     return all;
 }
 
-// Of the stages so far [s].
+// Time spent in the stages so far [s].
 struct Spent {
     double bodies = 0;
     double lists = 0;
@@ -91,8 +91,9 @@ public:
     }
     /// Leaves a step out.
     void skip(const Simulation& sim) { last_ = spent(sim); }
-    /// Of a step on average, without stalls but those of lists. Bodies meet in some steps only,
-    /// which no median tells from stalls: what slowed the rest slowed them.
+    /// The mean of a step, without stalls except those in list making. Bodies meet in some steps
+    /// only, so that no median separates them from stalls: their time is divided by the slowdown of
+    /// the rest.
     Spent mean() const
     {
         const auto count = static_cast<double>(all_else_.size());
@@ -123,7 +124,7 @@ double impacts_of_step(const Simulation& sim)
         std::ranges::count(sim.contacts, Contact::Kind::impact, &Contact::kind));
 }
 
-// How the fluid of a simulation and its impacts went by.
+// Sums over the steps of a simulation: fluid particles times time, and impacts.
 struct Passed {
     double fluid_time = 0; // particles times seconds
     double impacts = 0;
@@ -154,14 +155,14 @@ public:
     {
         cut_no_step(sim_);
     }
-    /// Takes some if they are due after so many steps of the run.
+    /// Takes some early steps if they are due after `run` steps of the run.
     void follow(double run)
     {
         if (done_ < groups_ && run >= (done_ + 0.5) * every_) {
             take();
         }
     }
-    /// Without bodies, lists and stalls.
+    /// The mean of a step, without bodies, lists and stalls.
     double mean()
     {
         while (done_ < groups_) {
@@ -190,7 +191,7 @@ private:
     int done_ = 0;
 };
 
-// Of making lists, in a fluid that has lists.
+// Time to make the lists of a fluid once; the fluid must have lists.
 double seconds_of_build(Fluid& fluid)
 {
     constexpr int builds = 3;

@@ -61,7 +61,7 @@ double elevation(const Fluid& fluid, const GaugeTerms& column, const Vec3& place
     return nothing;
 }
 
-// Kernel average over the fluid about a place of what `value` gives for a particle.
+// Kernel average of value(particle) over the fluid about a place.
 template <class T, class F>
 T average(const Fluid& fluid, const std::vector<FluidNear>& particles, const Vec3& place,
           const T& zero, const T& dry, const F& value)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the particles of a process give to the readings of the gauges, in the order of their slots:
-// those of all processes, one after the other, are what one process has.
+// Contributions of the particles of a process to the readings of the gauges, in the order of their
+// slots. The contributions of all processes, concatenated, equal those of a single process.
 #pragma once
 
 #include "gauge_search.hpp"
@@ -44,8 +44,8 @@ struct GaugeTerms {
 };
 GaugeTerms terms_of(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge);
 
-/// Gives rank 0 the terms of all ranks, gauge by gauge; the others are left without. Called by all
-/// ranks.
+/// Gathers the terms of all ranks on rank 0, gauge by gauge; the other ranks keep none. Called by
+/// all ranks.
 void gather_terms(Comm& comm, std::vector<GaugeTerms>& terms);
 
 /// Points that stand for the face of a sensor: the middles of equal parts of a length, or a spiral

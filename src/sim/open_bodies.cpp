@@ -10,7 +10,7 @@ namespace hyoryu {
 
 namespace {
 
-// Whether the body is through that window.
+// Whether the body has passed that window entirely.
 bool has_passed(const Simulation& sim, const OpenSide& side, const Body& body, const Vec3& place)
 {
     const FluidParameters& f = sim.fluid->parameters;
@@ -48,7 +48,8 @@ void remove(Simulation& sim, std::size_t b)
     remove_particles(sim, b);
 }
 
-// What it carries out; its weight counted as that of the scene until now.
+// Books the momentum and energy that a body carries out. Until now its weight was part of that of
+// the scene.
 void book(Simulation& sim, const Body& body)
 {
     OpenBoundary& open = sim.open.boundary;

@@ -32,7 +32,7 @@ double place_of(const OpenSide& side, int station, double spacing)
     return side.first + 0.5 * (begin + end) * spacing;
 }
 
-// The flow of every station from what it has measured, for a moment.
+// Sets the flow of every station at a time, from the prescribed flow and its own measurements.
 void set_flows(Simulation& sim, double time)
 {
     const Scene& scene = sim.scene;
@@ -80,7 +80,7 @@ void start_open(Simulation& sim)
     for (const OpenSettings& settings : sim.scene.open) {
         open.carpets.push_back(make_carpet(sim.scene, settings));
     }
-    // What the machine has may differ between processes, and what they do must not.
+    // The memory of the machine may differ between processes, but their limit must not.
     sim.open.most = sim.scene.most_fluid > 0
                         ? static_cast<double>(sim.scene.most_fluid)
                         : -largest_of_all(fluid, -fluid_in_memory(sim.scene, sim.plan));

@@ -41,7 +41,7 @@ std::int64_t fixed_rows_of(const Snapshot& particles)
     return rows;
 }
 
-// Rows that all ranks have, of which each has set those in its tiles.
+// Merges rows that all ranks have; each rank has set the rows in its own tiles.
 void overwrite(Column& all, const Column& next, std::span<const std::int32_t> rows,
                const std::string& name)
 {
@@ -154,7 +154,7 @@ void refuse_rows(const std::string& name)
 
 namespace {
 
-// Moves what is of particles from one map, by name, to another.
+// Moves the arrays of particles from one map to another, selected by name.
 template <class Map>
 void move_particles(const Simulation& sim, Map& from, Map& to)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the start of a simulation shares with its steps.
+// Functions that the start of a simulation shares with its steps.
 #pragma once
 
 #include "hyoryu/core/built_effects.hpp"
@@ -47,7 +47,8 @@ inline bool has_seepage(const Simulation& sim)
     return is_built<JointSeepage> && !sim.seepage.open.empty();
 }
 
-/// Sets positions and velocities of body particles to those after flying freely for so long.
+/// Sets positions and velocities of body particles to those after free flight for the time `ahead`
+/// [s].
 void fly_bodies(Simulation& sim, double ahead);
 
 /// Lists where they are due; the only moment at which fluid rows come and go.

@@ -71,7 +71,7 @@ void move_walls(Simulation& sim, double place_time, double velocity_time)
     });
 }
 
-// The joints under standing bodies, at the middle of the step.
+// Updates the joints under standing bodies, at the middle of the step.
 void seep(Simulation& sim, double dt)
 {
     if (has_seepage(sim)) {
@@ -80,7 +80,7 @@ void seep(Simulation& sim, double dt)
     }
 }
 
-// Whether something waits for the loads in the middle of a step.
+// Whether some part of the simulation needs the loads in the middle of a step.
 bool needs_loads(const Simulation& sim)
 {
     return (is_built<RigidMotion> && sim.plan.rigid) ||
@@ -96,8 +96,8 @@ void hold_fluid(Simulation& sim, double dt)
     }
 }
 
-// The new velocities: of the forces, then of what sponges, solid surfaces and open sides make of
-// them; with the loads complete, light bodies have recoiled.
+// Computes the new velocities: by the forces, then modified by sponges, solid surfaces, rough beds
+// and open sides. Completing the loads includes the recoil of light bodies.
 void kick_fluid(Simulation& sim, double dt)
 {
     sim.timer.begin("kick");

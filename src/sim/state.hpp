@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The datasets of what a run with other outputs changes (see carry_over.hpp).
+// The datasets of a state that depend on the output settings (see carry_over.hpp).
 #pragma once
 
 #include "hyoryu/core/state.hpp"

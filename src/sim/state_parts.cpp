@@ -108,7 +108,8 @@ private:
     Tiles tiles_;
 };
 
-// Calls f(part) for those that this rank reads, and f(none) as often as others read one more.
+// Calls f(part) for the parts that this rank reads. In a last round in which only some ranks have a
+// part, the others call f(none).
 void for_own_parts(const Comm& comm, int count, const auto& f)
 {
     for (int first = 0; first < count; first += comm.size()) {

@@ -27,8 +27,8 @@ void check_tiles(const Tiles& tiles, Rows rows);
 /// Throws IoError if a state has more fluid particles than its case can have.
 void expect_particles_of_case(const Simulation& sim, Index particles);
 
-/// Puts a state into a simulation: of a rank the fluid particles and tiles of its range, and all
-/// else as one process has it. Called by all ranks.
+/// Puts a state into a simulation: a rank gets the fluid particles and tiles of its range, and all
+/// other data as a single process has them. Called by all ranks.
 void restore_share(Simulation& sim, const Snapshot& snapshot);
 
 } // namespace hyoryu

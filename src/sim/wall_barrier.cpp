@@ -16,7 +16,7 @@ namespace {
 constexpr double held = 0.25;
 constexpr double approached = 0.125;
 constexpr double looked_at = 2;
-// By which particles and solids may move before other solids may be near [spacings].
+// Displacement of particles and solids for which the lists of near solids hold [spacings].
 constexpr double slack = 1;
 constexpr double steps_to_surface = 20;
 constexpr double fastest_way_out = 0.02; // of the speed of sound
@@ -57,8 +57,8 @@ std::span<const int> near_of(const WallBarrier& barrier, Index tile)
                                                : std::span<const int>(barrier.numbers);
 }
 
-// Takes note of the solids that each tile may meet until the next lists are made, and of how far
-// its particles are from them at least: as far as its centre, less their way from there.
+// Records the solids that each tile may meet until the next lists are made, and a lower bound of
+// the distance of its particles from them: that of its centre less their distance from the centre.
 void find_near(const Fluid& fluid, WallBarrier& barrier)
 {
     const Tiles& tiles = fluid.neighbours.fluid;
@@ -161,8 +161,8 @@ private:
     double fastest_ = 0; // of the points of solids [m/s]
 };
 
-// Changes a velocity until every surface is content, a few times over. How much the last round had
-// to change, in parts of the first.
+// Changes a velocity, in a few rounds, until it satisfies every surface. Returns the change in the
+// last round relative to that in the first.
 double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 {
     constexpr int rounds = 4;
@@ -186,8 +186,9 @@ double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
     return last / first;
 }
 
-// Between solids that touch or close in on a particle no velocity contents all: each round would
-// press them apart by as much again. There they only stop its approach.
+// Between solids that touch or close in on a particle no velocity satisfies all surfaces: every
+// round would change it by as much again. There the surfaces only stop the approach of the
+// particle.
 void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 {
     constexpr double hopeless = 0.5; // surfaces at 45 degrees leave less
@@ -255,13 +256,14 @@ void hold_tile(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Inde
         if (step.is_free(seen.clearance - barrier.way, moved, v[at(i)])) {
             continue;
         }
-        // Far from home other solids may be near.
+        // A particle far from the centre of its tile may be near other solids.
         const bool home = (r.cwiseAbs().array() <= roam.array()).all();
         hold_row(step, fluid, barrier, i, home ? near : barrier.numbers, seen, r);
     }
 }
 
-// The speed that a body gives way by, at the place of a hit, for a unit of its impulse [1/kg].
+// Inverse effective mass of a body at the place of a hit: its change of velocity there, along the
+// impulse, per unit of impulse [1/kg].
 double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit)
 {
     const Vec3 n = hit.impulse.normalized();
@@ -272,7 +274,7 @@ double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit
     if (body.locks[3] && body.locks[4] && body.locks[5]) {
         return yield;
     }
-    // With a locked axis it turns by less than this, which only makes its share smaller.
+    // With a locked axis the body turns by less; the overestimate only makes its share smaller.
     const Vec3 turn = place.rotation.transpose() * (hit.place - place.position).cross(n);
     return yield + turn.dot(body.mass.inertia.inverse() * turn);
 }

@@ -58,7 +58,7 @@ std::string probable_cause(const Simulation& sim)
         {sim.clock.step, sim.clock.time, std::move(who), std::move(field_name), std::move(cause)});
 }
 
-// What is said of a particle, its state and the cause.
+// The parts of an error message: the particle, its state and the cause.
 using Complaint = std::array<std::string, 3>;
 
 Complaint complaint_of(const Simulation& sim, std::size_t row)

@@ -57,7 +57,7 @@ double depth_in(const Sponge& sponge, const Vec3& x)
     return sponge.side % 2 == 1 ? s : 1 - s;
 }
 
-// Of the damping at the side of a sponge; 10 sqrt(g/d) for waves in water of depth d [1/s].
+// The rate of damping at the side of a sponge; 10 sqrt(g/d) for waves in water of depth d [1/s].
 double strongest_rate(const Sponge& sponge, double gravity)
 {
     return sponge.rate ? *sponge.rate : 10 * std::sqrt(gravity / sponge.depth.value());

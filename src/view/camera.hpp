@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the camera stands.
+// The camera of the pictures: direction, and distance at which the scene fits into the picture.
 #pragma once
 
 #include "moments.hpp"

@@ -57,7 +57,7 @@ std::vector<Moment> nearest(const std::vector<Moment>& all, const std::vector<do
     return chosen;
 }
 
-/// Every so-manieth number, so that at most `points_surveyed` remain.
+/// Numbers at a constant stride, so that at most `points_surveyed` remain.
 std::vector<float> thinned(std::span<const float> values, std::size_t offset, std::size_t stride)
 {
     const std::size_t step = stride * (1 + values.size() / stride / points_surveyed);

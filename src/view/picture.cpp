@@ -35,8 +35,8 @@ constexpr double default_elevation = 30; // degrees
 constexpr double radius_of_spacing = 0.62;
 constexpr double radius_of_spacing_in_a_plane = 0.72;
 
-/// Depth told by shade: without it a cloud of spheres is one flat patch of colour. A plane case has
-/// no depth to tell.
+/// Shows depth by eye-dome lighting: without it a cloud of spheres is one flat patch of colour. A
+/// plane case has no depth to show.
 void shade_depth(vtkRenderer& scene)
 {
     vtkNew<vtkRenderStepsPass> steps;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fluid, bodies, structures and labels as things that VTK draws.
+// Fluid, bodies, structures and labels as VTK actors.
 #ifdef HYORYU_HAS_VTK
 #include "scene_actors.hpp"
 

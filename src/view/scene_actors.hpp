@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fluid, bodies, structures and labels as things that VTK draws.
+// Fluid, bodies, structures and labels as VTK actors.
 #pragma once
 
 #include "moments.hpp"
@@ -31,7 +31,7 @@ Actor wall_particles_actor(const Cloud& cloud, double radius, const Box& inner,
 
 /// Surfaces of bodies, each in its own tone of wood.
 Actor bodies_actor(const Surface& surface);
-/// Sides that turn their back to the camera are left out.
+/// Back faces are culled.
 enum class Sides { facing_camera, all };
 Actor structures_actor(const Surface& surface, Sides sides);
 /// The sharp edges and the rims, all of them: they tell where the sides that are left out stand.

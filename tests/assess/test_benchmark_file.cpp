@@ -164,7 +164,7 @@ TEST_F(BenchmarkFiles, WithoutAnyRunThereIsNothingToCheck)
     // Patterns of runs that a mistake has left out.
     EXPECT_EQ(mistake(head + "[constants]\ng = nan\n[[run]]\ngrid = { k = [1] }\n" + check +
                       "runs = [\"a*\"]\n"),
-              "5:constants.g: nothing is named \"nan\"; there are no names ()");
+              "5:constants.g: unknown name \"nan\"; no names are defined ()");
 }
 
 TEST_F(BenchmarkFiles, AToleranceNeedsAReason)
@@ -269,7 +269,7 @@ TEST_F(BenchmarkFiles, RunsCannotLeaveTheirFolder)
 {
     for (const char* name : {"../x", "a/b", ".", "..", "", "a\\\\b", "a\\u0000"}) {
         EXPECT_NE(mistake(head + check + "[[run]]\nname = \"" + name + "\"\n")
-                      .find("cannot give its name to a folder"),
+                      .find("is not a valid folder name"),
                   std::string::npos)
             << name;
     }

@@ -156,7 +156,7 @@ TEST_F(StudyFiles, ASweepVariesOneThingInOneWay)
     ASSERT_EQ(all.size(), 1u) << fmt::format("{}", fmt::join(all, "\n"));
     EXPECT_NE(all[0].find("3:1: sweep[0]: give one of `values` and `choices`"), std::string::npos);
     EXPECT_NE(mistake(head + "[[sweep]]\nname = \"n\"\nvalues = [1]\n" + place)
-                  .find("3:1: sweep[0]: says nothing to vary"),
+                  .find("3:1: sweep[0]: does not name a setting to vary"),
               std::string::npos);
     EXPECT_NE(mistake(head + "[[sweep]]\nname = \"n\"\nchoices = { a = [1] }\n" + place)
                   .find("sweep[0].choices.a: expected a list of texts"),

@@ -52,7 +52,7 @@ TEST(OpenSettings, MistakesAreToldWithTheirKeyLineAndHint)
     const std::string good = basin("kind = \"inflow\"\nlevel = 0.7\nvelocity = 0.2\n");
     ASSERT_TRUE(refused(good).empty());
     const std::vector<Refusal> refusals{
-        {"kind = \"inflow\"", "kind = \"outflow\"", "level", "asks for nothing"},
+        {"kind = \"inflow\"", "kind = \"outflow\"", "level", "prescribes no flow"},
         {"level = 0.7\n", "", "velocity", "needs a `level`"},
         {"velocity = 0.2", "discharge = 0.2", "discharge", "beside `level`"},
         {"level = 0.7\nvelocity = 0.2\n", "", "series", "needs a flow to follow"},

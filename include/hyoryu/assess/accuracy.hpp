@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The expected error of a scene, from the standing studies (docs/accuracy.md).
+// The expected error of a scene, interpolated from the studies in docs/studies (docs/accuracy.md).
 #pragma once
 
 #include "hyoryu/scene/plan.hpp"
@@ -21,7 +21,7 @@ struct ExpectedError {
     std::vector<std::string> not_covered; // how the scene differs from the studied ones
 };
 
-/// A rung of a study: the number that is turned and the error there.
+/// A rung of a study: the value of the swept setting and the error there.
 struct StudiedRung {
     double number = 0;
     double error = 0; // [1]

@@ -48,7 +48,7 @@ struct Measured {
     std::string why;  // empty if there is one
 };
 
-/// Those at the times that the quantity asks for. Throws FormulaError.
+/// The samples at the times that the quantity asks for. Throws FormulaError.
 Samples within(const Quantity& quantity, const Scope& scope, const Samples& all);
 
 /// One number of the samples. Not for the error measures, bands and reflection.

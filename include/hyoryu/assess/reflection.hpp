@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much of regular waves comes back.
+// The reflection coefficient of regular waves from several gauges (Mansard and Funke 1980).
 #pragma once
 
 #include "hyoryu/assess/measure.hpp"

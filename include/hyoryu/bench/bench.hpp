@@ -15,7 +15,7 @@
 
 namespace hyoryu::bench {
 
-/// What the machine can do, as loops of ours measure it: the best of several tries.
+/// Limits of the machine, measured by our own loops: the best of several tries.
 struct MachineLimits {
     double fma_single = 0;     // of one thread, in fused multiply-adds of packs [flop/s]
     double fma_double = 0;     // [flop/s]

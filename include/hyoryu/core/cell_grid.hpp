@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points sorted into cubic cells by counting, so that the points near a place are a few runs.
+// Points sorted into cubic cells by counting sort, so that the points near a place are a few
+// contiguous runs.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -17,8 +18,8 @@ struct CellGrid {
     std::array<Index, 3> count{0, 0, 0}; // cells along x, y, z
     std::vector<std::int32_t> start;     // first point of each cell; one entry more than cells
     std::vector<std::int32_t> order;     // rows in the order of the cells
-    // Points in the order of the cells, relative to the origin: what the search streams through.
-    // Single precision finds candidates; `slack` covers its rounding.
+    // Positions in the order of the cells, relative to the origin, as the search reads them. Single
+    // precision finds candidates; `slack` covers its rounding.
     std::vector<float> x, y, z;
     float slack = 0; // [m]
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rows of named arrays: how many there are, some of them, and those of several parts together.
+// Operations on named arrays (columns): their length, a selection of rows, and concatenation.
 #pragma once
 
 #include "hyoryu/core/snapshot.hpp"
@@ -12,7 +12,7 @@ namespace hyoryu {
 /// Number of rows.
 std::size_t rows_of(const Column& column);
 
-/// A column with the rows of these indices, in their order.
+/// A column with the rows of the given indices, in the order of the indices.
 Column some_rows(const Column& column, std::span<const std::int32_t> rows);
 
 /// Appends the rows of another column. Throws IoError if the two differ in name, type or

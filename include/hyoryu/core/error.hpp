@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Who was wrong: the user (CaseError), the numbers (NumericalError), the disk (IoError) or the
-// programmer (expects). Each maps to one exit code of the program.
+// Classes of errors by cause: mistakes in the input (CaseError), a failed computation
+// (NumericalError), a failed file operation (IoError) and programming mistakes (expects). Each maps
+// to one exit code of the program.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -29,7 +30,7 @@ struct Diagnostic {
 /// `file:line:column: error: key: what`, the source line with a caret, and the hint.
 std::string to_string(const Diagnostic& diagnostic);
 
-/// The user is wrong. Holds every mistake that was found, sorted by place. Exit code 2.
+/// A mistake in the user's input. Holds all mistakes found, sorted by place. Exit code 2.
 class CaseError : public std::runtime_error {
 public:
     explicit CaseError(std::vector<Diagnostic> diagnostics);
@@ -41,8 +42,7 @@ private:
     std::vector<Diagnostic> diagnostics_;
 };
 
-/// The numbers went wrong. Exit code 3; the last good state is on disk by the time the user reads
-/// it.
+/// The computation failed numerically. Exit code 3; the last good state has been written to disk.
 struct NumericalError : std::runtime_error {
     struct Where {
         std::int64_t step = 0;

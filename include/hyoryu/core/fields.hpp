@@ -51,17 +51,17 @@ struct Volume          { using type = real; static constexpr FieldInfo info{"Vol
 struct DensityRate     { using type = real; static constexpr FieldInfo info{"DensityRate", "kg/m3/s", Holders::fluid, true}; };
 /// Part of the density rate that the density-diffusion effect adds.
 struct DiffusionRate   { using type = real; static constexpr FieldInfo info{"DiffusionRate", "kg/m3/s", Holders::fluid}; };
-/// Part of the density rate that solids make.
+/// Part of the density rate due to solids.
 struct SolidRate       { using type = real; static constexpr FieldInfo info{"SolidRate", "kg/m3/s", Holders::fluid, true}; };
-/// Density that fluid without pressure has kept in parting from solids.
+/// Density that fluid without pressure kept while it moved away from solids (the gap, [kg/m3]).
 struct Gap             { using type = real; static constexpr FieldInfo info{"Gap", "kg/m3", Holders::fluid, true}; };
-/// Density that fluid at the pressure of a void has lost to the void that opens in it.
+/// Density that fluid at the void pressure has lost to the cavity opening in it [kg/m3].
 struct Cavity          { using type = real; static constexpr FieldInfo info{"Cavity", "kg/m3", Holders::fluid, true}; };
 /// Sum of pair forces that depend on positions and densities; N/m in two dimensions.
 struct Force           { using type = Vec3; static constexpr FieldInfo info{"Force", "N", Holders::all, true}; };
 /// Sum of pair forces that depend on velocities.
 struct ViscousForce    { using type = Vec3; static constexpr FieldInfo info{"ViscousForce", "N", Holders::all, true}; };
-/// Uncorrected sum for the gradient of the pressure, of which one side alone is known.
+/// Sum for the gradient of the pressure, later replaced by the renormalised gradient.
 struct PressureGradient { using type = Vec3; static constexpr FieldInfo info{"PressureGradient", "Pa/m", Holders::fluid}; };
 /// Second moments of V grad W, by which a gradient is corrected: xx, yy, zz and yz, xz, xy.
 struct Moments         { using type = Vec3; static constexpr FieldInfo info{"Moments", "1", Holders::fluid}; };
@@ -69,7 +69,7 @@ struct MixedMoments    { using type = Vec3; static constexpr FieldInfo info{"Mix
 /// B - 1 of the corrected gradient, B the inverse of those moments: xx, yy, zz and yz, xz, xy.
 struct GradientCorrection { using type = Vec3; static constexpr FieldInfo info{"GradientCorrection", "1", Holders::fluid, true}; };
 struct MixedCorrection { using type = Vec3; static constexpr FieldInfo info{"MixedCorrection", "1", Holders::fluid, true}; };
-/// Density that the correction of the divergence has made, less what has relaxed, and its rate.
+/// Density due to the correction of the divergence, less the relaxed part, and its rate.
 struct Correction      { using type = real; static constexpr FieldInfo info{"Correction", "kg/m3", Holders::fluid, true}; };
 struct CorrectionRate  { using type = real; static constexpr FieldInfo info{"CorrectionRate", "kg/m3/s", Holders::fluid, true}; };
 /// Sum that points to where particles are dense, by which they are shifted.
@@ -83,7 +83,7 @@ struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
 struct VelocitySum     { using type = Vec3; static constexpr FieldInfo info{"VelocitySum", "1/m2/s", Holders::solids}; };
 struct OffsetSum       { using type = Vec3; static constexpr FieldInfo info{"OffsetSum", "1/m2", Holders::solids}; };
-/// Of a solid particle behind the surface of its solid.
+/// Depth of a solid particle behind the surface of its solid.
 struct Depth           { using type = real; static constexpr FieldInfo info{"Depth", "m", Holders::solids}; };
 
 /// The values by which columns and records are indexed: `particles[field::velocity]`.

@@ -24,7 +24,7 @@ struct FirstTouch {
     T* allocate(std::size_t count)
     {
         constexpr Index page = 4096;      // bytes
-        constexpr Index worth_pages = 64; // smaller columns stay in caches
+        constexpr Index worth_pages = 64; // smaller columns fit into the caches
         T* const first = std::allocator<T>().allocate(count);
         auto* const bytes = reinterpret_cast<std::byte*>(first);
         const auto size = static_cast<Index>(count * sizeof(T));

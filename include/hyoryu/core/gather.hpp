@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From records side by side to numbers side by side: the fields of as many points as a pack has
-// lanes. By loads of 16 or 32 bytes and shuffles; a gather instruction costs several times as much.
+// Transposes records to packs: reads the records of one point per lane and returns one pack per
+// field. Uses loads of 16 or 32 bytes and shuffles; a gather instruction costs several times as
+// much.
 #pragma once
 
 #include "hyoryu/core/pack.hpp"
@@ -35,7 +36,7 @@ typename Pack<Real, bytes>::Register load_register(const Real* from)
     return lanes;
 }
 
-/// get(0), get(1), ..., `part` bytes each, one behind the other in one register.
+/// Concatenates get(0), get(1), ..., `part` bytes each, to one register.
 template <class Real, int bytes, int part, int first = 0>
 typename Pack<Real, bytes>::Register join(const auto& get)
 {
@@ -52,7 +53,7 @@ typename Pack<Real, bytes>::Register join(const auto& get)
     }
 }
 
-/// Of every 16 bytes of a, followed by those of b, the numbers of the given places.
+/// Picks numbers within quads: in each quad (16 bytes) the numbers `pick` of the quads of a and b.
 template <int... pick, class Register>
 Register shuffle(const Register& a, const Register& b)
 {
@@ -70,7 +71,7 @@ Register shuffle(const Register& a, const Register& b)
     (std::make_integer_sequence<int, lanes>{});
 }
 
-/// Of the quads (16 bytes) of a, followed by those of b, the given ones.
+/// Picks whole quads: the quads `pick` of a and b, those of b numbered behind those of a.
 template <int... pick, class Register>
 Register shuffle_quads(const Register& a, const Register& b)
 {
@@ -84,7 +85,7 @@ Register shuffle_quads(const Register& a, const Register& b)
     (std::make_integer_sequence<int, lanes>{});
 }
 
-/// Within each quad: number k of register m comes from number m of register k.
+/// Transposes each quad: number k of register m comes from number m of register k.
 template <class Register>
 void transpose_within_quads(const Register* in, Register* out)
 {
@@ -103,7 +104,7 @@ void transpose_within_quads(const Register* in, Register* out)
     }
 }
 
-/// The numbers of one quad of as many rows as a pack has lanes, row k in lane k.
+/// Transposes one quad of as many rows as a pack has lanes; row k goes to lane k.
 template <int bytes, class Real>
 void transpose_quad(const auto& row, Pack<Real, bytes>* out)
 {
@@ -120,9 +121,9 @@ void transpose_quad(const auto& row, Pack<Real, bytes>* out)
     }
 }
 
-/// The same of two quads at once, for registers of 64 bytes: half the loads, and a fifth of the
-/// shuffles fewer. The rows stand in the lanes in an order of their own, the same for both quads,
-/// which a sum over the lanes does not mind.
+/// The same for two quads at once in registers of 64 bytes: half the loads and a fifth fewer
+/// shuffles. The rows are permuted among the lanes, alike for both quads; sums over the lanes do
+/// not depend on the permutation.
 template <class Real>
 void transpose_two_quads(const auto& row, Pack<Real, 64>* out)
 {
@@ -141,9 +142,9 @@ void transpose_two_quads(const auto& row, Pack<Real, 64>* out)
     }
 }
 
-/// One of the rows in each lane, the same row in the same lane for every field: `at`, moved on by
-/// one step after the other. The steps are added up one by one, by units that are idle while those
-/// of packs are busy.
+/// Loads one record per lane; a lane holds the same record for every field. `at` advances by one
+/// step for each lane. The steps are added by scalar units, which are idle while the vector units
+/// are busy.
 template <int bytes, class List, class Real>
 Record<List, Pack<Real, bytes>> gather(const RecordRow<List, Real>*& at, const std::uint8_t* step)
 {

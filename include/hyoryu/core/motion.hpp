@@ -16,7 +16,7 @@ struct Motion {
     std::vector<double> times; // ascending [s]
     std::vector<Vec3> places;  // displacement at each time [m]
 
-    /// What a paddle that absorbs waves does besides its path, along x.
+    /// Motion of a wave-absorbing paddle in addition to its path, along x.
     struct Absorption {
         double depth = 0;           // of the water at rest [m]
         std::vector<double> levels; // asked for at the paddle, above still water, at `times` [m]
@@ -25,7 +25,7 @@ struct Motion {
         double place = 0;    // displacement at that time [m]
         double velocity = 0; // [m/s]
     };
-    std::optional<Absorption> absorption; // none: the path alone
+    std::optional<Absorption> absorption; // none: the path only
 };
 
 /// Displacement at time t [m]. Between the points of a path each component is a monotone cubic
@@ -40,7 +40,7 @@ Vec3 velocity(const Motion& motion, double t);
 /// times and 0 outside of them [m].
 double asked_level(const Motion& motion, double t);
 
-/// Whether it ever moves.
+/// Whether the wall moves at any time.
 bool moves(const Motion& motion);
 
 /// A speed that the motion does not exceed between two times [m/s].

@@ -25,7 +25,8 @@ std::string label_fault(std::string_view label);
 /// Whether a byte of the text begins a control character (C0, DEL, or C1 in UTF-8).
 bool has_control_characters(std::string_view text);
 
-/// The text with every control character but line ends as `\xNN`: a terminal would obey it.
+/// The text with every control character except line ends replaced by `\xNN`, since a terminal
+/// would execute it.
 std::string printable(std::string_view text);
 
 } // namespace hyoryu

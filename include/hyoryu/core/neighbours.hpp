@@ -13,38 +13,39 @@
 
 namespace hyoryu {
 
-/// Points among which neighbours are looked for. Those that another process owns stand in tiles of
-/// their own; a tile is whole in one of the two.
+/// The points of one kind in which neighbours are searched. The points of other processes (ghosts)
+/// have tiles of their own; each tile belongs entirely to one of the two sets.
 struct ListSource {
     const Tiles* own = nullptr;
-    const Tiles* ghosts = nullptr; // null where this process has all
+    const Tiles* ghosts = nullptr; // null if this process owns all points
 
     ListSource(const Tiles* own_, const Tiles* ghosts_ = nullptr) : own(own_), ghosts(ghosts_) {}
 };
 
-/// What is left out of neighbour lists. An empty span leaves out nothing.
+/// Pairs and points that neighbour lists exclude. An empty span excludes nothing.
 struct ListChoice {
     std::span<const std::int32_t> owner = {};  // by slot: neighbours of the same owner (a body)
     Index first_owner = 0;                     // the slot at which `owner` begins
-    std::span<const std::uint8_t> wanted = {}; // by slot: those marked 0 get no neighbours
+    std::span<const std::uint8_t> wanted = {}; // by slot: a point marked 0 gets no list
 };
 
-/// Eight slots that a block looks at, and the way from their tile to that of the block.
+/// Eight consecutive source slots of a block, and the offset of their tile from that of the block.
 struct SourceChunk {
-    std::int32_t slot;               // the first
+    std::int32_t slot;               // first slot
     std::array<std::int8_t, 3> step; // in edges of a tile
-    std::uint8_t count;              // slots that belong to it; none: the chunk is nothing
+    std::uint8_t count;              // slots that hold a point; 0: a padding chunk
 };
 
-/// Where the numbers of a list begin, and how long it is.
+/// The first number of a list, and its length in packs.
 struct ListHead {
     std::uint16_t start;
     std::uint16_t packs;
 };
 
-/// The lists of some slots of one tile. The slots of the chunks are numbered, eight a chunk, and an
-/// entry is the step to its number from that of the entry before it, or from the start of its list.
-/// Every list is filled up to whole packs with the first slot of a chunk that is nothing.
+/// The lists of a range of slots of one tile. The slots of the chunks are numbered, eight to a
+/// chunk. An entry is the difference between its number and that of the entry before it; the first
+/// entry counts from the start of its list. Every list is padded to whole packs with the first slot
+/// of a padding chunk, whose points are far from all others.
 struct ListBlock {
     std::int32_t first = 0; // destination slots [first, last)
     std::int32_t last = 0;
@@ -54,16 +55,16 @@ struct ListBlock {
     const ListHead* list = nullptr;
 };
 
-/// Memory in pages that is given back all at once; pages stay for the next time.
+/// An arena allocator: `reset` releases all blocks at once and keeps the pages for reuse.
 class PageStore {
 public:
     void reset();
-    /// Room for so many bytes, aligned to 16. Any thread may ask.
+    /// Allocates the given number of bytes, aligned to 16. Thread-safe.
     std::byte* take(std::size_t bytes);
-    /// Adds a block whose lists are in the store. Any thread may ask; the order is any.
+    /// Appends a block whose lists are in the store. Thread-safe; the order of the blocks is
+    /// unspecified.
     void append(const ListBlock& block, std::vector<ListBlock>& blocks);
-    /// Gives back the pages that nothing was put into, but for an eighth of the filled ones and one
-    /// more: room for lists that grow, not for the longest that ever were.
+    /// Frees unused pages except a reserve of one page and an eighth of the filled ones.
     void trim();
     std::size_t bytes() const;
 
@@ -80,7 +81,7 @@ private:
     std::size_t current_ = 0;
 };
 
-/// What one thread needs to make the lists of a block; kept from one time to the next.
+/// Scratch memory of one thread for building the lists of a block; reused by later builds.
 struct ListShop {
     std::vector<SourceChunk> chunks;
     std::array<std::vector<float>, 3> points, low, high; // x, y, z
@@ -93,7 +94,7 @@ struct ListShop {
 };
 
 /// Lists of one pair kind (destination <- source). Blocks are built in parallel and own their
-/// entries; slots without neighbours, such as dry walls, are in no block.
+/// entries; slots without neighbours, such as walls away from fluid, are in no block.
 class PairList {
 public:
     /// How the lists are made: the radius of pairs, lanes of a pack and instruction set.
@@ -102,11 +103,11 @@ public:
         int lanes = 1;
         InstructionSet set = InstructionSet::baseline;
     };
-    /// Points of a slot are listed source by source; a point of the source is its own neighbour,
-    /// as kernel sums want it and differences do not mind.
+    /// Builds the lists. The neighbours of a point are listed source by source. A point that is in
+    /// both sets is its own neighbour: kernel sums need this term, sums of differences ignore it.
     void build(const Tiles& destination, std::span<const ListSource> sources,
                const Settings& settings, const ListChoice& choice = {});
-    /// Which slots stand in any list; what has met nothing needs no list of its own.
+    /// Marks the slots that are a neighbour in some list; the others need no list of their own.
     void mark_met(std::vector<std::uint8_t>& marks) const;
     /// Marks the slots >= `first` in the chunks of any block, whether they are neighbours or not.
     /// `marks[k]` belongs to slot `first` + k.
@@ -121,11 +122,11 @@ public:
     int lanes() const { return lanes_; }
     /// Largest number of chunks that a block looks at.
     std::int32_t most_chunks() const;
-    /// Entries including those that are nothing, and bytes held, room for making them included.
+    /// Number of entries including padding; bytes held including scratch memory.
     Index entries() const;
     std::size_t bytes() const;
 
-    /// Calls f(i, j) for the slots of every pair; what is nothing is left out.
+    /// Calls f(i, j) for the slots of every pair; padding is skipped.
     void for_each_pair(auto&& f) const
     {
         for (const ListBlock& block : blocks_) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sums over the points of each owner, such as the forces on each wall, in parallel over tiles. The
-// bits depend neither on the threads nor on the order of the rows: plain numbers are added along
-// runs of slots of one owner within a tile, runs in fixed point.
+// result does not depend on the number of threads or the order of the rows, bit for bit: the terms
+// of a run of slots of one owner within a tile are added as plain numbers, the runs in fixed point.
 #pragma once
 
 #include "hyoryu/core/fixed_sum.hpp"
@@ -10,11 +10,11 @@
 
 namespace hyoryu {
 
-/// Sums of n numbers for each owner; its memory serves from step to step.
+/// Sums of n numbers for each owner; its memory is reused from step to step.
 template <std::size_t n>
 class OwnerSums {
 public:
-    /// Sets the sums of so many owners to zero.
+    /// Sets the sums of all owners to zero.
     void begin(std::size_t owners, const FixedUnits<n>& units)
     {
         units_ = units;
@@ -56,8 +56,8 @@ public:
         by_thread_[static_cast<std::size_t>(worker())][owner].add(term, units_);
     }
 
-    /// Ends the sums: adds up what the threads have. Returns the sums of each owner, to which those
-    /// of other processes may be added.
+    /// Ends the summation: adds up the partial sums of the threads. Returns the sums of each owner,
+    /// to which those of other processes may be added.
     std::span<FixedSums<n>> end()
     {
         std::vector<FixedSums<n>>& all = by_thread_.front();
@@ -69,7 +69,7 @@ public:
         return all;
     }
     std::size_t owners() const { return by_thread_.empty() ? 0 : by_thread_.front().size(); }
-    /// The sums of an owner, once they have ended.
+    /// The sums of an owner, after `end`.
     std::array<double, n> of(std::size_t owner) const
     {
         return by_thread_.front()[owner].values(units_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers side by side, so that the formula of a pair term is written once and serves the scalar
-// reference and the vector loops of every instruction set.
+// Packs of numbers (SIMD vectors), so that the formula of a pair term is written once and serves
+// the scalar reference and the vector loops of every instruction set.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -12,9 +12,9 @@
 
 namespace hyoryu {
 
-/// As many numbers T as fill a register of so many bytes; arithmetic works lane by lane (vectors of
-/// GCC and Clang). The size is part of the type: what is compiled for one instruction set shares no
-/// function with another.
+/// As many numbers T as fill a register of `bytes` bytes; arithmetic works lane by lane (vector
+/// extensions of GCC and Clang). The size is part of the type, so that code compiled for one
+/// instruction set shares no function with another.
 template <class T, int bytes>
 struct Pack {
     static constexpr int lanes = bytes / static_cast<int>(sizeof(T));
@@ -94,7 +94,7 @@ Pack<T, bytes> where_positive(const Pack<T, bytes>& test, const Pack<T, bytes>& 
 
 namespace detail {
 
-/// (first half) + (second half), until one is left.
+/// Adds the second half of the lanes to the first until one lane is left.
 template <int lanes>
 double sum_of_halves(const auto& x)
 {

@@ -11,20 +11,20 @@
 
 namespace hyoryu {
 
-/// Threads that parallel loops use from now on; 0 or less: as many as OMP_NUM_THREADS
-/// says, or else all that the machine offers.
+/// Sets the number of threads of parallel loops. 0 or less: the value of OMP_NUM_THREADS,
+/// or else the number of processors.
 void set_threads(int threads);
 int thread_count();
 /// Number of the calling thread within a parallel loop, below thread_count().
 int worker();
 
-// Below these sizes waking the other threads costs more than they save. The loop then does without
-// a parallel region: even one of a single thread costs as much as some rows.
+// Below these sizes waking the other threads costs more than they save. The loop then runs without
+// a parallel region, since even a region of one thread costs as much as some rows.
 inline constexpr Index worth_sharing_rows = 4096;
 inline constexpr Index worth_sharing_blocks = 16;
 
-/// Calls f(k) for k in [begin, end), each a few operations; equal shares a thread. Fewer rows than
-/// `worth` stay on the calling thread.
+/// Calls f(k) for k in [begin, end), each of a few operations; every thread gets an equal share.
+/// Fewer rows than `worth` stay on the calling thread.
 template <class F>
 void parallel_for(Index begin, Index end, const F& f, Index worth = worth_sharing_rows)
 {
@@ -40,13 +40,13 @@ void parallel_for(Index begin, Index end, const F& f, Index worth = worth_sharin
     }
 }
 
-/// Runs of blocks that a thread is dealt in one loop, about.
+/// Approximate number of runs of blocks that a thread gets in one loop.
 inline constexpr Index runs_of_a_thread = 32;
 
-/// Calls f(k) for k in [begin, end), each a block of much and uneven work: runs of blocks are dealt
-/// out in turn. Blocks that follow each other look at the same neighbours, which dealt out one by
-/// one would go from the cache of one thread to that of another. Fewer blocks than `worth` stay on
-/// the calling thread.
+/// Calls f(k) for k in [begin, end), each a block of much and uneven work. The threads take runs of
+/// consecutive blocks dynamically: consecutive blocks read the same neighbours, which would
+/// otherwise move between the caches of the threads. Fewer blocks than `worth` stay on the calling
+/// thread.
 template <class F>
 void parallel_blocks(Index begin, Index end, const F& f, Index worth = worth_sharing_blocks)
 {
@@ -63,12 +63,12 @@ void parallel_blocks(Index begin, Index end, const F& f, Index worth = worth_sha
     }
 }
 
-/// Chunks of a sum: at most so many, none of them shorter than so many rows but the last. The
+/// Chunks of a sum: at most `most_chunks`, each of at least `chunk_rows` rows except the last. The
 /// chunks, not the threads, decide the order of additions.
 inline constexpr Index most_chunks = 256;
 inline constexpr Index chunk_rows = 1024;
 
-/// add(... add(add(zero, f(begin)), f(begin + 1)) ...) by fixed chunks.
+/// add(... add(add(zero, f(begin)), f(begin + 1)) ...) in fixed chunks.
 template <class T, class F, class Add>
 T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
 {

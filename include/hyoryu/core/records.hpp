@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The input of the pair loops: the fields of a point side by side, in the number of the loops.
-// A loop whose terms read no more than the common list shares the common records; any other has
-// records of its own list, made for it from the columns.
+// The input of the pair loops: one record per point with its fields in the precision of the loops.
+// A loop whose terms read only fields of the common list uses the common records; any other loop
+// uses records of its own list, which are copied from the columns.
 #pragma once
 
 #include "hyoryu/core/parallel.hpp"
@@ -14,33 +14,33 @@
 namespace hyoryu {
 
 namespace detail {
-// So that no record crosses a line of the cache that need not.
+// Keeps records from crossing a cache line unnecessarily.
 constexpr std::size_t row_alignment(std::size_t bytes)
 {
     return bytes % 64 == 0 ? 64 : bytes % 32 == 0 ? 32 : 16;
 }
 } // namespace detail
 
-/// The fields of List of one point, whole registers of 16 bytes; 32 bytes for eight floats. The
-/// position comes first, relative to the centre of the point's tile.
+/// The fields of List of one point, padded to whole registers of 16 bytes. The position comes
+/// first, relative to the centre of the point's tile.
 template <class List, class Real>
 struct alignas(detail::row_alignment((List::scalars * sizeof(Real) + 15) / 16 * 16)) RecordRow {
     static_assert(offset<Position, List> == 0, "a pair needs positions, and they come first");
-    /// Numbers in 16 bytes, and how often those are needed.
+    /// Numbers per quad (16 bytes), and quads per record.
     static constexpr int quad = 16 / static_cast<int>(sizeof(Real));
     static constexpr int quads = (List::scalars + quad - 1) / quad;
     static constexpr int size = quads * quad;
     Real value[size]{};
 };
 
-/// The list of the records for a loop over some terms: the common one if that holds all that they
-/// read, else positions and the union of what they read.
+/// The fields of the records for a loop over some terms: the common list if it contains all fields
+/// that they read, else the position and the union of these fields.
 template <class Common, class... Terms>
 using RecordList =
     std::conditional_t<std::is_same_v<Union<Common, typename Terms::Reads...>, Common>, Common,
                        Union<Fields<Position>, typename Terms::Reads...>>;
 
-/// Memory for the records of one list or another, in lines of the cache.
+/// Memory for records of any list, aligned to cache lines.
 class RecordMemory {
 public:
     /// Memory of at least `bytes` bytes, aligned to 64; its contents are lost when it grows.
@@ -54,7 +54,7 @@ public:
         return data();
     }
     std::byte* data() { return reinterpret_cast<std::byte*>(lines_.data()); }
-    /// The memory, for use between two uses of the records.
+    /// The memory as scratch space while no records are in use.
     std::span<std::byte> room() { return std::as_writable_bytes(std::span(lines_)); }
     /// Bytes held.
     std::size_t bytes() const { return lines_.capacity() * sizeof(Line); }
@@ -72,7 +72,7 @@ class Records {
 public:
     using Row = RecordRow<List, Real>;
 
-    /// Records of `slots` slots and of a chunk that begins at the last slot.
+    /// Records of `slots` slots and one more chunk, as a chunk may begin at the last slot.
     Records(RecordMemory& memory, Index slots)
         : rows_(reinterpret_cast<Row*>(
               memory.at_least(static_cast<std::size_t>(slots + chunk_slots) * sizeof(Row))))
@@ -98,8 +98,8 @@ public:
         });
     }
 
-    /// Fills records that hold more than the common ones: the common fields as their records show
-    /// them, the others from the columns.
+    /// Fills records with more fields than the common ones: the common fields are copied from the
+    /// common records, the others from the columns.
     template <class Common>
     void complete(Records<Common, Real> common, const Store& store, const Tiles& tiles)
     {
@@ -116,8 +116,8 @@ public:
         });
     }
 
-    /// Sets a field of the records to value_of(row): what particles show of it to their neighbours
-    /// where that is not the value of the column.
+    /// Sets a field of the records to value_of(row), where neighbours have to see another value
+    /// than that of the column.
     template <Field To>
     void show(const Tiles& tiles, To, const auto& value_of)
     {
@@ -169,7 +169,7 @@ private:
         const Vec3 centre = tiles.lattice.centre(tiles.tile[tile]);
         for_each(fields, [&](auto field) {
             constexpr int to = offset<decltype(field), List>;
-            if (!store.may_have(field)) { // of the other kind of particles alone
+            if (!store.may_have(field)) { // a field of the other kind of particles only
                 for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
                     std::fill_n(&at(tiles.first_slot + k).value[to], width<decltype(field)>,
                                 Real(0));

@@ -48,8 +48,8 @@ concept PairTerm = std::copyable<T> &&
     term(packed, packed_i, packed_i, packed_sum);
 };
 
-/// All that the sweeps of one pair kind read and write, as plain addresses: the hot loops call
-/// nothing that is shared between instruction sets.
+/// The data that the sweeps of one pair kind read and write, as plain addresses: the inner loops
+/// call no function that is shared between instruction sets.
 template <class Real, class PairKernel = Kernel>
 struct SweepView {
     const ListBlock* blocks = nullptr;
@@ -63,8 +63,9 @@ struct SweepView {
 
 namespace detail {
 
-/// The points that a block looks at, copied side by side, relative to the centre of its tile. What
-/// is nothing is far from everything and otherwise zero.
+/// Copies the records of all source points of a block to contiguous memory, with positions relative
+/// to the centre of its tile. The first slot of a padding chunk is far from all points and
+/// otherwise zero.
 template <int bytes, class List, class Real>
 void copy_chunks(const ListBlock& block, const Vec3& of_tile, const RecordRow<List, Real>* records,
                  RecordRow<List, Real>* local)
@@ -130,8 +131,8 @@ void accumulate(const OutColumns<Out>& columns, Index row, const auto& sum)
 /// columns[Writes]_i += sum over the neighbours j of point i of all terms, for every point of one
 /// block. Outputs add up over the pair kinds of a stage; `clear` them first. `local` has room for
 /// all chunks of the block.
-// Flat: a record of packs that is handed over through memory costs more than the pair. Kernel and
-// terms are copies: what only this function sees need not be read again after every store.
+// Flattened, since passing a record of packs through memory costs more than the pair. Kernel and
+// terms are copies, so that the compiler need not reload them after every store.
 template <int bytes, class List, class Real, class PairKernel, PairTerm... Terms>
 [[gnu::flatten]] void sweep_block(const SweepView<Real, PairKernel>& view, Index block_index,
                                   // NOLINTNEXTLINE(performance-unnecessary-value-param)
@@ -173,8 +174,8 @@ struct StoreRow {
     Index row;
 };
 
-/// The same sums, one pair at a time in double, positions and all: the clear version that the fast
-/// one is tested against. `place` is the store and row of a slot.
+/// Reference implementation of the same sums, one pair at a time in double precision; the fast one
+/// is tested against it. `place` is the store and row of a slot.
 template <class List, class... Terms>
 void sweep_reference(const PairList& pairs, const auto& place, const auto& kernel,
                      const Terms&... terms)
@@ -184,7 +185,7 @@ void sweep_reference(const PairList& pairs, const auto& place, const auto& kerne
         Record<List, real> values;
         for_each(List{}, [&](auto field) {
             if (!from.store->may_have(field)) {
-                return; // of the other kind of particles alone: zero
+                return; // a field of the other kind of particles: zero
             }
             const auto& value = std::as_const(*from.store)[field][from.row];
             if constexpr (width<decltype(field)> == 3) {

@@ -37,7 +37,8 @@ struct TileLattice {
     static std::array<std::int64_t, 3> place_of(std::uint64_t tile);
     static std::uint64_t tile_at(const std::array<std::int64_t, 3>& place);
     Vec3 centre(std::uint64_t tile) const;
-    /// The number of the tile so many tiles away from a place, which may be an image of it.
+    /// The number of the tile `way` tiles away from a place, wrapped around along axes with a
+    /// period.
     std::uint64_t beside(const std::array<std::int64_t, 3>& place,
                          const std::array<int, 3>& way) const;
     /// The image of a point that lies in the first period.
@@ -46,13 +47,13 @@ struct TileLattice {
     Vec3 image_near(const Vec3& point, const Vec3& other) const;
     /// Shortest vector between images of points r apart.
     Vec3 shortest(const Vec3& r) const;
-    /// The unit of positions for numbers of so many binary digits [m].
+    /// The unit of positions for numbers with the given count of binary digits [m].
     real unit(int digits) const;
 };
 
 /// The lattice of the least edge that is not below `edge` and a multiple of its units. Along an
-/// axis of a period greater than 0 whole tiles fill it, to the unit of single precision; it must
-/// not be shorter than `edge`.
+/// axis with a period greater than 0 the period is a whole number of tiles, to the unit of single
+/// precision; the period must not be shorter than `edge`.
 TileLattice make_lattice(const Vec3& origin, real edge, const Vec3& period = Vec3(0, 0, 0));
 
 /// Slots that are consecutive, near each other and tested together when lists are made.
@@ -81,7 +82,7 @@ struct Tiles {
     Index find(std::uint64_t number) const;
 };
 
-/// Room for sorting, kept from one time to the next.
+/// Scratch memory of sorting, reused by later calls.
 struct SortSpace {
     std::vector<std::uint64_t> key, key_swap;
     std::vector<std::int32_t> row, row_swap;

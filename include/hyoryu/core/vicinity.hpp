@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which points of one set have a point of another within a radius: a search that ends at the first
-// one found, where lists would name them all.
+// Marks the points of one set that have a point of another set within a radius. The search for a
+// point ends at the first neighbour found, whereas neighbour lists contain all of them.
 #pragma once
 
 #include "hyoryu/core/tiles.hpp"

@@ -28,7 +28,7 @@ struct Pose {
 /// Where each body is after moving freely for `ahead` [s].
 std::vector<Pose> free_flight(const Rigid& rigid, double ahead);
 
-/// Puts the particles of every body where the poses say, with the velocity V + omega x r.
+/// Places the particles of every body at its pose, with the velocity V + omega x r.
 void place_bodies(const Rigid& rigid, const std::vector<Pose>& poses, const BodyParticles& bodies,
                   Fluid& fluid);
 

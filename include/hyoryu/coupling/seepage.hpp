@@ -32,7 +32,7 @@ struct Seepage {
     /// {body, face} that have touched and not parted by two spacings since: the only state that a
     /// restart needs. Faces are numbered within their body. Ascending.
     std::vector<std::array<int, 2>> joined;
-    std::vector<std::uint8_t> open;            // by body: water gets under it, `stands = "open"`
+    std::vector<std::uint8_t> open;            // by body: water enters below it, `stands = "open"`
     std::vector<std::vector<JointLoad>> loads; // by body, of the last step; most have none
     std::unique_ptr<JointTables> tables;       // surfaces; none before the first step
 
@@ -42,13 +42,14 @@ struct Seepage {
     Seepage& operator=(Seepage&&) noexcept;
 };
 
-/// When the walls are where, and how long the forces act [s].
+/// The time for which walls are placed, and the length of the step [s].
 struct JointTime {
     double time = 0;
     double dt = 0;
 };
 
-/// After `joined` was read from a checkpoint. Throws IoError if it has joints of other bodies.
+/// To be called after `joined` was read from a checkpoint. Throws IoError if it does not fit the
+/// bodies.
 void restart_joints(Seepage& seepage);
 
 /// Finds the joints at these poses, with walls where they are at that time, and their pressures
@@ -65,7 +66,8 @@ void add_joint_loads(const Seepage& seepage, const std::vector<Pose>& poses,
                      std::vector<Wrench>& bodies, std::span<Vec3> walls);
 
 /// Adds to the sums of `collect_loads` and `collect_wall_forces` what the film forces on particles
-/// of this process left to the joints (`Fluid::film_cuts`): the other side has felt its reaction.
+/// of this process left to the joints (`Fluid::film_cuts`): the reaction has already acted on the
+/// other side.
 void return_film_cuts(const Fluid& fluid, const std::vector<Pose>& poses, OwnerSums<6>& bodies,
                       OwnerSums<3>& walls);
 

@@ -6,7 +6,7 @@
 
 namespace hyoryu {
 
-/// V_j (v_i - v_j) . r F(r), what neighbour j does to the density of i [1/s].
+/// V_j (v_i - v_j) . r F(r), the contribution of neighbour j to the density rate of i [1/s].
 template <class N>
 N continuity_of_pair(const Pair<N>& ij, const auto& i, const auto& j)
 {

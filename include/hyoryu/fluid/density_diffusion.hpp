@@ -51,8 +51,8 @@ struct DensityGradient {
 
 /// D_i = -2 delta h c0 sum_j V_j [(rho_j - rho_i) - (g_i + g_j)/2 . (r_j - r_i)] F(r), g the
 /// renormalised gradient of the density, kept as c0^2 g in the column of `PressureGradient`: a
-/// linear part does not diffuse, whatever drives it. Source: Antuono, Colagrossi, Marrone &
-/// Molteni (2010), eq. 7.
+/// linear density field does not diffuse, whatever its cause. Source: Antuono, Colagrossi, Marrone
+/// & Molteni (2010), eq. 7.
 struct RenormalisedDiffusion {
     static constexpr std::string_view name = "renormalised_diffusion";
     using Reads = Fields<Volume, Pressure, PressureGradient>;
@@ -79,7 +79,7 @@ struct RenormalisedDiffusion {
     }
 };
 
-/// What every density diffusion is chosen by.
+/// The input parameter of all density diffusion models.
 struct DiffusionSettings {
     static constexpr std::string_view name = "density_diffusion"; // in the plan
     double delta = 0.1;                                           // [1]

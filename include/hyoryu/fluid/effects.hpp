@@ -15,7 +15,7 @@ namespace hyoryu {
 /// the terms of the fused sweeps and what the plan says.
 using FluidEffects = HeldTerms<AllSlots>;
 
-/// What the user chooses for the slots.
+/// The user's choice of a model for each slot.
 using FluidChoices = ChosenModels<ModelSlots<AllSlots>>;
 
 namespace detail {
@@ -158,7 +158,7 @@ struct WritesOfAll<SlotList<Slots...>, Stage> {
 /// The passes of all effects that are built.
 using EffectPasses = typename detail::PassesOfAll<AllSlots>::type;
 
-/// What the effects of a stage write, whichever are held.
+/// The union of the fields that the effects of a stage may write.
 template <class Stage>
 using StageWrites = typename detail::WritesOfAll<AllSlots, Stage>::type;
 

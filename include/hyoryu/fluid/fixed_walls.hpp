@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Walls that do not move. A particle of theirs exists, with a row in the store of the walls, while
 // a fluid particle, or a body particle that fluid is near, is within the reach of the neighbour
-// lists. It is made from its surface when that comes and dropped when it leaves: dry walls have
-// neither places nor columns, records or lists. Which particles exist follows from the places of
-// fluid and bodies when lists are made, not from the history.
+// lists. It is made from its surface when that comes and dropped when it leaves: walls away from
+// fluid use no memory for positions, columns, records or lists. Which particles exist follows from
+// the places of fluid and bodies when lists are made, not from the history.
 #pragma once
 
 #include "hyoryu/core/tiles.hpp"
@@ -51,7 +51,7 @@ struct FixedWalls {
 
     // Candidates: the particles of the tiles that touch one with fluid or wet bodies, in the order
     // of cells and numbers. `candidates.row` holds their indices.
-    std::vector<std::int32_t> near; // tiles of `tile` that they are of, ascending
+    std::vector<std::int32_t> near; // their tiles, as indices into `tile`, ascending
     Tiles candidates;
     std::vector<std::uint8_t> exists; // by candidate
 
@@ -72,13 +72,13 @@ void append_run(FixedWalls& walls, std::uint64_t tile, const IndexRun& run);
 void sort_into_tiles(FixedWalls& walls, const TileLattice& lattice,
                      std::span<const std::int32_t> index, std::span<const Vec3> place);
 
-/// Points by which walls exist: of the fluid, or of bodies where fluid is near.
+/// The points near which wall particles exist: fluid particles, or body particles near fluid.
 struct Waters {
     const Tiles& tiles;
     std::span<const std::uint8_t> counted; // by point: whether it counts; empty: all do
 };
 
-/// Which particles exist: those of own tiles within reach of waters.
+/// Which wall particles exist: those in own tiles within `reach` of these points.
 struct WallReach {
     real reach = 0; // [m]; at most the edge of a tile
     TileRange own;

@@ -29,7 +29,7 @@ struct FluidNeighbours {
     DisplacementSpace fluid_motion, wall_motion, body_motion;
     std::vector<std::int32_t> wet_walls; // tiles of walls of which a particle is in any list
     SortSpace space;
-    std::vector<std::uint8_t> met;      // by slot: what stands in any list
+    std::vector<std::uint8_t> met;      // by slot: whether it is in any list
     std::vector<std::uint8_t> wet_body; // by point of bodies: whether fluid is near
     std::vector<std::int32_t> owner;    // of solid particles, by slot
     long long builds = 0;
@@ -37,11 +37,11 @@ struct FluidNeighbours {
     Index visits = 0; // list entries that the sweeps of one step go over
 };
 
-/// What the pair loops work with, in their number.
+/// Data of the pair loops in their precision.
 template <class Real>
 struct PairData {
     RecordMemory common; // the common records
-    RecordMemory wide;   // those of the last pass that reads more
+    RecordMemory wide;   // records of the last pass with more fields
     Index slots = 0;
     std::vector<RecordMemory> local; // records of one block, by thread
 
@@ -105,15 +105,15 @@ real stand_in_mass(const Fluid& fluid, std::int32_t owner);
 /// Whether there are walls, with rows or without, or bodies.
 bool has_solids(const Fluid& fluid);
 
-/// Makes the columns that the active effects need, and no others, for so many particles of each
-/// kind, and what the pair loops need in the precision of the parameters. Fixed walls, which get
-/// rows when fluid comes near, must be known.
+/// Makes the columns that the active effects need, and no others, for the given numbers of
+/// particles, and the data of the pair loops in the chosen precision. Fixed walls, which get rows
+/// when fluid comes near, must be set before.
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count);
 
 // The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves
 // the pressure loop and the velocity loop (Zhang, Rezavand & Hu 2020, without the dual time step).
 
-/// rho += dt R, x += dt v of the fluid; what solids would stretch goes to its gap (fluid/parting).
+/// rho += dt R, x += dt v of the fluid; stretching by solids goes to its gap (fluid/parting).
 void drift(Fluid& fluid, real dt);
 
 /// Makes new lists if any pair may have come closer than the skin allows; sorts the fluid rows and
@@ -125,14 +125,14 @@ TileLattice lattice_of(const Fluid& fluid);
 /// whether lists are due, or asked for, and their making.
 bool lists_are_due(Fluid& fluid, bool asked);
 void make_lists(Fluid& fluid);
-/// Makes the particles of fixed walls that the tiles of fluid and bodies are near to, as lists do
-/// that are made anew: a restart needs them for the columns of solids. A rank has the fluid tiles
-/// of its range and the body tiles of all ranks, of which it keeps its own.
+/// Makes the particles of fixed walls that the tiles of fluid and bodies are near to, as a rebuild
+/// of lists does; a restart needs them for the columns of solids. A rank has the fluid tiles of its
+/// range and the body tiles of all ranks, of which it keeps its own.
 void place_fixed_walls(Fluid& fluid);
 /// Makes the lists again from the recorded positions, as a restart needs; a rank has its own tiles.
 void rebuild_neighbours(Fluid& fluid);
 
-/// p and V of the fluid from rho, then p and V of solid particles from the fluid before them.
+/// p and V of the fluid from rho, then p and V of solid particles from the adjacent fluid.
 void update_pressure(Fluid& fluid);
 
 /// Force on every fluid, body and wall particle that depends on positions; the density diffusion.
@@ -142,8 +142,8 @@ void update_forces(Fluid& fluid, real dt);
 /// v += dt (F + F_visc)/m + dt (g + drive) of the fluid.
 void kick(Fluid& fluid, real dt);
 
-/// R = rho sum V (v_i - v_j).r F + D and the viscous force, from the new velocities; gaps end where
-/// solids are too near to leave room for them.
+/// R = rho sum V (v_i - v_j).r F + D and the viscous force, from the new velocities; gaps close
+/// where solids are too near.
 void update_rates(Fluid& fluid);
 
 /// Moves the fluid particles by the shifting of a step, if that effect is on.

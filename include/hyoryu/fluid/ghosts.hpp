@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A case that several processes share: what one of them has of the particles of the others. A fluid
-// of one process has none of this.
+// Ghosts: copies of particles of other ranks in a case distributed over several processes. A fluid
+// of one process has none.
 #pragma once
 
 #include "hyoryu/fluid/list_schedule.hpp"
@@ -21,14 +21,14 @@ struct GhostsOfKind {
     DisplacementSpace motion; // of their tiles, and which own tiles touch them
 };
 
-/// The particles of other ranks that this one may look at.
+/// The particles of other ranks that this one may read.
 struct Ghosts {
     Comm& comm;
     Cuts cuts;
     std::optional<Cuts> next_cuts; // from the next lists on; the same on all ranks
     GhostsOfKind fluid, wall, body;
     Particles particles; // row k is point k of the tiles of its kind
-    real moved = 0; // the farthest that own particles had moved when their places were shared [m]
+    real moved = 0;      // largest displacement of own particles when places were shared [m]
     std::vector<std::uint8_t> wet_body; // by point: whether fluid is near
     std::vector<Parcel> outbox, inbox;  // memory of messages
     Underway solids, velocities;        // at most one of them is begun at a time
@@ -39,11 +39,11 @@ struct Ghosts {
 /// tiles and no others.
 void share(Fluid& fluid, Comm& comm, const Cuts& cuts);
 
-/// Sends to the ranks that have ghosts of them the places of particles and what else a step reads
-/// of neighbours before new velocities are known. Nothing before the first lists.
+/// Updates ghosts on other ranks with the positions and all other fields that a step reads before
+/// new velocities are known. Nothing before the first lists.
 void share_places(Fluid& fluid);
 
-/// Makes every value of a ghost that a step sends anew not-a-number: one that is read though it was
+/// Sets every ghost value that a step sends again to not-a-number, so that reading a value that was
 /// not sent shows in the results. Velocities hold until new ones are known, and places of walls
 /// that do not move hold for good. Debug builds do so in every step.
 void poison_ghosts(Ghosts& ghosts, const Fluid& fluid);

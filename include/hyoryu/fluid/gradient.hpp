@@ -81,16 +81,16 @@ struct GradientMoments {
     }
 };
 
-/// What of the correction is made [1]: none where the least eigenvalue of the moments is below
-/// `surface`, `part` of it above `inside`, blended between. And what stays of the density that the
-/// correction of the divergence makes: it relaxes in the time `memory` c0/g.
+/// The share of the correction that is applied [1]: none if the least eigenvalue of the moments is
+/// below `surface`, `part` of it above `inside`, interpolated between. The density due to the
+/// correction of the divergence relaxes in the time `memory` c0/g.
 ///
-/// The plain sum is nearly the rate of a function of the places, the density of the packing. That
-/// of the correction is not: fluid that comes back to its places keeps some of it, always of one
-/// sign, and the fluid would pack more densely without its density saying so. A wave of H/d = 0.2
-/// that runs 12 of its lengths lowered the level by 2.4 % of the depth, in MPS by 15 %, and went
-/// on; with these it falls by 0.4 and 1.0 % and stays. A long memory keeps the correction of waves;
-/// without gravity nothing relaxes. Measured, ours.
+/// The plain sum is nearly the time derivative of a function of the positions, the density of the
+/// packing. The sum of the correction is not: fluid that returns to its positions keeps a
+/// remainder, always of one sign, and would become denser without a change of its density variable.
+/// A wave of H/d = 0.2 that runs 12 of its lengths lowered the level by 2.4 % of the depth, in MPS
+/// by 15 %, and went on; with these it falls by 0.4 and 1.0 % and stays. A long memory keeps the
+/// correction of waves; without gravity nothing relaxes. Measured, ours.
 struct CorrectionRange {
     real part;
     real surface;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How long neighbour lists serve: when particles have moved too far for them, and which skin pays.
+// Schedule of neighbour lists: the displacements that make lists invalid, and the optimal skin.
 #pragma once
 
 #include "hyoryu/core/tiles.hpp"
 
 namespace hyoryu {
 
-/// What the lists hold beyond the support, apart for pairs of fluid particles, which mostly move
-/// together, and for pairs with a solid, along which the fluid slips.
+/// Skins of the lists beyond the support, separately for pairs of fluid particles, which mostly
+/// move together, and for pairs with a solid, along which the fluid slips.
 struct Skins {
     real fluid = 0; // [m]
     real solid = 0; // [m]
@@ -54,9 +54,9 @@ struct EntryCounts {
 /// The skins of the first lists, before anything has moved.
 Skins first_skins(real spacing);
 
-/// The skins with which a step costs least, if motions go on as they did over the `steps` since
-/// the last lists. More skin means longer lists, gone over in every step, but lists that serve
-/// longer. Depends on motions and counts only, never on time.
+/// The skins of least cost per step, if motions continue as over the `steps` since the last lists.
+/// A larger skin gives longer lists, which every step processes, but fewer rebuilds. Depends on
+/// motions and counts only, never on time.
 Skins best_skins(const Displacement& motion, long long steps, const EntryCounts& entries,
                  const Skins& now, real support, real spacing);
 

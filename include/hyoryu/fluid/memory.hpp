@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a fluid holds in memory.
+// Memory report of a fluid, by part.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"

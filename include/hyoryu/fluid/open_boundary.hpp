@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Open sides of the fluid. Outside each lies a carpet of buffer particles: fluid rows that take
-// part in all pair loops as neighbours, but whose velocity and density follow from the flow that is
-// asked for. A row belongs to the carpet as long as it is behind the plane; nothing else marks it.
+// part in all pair loops as neighbours, but whose velocity and density follow from the prescribed
+// flow. A row belongs to the carpet exactly while it is behind the plane.
 //
 // The flow at the plane is driven by the incoming Riemann invariant alone, u + 2 sqrt(g h), so that
 // the waves that come from inside leave. Ours in this form; linearised it is the correction of
@@ -46,7 +46,7 @@ struct OpenSide {
     int open_lanes(int station) const;
 };
 
-/// What is asked for at a station at one moment.
+/// The prescribed flow at a station at one moment.
 struct AskedFlow {
     std::optional<real> level;     // of the free surface [m]
     std::optional<real> velocity;  // into the domain [m/s]
@@ -76,7 +76,7 @@ struct Carpet {
     OpenSide side;
     bool power_profile = false; // u(z) ~ z^(1/7) in place of a uniform one
     std::vector<StationFlow> stations;
-    std::vector<real> carry;            // by lane: rows that are owed to the volume [1]
+    std::vector<real> carry;            // by lane: particles still due by volume [1]
     std::int64_t made = 0, dropped = 0; // rows since the start
     std::int64_t in = 0, out = 0;       // rows that crossed the plane
     real volume_asked = 0;              // integral of depth x velocity over the window [m3]
@@ -106,11 +106,10 @@ void find_rows(const Fluid& fluid, OpenBoundary& open);
 
 /// Finds the rows of bodies about each plane, and the rows of fluid behind it beside them. The
 /// velocity of these is not set, it returns to that of the carpet in the time in which a wave runs
-/// 4 spacings: a body that turns, heaves or is held pushes them aside, which a lattice of given
-/// velocity would not yield to. Their density is set, so that the pressure on the body is that of
-/// the level; one that followed their motion would not hold their volume, which no water outside
-/// bounds. The outermost columns are never beside a body, since nothing presses against them from
-/// outside.
+/// 4 spacings: a body that turns, heaves or is held pushes them aside, and a lattice of prescribed
+/// velocity would not yield. Their density is prescribed, so that the pressure on the body is that
+/// of the level; with continuity their volume would not be kept, since no water outside bounds it.
+/// The outermost columns are never beside a body, since no fluid supports them from outside.
 void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open);
 
 /// Measures depth and velocity of the strip inside each plane, as they are now, without a filter.
@@ -119,7 +118,7 @@ void measure_start(const Fluid& fluid, OpenBoundary& open);
 /// Filters the depth and velocity that the strips have now, over a step of dt.
 void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt);
 
-/// Takes note of the rows that crossed a plane.
+/// Counts the rows that crossed a plane.
 void count_crossings(const Fluid& fluid, OpenBoundary& open);
 
 /// Whether a carpet has moved so far that new columns are due.
@@ -132,7 +131,7 @@ void renew_carpets(Fluid& fluid, OpenBoundary& open);
 /// Sets the density of the carpets to that of water at rest below their level; no gap, no cavity.
 void set_densities(Fluid& fluid, const OpenBoundary& open);
 
-/// Before and after the kick: sets the velocities of the carpets and books the impulse.
+/// Before and after the kick: sets the velocities of the carpets and records the impulse.
 void keep_velocities(const Fluid& fluid, OpenBoundary& open);
 void set_velocities(Fluid& fluid, OpenBoundary& open, real dt);
 

@@ -102,7 +102,7 @@ using AllPasses =
                           pass::FilmForces, pass::FluidRates, pass::SolidRates, pass::CrowdingSums>,
                  EffectPasses>::type;
 
-/// Passes that meet solids alone, which have the kernel of SPH in either formulation.
+/// Passes with solids only, which use the kernel of SPH in either formulation.
 using SolidPasses = PassList<pass::Extrapolation, pass::SolidForces, pass::FilmForces,
                              pass::SolidRates, NoSlip::Mirror, NoSlip::Friction>;
 

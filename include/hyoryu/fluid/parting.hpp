@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Fluid parts from solids without being pulled and without being stretched.
+// Separation of fluid from solids without tension: the fluid is neither pulled nor stretched.
 //
 // Force and rate of density of a pair belong together: only with both does the work of the pressure
-// equal the change of the energy of compression. Solids push and do not pull (`WallPressureForce`),
-// so what is without pressure must not be stretched as it leaves a solid either: it would carry
-// away a tension that no force has worked for. The density that it keeps is its gap. While it has
-// one it does not touch the solids: they do not push it, and what brings it nearer to them closes
-// the gap before it compresses.
+// equal the change of the energy of compression. Solids push but do not pull (`WallPressureForce`),
+// so fluid without pressure must not be stretched either as it leaves a solid: it would gain a
+// tension for which no force has done work. The density that it keeps instead is its gap. Fluid
+// with a gap does not touch the solids: they exert no pressure on it, and when it approaches them
+// the gap closes before the fluid is compressed.
 #pragma once
 
 #include "hyoryu/fluid/continuity.hpp"
@@ -15,8 +15,8 @@
 
 namespace hyoryu {
 
-/// What the solids about a fluid particle make of its continuity, R_s = sum_s V_s (v_i - v_s).r F
-/// [1/s], times rho_i a rate of density: the pair of `Continuity` in a sum of its own. And
+/// Contribution of nearby solids to the continuity of a fluid particle, R_s = sum_s V_s (v_i -
+/// v_s).r F [1/s], times rho_i a rate of density: the pair of `Continuity` in a sum of its own. And
 /// sum_s W [1/m^d], by which is known how near they are. Ours; no published source.
 struct SolidContinuity {
     static constexpr std::string_view name = "solid_continuity";
@@ -31,9 +31,9 @@ struct SolidContinuity {
     }
 };
 
-/// What of a change of density [kg/m3] that solids made goes to the gap instead, at most all of it:
-/// negative where the change closes the gap, positive where it would stretch a particle that has a
-/// gap already or is `below` its density at rest by so much.
+/// The part of a change of density due to solids [kg/m3] that goes to the gap instead, at most all
+/// of it. Negative if the change closes the gap; positive if it would stretch a particle that has a
+/// gap already or whose density is lower than at rest by `below`.
 inline real to_gap(real gap, real change, real below)
 {
     if (change > 0) {
@@ -43,7 +43,7 @@ inline real to_gap(real gap, real change, real below)
 }
 
 /// sum W over the solid half of the lattice about a particle at rest beside a plane wall, half a
-/// spacing from it [1/m^d]. What is so near to solids has no room for a gap.
+/// spacing from it [1/m^d]. Particles nearer to solids have no gap.
 template <class AnyKernel>
 real sum_beside_plane(const AnyKernel& kernel, real spacing, int dimensions)
 {

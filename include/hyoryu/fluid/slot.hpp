@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A slot: a family of effects that exclude each other, as one type that says all there is to know
-// of the family. `slots.hpp` lists the slots; allocation, the pair loops, the plan, the cost, the
-// case file and its description go over that list.
+// A slot: a family of effects that exclude each other, described completely by one type.
+// `slots.hpp` lists the slots; allocation, the pair loops, the plan, the cost, the case file and
+// its description go over that list.
 //
 // The type of a slot has
 //     using Models = std::variant<...>;       // what the user may choose; the first is the default

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stages of a step in which an effect may be summed over pairs, and passes: loops over pairs
-// that an effect has for itself.
+// The stages of a step in which an effect may be summed over pairs, and passes: separate loops over
+// pairs for a single effect.
 //
 // An effect whose pair term belongs to a stage names it, `using Stage = stage::Forces`, and is
 // summed in one loop with the terms that are always there. An effect that needs a sum before that

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What of the fluid of a rank differs from that of one process: which tiles and rows it has.
+// Relations between the fluid of one rank and that of the whole case: its tiles, rows and cuts.
 #pragma once
 
 #include "hyoryu/fluid/fluid.hpp"
 
 namespace hyoryu {
 
-/// The body particles as one process has them, on rank 0: each rank has set those in its tiles.
-/// Called by all ranks; the others get their own.
+/// Assembles all body particles on rank 0 from the ranks that set those in their tiles. Called by
+/// all ranks; the other ranks keep their own.
 Store whole_bodies(const Fluid& fluid);
 
 /// Cuts by which all ranks have about the same number of fluid particles; `fluid`: those that this

@@ -33,8 +33,8 @@ inline constexpr std::size_t most_corners = 2000;
 std::string outline_fault(const std::vector<Ring>& rings);
 
 /// One ring about an area with holes, counter-clockwise: each inner ring is joined to the others by
-/// a bridge, an edge that is passed in both directions (Held 2001). Empty if there is none, which
-/// an outline without fault has not.
+/// a bridge, an edge that is passed in both directions (Held 2001). Empty if no bridge exists,
+/// which cannot happen for an outline without fault.
 Ring cut_open(const std::vector<Ring>& rings);
 
 /// The triangles of the area within a ring, counter-clockwise, by ear clipping (Meisters 1975);

@@ -6,7 +6,7 @@
 
 namespace hyoryu {
 
-/// Of the window that a patch takes of a grid; level areas do not count as differences.
+/// Differences of surface and grid in the window of a patch, without those due to level areas.
 struct SurfaceCheck {
     std::array<Index, 2> cells{0, 0};    // of the surface along x and y
     double lowest = 0, highest = 0;      // of the surface [m]

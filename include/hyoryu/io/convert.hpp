@@ -50,7 +50,7 @@ std::size_t export_vtkhdf(const std::filesystem::path& results, const std::vecto
 /// Whether `export_vtkhdf` wrote the file.
 bool is_exported_vtkhdf(const std::filesystem::path& file);
 
-/// Whether the exports of that format name a file of a folder so, finished or not.
+/// Whether exports of that format use this file name in a folder, for finished or partial files.
 bool is_export_name(ExportFormat format, const std::string& name);
 
 } // namespace hyoryu

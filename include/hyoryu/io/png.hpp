@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as PNG files, without a library of pictures.
+// Pictures as PNG files, without an image library.
 #pragma once
 
 #include <array>

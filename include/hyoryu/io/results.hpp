@@ -17,8 +17,8 @@
 namespace hyoryu {
 
 /// Keeps other runs out of a results folder for as long as it lives. The lock is on the folder
-/// itself (flock), so it adds no file, and the system takes it back from a process that ends in
-/// whatever way. On a file system without such locks the folder is unguarded.
+/// itself (flock), so it adds no file, and the system releases it however the process ends. On a
+/// file system without such locks the folder is unguarded.
 class FolderLock {
 public:
     /// Throws CaseError if another run holds the folder, IoError if it cannot be opened.
@@ -101,10 +101,10 @@ public:
     /// Opens a new `folder/<table.name>.csv`, replacing an existing one.
     History(const std::filesystem::path& folder, const Table& table);
     /// Goes on with the file, keeping the rows whose first cell is at most `keep_until` [s], and no
-    /// more than the first `keep_rows`: a row may be written later than the time it tells of. A
-    /// last row that was torn by a kill is dropped. Throws IoError, and leaves the file as it is,
-    /// if it has other columns or fewer such rows than `keep_rows`: rows that the state knows of
-    /// are gone. Starts a new file if there is none and no row is to be kept.
+    /// more than the first `keep_rows`: a row may be written later than the time in its first cell.
+    /// A last row that was torn by a kill is dropped. Throws IoError, and leaves the file as it is,
+    /// if it has other columns or fewer such rows than `keep_rows`: rows that the state counts as
+    /// written are gone. Starts a new file if there is none and no row is to be kept.
     History(const std::filesystem::path& folder, const Table& table, double keep_until,
             std::int64_t keep_rows = all_rows);
     ~History();

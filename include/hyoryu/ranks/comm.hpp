@@ -20,12 +20,12 @@ namespace hyoryu {
 /// A message.
 using Parcel = std::vector<std::byte>;
 
-/// A number of which ranks want the sum, the largest, or both.
+/// A number that is reduced over all ranks: to its sum, its largest value, or both.
 struct Joined {
     FixedSum sum;
     double largest = -std::numeric_limits<double>::infinity();
 
-    /// Adds what another rank has. The largest is not-a-number if any is.
+    /// Adds the number of another rank. The largest is not-a-number if any is.
     void join(const Joined& other)
     {
         sum.add(other.sum);
@@ -55,9 +55,9 @@ public:
     virtual void begin(const std::vector<Parcel>& out, std::vector<Parcel>& in) = 0;
     virtual void finish() = 0;
 
-    /// Joins each number with those of all other ranks.
+    /// Reduces each number over all ranks.
     virtual void join(std::span<Joined> numbers) = 0;
-    /// Each number becomes the sum of those of all ranks.
+    /// Replaces each number by its sum over all ranks.
     virtual void add(std::span<std::int64_t> numbers) = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Who owns a place. A rank owns a range of the numbers of tiles, so that the particles of all
-// ranks, one rank after the other, are in the order in which one process has them; every place of
-// space has an owner, whether anything is there or not.
+// Domain decomposition: the owner of each place. A rank owns a range of the numbers of tiles, so
+// that the particles of all ranks, one rank after the other, are in the order in which one process
+// has them; every place of space has an owner, whether anything is there or not.
 #pragma once
 
 #include "hyoryu/ranks/comm.hpp"
@@ -33,8 +33,8 @@ struct Cuts {
 /// Weights by tile [1].
 using TileWeights = std::map<std::uint64_t, double>;
 
-/// Cuts between the tiles of all ranks, so that these have about equal sums of weights; `own`: what
-/// this one adds. Called by all ranks.
+/// Cuts between the tiles of all ranks, so that these have about equal sums of weights; `own`: the
+/// weights of this rank. Called by all ranks.
 Cuts cut_evenly(Comm& comm, const TileWeights& own);
 
 /// Cuts between tiles, ascending, so that the ranks have about equal sums of their weights [1].

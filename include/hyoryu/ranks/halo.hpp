@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ghosts: copies of the particles of other ranks that a rank may look at, which are those of the
-// tiles that touch its range. Tiles travel whole and in their order, so that whoever looks at a
-// tile sees what its owner sees, and lists and sums have the bits of one process.
+// Ghosts: copies on a rank of the particles of other ranks in the tiles that touch its range. Tiles
+// are sent whole and in their order, so that every rank sees a tile as its owner does, and lists
+// and sums equal those of one process bit for bit.
 #pragma once
 
 #include "hyoryu/ranks/comm.hpp"
@@ -19,7 +19,7 @@ struct Links {
     std::vector<std::vector<std::int32_t>> out, in;
 };
 
-/// Who has copies of whom, for one kind of particles, until the tiles are made anew.
+/// The copies of one kind of particles, by rank; valid until the tiles are made anew.
 struct Halo {
     std::vector<std::vector<std::int32_t>>
         out;              // by rank: points of own tiles of which it has copies
@@ -37,8 +37,8 @@ struct LookedAt {
     const Halo* halo;
     std::span<const std::uint8_t> marks;
 };
-/// Of each halo the links of the ghosts that neighbour lists read. Collective: all ranks call it
-/// with the same number of halos.
+/// The links of each halo, restricted to the ghosts that neighbour lists read. Collective: all
+/// ranks call it with the same number of halos.
 std::vector<Links> needed_links(Comm& comm, std::span<const LookedAt> ghosts);
 
 /// Sends own tiles to the ranks that own a place beside them, and makes the tiles of the ghosts, of
@@ -85,7 +85,7 @@ public:
     /// Packs the values, and makes room for those that come. The parcels are memory that may serve
     /// again.
     void pack(const Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const;
-    /// Puts what came into its place.
+    /// Stores the received values.
     void unpack(const std::vector<Parcel>& in) const;
     /// Sends and receives.
     void send(Comm& comm, std::vector<Parcel>& out, std::vector<Parcel>& in) const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers of which all ranks want the sum or the largest, collected for one call.
+// Sums and maxima over all ranks, collected for one call.
 #pragma once
 
 #include "hyoryu/ranks/comm.hpp"
@@ -9,19 +9,20 @@
 
 namespace hyoryu {
 
-/// Collects numbers of a rank, then makes each that of all ranks. All ranks collect the same
+/// Collects numbers of a rank, then reduces all of them over the ranks. All ranks collect the same
 /// numbers in the same order. With one process it does nothing.
 class Reduction {
 public:
     /// `comm` is null for one process.
     explicit Reduction(Comm* comm) : comm_(comm) {}
 
-    /// Each of the sums is to become that of all ranks. They stay where they are until `run`.
+    /// Registers sums that `run` replaces by those over all ranks. They must stay in place until
+    /// then.
     void add(std::span<FixedSum> sums);
-    /// Each of the numbers is to become the largest of those of all ranks; not-a-number if any is.
+    /// Registers numbers that `run` replaces by the largest of all ranks; not-a-number if any is.
     void largest(std::span<double> numbers);
 
-    /// Makes all collected numbers those of all ranks, in one call.
+    /// Reduces all registered numbers over the ranks, in one call.
     void run();
 
 private:
@@ -30,7 +31,7 @@ private:
     std::vector<double*> largest_;
 };
 
-/// Each number becomes the largest of those of all ranks.
+/// Replaces each number by the largest of all ranks.
 void largest_of_all(Comm* comm, std::span<double> numbers);
 
 } // namespace hyoryu

@@ -74,7 +74,7 @@ struct Body {
     Quat orientation = Quat::Identity(); // q, body to world
     Vec3 velocity{0, 0, 0};              // V [m/s]
     Vec3 angular_momentum{0, 0, 0};      // L [kg m2/s]
-    bool left = false;                   // it is no longer there: it meets nothing and stays
+    bool left = false;                   // it left the run: no contacts, no motion
 };
 
 /// omega = R I_b^-1 R^T L; with locked axes, the inertia restricted to the free axes is inverted
@@ -86,8 +86,8 @@ Vec3 angular_momentum(const Body& body, const Vec3& omega);
 double kinetic_energy(const Body& body);
 /// Whether nothing can move the body: all its axes are locked.
 bool is_fixed(const Body& body);
-/// How far the body reaches from its centre of mass along a unit vector: the largest n . (x - x_cg)
-/// of its points [m].
+/// Support function about the centre of mass along a unit vector: the largest n . (x - x_cg) of its
+/// points [m].
 double reach_along(const Body& body, const Vec3& n);
 
 /// Force and torque about the centre of mass, constant over a step.
@@ -126,13 +126,13 @@ struct MeshSurface {
     Quat orientation = Quat::Identity();
 };
 
-/// A wall as bodies meet it: a surface, never a row of particles.
+/// A wall in contact with bodies: a surface, not particles.
 struct Boundary {
     std::string name;
     std::variant<Plane, Basin, Obstacle, MeshSurface> surface; // where it is at time 0
     int material = 0;
     Motion motion;
-    bool lets_water_pass = false; // it is a surface for bodies alone
+    bool lets_water_pass = false; // it acts on bodies only, not on the fluid
 };
 
 /// Restitution and friction of every pair of materials.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a user may choose about contact.
+// Contact models that the user selects: the impact law and the parameters of the penalty method.
 #pragma once
 
 namespace hyoryu {
 
-/// What one impact does to the bodies that touch. Resting contacts are solved alike under every
-/// law.
+/// The impact law. Resting contacts are solved in the same way under every law.
 ///
 /// - coupled: rounds. All contacts that approach are solved together, each with the restitution of
 ///   its own approach and friction in the circular Coulomb cone, normal and tangential impulse
@@ -19,9 +18,9 @@ namespace hyoryu {
 ///   already rested. Never gains energy.
 enum class ImpactLaw { coupled, paper, simultaneous };
 
-/// The penalty method: what each pair of particles does, and how finely it is integrated. The
-/// defaults give the cube of the paper contacts of 4 ms and a restitution of 0.75 on a symmetric
-/// lattice (contact notes, section 4).
+/// Parameters of the penalty method: the spring and dashpot of a pair of particles, and the
+/// sub-step. The defaults give the cube of the paper contacts of 4 ms and a restitution of 0.75 on
+/// a symmetric lattice (contact notes, section 4).
 struct PenaltyParameters {
     double stiffness = 1000; // k of a pair of particles [N/m]; N/m2 in two dimensions
     double damping = 0.2171; // c of a pair of particles [N s/m]; N s/m2 in two dimensions

@@ -44,18 +44,17 @@ struct RigidSettings {
     Vec3 gravity{0, 0, -9.81};       // [m/s2]
     double contact_tolerance = 1e-7; // gap below which a point is in contact [m]
     double resting_speed = 1e-3;     // approach speed below which restitution is zero [m/s]
-    // The lengths that the method takes for nothing (a gap of 1e-10) are told in this unit, and its
-    // speeds in the root of it, as gravity has it (Froude): metres suit centimetres to tens of
-    // metres [m].
+    // Unit of the length tolerances (such as a gap of 1e-10); speed tolerances scale with its
+    // square root (Froude scaling). One metre suits bodies of centimetres to tens of metres [m].
     double unit = 1;
     ImpactLaw law = ImpactLaw::coupled;
-    // What locating impacts may cost in a step beyond what each body has for it, in updates of
-    // contacts of an iteration, about 0.1 us each. A number of the scene and not of the clock, so
-    // that every machine decides alike.
+    // Work limit for locating impacts in a step in addition to the part for each body, in updates
+    // of contacts of about 0.1 us each. A count of operations rather than a time, so that all
+    // machines give the same result.
     double located_work = 0;
 };
 
-/// Counters that tell how hard the contact problem was.
+/// Counters of the contact solver, for diagnostics.
 struct RigidCounters {
     long long impacts = 0;
     long long rounds = 0;             // impact rounds
@@ -98,13 +97,13 @@ struct Rigid {
 void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
           std::vector<Contact>& log, Comm* comm = nullptr);
 
-/// The contact forces of the last sub-step, from which the next starts: with them a restarted run
-/// continues with the same bits. One entry a contact.
+/// The contact forces of the last sub-step (warm start), with which a restarted run continues bit
+/// for bit. One entry a contact.
 struct ContactStart {
     std::vector<std::array<int, 9>> features; // the bodies, and which features of them touch
     std::vector<Vec3> forces;                 // on the first body [N]
     std::vector<Vec3> places;                 // in its axes, from its centre of mass [m]
-    std::vector<Vec3> rubs;                   // in its axes, from there to where friction acts [m]
+    std::vector<Vec3> rubs;                   // in its axes, from there to the friction point [m]
     std::vector<int> stuck; // contacts of the patch that stuck together; 0: it slid
 };
 ContactStart contact_start(const Rigid& rigid);
@@ -114,8 +113,8 @@ void set_contact_start(Rigid& rigid, const ContactStart& start);
 /// Largest distance of a point of the body from its centre of mass [m].
 double bounding_radius(const Body& body, int dimensions);
 
-/// Distance from the inside of a convex body, or of a part of one, to its nearest face: half of
-/// what it is thick [m].
+/// Distance from the centre of a convex body, or of a part of one, to its nearest face: about half
+/// of its thickness [m].
 double inner_radius(const Body& body, int dimensions);
 
 /// Depth by which two bodies, or a body and a boundary, overlap at `time` [m]; negative or zero if

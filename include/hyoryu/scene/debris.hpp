@@ -51,7 +51,7 @@ struct DebrisPiece {
     Vec3 extent{0, 0, 0};            // edges of the box about the standing piece [m]
 };
 
-/// What a case says of a piece.
+/// The load of a piece, as given in the case.
 struct DebrisLoad {
     std::size_t kind = 0;
     std::string state;        // of the library; empty: the first one

@@ -6,12 +6,12 @@
 
 namespace hyoryu {
 
-/// How a run is expected to go, as far as it shows in the size of its results.
+/// The expected course of a run, as far as the size of its results depends on it.
 struct Course {
     double steps = 0; // of the whole run
     double fluid = 1; // share of the fluid particles that a frame holds, on average over them [1]
     double fluid_end = 1; // and at the end [1]
-    double impacts = 0;   // rows of contacts.csv that tell of one, over the whole run
+    double impacts = 0;   // rows of contacts.csv of kind impact, over the whole run
 };
 
 /// Bytes of all files of the results folder at the end of a run: frames as they are compressed,

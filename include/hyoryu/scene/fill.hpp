@@ -70,21 +70,21 @@ Aggregate aggregate(const Shape& shape, double spacing, int dimensions);
 
 /// The processes that fill a case together.
 struct Fillers {
-    Comm* comm = nullptr; // null: one alone
+    Comm* comm = nullptr; // null for one process
     double part = 1;      // share of all particles that is on this machine
 };
 
-/// Fills the scene. Where a body stands in the fluid, exactly its volume is taken out. Of several
-/// processes, which call it together, each gets a part of the particles and all bodies; none ever
-/// has all particles. What they have is the same, bit for bit, as what one alone has.
+/// Fills the scene. Where a body stands in the fluid, exactly its volume is taken out. Several
+/// processes call this function together: each gets all bodies and a part of the particles, and
+/// none ever has all particles. The parts together equal, bit for bit, the filling by one process.
 /// Throws CaseError, naming the estimate, if more particles were asked for than can be numbered or
 /// than the memory of this machine can hold.
 Filling fill(const Scene& scene, const Fillers& fillers = {});
 
 /// The volume that a fluid particle stands for at rest [m3], [m2] in two dimensions: cells that
-/// fill the blocks are seldom cubes of the spacing. The pressure of water whose particles stood for
-/// anything but their cells would rise with depth by too much or too little, in this proportion.
-/// With open sides that of a cube, since their carpets are made of cubes.
+/// fill the blocks are seldom cubes of the spacing. With any other volume, the pressure in the
+/// water would rise too fast or too slowly with depth, in the ratio of the volumes. With open sides
+/// that of a cube, since their carpets are made of cubes.
 double particle_volume(const Scene& scene, const Filling& filling);
 
 /// The region of the run: as given by the user, or the bounds of everything in the scene with

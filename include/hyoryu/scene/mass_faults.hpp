@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which shapes, centres of mass and moments of inertia a body can have.
+// Checks of the shape, the centre of mass and the moments of inertia of a body.
 #pragma once
 
 #include "hyoryu/scene/scene.hpp"
@@ -8,16 +8,16 @@
 
 namespace hyoryu {
 
-/// Why `body.centre_of_mass` cannot be: it lies outside the convex hull of the shape. Empty if it
-/// can, or if the shape has no volume, which is a mistake of its own.
+/// The fault of `body.centre_of_mass`: it lies outside the convex hull of the shape. Empty if there
+/// is none, or if the shape has no volume, which is reported separately.
 std::string centre_fault(const BodySettings& body, int dimensions);
 
-/// Why `body.inertia` cannot be: a moment that is not above zero, that exceeds the sum of the other
-/// two, or that exceeds m r^2 with all mass at the farthest point r of the shape. Empty if it can.
+/// The fault of `body.inertia`: a moment that is not above zero, that exceeds the sum of the other
+/// two, or that exceeds m r^2 with all mass at the farthest point r of the shape. Empty if none.
 std::string inertia_fault(const BodySettings& body, int dimensions);
 
-/// Why the shape of a body cannot be: it is thinner than a micrometre, so that its moments of
-/// inertia drown in rounding. Empty if it can. Ours.
+/// The fault of the shape of a body: it is thinner than a micrometre (our own limit), so that its
+/// moments of inertia are lost in round-off. Empty if there is none.
 std::string extent_fault(const BodySettings& body, int dimensions);
 
 } // namespace hyoryu

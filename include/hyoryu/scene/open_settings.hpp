@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The open sides of a case, and the flow that is asked for there.
+// The open sides of a case, and the flow prescribed there.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -14,11 +14,11 @@ namespace hyoryu {
 
 struct Scene;
 
-/// What a window is open for: a flow that is asked for; nothing; the still water outside.
+/// The condition at a window: a prescribed flow; none; the still water outside.
 enum class OpenKind { inflow, outflow, absorb };
 enum class FlowProfile { uniform, power };
-/// What bodies meet at a window: a smooth surface that stops them without rebound, or nothing, so
-/// that they leave the run.
+/// The condition for bodies at a window: a smooth surface stops them without rebound, or they leave
+/// the run.
 enum class BodiesAtSide { stop, leave };
 
 /// The flow at one place of a window: linear between its times, held before and after them. Each
@@ -54,18 +54,19 @@ struct OpenSettings {
     double width(int dimensions) const;
 };
 
-/// What is asked for at a place along the window; `still`: level and depth there at the start [m].
+/// The flow prescribed at a place along the window; `still`: level and depth there at the start
+/// [m].
 struct StillWater {
     double level = 0, depth = 0;
 };
 AskedFlow asked_at(const OpenSettings& open, double along, double time, const StillWater& still,
                    int dimensions);
 
-/// Largest sqrt(u^2 + 2 g h) that is asked for above a ground at `bed` [m/s]. `still`: level of the
-/// water before the window at the start, into which a level alone sends a wave; -infinity: dry [m].
+/// Largest prescribed sqrt(u^2 + 2 g h) above a ground at `bed` [m/s]. `still`: level of the water
+/// before the window at the start, into which a level alone sends a wave; -infinity: dry [m].
 double fastest_asked(const OpenSettings& open, double bed, double still, double gravity,
                      int dimensions);
-/// Highest level that is asked for; none where no level is [m].
+/// Highest prescribed level [m]; none if no level is prescribed.
 std::optional<double> highest_asked(const OpenSettings& open);
 
 /// Columns of the carpet behind a window: below the longest body that leaves there it reaches so

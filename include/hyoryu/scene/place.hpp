@@ -4,7 +4,7 @@
 
 namespace hyoryu {
 
-/// Where in the case file something was said, for messages that come after reading.
+/// The position of a key or value in the case file, for messages after reading.
 struct Place {
     int line = 0;
     int column = 0;

@@ -71,7 +71,7 @@ struct Plan {
         double metacentre = 0; // GM as it is placed, the least [m]; NaN where it sinks
         std::string comes_to;  // "floats upright", "turns by 58 deg: its +y side up" ...
     };
-    /// What the resolution and the speed of sound mean at the scale of the scene.
+    /// Consequences of the resolution and the speed of sound at the scale of the scene.
     struct Scale {
         double depth = 0;         // of the water at the start, the greatest [m]
         double layers = 0;        // spacings in it
@@ -115,15 +115,15 @@ struct Plan {
     bool runs(std::string_view effect) const;
 };
 
-/// No effect that a scene needs is left out silently: throws CaseError if one is on that the build
-/// is `without`.
+/// Throws CaseError if an effect is on that this build lacks (`without`), so that no effect is left
+/// out silently.
 void expect_built(const Plan& plan, std::span<const std::string_view> without);
 
 /// Infers the plan. Throws CaseError for faults that only the filled scene shows: bodies that
 /// overlap each other or a wall, a fixed time step beyond the stability limit, a fluid without
 /// particles; and for effects that are not part of this build.
-/// Processes that share the filling call it together, with what each has of it, and get the same
-/// plan; null for one process.
+/// Processes that share the filling call it together, each with its part of the filling, and get
+/// the same plan; `comm` is null for one process.
 Plan make_plan(const Scene& scene, const Filling& filling, Comm* comm = nullptr);
 
 /// Bytes of neighbour lists a particle of full support: one for each of the lattice points within

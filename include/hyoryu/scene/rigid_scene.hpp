@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bodies and walls of a scene as the rigid-body system meets them.
+// Conversion of the bodies and walls of a scene to the input of the rigid-body system.
 #pragma once
 
 #include "hyoryu/rigid/rigid.hpp"
@@ -9,9 +9,9 @@ namespace hyoryu {
 
 /// Bodies in the order of the scene, boundaries in the order of its walls, laws of every pair of
 /// materials. With the penalty method, the particles of bodies and obstacles as the filling places
-/// them. Bodies have the exact mass properties of their shape, or what the
-/// user gave; they meet others as `contact_shape`
-/// says, and a mesh as a wall is its surface itself.
+/// them. Bodies have the exact mass properties of their shape, or those that the user gave. For
+/// contact, bodies have the shape `contact_shape`, and a wall that is a mesh has the surface of the
+/// mesh.
 Rigid make_rigid(const Scene& scene);
 
 /// The shape by which a body meets others, about its centre of mass: exact for boxes, spheres,

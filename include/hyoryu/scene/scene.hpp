@@ -132,7 +132,7 @@ struct SolidWall {
     Quat rotation = Quat::Identity();
 };
 
-/// What a piston is asked for.
+/// The wave that a piston is to make.
 struct PistonTarget {
     double height = 0; // of the wave [m]
     double length = 0; // [m]; 0: no wave is asked for

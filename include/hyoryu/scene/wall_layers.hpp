@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Particles of walls from their surfaces, each by itself: a lattice or shells behind the surface
-// number all places where a wall may have a particle, and a filling keeps the numbers of those
-// where it has one, as runs. So a wall is made again where water comes, and stored nowhere.
+// Wall particles computed one by one from the surface of a wall. A lattice or shells behind the
+// surface number all places where a wall may have a particle; a filling stores the numbers of the
+// occupied places as runs. Wall particles are recomputed where water arrives instead of being
+// stored.
 #pragma once
 
 #include "hyoryu/fluid/fixed_walls.hpp"

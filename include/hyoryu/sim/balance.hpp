@@ -7,7 +7,7 @@
 
 namespace hyoryu {
 
-/// What the balance remembers.
+/// State of the balance.
 struct Balance {
     long long every = 50; // steps between checks; 0: never
     double busy = 0;      // seconds of work of this rank at the last check

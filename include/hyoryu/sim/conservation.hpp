@@ -33,7 +33,7 @@ struct Conservation {
 
 Totals totals(const Simulation& sim);
 
-/// What went through the sides before a step, since the start.
+/// Lost momentum and the impulse at open sides, accumulated from the start until a step.
 struct OutflowBefore {
     Vec3 lost{0, 0, 0}; // momentum of particles that left the domain
     Vec3 open{0, 0, 0}; // impulse at open sides

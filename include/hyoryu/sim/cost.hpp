@@ -13,9 +13,9 @@
 
 namespace hyoryu {
 
-/// How the cost of a run differs from that of its first steps, as the same scene tells with fewer
-/// particles. How often lists are made and who meets whom follow the flow: at any resolution a step
-/// moves particles by the same share of a spacing.
+/// Change of the cost of a run relative to its first steps, measured on the same scene with fewer
+/// particles. The frequency of list making and the contacts of bodies follow the flow: at any
+/// resolution a step moves particles by the same share of a spacing.
 struct Development {
     double coarsening = 1; // its spacing over that of the case
     double steps = 1;      // its steps over those that its plan expects

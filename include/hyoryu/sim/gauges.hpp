@@ -51,8 +51,8 @@ void book_forces(Simulation& sim, double dt);
 /// eq. 27), at least 0, the pressure of the air; velocity: kernel average, NaN if dry; front:
 /// farthest place of the fluid along the axis; flux: sum of V v.n over the fluid, weighted with its
 /// distance from the plane by a hat of half width 2 dp, which is the exact flux of a uniform stream
-/// on a lattice. Called by all ranks, which send what they have about the gauges to rank 0: the
-/// readings of the fluid are right there alone.
+/// on a lattice. Called by all ranks, which send their terms to rank 0: only there are the readings
+/// of the fluid valid.
 std::vector<double> read_gauges(const Simulation& sim);
 
 /// The next row of `gauges.csv` behind the time: raw and filtered readings. Called by all ranks,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The forces of the fluid on bodies and walls in a step. Each process sums what acts on its own
-// particles, from the pair forces on; what it adds up after that is exact, so that a sum does not
-// depend on the order of its terms.
+// The forces of the fluid on bodies and walls in a step. Each process sums the forces on its own
+// particles. From the pair forces on, all sums are exact, so that they do not depend on the order
+// of their terms.
 #pragma once
 
 #include "hyoryu/core/owner_sums.hpp"

@@ -17,10 +17,10 @@ struct LeftBody {
     Vec3 velocity{0, 0, 0}; // [m/s]
 };
 
-/// Takes the bodies out of the run that have passed a window at which they leave: those that are
-/// behind it with all of them by the support of the kernel, so that no water inside notices. Their
-/// particles, contacts and joints go, their momentum and energy are booked as carried out. Only
-/// before lists are made: rows of body particles move.
+/// Removes the bodies that have passed a window at which bodies leave: all of the body must be
+/// behind it by more than the support of the kernel, so that the water inside is not affected.
+/// Their particles, contacts and joints are removed; their momentum and energy are booked as
+/// carried out. Call only before lists are made, since rows of body particles move.
 void let_bodies_leave(Simulation& sim);
 
 /// The same for those that a checkpoint lists, before its rows of particles are read.

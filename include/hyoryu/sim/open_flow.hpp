@@ -12,7 +12,7 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// The carpets of a scene, and what was there at the start.
+/// The carpets of a scene, and the still water there at the start.
 struct OpenFlow {
     OpenBoundary boundary;
     std::vector<std::vector<StillWater>> still; // of each carpet, by station
@@ -38,7 +38,7 @@ void drive_open(Simulation& sim, double dt);
 /// After the drift to the end of a step: counts what crossed, and sets the densities.
 void close_open(Simulation& sim);
 
-/// What an open side shows in open.csv.
+/// The values of an open side in a row of open.csv.
 struct OpenReading {
     double level = 0;     // mean of the carpet where it is wet; of the ground where none is [m]
     double velocity = 0;  // mean into the domain [m/s]

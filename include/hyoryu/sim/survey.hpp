@@ -24,8 +24,8 @@ struct StateSurvey {
     double request = 0;          // largest Simulation::request
 };
 
-/// Processes that share a case no longer have the same bits of the bodies, all of which each of
-/// them moves. Looked at in every hundredth step.
+/// Thrown if the bodies on the processes that share a case are no longer identical bit for bit,
+/// although every process moves all of them. Checked in every hundredth step.
 struct BodiesDiffer : IoError {
     using IoError::IoError;
 };

@@ -24,7 +24,7 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// A surface that a particle may not approach faster than it says.
+/// A surface, with the least normal velocity that a particle may have relative to it.
 struct SurfaceHold {
     int solid = 0;          // wall, or number of walls + body
     Vec3 normal{0, 0, 1};   // out of the solid
@@ -50,8 +50,8 @@ struct SolidPlace {
     bool left = false;      // the body is no longer there
 };
 
-/// The solids of a scene, and which fluid particles need not be looked at. The latter is kept from
-/// step to step to save work; no result depends on it.
+/// The solids of a scene, and bounds by which fluid particles far from them are skipped. The bounds
+/// are kept from step to step to save work; no result depends on them.
 struct WallBarrier {
     std::vector<SolidSurface> solids; // walls, then bodies
     std::size_t walls = 0;            // of them
@@ -98,10 +98,10 @@ void share_hits(Simulation& sim);
 /// How many hits there were in the last step, on particles of this process.
 std::size_t hits_of_step(const WallBarrier& barrier);
 
-/// Fluid particles that are deeper than a quarter of a spacing inside a wall or body, now. Looks at
-/// every particle and every solid near it, whatever the barrier has looked at; not at the carpets
-/// of open sides, whose ground is that of the window carried out. Those of all processes; called by
-/// all of them.
+/// Fluid particles that are deeper than a quarter of a spacing inside a wall or body, now. Checks
+/// every particle against every solid near it, without the bounds of the barrier. Excludes the
+/// carpets of open sides, whose ground is that of the window carried out. Those of all processes;
+/// called by all of them.
 Index particles_in_solids(const Simulation& sim);
 
 /// Counts them for a frame, or for the end of a run, and records the maximum so far.

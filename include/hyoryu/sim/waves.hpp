@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Waves at the ends of a flume: boxes that damp the motion of the fluid, and paddles that give way
-// to what comes towards them.
+// Waves at the ends of a flume: sponges (boxes that damp the motion of the fluid), and paddles that
+// absorb incoming waves.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -11,7 +11,7 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// A paddle that absorbs, beside what its wall moves by (`Motion::Absorption`).
+/// State of an absorbing paddle, besides the motion of its wall (`Motion::Absorption`).
 struct Absorber {
     std::size_t wall = 0;
     double side = 1;          // +1: the water is on its +x side, -1: on the other
@@ -29,11 +29,12 @@ struct Waves {
 /// The absorbers of a scene whose fluid has its first lists; none without fluid.
 Waves make_waves(const Simulation& sim);
 
-/// Sets the speeds by which the paddles give way in the step from now on. The level before a paddle
-/// is that of the particles within 4 spacings of it, weighted by their nearness and compared with
-/// the start; it is smoothed over 4 dp/sqrt(g d), about the time of a wave across that strip. The
-/// paddle adds (asked - level) sqrt(g/d), which sends a long wave on as if the flume had no end.
-/// Schaeffer and Klopman, J. Waterway Port Coast. Ocean Eng. 126 (2000) 88.
+/// Sets the speeds that the paddles add to their paths in the coming step, so as to absorb waves.
+/// The level before a paddle is that of the particles within 4 spacings of it, weighted by their
+/// nearness and compared with the start; it is smoothed over 4 dp/sqrt(g d), about the time of a
+/// wave across that strip. The paddle adds (asked - level) sqrt(g/d), which sends a long wave on as
+/// if the flume had no end. Schaeffer and Klopman, J. Waterway Port Coast. Ocean Eng. 126 (2000)
+/// 88.
 void absorb_waves(Simulation& sim, double dt);
 
 /// Brings the velocities in the sponges of the scene towards theirs, u, over dt: u + (v - u)

@@ -31,10 +31,9 @@ struct RenderResult {
 /// particles are spheres in the colour of their speed (or of `colour`), bodies their surfaces or,
 /// without `surfaces.hdf.series`, their particles. `structures.hdf`, or where walls move
 /// `structures.hdf.series`, is drawn as solid geometry whose triangles, seen from the free space,
-/// turn counter-clockwise: sides that turn their back to the camera are left out, so that one looks
-/// into a tank; without it, wall particles that hide nothing are drawn. Throws IoError when there
-/// is nothing to render, when no off-screen context can be had (the message names xvfb-run), or in
-/// a build without VTK.
+/// turn counter-clockwise: back faces are culled, so that one looks into a tank; without it, wall
+/// particles that hide nothing are drawn. Throws IoError when there is nothing to render, when no
+/// off-screen context can be had (the message names xvfb-run), or in a build without VTK.
 RenderResult render(const std::filesystem::path& results, const RenderSettings& settings);
 
 } // namespace hyoryu

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int bytes = HYORYU_REGISTER_BYTES;
 
-// Points or boxes at a time: a chunk, or two where registers hold them.
+// Points or boxes per operation: those of one chunk, or of two if a register holds them.
 constexpr int width = bytes == 64 ? 16 : chunk_slots;
 using Floats = float __attribute__((vector_size(4 * width)));
 using Integers = std::int32_t __attribute__((vector_size(4 * width)));
@@ -40,8 +40,8 @@ Floats load_chunks(const float* column, const std::int32_t* chunk)
     return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 
-// Lanes that are at most the limit. A mask by itself, where GCC 12 would make a register of it
-// first; as it would make two instructions of a maximum.
+// Mask of the lanes that are at most the limit. Written with intrinsics: from the vector operators
+// GCC 12 makes a full register first, and two instructions for a maximum.
 auto within(const Floats& squared, float limit)
 {
     return _mm512_cmp_ps_mask(reinterpret_cast<__m512>(squared), _mm512_set1_ps(limit), _CMP_LE_OQ);
@@ -52,8 +52,8 @@ Floats larger(const Floats& a, const Floats& b)
         _mm512_max_ps(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
 }
 
-// Appends the numbers of the lanes that are hit: so many as there are lanes are written, the end
-// moves on by the hits.
+// Appends the numbers of the hit lanes: all lanes are written, the end advances by the number of
+// hits.
 template <class T>
 T* append(__mmask16 hit, __m512i numbers, T* out)
 {
@@ -85,7 +85,7 @@ Floats load_chunks(const float* column, const std::int32_t* chunk)
     return load<Floats>(column + chunk_slots * *chunk);
 }
 
-// For each pattern of hits: their places, and how many.
+// For each pattern of hits: the hit lanes and their count.
 struct Patterns {
     std::uint16_t place[256][8];
     std::uint8_t count[256];
@@ -106,7 +106,7 @@ constexpr Patterns make_patterns()
 }
 constexpr Patterns patterns = make_patterns();
 
-// One bit a lane that is at most the limit; and the larger of two, lane by lane.
+// `within`: one bit for each lane that is at most the limit; `larger`: lane-wise maximum.
 #if defined __AVX__
 std::size_t within(const Floats& squared, float limit)
 {
@@ -118,7 +118,7 @@ Floats larger(const Floats& a, const Floats& b)
     return a > b ? a : b;
 }
 #elif defined __SSE2__
-// By halves: what GCC 12 makes of comparisons wider than a register goes lane by lane.
+// In two halves: GCC 12 compiles comparisons wider than a register lane by lane.
 struct Halves {
     __m128 low, high;
 };
@@ -150,8 +150,8 @@ Floats larger(const Floats& a, const Floats& b)
 }
 #endif
 
-// Appends first + k for the lanes k that are hit: eight places are written, the end moves on by the
-// hits.
+// Appends first + k for the hit lanes k: eight values are written, the end advances by the number
+// of hits.
 std::int32_t* append_chunks(std::size_t hit, std::int32_t first, std::int32_t* out)
 {
     const auto lanes = load<EightWords>(patterns.place[hit]);
@@ -168,7 +168,7 @@ std::uint16_t* append_points(std::size_t hit, const std::int32_t* chunk, std::ui
 }
 #endif
 
-// The numbers of the chunks within the radius of a point, and behind them that of one that is far.
+// Writes the chunks within the radius of a point, and behind them the index of a padding chunk.
 std::int32_t* find_chunks(const Candidates& all, const float* at, float limit, std::int32_t* out)
 {
     for (std::int32_t chunk = 0; chunk < all.chunks; chunk += width) {
