@@ -26,9 +26,9 @@ Bytes eight_steps(const std::uint16_t* number)
 }
 
 // The farthest first slot of a padding chunk that one step reaches.
-int nothing_after(int number)
+int padding_after(int number)
 {
-    constexpr int period = nothing_period * chunk_slots;
+    constexpr int period = padding_period * chunk_slots;
     constexpr int first = period - chunk_slots;
     return (number + widest_step - first) / period * period + first;
 }
@@ -54,7 +54,7 @@ std::size_t write_together(const std::uint16_t* number, std::uint8_t* step)
 std::uint8_t* write_way(int from, int number, std::uint8_t* step)
 {
     while (number - from > widest_step) {
-        const int nothing = nothing_after(from);
+        const int nothing = padding_after(from);
         *step++ = static_cast<std::uint8_t>(nothing - from);
         from = nothing;
     }
@@ -70,7 +70,7 @@ std::size_t fill_up(int number, std::size_t chunks, int lanes, std::uint8_t* fir
     const int full = (made + lanes - 1) / lanes * lanes;
     if (full > made) {
         const int last = static_cast<int>(chunks - 1) * chunk_slots;
-        *end = static_cast<std::uint8_t>(std::min(nothing_after(number), last) - number);
+        *end = static_cast<std::uint8_t>(std::min(padding_after(number), last) - number);
         std::fill(end + 1, first + full, std::uint8_t(0));
     }
     return static_cast<std::size_t>(full);

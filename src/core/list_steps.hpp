@@ -10,7 +10,7 @@ namespace hyoryu {
 /// Every 31st chunk of a block is a padding chunk, so that a step of one byte leads from any number
 /// to the first slot of a padding chunk, and from there to any number before the next padding
 /// chunk.
-inline constexpr int nothing_period = 31;
+inline constexpr int padding_period = 31;
 
 /// Number of steps that are computed in one vector operation.
 inline constexpr std::size_t steps_together = 16;

@@ -52,10 +52,10 @@ bool nearer(const ChunkBox& a, const ChunkBox& b, float radius)
 class TileLister {
 public:
     TileLister(const Tiles& destination, std::span<const ListSource> sources,
-               const PairList::Settings& settings, const ListChoice& choice, ListShop& shop,
+               const PairList::Settings& settings, const ListChoice& choice, ListScratch& scratch,
                PageStore& store, std::vector<ListBlock>& out)
         : destination_(destination), sources_(sources), loops_(*loops_of(settings.set)),
-          lanes_(settings.lanes), choice_(choice), shop_(shop), store_(store), out_(out)
+          lanes_(settings.lanes), choice_(choice), scratch_(scratch), store_(store), out_(out)
     {
         const auto edge = static_cast<float>(destination.lattice.edge.maxCoeff());
         radius_ = static_cast<float>(settings.radius) + rounding * edge;
@@ -94,14 +94,14 @@ private:
             return;
         }
         collect(first, last);
-        if (shop_.chunks.size() > most_chunks_of_a_block && last - first > chunk_slots) {
+        if (scratch_.chunks.size() > most_chunks_of_a_block && last - first > chunk_slots) {
             const Index chunks = (last - first + chunk_slots - 1) / chunk_slots;
             const Index middle = first + chunks / 2 * chunk_slots;
             list_slots(first, middle);
             list_slots(middle, last);
             return;
         }
-        expects(shop_.chunks.size() <= most_chunks_of_a_block);
+        expects(scratch_.chunks.size() <= most_chunks_of_a_block);
         const std::size_t entries = filter(first, last);
         if (entries > 0) {
             keep(first, last, entries);
@@ -111,7 +111,7 @@ private:
     // Collects the source chunks that lie within the radius of the bounds of [first, last).
     void collect(Index first, Index last)
     {
-        shop_.chunks.clear();
+        scratch_.chunks.clear();
         const Index start = destination_.start[at(tile_)];
         ChunkBox bounds = box_of((first - start) / chunk_slots);
         for (Index k = first; k < last; k += chunk_slots) {
@@ -135,7 +135,7 @@ private:
                 }
             }
         }
-        add_nothing();
+        add_padding();
     }
 
     void collect_number(const Tiles& source, std::uint64_t number, const std::array<int, 3>& way,
@@ -163,17 +163,17 @@ private:
                 continue;
             }
             const Index count = std::min<Index>(chunk_slots, end - slot);
-            if (shop_.chunks.size() % nothing_period == nothing_period - 1) {
-                add_nothing();
+            if (scratch_.chunks.size() % padding_period == padding_period - 1) {
+                add_padding();
             }
             const std::size_t place = add_box(box);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                float* const point = &shop_.points[axis][chunk_slots * place];
+                float* const point = &scratch_.points[axis][chunk_slots * place];
                 for (Index k = 0; k < count; ++k) {
                     point[k] = (*columns[axis])[at(slot + k)] + step[axis];
                 }
             }
-            shop_.chunks.push_back(
+            scratch_.chunks.push_back(
                 {static_cast<std::int32_t>(source.first_slot + slot),
                  {static_cast<std::int8_t>(way[0]), static_cast<std::int8_t>(way[1]),
                   static_cast<std::int8_t>(way[2])},
@@ -184,29 +184,29 @@ private:
     // Appends the bounds of a chunk and sets its points to padding; returns the index of the chunk.
     std::size_t add_box(const ChunkBox& box)
     {
-        const std::size_t place = shop_.chunks.size();
+        const std::size_t place = scratch_.chunks.size();
         reserve(place + 1);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            shop_.low[axis][place] = box.low[axis];
-            shop_.high[axis][place] = box.high[axis];
-            std::fill_n(&shop_.points[axis][chunk_slots * place], chunk_slots, far);
+            scratch_.low[axis][place] = box.low[axis];
+            scratch_.high[axis][place] = box.high[axis];
+            std::fill_n(&scratch_.points[axis][chunk_slots * place], chunk_slots, far);
         }
         return place;
     }
-    void add_nothing()
+    void add_padding()
     {
         add_box({{far, far, far}, {far, far, far}});
-        shop_.chunks.push_back({0, {0, 0, 0}, 0});
+        scratch_.chunks.push_back({0, {0, 0, 0}, 0});
     }
 
     // Makes room for the given number of chunks and for the spare chunks that the loops read.
     void reserve(std::size_t chunks)
     {
-        if (chunks + spare_chunks > shop_.low[0].size()) {
+        if (chunks + spare_chunks > scratch_.low[0].size()) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                shop_.low[axis].resize(2 * (chunks + spare_chunks));
-                shop_.high[axis].resize(2 * (chunks + spare_chunks));
-                shop_.points[axis].resize(2 * chunk_slots * (chunks + spare_chunks));
+                scratch_.low[axis].resize(2 * (chunks + spare_chunks));
+                scratch_.high[axis].resize(2 * (chunks + spare_chunks));
+                scratch_.points[axis].resize(2 * chunk_slots * (chunks + spare_chunks));
             }
         }
     }
@@ -214,29 +214,29 @@ private:
     // Builds the lists of [first, last); returns the number of their entries.
     std::size_t filter(Index first, Index last)
     {
-        const std::size_t chunks = shop_.chunks.size();
-        for (std::vector<float>& low : shop_.low) {
+        const std::size_t chunks = scratch_.chunks.size();
+        for (std::vector<float>& low : scratch_.low) {
             std::fill_n(&low[chunks], spare_chunks, far);
         }
         const std::size_t room = chunk_slots * chunks + at(lanes_) + steps_together;
-        shop_.near.resize(std::max(shop_.near.size(), chunks + spare_chunks));
-        shop_.numbers.resize(std::max(shop_.numbers.size(), chunk_slots * (chunks + 2)));
-        shop_.lists.resize(std::max(shop_.lists.size(), at(last - first)));
+        scratch_.near.resize(std::max(scratch_.near.size(), chunks + spare_chunks));
+        scratch_.numbers.resize(std::max(scratch_.numbers.size(), chunk_slots * (chunks + 2)));
+        scratch_.lists.resize(std::max(scratch_.lists.size(), at(last - first)));
         const auto data = [](const std::array<std::vector<float>, 3>& columns) {
             return FloatColumns{columns[0].data(), columns[1].data(), columns[2].data()};
         };
-        const Candidates all{data(shop_.points), data(shop_.low), data(shop_.high),
+        const Candidates all{data(scratch_.points), data(scratch_.low), data(scratch_.high),
                              static_cast<std::int32_t>(chunks - 1)};
         std::size_t count = 0;
         for (Index k = first; k < last; ++k) {
-            if (count + room > shop_.entries.size()) {
-                shop_.entries.resize(2 * (count + room));
+            if (count + room > scratch_.entries.size()) {
+                scratch_.entries.resize(2 * (count + room));
             }
             const std::size_t near = wanted(k) ? find_near(k, all) : 0;
-            const std::size_t made =
-                write_steps(shop_.numbers.data(), near, chunks, lanes_, &shop_.entries[count]);
-            shop_.lists[at(k - first)] = {shop_.numbers[0],
-                                          static_cast<std::uint16_t>(made / at(lanes_))};
+            const std::size_t made = write_steps(scratch_.numbers.data(), near, chunks, lanes_,
+                                                 &scratch_.entries[count]);
+            scratch_.lists[at(k - first)] = {scratch_.numbers[0],
+                                             static_cast<std::uint16_t>(made / at(lanes_))};
             count += made;
         }
         return count;
@@ -246,10 +246,10 @@ private:
     // count.
     std::size_t find_near(Index k, const Candidates& all)
     {
-        std::uint16_t* const number = shop_.numbers.data();
+        std::uint16_t* const number = scratch_.numbers.data();
         const std::size_t count = loops_.filter(
             all, {destination_.x[at(k)], destination_.y[at(k)], destination_.z[at(k)]}, radius_,
-            shop_.near.data(), number);
+            scratch_.near.data(), number);
         if (choice_.owner.empty()) {
             return count;
         }
@@ -263,7 +263,7 @@ private:
         const auto owner = [&](Index slot) {
             return choice_.owner[at(slot - choice_.first_owner)];
         };
-        const Index slot = shop_.chunks[number / chunk_slots].slot + number % chunk_slots;
+        const Index slot = scratch_.chunks[number / chunk_slots].slot + number % chunk_slots;
         return owner(slot) == owner(destination_.first_slot + k);
     }
 
@@ -280,10 +280,10 @@ private:
         ListBlock block;
         block.first = static_cast<std::int32_t>(destination_.first_slot + first);
         block.last = static_cast<std::int32_t>(destination_.first_slot + last);
-        block.chunks = static_cast<std::int32_t>(shop_.chunks.size());
-        block.chunk = stored(shop_.chunks, shop_.chunks.size());
-        block.entry = stored(shop_.entries, entries);
-        block.list = stored(shop_.lists, at(last - first));
+        block.chunks = static_cast<std::int32_t>(scratch_.chunks.size());
+        block.chunk = stored(scratch_.chunks, scratch_.chunks.size());
+        block.entry = stored(scratch_.entries, entries);
+        block.list = stored(scratch_.lists, at(last - first));
         store_.append(block, out_);
     }
 
@@ -292,7 +292,7 @@ private:
     const ListLoops& loops_;
     int lanes_;
     const ListChoice& choice_;
-    ListShop& shop_;
+    ListScratch& scratch_;
     PageStore& store_;
     std::vector<ListBlock>& out_;
     Index tile_ = 0;
@@ -308,9 +308,10 @@ void PairList::build(const Tiles& destination, std::span<const ListSource> sourc
     lanes_ = settings.lanes;
     store_->reset();
     blocks_.clear();
-    shops_.resize(std::max(shops_.size(), static_cast<std::size_t>(thread_count())));
+    scratches_.resize(std::max(scratches_.size(), static_cast<std::size_t>(thread_count())));
     parallel_blocks(0, destination.tiles(), [&](Index tile) {
-        TileLister(destination, sources, settings, choice, shops_[at(worker())], *store_, blocks_)
+        TileLister(destination, sources, settings, choice, scratches_[at(worker())], *store_,
+                   blocks_)
             .list(tile);
     });
     store_->trim();
@@ -375,7 +376,7 @@ Index PairList::entries() const
     return total;
 }
 
-std::size_t ListShop::bytes() const
+std::size_t ListScratch::bytes() const
 {
     const auto held = [](const auto&... column) {
         return (0 + ... + (column.capacity() * sizeof(column[0])));
@@ -390,8 +391,8 @@ std::size_t ListShop::bytes() const
 std::size_t PairList::bytes() const
 {
     std::size_t bytes = store_->bytes() + blocks_.capacity() * sizeof(ListBlock);
-    for (const ListShop& shop : shops_) {
-        bytes += shop.bytes();
+    for (const ListScratch& scratch : scratches_) {
+        bytes += scratch.bytes();
     }
     return bytes;
 }

@@ -47,7 +47,7 @@ JointTables joint_tables(const Rigid& rigid, double reach)
     const int dimensions = rigid.settings.dimensions;
     tables.reach = reach;
     for (const Boundary& boundary : rigid.boundaries) {
-        if (!boundary.lets_water_pass) {
+        if (!boundary.bodies_only) {
             tables.walls.push_back(ray_wall(boundary, dimensions));
         }
     }

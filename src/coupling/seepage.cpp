@@ -174,7 +174,7 @@ void find_speeds(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>
     }
 }
 
-void book_loads(const BodyJoints& body, std::vector<JointLoad>& loads)
+void record_loads(const BodyJoints& body, std::vector<JointLoad>& loads)
 {
     for (std::size_t c = 0; c < body.nodes.size(); ++c) {
         const JointNode& node = body.nodes[c];
@@ -296,7 +296,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
                 ParticlePressure own = pressure;
                 own.first = at(rows.begin);
                 solve_pressure(tables, poses, static_cast<int>(b), own);
-                book_loads(body, seepage.loads[at(b)]);
+                record_loads(body, seepage.loads[at(b)]);
             }
         },
         2);

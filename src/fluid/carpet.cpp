@@ -262,7 +262,7 @@ std::vector<std::uint8_t> own_marks(const Fluid& fluid, const LeftRows& left)
     return marks;
 }
 
-void book_dropped(const Fluid& fluid, const std::vector<std::uint8_t>& left, OpenBoundary& open)
+void record_dropped(const Fluid& fluid, const std::vector<std::uint8_t>& left, OpenBoundary& open)
 {
     struct Dropped {
         Vec3 momentum{0, 0, 0}, force{0, 0, 0};
@@ -341,7 +341,7 @@ void renew_carpets(Fluid& fluid, OpenBoundary& open)
         carpet.moved = 0;
     }
     const std::vector<std::uint8_t> marks = own_marks(fluid, left);
-    book_dropped(fluid, marks, open);
+    record_dropped(fluid, marks, open);
     change_rows(fluid, marks, made, open);
 }
 

@@ -24,15 +24,11 @@
 
 namespace hyoryu {
 
-namespace {
+enum class FramePlace { series, alone };
 
-constexpr std::size_t frames_that_wait = 2;
-
-enum class Place { series, alone };
-
-struct Job {
+struct FrameJob {
     std::variant<Cloud, Surface, CloudOfParts> content;
-    Place place = Place::series;
+    FramePlace place = FramePlace::series;
     int part = -1; // none: the frame itself
 
     const std::string& name() const
@@ -49,6 +45,10 @@ struct Job {
         return std::visit([](const auto& frame) { return frame.index; }, content);
     }
 };
+
+namespace {
+
+constexpr std::size_t frames_that_wait = 2;
 
 using Series = std::map<std::string, std::vector<SeriesEntry>>;
 
@@ -90,7 +90,7 @@ struct FrameWriter::State {
 
     std::mutex mutex; // guards the members below
     std::condition_variable changed;
-    std::deque<Job> queue;
+    std::deque<FrameJob> queue;
     bool working = false;
     bool closing = false;
     std::exception_ptr error;
@@ -104,9 +104,9 @@ struct FrameWriter::State {
     }
 
     void run();
-    void write(const Job& job);
-    void wait_for_parts(const std::filesystem::path& file, const Job& job);
-    void put(Job job);
+    void write(const FrameJob& job);
+    void wait_for_parts(const std::filesystem::path& file, const FrameJob& job);
+    void put(FrameJob job);
     void wait_until_idle(std::unique_lock<std::mutex>& lock);
     void remove_frame(const std::filesystem::path& file) const;
     void remove_parts_of_no_frame() const;
@@ -123,7 +123,7 @@ std::size_t FrameWriter::State::waiting_frames() const
     return count;
 }
 
-void FrameWriter::State::put(Job job)
+void FrameWriter::State::put(FrameJob job)
 {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point asked = Clock::now();
@@ -155,7 +155,7 @@ void FrameWriter::State::run()
         if (queue.empty() || error) {
             return;
         }
-        const Job job = std::move(queue.front());
+        const FrameJob job = std::move(queue.front());
         queue.pop_front();
         working = true;
         changed.notify_all();
@@ -178,19 +178,19 @@ void FrameWriter::State::run()
     }
 }
 
-void FrameWriter::State::write(const Job& job)
+void FrameWriter::State::write(const FrameJob& job)
 {
     const std::filesystem::path file =
-        job.place == Place::alone ? std::filesystem::path(job.name() + ".hdf")
-                                  : std::filesystem::path("frames") /
-                                        fmt::format("{}_{:06}.hdf", job.name(), job.index());
+        job.place == FramePlace::alone ? std::filesystem::path(job.name() + ".hdf")
+                                       : std::filesystem::path("frames") /
+                                             fmt::format("{}_{:06}.hdf", job.name(), job.index());
     if (job.part >= 0) {
         write_vtkhdf(folder / part_of_frame(file, job.part), std::get<Cloud>(job.content));
         return;
     }
     wait_for_parts(folder / file, job);
     std::visit([&](const auto& frame) { write_vtkhdf(folder / file, frame); }, job.content);
-    if (job.place == Place::series) {
+    if (job.place == FramePlace::series) {
         std::vector<SeriesEntry>& entries = series[job.name()];
         insert(entries, {file, job.time()});
         write_series(series_file(folder, job.name()), entries);
@@ -198,7 +198,7 @@ void FrameWriter::State::write(const Job& job)
 }
 
 /// Other processes rename their parts into place when they are complete.
-void FrameWriter::State::wait_for_parts(const std::filesystem::path& file, const Job& job)
+void FrameWriter::State::wait_for_parts(const std::filesystem::path& file, const FrameJob& job)
 {
     using Clock = std::chrono::steady_clock;
     constexpr auto patience = std::chrono::minutes(10); // a part is written in seconds
@@ -249,42 +249,42 @@ FrameWriter::~FrameWriter()
 
 void FrameWriter::write(Cloud cloud)
 {
-    state_->put({std::move(cloud), Place::series});
+    state_->put({std::move(cloud), FramePlace::series});
 }
 
 void FrameWriter::write(Surface surface)
 {
-    state_->put({std::move(surface), Place::series});
+    state_->put({std::move(surface), FramePlace::series});
 }
 
 void FrameWriter::write_static(Cloud cloud)
 {
-    state_->put({std::move(cloud), Place::alone});
+    state_->put({std::move(cloud), FramePlace::alone});
 }
 
 void FrameWriter::write_static(Surface surface)
 {
-    state_->put({std::move(surface), Place::alone});
+    state_->put({std::move(surface), FramePlace::alone});
 }
 
 void FrameWriter::write_part(Cloud cloud, int part)
 {
-    state_->put({std::move(cloud), Place::series, part});
+    state_->put({std::move(cloud), FramePlace::series, part});
 }
 
 void FrameWriter::write_static_part(Cloud cloud, int part)
 {
-    state_->put({std::move(cloud), Place::alone, part});
+    state_->put({std::move(cloud), FramePlace::alone, part});
 }
 
 void FrameWriter::write(CloudOfParts cloud)
 {
-    state_->put({std::move(cloud), Place::series});
+    state_->put({std::move(cloud), FramePlace::series});
 }
 
 void FrameWriter::write_static(CloudOfParts cloud)
 {
-    state_->put({std::move(cloud), Place::alone});
+    state_->put({std::move(cloud), FramePlace::alone});
 }
 
 void FrameWriter::State::remove_frame(const std::filesystem::path& file) const

@@ -64,8 +64,8 @@ void lay_out(std::span<const Row> rows, SolverWork& work)
         }
         if (work.across[k] >= 0) { // partly sticking
             const auto m = static_cast<std::size_t>(work.across[k]);
-            work.unknowns[m].sight_a *= work.held[k];
-            work.unknowns[m].sight_b *= work.held[k];
+            work.unknowns[m].jacobian_a *= work.held[k];
+            work.unknowns[m].jacobian_b *= work.held[k];
             blocks.yields[m] = (1 - work.held[k]) * row.cone.K(1, 1);
         }
     }
@@ -84,10 +84,10 @@ void assemble(SolverWork& work)
                 blocks.matrix.at(i, j).noalias() += (part * answer) * sight.transpose();
             }
         };
-        add(a, a, unknown.answer_a, unknown.sight_a);
-        add(a, b, unknown.answer_a, unknown.sight_b);
-        add(b, a, unknown.answer_b, unknown.sight_a);
-        add(b, b, unknown.answer_b, unknown.sight_b);
+        add(a, a, unknown.response_a, unknown.jacobian_a);
+        add(a, b, unknown.response_a, unknown.jacobian_b);
+        add(b, a, unknown.response_b, unknown.jacobian_a);
+        add(b, b, unknown.response_b, unknown.jacobian_b);
     }
 }
 
@@ -99,10 +99,10 @@ void answer(const SolverWork& work, const Eigen::VectorXd& x, std::vector<Vec6>&
         const auto [a, b] = work.blocks.ends[m];
         const double p = x[static_cast<Index>(m)];
         if (a >= 0) {
-            velocities[static_cast<std::size_t>(a)] += p * work.unknowns[m].answer_a;
+            velocities[static_cast<std::size_t>(a)] += p * work.unknowns[m].response_a;
         }
         if (b >= 0) {
-            velocities[static_cast<std::size_t>(b)] += p * work.unknowns[m].answer_b;
+            velocities[static_cast<std::size_t>(b)] += p * work.unknowns[m].response_b;
         }
     }
 }
@@ -112,8 +112,8 @@ double seen(const SolverWork& work, std::size_t m, const std::vector<Vec6>& velo
 {
     const auto [a, b] = work.blocks.ends[m];
     double u = 0;
-    u += a >= 0 ? work.unknowns[m].sight_a.dot(velocities[static_cast<std::size_t>(a)]) : 0;
-    u += b >= 0 ? work.unknowns[m].sight_b.dot(velocities[static_cast<std::size_t>(b)]) : 0;
+    u += a >= 0 ? work.unknowns[m].jacobian_a.dot(velocities[static_cast<std::size_t>(a)]) : 0;
+    u += b >= 0 ? work.unknowns[m].jacobian_b.dot(velocities[static_cast<std::size_t>(b)]) : 0;
     return u;
 }
 

@@ -109,9 +109,9 @@ void set_end_responses(const StepContext& context, const SubStep& sub)
 void carry_rub(const ContactMemory& memory, Persistent& p)
 {
     const int a = p.candidate.feature.a;
-    const Vec3 rub = memory.poses[a].R.transpose() * p.rub;
-    p.touches.push_rub = memory.middle[a].R * rub;
-    p.touches.see_rub = memory.end[a].R * rub;
+    const Vec3 friction_offset = memory.poses[a].R.transpose() * p.friction_offset;
+    p.touches.push_friction_offset = memory.middle[a].R * friction_offset;
+    p.touches.see_friction_offset = memory.end[a].R * friction_offset;
 }
 
 // Sets the touches at the middle and the end, and the friction points of the patches there.
@@ -137,8 +137,8 @@ void set_touches(const SubStep& sub, double ahead, ContactMemory& memory)
                                    [](const Persistent& p) { return p.touches.see.point; });
         for (const int k : patch.contacts) {
             TwoTouches& at = memory.persistent[k].touches;
-            at.push_rub = (1 - patch.rule.scale) * (push - at.push.point);
-            at.see_rub = (1 - patch.rule.scale) * (see - at.see.point);
+            at.push_friction_offset = (1 - patch.rule.scale) * (push - at.push.point);
+            at.see_friction_offset = (1 - patch.rule.scale) * (see - at.see.point);
         }
     }
 }
@@ -159,7 +159,7 @@ bool slides_through(const ContactMemory& memory, const SubStep& sub, const Row& 
 // the crossing of a rod and an edge or another rod to its other end, and a corner may pass a rim; a
 // poor guess of the forces may turn a body too far. The inverse mass then mixes two places, may be
 // negative, and no impulse solves the contact.
-bool goes_on(const Persistent& p, const Row& row, const std::vector<Response>& bodies)
+bool contact_persists(const Persistent& p, const Row& row, const std::vector<Response>& bodies)
 {
     constexpr double same_way = 0.5; // cosine
     constexpr double same_arm = 0.5; // relative to the inverse mass without rotation, its bound
@@ -205,7 +205,7 @@ bool build_rows(const StepContext& context, const SubStep& sub, double ahead)
         const Centres centres{memory.middle[f.a].x, memory.middle[b].x, memory.end[f.a].x,
                               memory.end[b].x};
         complete(row, p.touches, centres, memory.responses, context.rigid.settings.dimensions);
-        same = same && goes_on(p, row, memory.responses);
+        same = same && contact_persists(p, row, memory.responses);
         if (row.cone.K(0, 0) <= 0) {
             p.impulse.setZero(); // no body can move along the normal
         } else {
@@ -274,7 +274,8 @@ void add_known_impulses(ContactMemory& memory)
     for (const Persistent& p : memory.persistent) {
         const Feature& f = p.candidate.feature;
         const Touch& touch = p.candidate.touch;
-        const Vec3 twist = p.rub.cross(p.impulse - touch.normal * touch.normal.dot(p.impulse));
+        const Vec3 twist =
+            p.friction_offset.cross(p.impulse - touch.normal * touch.normal.dot(p.impulse));
         const auto moment = [&](int k) {
             return Vec3((touch.point - memory.poses[k].x).cross(p.impulse) + twist);
         };
@@ -290,10 +291,11 @@ Vec3 tangential(const Vec3& u, const Vec3& n)
     return u - n * n.dot(u);
 }
 
-// Velocity of a body at a contact, with tangential components at the friction point (`rub`).
-Vec3 velocity_at(const Response& body, const Vec3& arm, const Vec3& rub, const Vec3& n)
+// Velocity of a body at a contact, with tangential components at the friction point
+// (`friction_offset`).
+Vec3 velocity_at(const Response& body, const Vec3& arm, const Vec3& friction_offset, const Vec3& n)
 {
-    return body.v + body.omega.cross(arm) + tangential(body.omega.cross(rub), n);
+    return body.v + body.omega.cross(arm) + tangential(body.omega.cross(friction_offset), n);
 }
 
 // The relative velocity of a contact at the end of the planned motion, with the arms there.
@@ -301,7 +303,7 @@ Vec3 velocity_after(const ContactMemory& memory, const Row& row, const TwoTouche
 {
     const auto of = [&](int k) {
         const Vec3 arm = at.see.point - memory.end[k].x;
-        return velocity_at(memory.responses[k], arm, at.see_rub, at.see.normal);
+        return velocity_at(memory.responses[k], arm, at.see_friction_offset, at.see.normal);
     };
     return of(row.a) - row.wall_velocity - (row.b >= 0 ? of(row.b) : Vec3::Zero());
 }
@@ -309,7 +311,7 @@ Vec3 velocity_after(const ContactMemory& memory, const Row& row, const TwoTouche
 // Energy that friction takes over the whole sub-step: - P . (u0 + u1) / 2 at the contact, and the
 // slip at its ends. A row that opposes the mean slip gives only the sum of the slips at the two
 // ends, not each of them.
-void book_dissipation(const StepContext& context)
+void record_dissipation(const StepContext& context)
 {
     ContactMemory& memory = context.memory;
     for (const Row& row : memory.rows) {
@@ -338,7 +340,7 @@ void set_velocities_before(ContactMemory& memory, const SubStep& sub)
         const Vec3& n = p.candidate.touch.normal;
         const auto at_point = [&](int k) {
             const Vec3 arm = p.candidate.touch.point - memory.poses[k].x;
-            return velocity_at(memory.responses[k], arm, p.rub, n);
+            return velocity_at(memory.responses[k], arm, p.friction_offset, n);
         };
         p.before =
             at_point(f.a) - (f.b >= 0 ? at_point(f.b) : wall_velocity(memory, f.b, sub.time));
@@ -347,15 +349,16 @@ void set_velocities_before(ContactMemory& memory, const SubStep& sub)
 
 // Whether a friction point has moved since the last pass by more than round-off: friction points
 // depend on the loads, and the loads on the friction points.
-bool rubs_elsewhere(const ContactMemory& memory)
+bool friction_points_moved(const ContactMemory& memory)
 {
     const double settled = is_pile(memory) ? settled_rub_of_a_pile : settled_rub;
     const auto point = [](const Persistent& p) { return p.touches.push.point; };
     return std::ranges::any_of(memory.patches, [&](const FrictionPatch& patch) {
         const Persistent& p = memory.persistent[patch.contacts[0]];
-        const Vec3 rub =
+        const Vec3 friction_offset =
             (1 - patch.rule.scale) * (centre_of(memory.persistent, patch, point) - point(p));
-        return p.stuck == 0 && (rub - p.touches.push_rub).norm() > settled * memory.geometry.unit;
+        return p.stuck == 0 && (friction_offset - p.touches.push_friction_offset).norm() >
+                                   settled * memory.geometry.unit;
     });
 }
 
@@ -393,13 +396,13 @@ double solve_ahead(const StepContext& context, const SubStep& sub)
     guess_ends(memory, sub);
     double left = solve_pass(context, sub, sub.h, first_effort);
     const bool solved = left <= solved_speed * std::sqrt(memory.geometry.unit);
-    if (solved && ends_as_guessed(memory, sub) && !rubs_elsewhere(memory)) {
+    if (solved && ends_as_guessed(memory, sub) && !friction_points_moved(memory)) {
         return left;
     }
     bool again = true;
     for (int pass = 1; again && left < infinity && pass < most_passes; ++pass) {
         left = solve_pass(context, sub, sub.h, sub.contact_effort);
-        again = std::ranges::any_of(memory.rows, slides) && rubs_elsewhere(memory);
+        again = std::ranges::any_of(memory.rows, slides) && friction_points_moved(memory);
     }
     return left;
 }
@@ -426,7 +429,7 @@ void plan_motion(const StepContext& context, const SubStep& sub)
         }
         double& worst = context.rigid.counters.worst_residual;
         worst = std::max(worst, left);
-        book_dissipation(context);
+        record_dissipation(context);
     }
     for (const int k : sub.cluster.bodies) {
         memory.end[k] = pose_at(memory.paths[k], memory.rotors[k], sub.h);

@@ -72,7 +72,7 @@ std::vector<std::size_t> sort_into_islands(std::vector<Row>& rows, ContactMemory
 
 } // namespace
 
-bool tired(const ContactMemory& memory, int a, int b)
+bool exceeds_event_limit(const ContactMemory& memory, int a, int b)
 {
     return memory.events[a] > memory.event_limit ||
            (b >= 0 && memory.events[b] > memory.event_limit);
@@ -85,7 +85,7 @@ double located_work(const StepContext& context, const Cluster& cluster)
     return work_of_cluster + work_of_body * bodies + part * context.rigid.settings.located_work;
 }
 
-void let_go_of_rattle(ContactMemory& memory, const Cluster& cluster)
+void lower_event_limit(ContactMemory& memory, const Cluster& cluster)
 {
     int most = 0;
     for (const int k : cluster.bodies) {

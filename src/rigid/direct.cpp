@@ -132,8 +132,8 @@ void lay_out(std::span<const Row> rows, const std::vector<Response>& bodies, Sol
             Unknown unknown{answer(bodies[row.a], P, row.turn_a * p), Vec6::Zero(),
                             joined(n, row.lever_a * u), Vec6::Zero()};
             if (row.b >= 0) {
-                unknown.answer_b = -answer(bodies[row.b], P, row.turn_b * p);
-                unknown.sight_b = -joined(n, row.lever_b * u);
+                unknown.response_b = -answer(bodies[row.b], P, row.turn_b * p);
+                unknown.jacobian_b = -joined(n, row.lever_b * u);
             }
             work.unknowns.push_back(unknown);
         }
@@ -149,10 +149,10 @@ void couple(const Row& i, const Row& j, SolverWork& work, std::size_t at_i, std:
         for (int r = work.columns[at_i]; r < work.columns[at_i + 1]; ++r) {
             const Unknown& at = work.unknowns[r];
             double w = 0;
-            w += i.a == j.a ? at.sight_a.dot(by.answer_a) : 0;
-            w += i.a == j.b ? at.sight_a.dot(by.answer_b) : 0;
-            w += i.b >= 0 && i.b == j.a ? at.sight_b.dot(by.answer_a) : 0;
-            w += i.b >= 0 && i.b == j.b ? at.sight_b.dot(by.answer_b) : 0;
+            w += i.a == j.a ? at.jacobian_a.dot(by.response_a) : 0;
+            w += i.a == j.b ? at.jacobian_a.dot(by.response_b) : 0;
+            w += i.b >= 0 && i.b == j.a ? at.jacobian_b.dot(by.response_a) : 0;
+            w += i.b >= 0 && i.b == j.b ? at.jacobian_b.dot(by.response_b) : 0;
             work.W(r, m) = w;
         }
     }

@@ -42,7 +42,7 @@ public:
             bool found = false;
             place_all(high);
             for (const BodyPair& pair : sub_.cluster.pairs) {
-                if (tired(memory_, pair.a, pair.b) || !closes(pair, high)) {
+                if (exceeds_event_limit(memory_, pair.a, pair.b) || !closes(pair, high)) {
                     continue;
                 }
                 const double root = closing_time(pair, low, high);

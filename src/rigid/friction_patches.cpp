@@ -147,7 +147,7 @@ bool rubs_where_it_did(const ContactMemory& memory, const FrictionPatch& patch, 
                const Persistent& p = memory.persistent[k];
                const Vec3 arm = centre - p.candidate.touch.point;
                return p.stuck == static_cast<int>(patch.contacts.size()) &&
-                      (p.rub - shrunk * arm).norm() <= moved * patch.size;
+                      (p.friction_offset - shrunk * arm).norm() <= moved * patch.size;
            });
 }
 
@@ -212,15 +212,15 @@ void set_rubs(ContactMemory& memory)
         for (const int k : patch.contacts) {
             Persistent& p = memory.persistent[k];
             if (!stays) {
-                p.rub = (1 - patch.rule.scale) * (centre - p.candidate.touch.point);
+                p.friction_offset = (1 - patch.rule.scale) * (centre - p.candidate.touch.point);
                 p.stuck = 0;
             }
-            p.touches.push_rub = p.rub;
-            p.touches.see_rub = p.rub;
+            p.touches.push_friction_offset = p.friction_offset;
+            p.touches.see_friction_offset = p.friction_offset;
         }
     }
     for (Persistent& p : memory.persistent) { // of no patch: friction at the contact point
-        p.rub = p.touches.push_rub;
+        p.friction_offset = p.touches.push_friction_offset;
     }
 }
 

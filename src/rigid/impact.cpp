@@ -80,7 +80,8 @@ int entry_at_same_point(const ContactMemory& memory, int contact)
 
 // Logs a round. Its total loss of energy is distributed in proportion to the losses of the
 // contacts; if the law may gain energy, each contact keeps its own value.
-void book(const std::vector<Row>& rows, const StepContext& context, const SubStep& sub, double time)
+void record(const std::vector<Row>& rows, const StepContext& context, const SubStep& sub,
+            double time)
 {
     const bool located = sub.arms == Arms::ahead;
     ContactMemory& memory = context.memory;
@@ -108,7 +109,7 @@ void book(const std::vector<Row>& rows, const StepContext& context, const SubSte
             contact.approach_speed = std::max(0.0, -row.before[0]);
             contact.effective_mass = 1 / row.cone.K(0, 0);
             contact.depth = std::max(0.0, -c.touch.gap);
-            contact.located = located && !tired(memory, c.feature.a, c.feature.b);
+            contact.located = located && !exceeds_event_limit(memory, c.feature.a, c.feature.b);
             index = static_cast<int>(context.log.size());
             context.log.push_back(contact);
         }
@@ -147,7 +148,7 @@ double solve_impacts(const StepContext& context, const SubStep& sub, double time
         }
         left = change; // later rounds correct the residual of earlier ones
         apply_round(memory.rows, context);
-        book(memory.rows, context, sub, time);
+        record(memory.rows, context, sub, time);
         set_responses(context, sub.cluster);
         ++counters.rounds;
         for (const Row& row : memory.rows) {

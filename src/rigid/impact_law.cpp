@@ -86,7 +86,7 @@ void collect(const StepContext& context, const Round& round, double slower, std:
         }
         row.before = velocity(row, memory.responses);
         const bool bounces =
-            row.before[0] < -round.slow && !tired(memory, c.feature.a, c.feature.b);
+            row.before[0] < -round.slow && !exceeds_event_limit(memory, c.feature.a, c.feature.b);
         row.target = bounces ? -law.restitution * row.before[0] : 0;
         rows.push_back(row);
     }

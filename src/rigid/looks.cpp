@@ -28,19 +28,19 @@ SolidPose pose_of_partner(int b, const Configuration& at)
 
 } // namespace
 
-void keep_looks(ContactMemory& memory)
+void keep_cache(ContactMemory& memory)
 {
-    std::vector<PairLook>& looks = memory.looks;
-    std::vector<PairLook> kept;
+    std::vector<CachedContacts>& looks = memory.looks;
+    std::vector<CachedContacts> kept;
     for (const Cluster& cluster : memory.clusters) {
         for (const BodyPair& pair : cluster.pairs) {
             kept.push_back({pair});
         }
     }
-    std::ranges::sort(kept, {}, &PairLook::pair);
+    std::ranges::sort(kept, {}, &CachedContacts::pair);
     auto last = looks.begin();
-    for (PairLook& look : kept) {
-        last = std::ranges::lower_bound(last, looks.end(), look.pair, {}, &PairLook::pair);
+    for (CachedContacts& look : kept) {
+        last = std::ranges::lower_bound(last, looks.end(), look.pair, {}, &CachedContacts::pair);
         if (last != looks.end() && last->pair == look.pair) {
             look = std::move(*last);
         }
@@ -51,9 +51,9 @@ void keep_looks(ContactMemory& memory)
 std::span<const Candidate> look_at(ContactMemory& memory, const BodyPair& pair,
                                    const Configuration& at)
 {
-    const auto found = std::ranges::lower_bound(memory.looks, pair, {}, &PairLook::pair);
+    const auto found = std::ranges::lower_bound(memory.looks, pair, {}, &CachedContacts::pair);
     expects(found != memory.looks.end() && found->pair == pair);
-    PairLook& look = *found;
+    CachedContacts& look = *found;
     const SolidPose& a = at.poses[pair.a];
     const SolidPose b = pose_of_partner(pair.b, at);
     if (!look.known || !same_place(look.a, a) || !same_place(look.b, b)) {

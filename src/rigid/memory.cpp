@@ -133,7 +133,7 @@ ContactStart contact_start(const Rigid& rigid)
                 {f.a, f.b, static_cast<int>(f.kind), f.owner, f.i, f.j, f.k, f.l, f.f});
             start.forces.push_back(r.force);
             start.places.push_back(r.place);
-            start.rubs.push_back(r.rub);
+            start.rubs.push_back(r.friction_offset);
             start.stuck.push_back(r.stuck);
         }
     }

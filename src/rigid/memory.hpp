@@ -23,8 +23,9 @@ struct Remembered {
     Feature feature;
     Vec3 force{0, 0, 0}; // on a [N]
     Vec3 place{0, 0, 0}; // in the axes of a, from its centre of mass [m]
-    Vec3 rub{0, 0, 0};   // in the axes of a, from the contact point to the friction point [m]
-    int stuck = 0;       // as of Persistent
+    Vec3 friction_offset{0, 0,
+                         0}; // in the axes of a, from the contact point to the friction point [m]
+    int stuck = 0;           // as of Persistent
 };
 
 void sort_by_feature(std::vector<Remembered>& forces);
@@ -36,7 +37,7 @@ struct Cluster {
 };
 
 /// The contact candidates of a pair from the last collision query, and the poses at that time.
-struct PairLook {
+struct CachedContacts {
     BodyPair pair;
     SolidPose a, b; // of a wall: x is the displacement [m], q the identity
     std::vector<Candidate> found;
@@ -60,18 +61,18 @@ struct PathEnd {
 /// A persistent contact of the current sub-step.
 struct Persistent {
     Candidate candidate;
-    Vec3 impulse{0, 0, 0};     // over the whole sub-step, on a [N s]
-    Vec3 place{0, 0, 0};       // as of Remembered
-    Vec3 rub{0, 0, 0};         // from contact point to friction point, at the start [m]
-    bool recalled = false;     // the first guess is a force of the last sub-step
-    bool unsolved = false;     // its impulse does not resolve the contact
-    int stuck = 0;             // contacts of its patch, while none of them slides
-    TwoTouches touches;        // at the middle and the end
-    double effective_mass = 0; // [kg]
-    double dissipated = 0;     // [J]
-    Vec3 before{0, 0, 0};      // relative velocity at the start, at the friction point [m/s]
-    Vec3 slip_before{0, 0, 0}; // relative tangential velocity at the start [m/s]
-    Vec3 slip_after{0, 0, 0};  // and at the end of the sub-step
+    Vec3 impulse{0, 0, 0};         // over the whole sub-step, on a [N s]
+    Vec3 place{0, 0, 0};           // as of Remembered
+    Vec3 friction_offset{0, 0, 0}; // from contact point to friction point, at the start [m]
+    bool recalled = false;         // the first guess is a force of the last sub-step
+    bool unsolved = false;         // its impulse does not resolve the contact
+    int stuck = 0;                 // contacts of its patch, while none of them slides
+    TwoTouches touches;            // at the middle and the end
+    double effective_mass = 0;     // [kg]
+    double dissipated = 0;         // [J]
+    Vec3 before{0, 0, 0};          // relative velocity at the start, at the friction point [m/s]
+    Vec3 slip_before{0, 0, 0};     // relative tangential velocity at the start [m/s]
+    Vec3 slip_after{0, 0, 0};      // and at the end of the sub-step
 };
 
 /// Persistent contacts of one pair in one plane, by their indices.
@@ -109,7 +110,7 @@ struct ContactMemory {
 
     // Scratch of the cluster in hand.
     std::vector<Cluster> clusters;
-    std::vector<PairLook> looks; // of all their pairs, sorted by pair
+    std::vector<CachedContacts> looks; // of all their pairs, sorted by pair
     std::vector<Candidate> candidates;
     std::vector<std::vector<Candidate>> found; // of each block of pairs
     std::vector<Persistent> persistent;
@@ -149,7 +150,7 @@ struct StepContext {
 void prepare(Rigid& rigid);
 
 /// Lists the pairs of the clusters; pairs of the last step keep their cached contacts.
-void keep_looks(ContactMemory& memory);
+void keep_cache(ContactMemory& memory);
 /// The contact candidates of a pair as `find_candidates` returns them. The cached ones are returned
 /// if neither pose has changed, bit for bit. The span is valid until the next query of the pair.
 std::span<const Candidate> look_at(ContactMemory& memory, const BodyPair& pair,

@@ -144,16 +144,16 @@ private:
             const double F = std::max(0.0, spring - parameters_.damping * separation);
             const Vec3 slip = u - separation * n;
             const double slip_speed = slip.norm();
-            const double rub =
+            const double friction_offset =
                 slip_speed > 0 ? std::min(parameters_.damping, mu * F / slip_speed) : 0;
             sum.normal += h * F * n;
-            sum.friction -= h * rub * slip;
+            sum.friction -= h * friction_offset * slip;
             sum.point += h * F * middle;
             sum.weight += h * F;
-            sum.lost += h * ((spring - F) * separation + rub * sq(slip_speed));
-            apply(a, middle, F * n - rub * slip);
+            sum.lost += h * ((spring - F) * separation + friction_offset * sq(slip_speed));
+            apply(a, middle, F * n - friction_offset * slip);
             if (b >= 0) {
-                apply(b, middle, rub * slip - F * n);
+                apply(b, middle, friction_offset * slip - F * n);
             }
             double& worst = context_.rigid.counters.worst_penetration;
             worst = std::max(worst, meeting.range - r);

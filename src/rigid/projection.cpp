@@ -15,7 +15,7 @@ constexpr int most_sweeps = 10;
 constexpr double at_once = 1e-5;
 constexpr double share_of_deep = 0.2;
 
-void book_resting(ContactMemory& memory, const Persistent& p, double time, double part)
+void record_resting(ContactMemory& memory, const Persistent& p, double time, double part)
 {
     const Feature& f = p.candidate.feature;
     const Touch& touch = p.touches.push;
@@ -327,7 +327,7 @@ void move_to(const StepContext& context, const SubStep& sub, double s)
         body.angular_momentum = path.L0 + part * (path.L1 - path.L0);
     }
     for (const Persistent& p : memory.persistent) {
-        book_resting(memory, p, sub.time + s, part);
+        record_resting(memory, p, sub.time + s, part);
     }
 }
 

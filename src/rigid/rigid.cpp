@@ -106,7 +106,7 @@ void close_step(Rigid& rigid)
 void plan_located(const StepContext& context, SubStep& sub, double rest)
 {
     if (context.memory.stepped) {
-        find_contacts_of_tired(context, sub);
+        find_contacts_with_unlocated(context, sub);
     }
     sub.slip = Slip::mean;
     plan_motion(context, sub);
@@ -155,7 +155,7 @@ double locate_impacts(const StepContext& context, const Cluster& cluster)
             count_event(context);
         }
         if (s < h) {
-            let_go_of_rattle(context.memory, cluster);
+            lower_event_limit(context.memory, cluster);
         }
         worst = std::max(worst, solve_impacts(context, sub, now));
         done = s < rest ? done + s : context.dt;
@@ -212,7 +212,7 @@ void step(Rigid& rigid, double time, double dt, std::span<const Wrench> loads,
         return;
     }
     find_clusters(context);
-    keep_looks(*rigid.memory);
+    keep_cache(*rigid.memory);
     if (comm == nullptr) {
         for (const Cluster& cluster : context.memory.clusters) {
             if (cluster.bodies.size() == 1) {

@@ -29,12 +29,12 @@ Mat3 axes(const Vec3& n, int helper, int dimensions)
 
 // Moments of unit forces along the axes about the centre of mass: the normal force acts at the
 // contact point, the tangential forces at the friction point.
-Mat3 moments(const Vec3& arm, const Vec3& rub, const Mat3& axes)
+Mat3 moments(const Vec3& arm, const Vec3& friction_offset, const Mat3& axes)
 {
     Mat3 result;
     result.col(0) = arm.cross(axes.col(0));
-    result.col(1) = (arm + rub).cross(axes.col(1));
-    result.col(2) = (arm + rub).cross(axes.col(2));
+    result.col(1) = (arm + friction_offset).cross(axes.col(1));
+    result.col(2) = (arm + friction_offset).cross(axes.col(2));
     return result;
 }
 
@@ -55,11 +55,11 @@ void set_answer(Row& row, const std::vector<Response>& bodies)
 
 void fill(Row& row, const TwoTouches& at, const Centres& c, const std::vector<Response>& bodies)
 {
-    row.turn_a = moments(at.push.point - c.push_a, at.push_rub, row.B);
-    row.lever_a = moments(at.see.point - c.see_a, at.see_rub, row.D);
+    row.turn_a = moments(at.push.point - c.push_a, at.push_friction_offset, row.B);
+    row.lever_a = moments(at.see.point - c.see_a, at.see_friction_offset, row.D);
     if (row.b >= 0) {
-        row.turn_b = moments(at.push.point - c.push_b, at.push_rub, row.B);
-        row.lever_b = moments(at.see.point - c.see_b, at.see_rub, row.D);
+        row.turn_b = moments(at.push.point - c.push_b, at.push_friction_offset, row.B);
+        row.lever_b = moments(at.see.point - c.see_b, at.see_friction_offset, row.D);
     }
     set_answer(row, bodies);
 }

@@ -32,7 +32,8 @@ struct Twist {
 struct TwoTouches {
     Touch push;
     Touch see;
-    Vec3 push_rub{0, 0, 0}, see_rub{0, 0, 0}; // from contact point to friction point [m]
+    Vec3 push_friction_offset{0, 0, 0},
+        see_friction_offset{0, 0, 0}; // from contact point to friction point [m]
 };
 
 /// Rows of the contact problem: u = D^T (v_a - v_b - w) + S_a^T omega_a - S_b^T omega_b, and the

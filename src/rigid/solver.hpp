@@ -16,7 +16,7 @@ namespace hyoryu {
 /// to the two bodies (`answer`), and the coefficients of their velocities in its equation
 /// (`sight`).
 struct Unknown {
-    Vec6 answer_a, answer_b, sight_a, sight_b;
+    Vec6 response_a, response_b, jacobian_a, jacobian_b;
 };
 
 /// Scratch of the direct solution by bodies.

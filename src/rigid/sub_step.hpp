@@ -67,17 +67,17 @@ void remember(ContactMemory& memory, double h);
 /// located, unless the cost of the cluster lowers the limit.
 inline constexpr int event_limit = 50;
 /// Whether one of the bodies has exceeded `memory.event_limit`.
-bool tired(const ContactMemory& memory, int a, int b);
+bool exceeds_event_limit(const ContactMemory& memory, int a, int b);
 /// Lowers that limit once the cluster has used half of its work limit, so that the bodies with most
 /// events are excluded from location first; sets `memory.stepped` if any body exceeds the limit.
-void let_go_of_rattle(ContactMemory& memory, const Cluster& cluster);
+void lower_event_limit(ContactMemory& memory, const Cluster& cluster);
 
 /// Finds all possible contacts of the cluster at the current poses.
 void find_contacts(const StepContext& context, const Cluster& cluster, double time);
 
 /// Like `find_contacts`, but bodies above their event limit get the contacts of an unlocated step:
 /// those that touch, and those that close on the free paths within `sub.h`.
-void find_contacts_of_tired(const StepContext& context, const SubStep& sub);
+void find_contacts_with_unlocated(const StepContext& context, const SubStep& sub);
 
 /// The features of a pair that touch, or that close on the free paths within the sub-step.
 void find_closing(const StepContext& context, const BodyPair& pair, const SubStep& sub,

@@ -103,7 +103,7 @@ double deepest(const StepContext& context, const SubStep& sub, const std::vector
     const Configuration at = configuration(memory, poses, time);
     double most = 0;
     for (const BodyPair& pair : sub.cluster.pairs) {
-        if (sub.arms == Arms::ahead && !tired(memory, pair.a, pair.b)) {
+        if (sub.arms == Arms::ahead && !exceeds_event_limit(memory, pair.a, pair.b)) {
             continue;
         }
         for (const Candidate& c : look_at(memory, pair, at)) {
@@ -156,7 +156,7 @@ double sub_step_length(const StepContext& context, const Cluster& cluster, doubl
                : rest;
 }
 
-void find_contacts_of_tired(const StepContext& context, const SubStep& sub)
+void find_contacts_with_unlocated(const StepContext& context, const SubStep& sub)
 {
     ContactMemory& memory = context.memory;
     predict_free_motion(context, sub);
@@ -164,7 +164,7 @@ void find_contacts_of_tired(const StepContext& context, const SubStep& sub)
     memory.work += look_work * static_cast<double>(sub.cluster.pairs.size());
     const Configuration now = configuration(memory, memory.poses, sub.time);
     for (const BodyPair& pair : sub.cluster.pairs) {
-        if (tired(memory, pair.a, pair.b)) {
+        if (exceeds_event_limit(memory, pair.a, pair.b)) {
             find_closing(context, pair, sub, memory.candidates);
             continue;
         }

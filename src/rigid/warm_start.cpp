@@ -65,7 +65,7 @@ void recall_forces(ContactMemory& memory, double h)
         const auto known = std::ranges::find(forces, f, &Remembered::feature);
         if (known != forces.end()) {
             take(p, &*known - memory.known.data());
-            p.rub = memory.poses[f.a].R * known->rub;
+            p.friction_offset = memory.poses[f.a].R * known->friction_offset;
             p.stuck = known->stuck;
         }
     }
@@ -85,9 +85,10 @@ void remember(ContactMemory& memory, double h)
 {
     memory.recent.clear();
     for (const Persistent& p : memory.persistent) {
-        const Vec3 rub = memory.middle[p.candidate.feature.a].R.transpose() * p.touches.push_rub;
+        const Vec3 friction_offset =
+            memory.middle[p.candidate.feature.a].R.transpose() * p.touches.push_friction_offset;
         const Vec3 force = p.unsolved ? Vec3(Vec3::Zero()) : Vec3(p.impulse / h);
-        memory.recent.push_back({p.candidate.feature, force, p.place, rub, p.stuck});
+        memory.recent.push_back({p.candidate.feature, force, p.place, friction_offset, p.stuck});
     }
     sort_by_feature(memory.recent);
     memory.known = memory.recent;

@@ -257,7 +257,7 @@ Boundary make_stop(const OpenSettings& open, const Rigid& rigid, int material)
     return {.name = open.name,
             .surface = Obstacle{box_polytope(size, dimensions), centre},
             .material = material,
-            .lets_water_pass = true};
+            .bodies_only = true};
 }
 
 // Neither rebound nor friction.

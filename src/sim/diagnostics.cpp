@@ -36,7 +36,7 @@ std::string solid_name(const Simulation& sim, int b)
         return fmt::format("body \"{}\"", sim.rigid.bodies[static_cast<std::size_t>(b)].name);
     }
     const Boundary& boundary = sim.rigid.boundaries[static_cast<std::size_t>(-1 - b)];
-    return fmt::format("{} \"{}\"", boundary.lets_water_pass ? "open side" : "wall", boundary.name);
+    return fmt::format("{} \"{}\"", boundary.bodies_only ? "open side" : "wall", boundary.name);
 }
 
 std::string nearby_particles(const Simulation& sim, std::size_t row)

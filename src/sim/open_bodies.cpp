@@ -50,7 +50,7 @@ void remove(Simulation& sim, std::size_t b)
 
 // Books the momentum and energy that a body carries out. Until now its weight was part of that of
 // the scene.
-void book(Simulation& sim, const Body& body)
+void record(Simulation& sim, const Body& body)
 {
     OpenBoundary& open = sim.open.boundary;
     const double mass = body.mass.mass;
@@ -75,7 +75,7 @@ void let_bodies_leave(Simulation& sim)
             }
             sim.open.left.push_back({static_cast<int>(b), static_cast<int>(k), sim.clock.time,
                                      body.position, body.velocity});
-            book(sim, body);
+            record(sim, body);
             remove(sim, b);
         }
     }

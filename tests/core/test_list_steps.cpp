@@ -16,7 +16,7 @@ bool is_nothing(int number)
 {
     const int chunk = number / chunk_slots;
     return number % chunk_slots == 0 &&
-           (chunk % nothing_period == nothing_period - 1 || chunk + 1 == int(chunks));
+           (chunk % padding_period == padding_period - 1 || chunk + 1 == int(chunks));
 }
 
 std::vector<int> steps_to(const std::vector<int>& numbers, int lanes)
@@ -98,7 +98,7 @@ TEST(ListSteps, EveryNumberComesBackAndAllElseIsNothing)
         std::vector<int> numbers;
         for (int number = 0; number < int(chunks) * chunk_slots; ++number) {
             const int chunk = number / chunk_slots;
-            if (chunk % nothing_period != nothing_period - 1 && chunk + 1 < int(chunks) &&
+            if (chunk % padding_period != padding_period - 1 && chunk + 1 < int(chunks) &&
                 std::uniform_real_distribution<double>(0, 1)(random) < share) {
                 numbers.push_back(number);
             }

@@ -82,7 +82,7 @@ private:
 };
 
 /// Scratch memory of one thread for building the lists of a block; reused by later builds.
-struct ListShop {
+struct ListScratch {
     std::vector<SourceChunk> chunks;
     std::array<std::vector<float>, 3> points, low, high; // x, y, z
     std::vector<std::int32_t> near;
@@ -153,7 +153,7 @@ private:
 
     int lanes_ = 1;
     std::vector<ListBlock> blocks_;
-    std::vector<ListShop> shops_; // by thread
+    std::vector<ListScratch> scratches_; // by thread
     std::unique_ptr<PageStore> store_ = std::make_unique<PageStore>();
 };
 

@@ -132,7 +132,7 @@ struct Boundary {
     std::variant<Plane, Basin, Obstacle, MeshSurface> surface; // where it is at time 0
     int material = 0;
     Motion motion;
-    bool lets_water_pass = false; // it acts on bodies only, not on the fluid
+    bool bodies_only = false; // it acts on bodies only, not on the fluid
 };
 
 /// Restitution and friction of every pair of materials.
