@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/assess/fit.hpp"
 
+#include "hyoryu/core/types.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <vector>
 

@@ -120,7 +120,7 @@ TEST(OpenSettings, BodiesStopWhereContactKnowsTheWindow)
     const auto named_alike = [](const std::string& text) {
         return replaced(text, "name = \"sea\"", "name = \"basin\"");
     };
-    EXPECT_NE(words_of(named_alike(stops + body)).find("a wall is named"), std::string::npos);
+    EXPECT_NE(words_of(named_alike(stops + body)).find("already used by a wall"), std::string::npos);
     EXPECT_EQ(words_of(named_alike(leaves + body)), "");
 }
 
@@ -130,7 +130,7 @@ TEST(OpenSettings, BodiesAndWindowsHaveDifferentNames)
                              "density = 500\nposition = [1, 0.5, 0.62]\n";
     const auto all = refused(basin("kind = \"inflow\"\nlevel = 0.7\nvelocity = 0.2\n") + body);
     ASSERT_EQ(all.size(), 1U);
-    EXPECT_NE(all.front().what.find("a body is named"), std::string::npos);
+    EXPECT_NE(all.front().what.find("already used by a body"), std::string::npos);
 }
 
 // Numbers of the case are those of the scene; `scale` and the others tell how a file is read.
