@@ -27,7 +27,7 @@ void tell(const std::string& text)
     std::fflush(stderr);
 }
 
-// The log file. Throws if it is no regular file: opening a pipe would block for ever.
+// The log file. Throws unless it is a regular file: opening a pipe would block for ever.
 std::filesystem::path log_file(const std::filesystem::path& folder)
 {
     const std::filesystem::path file = folder / "run.log";

@@ -6,6 +6,7 @@
 #include "hyoryu/core/parallel.hpp"
 #include "list_loops.hpp"
 #include "list_steps.hpp"
+#include "rounding.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -23,9 +24,6 @@ const ListLoops* loops_of(InstructionSet set)
 
 // Largest number of chunks whose slots can be numbered with 16 bits.
 constexpr std::size_t most_chunks_of_a_block = 65536 / chunk_slots;
-// Bound on the rounding error of positions and squared distances in single precision, relative to
-// the edge of a tile.
-constexpr float rounding = 2e-6F;
 // Coordinate of padding points: their squared distances are finite and exceed every radius.
 constexpr float far = 1e15F;
 
@@ -58,7 +56,7 @@ public:
           lanes_(settings.lanes), choice_(choice), scratch_(scratch), store_(store), out_(out)
     {
         const auto edge = static_cast<float>(destination.lattice.edge.maxCoeff());
-        radius_ = static_cast<float>(settings.radius) + rounding * edge;
+        radius_ = static_cast<float>(settings.radius) + rounding_of_positions * edge;
     }
 
     void list(Index tile)

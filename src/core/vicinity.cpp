@@ -6,16 +6,13 @@
 #include "hyoryu/core/vicinity.hpp"
 
 #include "hyoryu/core/parallel.hpp"
+#include "rounding.hpp"
 
 #include <algorithm>
 
 namespace hyoryu {
 
 namespace {
-
-// Bound on the rounding error of positions and squared distances in single precision, relative to
-// the edge of a tile.
-constexpr float rounding_of_cells = 2e-6F;
 
 using Step = std::array<float, 3>;
 
@@ -58,7 +55,7 @@ public:
         : points_(points), others_(others), counted_(counted), marks_(marks)
     {
         const auto edge = static_cast<float>(points.lattice.edge.maxCoeff());
-        const float reach = static_cast<float>(radius) + rounding_of_cells * edge;
+        const float reach = static_cast<float>(radius) + rounding_of_positions * edge;
         squared_radius_ = reach * reach;
     }
 

@@ -184,7 +184,7 @@ private:
     }
 
     // A rim has only the normals between those of its cap and the side. If the rod extends beyond
-    // the point along the normal, by twice `inward`, the point is no contact.
+    // the point along the normal, by twice `inward`, the point is rejected.
     void add_curve(const FlatTriangle& triangle, const Feature& f, const Crease& crease)
     {
         const RodTouch found = rod_touch(f, at_);

@@ -19,7 +19,7 @@ namespace hyoryu {
 namespace {
 
 // Largest relative error of the volume of cells that count as cubes of the spacing.
-constexpr double as_asked_for = 0.02;
+constexpr double volume_tolerance = 0.02;
 // A particle fits where it has this part of a cell's shortest edge to the nearest surface; or is
 // as deep in a wall.
 constexpr double fitting = 0.45;
@@ -204,7 +204,8 @@ BlockParticles fill_block(const Scene& scene, std::size_t block, Comm* comm)
     const double cube = std::pow(scene.spacing, d);
     Fit found = fit(space, std::move(first.points),
                     own.layers ? scene.spacing : shortest_edge(plain, d), comm);
-    if (!found.fits || (!own.layers && std::abs(volume_of(plain, d) / cube - 1) > as_asked_for)) {
+    if (!found.fits ||
+        (!own.layers && std::abs(volume_of(plain, d) / cube - 1) > volume_tolerance)) {
         const Bounds box = uncovered(scene, space, bounds(shape));
         if (box.empty()) {
             return result;

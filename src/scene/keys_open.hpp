@@ -141,7 +141,7 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
     }
 }
 
-/// Notes keys that tell how a series file is read if there is no such file.
+/// Reports keys that describe the reading of a series file in a window without a series file.
 inline void check_file_keys(TableReader& table, const OpenSettings& open, const SeriesKeys& keys)
 {
     const bool file = table.has("series") || table.has("station");

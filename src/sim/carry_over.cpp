@@ -3,6 +3,7 @@
 
 #include "hyoryu/scene/gauge_columns.hpp"
 #include "hyoryu/sim/gauges.hpp"
+#include "rounding.hpp"
 #include "state.hpp"
 
 #include <algorithm>
@@ -12,13 +13,10 @@ namespace hyoryu {
 
 namespace {
 
-// Rounding of a sum of steps, as a share of the time between outputs.
-constexpr double rounding = 1e-9;
-
 // Number of the first multiple of `every` after the time.
 std::int64_t next_after(double time, double every)
 {
-    return static_cast<std::int64_t>(std::floor(time / every + rounding)) + 1;
+    return static_cast<std::int64_t>(std::floor(time / every + rounding_of_times)) + 1;
 }
 
 bool same_gauge(const Gauge& a, const Gauge& b)

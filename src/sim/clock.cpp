@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/clock.hpp"
 
+#include "rounding.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace hyoryu {
 
 namespace {
-
-// Rounding of a sum of steps, as a share of the time between outputs.
-constexpr double rounding_of_times = 1e-9;
 
 double frame_time(const Clock& clock, const Scene& scene)
 {
