@@ -232,26 +232,13 @@ void add_film_forces(Fluid& fluid, const FluidTerms& terms)
 void add_solid_forces(Fluid& fluid, const FluidTerms& terms)
 {
     const FluidNeighbours& n = fluid.neighbours;
-    const auto show = [&](auto& data, const Store& store, const Tiles& tiles) {
-        const auto p = store[field::pressure];
-        const auto gap = store[field::gap];
-        data.records().show(tiles, field::pressure,
-                            [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
-    };
-    std::visit(
-        [&](auto& data) {
-            show(data, fluid.particles.fluid, n.fluid);
-            if (const Ghosts* const g = fluid.ghosts.get()) {
-                show(data, g->particles.fluid, g->fluid.tiles);
-            }
-        },
-        fluid.pair_data);
-    run<pass::SolidForces>(fluid,
-                           {{n.fluid_solid, to_fluid(fluid)},
-                            {n.wall_fluid, to_walls(fluid)},
-                            {n.body_fluid, to_bodies(fluid)}},
-                           terms);
-    load_fluid(fluid, Fields<Pressure>{});
+    with_touching_pressures(fluid, [&] {
+        run<pass::SolidForces>(fluid,
+                               {{n.fluid_solid, to_fluid(fluid)},
+                                {n.wall_fluid, to_walls(fluid)},
+                                {n.body_fluid, to_bodies(fluid)}},
+                               terms);
+    });
     add_film_forces(fluid, terms);
 }
 

@@ -110,6 +110,9 @@ void update_solid_rates(Fluid& fluid)
     const FluidNeighbours& n = fluid.neighbours;
     const FluidParameters& f = fluid.parameters;
     clear(store, SolidContinuity::Writes{});
+    if (held<PairedWalls>(fluid.effects) != nullptr) {
+        clear(store, PairedWalls::Normal::Writes{});
+    }
     run<pass::SolidRates>(fluid, n.fluid_solid, to_fluid(fluid), terms_of(fluid, 0));
     const real touching = sum_beside_plane(fluid.kernel, f.spacing, f.dimensions);
     const auto rho = store[field::density];
@@ -162,7 +165,8 @@ void update_rates(Fluid& fluid)
         clear(store, Union<GradientMoments::Writes, CorrectedContinuity::Writes>{});
     }
     const bool sticks = sticks_to_solids(fluid) && has_solids(fluid);
-    if (sticks || held<EddyViscosity>(fluid.effects) != nullptr) {
+    const bool pairs = held<PairedWalls>(fluid.effects) != nullptr && has_solids(fluid);
+    if (sticks || pairs || held<EddyViscosity>(fluid.effects) != nullptr) {
         receive_velocities(fluid);
     }
     if (sticks) {
@@ -184,6 +188,9 @@ void update_rates(Fluid& fluid)
     if (store.has(field::solid_rate)) {
         update_solid_rates(fluid);
         add_part(store, field::solid_rate);
+    }
+    if (pairs) {
+        add_paired_rates(fluid);
     }
     add_part(store, field::diffusion_rate);
     if (corrects) {

@@ -71,6 +71,27 @@ void load_solids(Fluid& fluid, const auto& fields)
     load_ghost_solids(fluid, fields);
 }
 
+/// Calls f while the records of fluid with a gap, which solids do not press on, show no pressure.
+void with_touching_pressures(Fluid& fluid, const auto& f)
+{
+    const auto show = [](auto& data, const Store& store, const Tiles& tiles) {
+        const auto p = store[field::pressure];
+        const auto gap = store[field::gap];
+        data.records().show(tiles, field::pressure,
+                            [&](std::size_t i) { return gap[i] > 0 ? 0 : p[i]; });
+    };
+    std::visit(
+        [&](auto& data) {
+            show(data, fluid.particles.fluid, fluid.neighbours.fluid);
+            if (const Ghosts* const g = fluid.ghosts.get()) {
+                show(data, g->particles.fluid, g->fluid.tiles);
+            }
+        },
+        fluid.pair_data);
+    f();
+    load_fluid(fluid, Fields<Pressure>{});
+}
+
 /// For the walls that fluid or a body may be near and for the bodies: `of_store(store)` is called
 /// for each store and gives what is called with each row. Walls away from fluid cost nothing.
 void for_wet_solids(Fluid& fluid, const auto& of_store)

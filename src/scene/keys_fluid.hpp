@@ -226,6 +226,7 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid, const Scene& scene)
     keys.rule(check_kernel, fluid);
     GradientSettings::keys(keys, fluid.gradient);
     keys.rule(check_gradient, fluid);
+    WallContinuitySettings::keys(keys, fluid.continuity);
     // The first slot's table is listed before the other keys of walls.
     keys.heading("viscosity", "Viscosity of the fluid.");
     SlipSettings::keys(keys, fluid.walls);

@@ -181,6 +181,12 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                     fmt::format("`fluid.{}`: reverse kernel gradient correction",
                                 mps ? "formulation` is \"mps\"" : "gradient` is \"corrected\"")),
                fluid ? "`fluid.gradient` is \"plain\"" : none);
+    census.add("paired_walls",
+               when(solids && !std::holds_alternative<Off>(plan.effects[slot::wall_continuity]),
+                    "`fluid.wall_continuity` is \"paired\": compression before walls and bodies"),
+               !fluid   ? none
+               : solids ? "`fluid.wall_continuity` is \"plain\""
+                        : "the fluid meets no wall and no body");
     census.add("isotropic_kernel",
                when(fluid && plan.fluid->kernel == KernelShape::isotropic,
                     "`fluid.kernel` is \"isotropic\": pressure stays isotropic among strained "
@@ -322,7 +328,7 @@ Plan plan_of(const Scene& scene, const PlanFacts& facts)
         plan.expected_speed = expected_speed(scene, facts);
         plan.fluid = fluid_parameters(scene, facts.particle_volume, plan.expected_speed);
         plan.effects = chosen_effects(scene.fluid->effects, scene.fluid->gradient,
-                                      scene.fluid->walls, *plan.fluid);
+                                      scene.fluid->continuity, scene.fluid->walls, *plan.fluid);
         const auto limits =
             fluid_limits(*plan.fluid, 0, scene.gravity.norm(), viscosity_of_scheme(plan));
         plan.limits.assign(limits.begin(), limits.end());

@@ -50,6 +50,7 @@ std::vector<Variant> variants(const Simulation& sim)
     });
     add(NoSlip::name, slot::slip);
     add(CorrectedGradient::name, slot::gradient);
+    add(PairedWalls::name, slot::wall_continuity);
     return all;
 }
 

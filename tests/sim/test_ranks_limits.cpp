@@ -51,6 +51,7 @@ TEST(RanksAtLimits, NothingIsReadOfGhostsThatWasNotSent)
     for (const std::vector<std::string>& overrides : std::vector<std::vector<std::string>>{
              {},
              {"fluid.gradient=\"corrected\"", "fluid.density_diffusion.model=\"antuono\""},
+             {"fluid.wall_continuity=\"paired\""},
              {"fluid.walls=\"no_slip\"", "fluid.viscosity.model=\"sps\"",
               "fluid.viscosity.kinematic=1e-3"}}) {
         const Case of(dam + crates, overrides);

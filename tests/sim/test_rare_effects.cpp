@@ -26,6 +26,7 @@ periodic = ["x"]
 [fluid]
 sound_speed = 10.0
 gradient = "corrected"
+wall_continuity = "paired"
 kernel = "isotropic"
 walls = "no_slip"
 acceleration = [0.5, 0.0, 0.0]
@@ -64,6 +65,7 @@ end = 10.0
 spacing = 0.05
 [fluid]
 gradient = "corrected"
+wall_continuity = "paired"
 walls = "no_slip"
 [fluid.viscosity]
 model = "laminar"
@@ -156,14 +158,21 @@ velocity_field = ["1 + z", "0", "x*z"]
 
 TEST(RareEffects, AreAbsentUnlessAskedFor)
 {
-    const std::array<const char*, 8> effects{
-        "no_slip",      "sps_turbulence",     "drive",           "particle_collision", "cavitation",
-        "moving_walls", "corrected_gradient", "isotropic_kernel"};
+    const std::array<const char*, 9> effects{"no_slip",
+                                             "sps_turbulence",
+                                             "drive",
+                                             "particle_collision",
+                                             "cavitation",
+                                             "moving_walls",
+                                             "corrected_gradient",
+                                             "isotropic_kernel",
+                                             "paired_walls"};
     const Simulation with = make(channel);
     for (const char* effect : effects) {
         EXPECT_TRUE(with.plan.runs(effect)) << effect;
     }
-    const Simulation without = make(basin, {"fluid.walls=free_slip", "fluid.gradient=plain"});
+    const Simulation without = make(
+        basin, {"fluid.walls=free_slip", "fluid.gradient=plain", "fluid.wall_continuity=plain"});
     for (const char* effect : effects) {
         EXPECT_FALSE(without.plan.runs(effect)) << effect;
     }
@@ -171,7 +180,8 @@ TEST(RareEffects, AreAbsentUnlessAskedFor)
     for (const Store* p : {&particles.fluid, &particles.wall, &particles.body}) {
         EXPECT_FALSE(p->has(field::velocity_sum) || p->has(field::depth) || p->has(field::strain) ||
                      p->has(field::turbulent_viscosity) || p->has(field::moments) ||
-                     p->has(field::cavity) || p->has(field::gradient_correction));
+                     p->has(field::cavity) || p->has(field::gradient_correction) ||
+                     p->has(field::paired_rate) || p->has(field::wall_compression));
     }
 }
 

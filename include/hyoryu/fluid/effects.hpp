@@ -164,6 +164,7 @@ using StageWrites = typename detail::WritesOfAll<AllSlots, Stage>::type;
 
 /// The effects of a fluid that the user has chosen.
 inline FluidEffects chosen_effects(const FluidChoices& choices, const GradientSettings& gradient,
+                                   const WallContinuitySettings& continuity,
                                    const SlipSettings& walls, const FluidParameters& fluid)
 {
     FluidEffects effects;
@@ -177,6 +178,9 @@ inline FluidEffects chosen_effects(const FluidChoices& choices, const GradientSe
     });
     if (gradient.corrected || fluid.formulation == FormulationKind::mps) {
         effects[slot::gradient] = CorrectedGradient{};
+    }
+    if (continuity.paired) {
+        effects[slot::wall_continuity] = PairedWalls{};
     }
     if (walls.sticks && !std::holds_alternative<Off>(effects[slot::viscosity])) {
         effects[slot::slip] = NoSlip{};

@@ -79,12 +79,22 @@ struct FluidRates {
         });
     }
 };
-/// fluid <- solid: continuity, and moments for the next correction
+/// fluid <- solid: continuity, moments for the next correction, normals of paired walls
 struct SolidRates {
     static void call(const FluidTerms& terms, const auto& f)
     {
-        if_corrected(
-            terms, [&] { f(SolidContinuity{}, GradientMoments{}); }, [&] { f(SolidContinuity{}); });
+        const auto with = [&](const auto&... more) {
+            if_corrected(
+                terms, [&] { f(SolidContinuity{}, GradientMoments{}, more...); },
+                [&] { f(SolidContinuity{}, more...); });
+        };
+        if constexpr (is_built<PairedWalls>) {
+            if (held<PairedWalls>(terms.effects) != nullptr) {
+                with(PairedWalls::Normal{});
+                return;
+            }
+        }
+        with();
     }
 };
 /// fluid <- fluid and solid: crowding
@@ -103,8 +113,9 @@ using AllPasses =
                  EffectPasses>::type;
 
 /// Passes with solids only, which use the kernel of SPH in either formulation.
-using SolidPasses = PassList<pass::Extrapolation, pass::SolidForces, pass::FilmForces,
-                             pass::SolidRates, NoSlip::Mirror, NoSlip::Friction>;
+using SolidPasses =
+    PassList<pass::Extrapolation, pass::SolidForces, pass::FilmForces, pass::SolidRates,
+             NoSlip::Mirror, NoSlip::Friction, PairedWalls::Before, PairedWalls::Rates>;
 
 /// The loops of a kernel in the number Real, one for each pass, each over one block of lists; none
 /// for `SolidPasses` with the kernel of MPS. SPH and MPS have the same terms.

@@ -99,6 +99,7 @@ struct FluidSettings {
     double density = 1000.0;           // rho_0 [kg/m3]
     std::optional<double> sound_speed; // c_0 [m/s]; none: 10 x the largest expected speed
     GradientSettings gradient;
+    WallContinuitySettings continuity;
     SlipSettings walls;
     Vec3 acceleration{0, 0, 0}; // besides gravity [m/s2]
     FluidChoices effects;
