@@ -15,8 +15,8 @@ void update_compressions(Fluid& fluid)
     const FluidTerms terms = terms_of(fluid, 0);
     clear_wet_solids(fluid, PairedWalls::Writes{});
     with_touching_pressures(fluid, [&] {
-        run<PairedWalls::Before>(fluid, n.wall_fluid, to_walls(fluid), terms);
-        run<PairedWalls::Before>(fluid, n.body_fluid, to_bodies(fluid), terms);
+        run<PairedWalls::Before>(
+            fluid, {{n.wall_fluid, to_walls(fluid)}, {n.body_fluid, to_bodies(fluid)}}, terms);
     });
     for_wet_solids(fluid, [&](Store& solids) {
         return [D = solids[field::wall_compression], u = solids[field::velocity],
@@ -38,7 +38,7 @@ void update_compressions(Fluid& fluid)
 void add_paired_rates(Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;
-    share_fluid(fluid, Fields<WallNormal, Gap>{});
+    share_fluid(fluid, Fields<WallNormal>{});
     update_compressions(fluid);
     clear(store, PairedWalls::Rate::Writes{});
     run<PairedWalls::Rates>(fluid, fluid.neighbours.fluid_solid, to_fluid(fluid),
@@ -46,7 +46,7 @@ void add_paired_rates(Fluid& fluid)
     const auto rho = store[field::density];
     const auto V = store[field::volume];
     const auto paired = store[field::paired_rate];
-    const auto rate = store[field::density_rate];
+    const auto rate = store[field::solid_rate];
     parallel_for(0, store.size(), [&](Index i) { rate[i] += rho[i] / V[i] * paired[i]; });
 }
 

@@ -103,26 +103,34 @@ void add_friction(Fluid& fluid)
     replicate_body_friction(fluid);
 }
 
-// Sets the density rate due to solids, and closes gaps that are too near to solids.
+// Sets the density rate due to solids.
 void update_solid_rates(Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;
-    const FluidNeighbours& n = fluid.neighbours;
-    const FluidParameters& f = fluid.parameters;
     clear(store, SolidContinuity::Writes{});
-    if (held<PairedWalls>(fluid.effects) != nullptr) {
+    const bool paired = held<PairedWalls>(fluid.effects) != nullptr;
+    if (paired) {
         clear(store, PairedWalls::Normal::Writes{});
     }
-    run<pass::SolidRates>(fluid, n.fluid_solid, to_fluid(fluid), terms_of(fluid, 0));
-    const real touching = sum_beside_plane(fluid.kernel, f.spacing, f.dimensions);
+    run<pass::SolidRates>(fluid, fluid.neighbours.fluid_solid, to_fluid(fluid), terms_of(fluid, 0));
     const auto rho = store[field::density];
     const auto rate = store[field::solid_rate];
+    parallel_for(0, store.size(), [&](Index i) { rate[i] *= rho[i]; });
+    if (paired) {
+        add_paired_rates(fluid);
+    }
+}
+
+// Closes gaps that are too near to solids. After the rates: these count the pairs of the forces.
+void close_gaps(Fluid& fluid)
+{
+    Store& store = fluid.particles.fluid;
+    const FluidParameters& f = fluid.parameters;
+    const real touching = sum_beside_plane(fluid.kernel, f.spacing, f.dimensions);
     const auto sum = store[field::shepard_sum];
     const auto gap = store[field::gap];
-    parallel_for(0, store.size(), [&](Index i) {
-        rate[i] *= rho[i];
-        gap[i] = std::min(gap[i], f.mass * positive(touching - sum[i]));
-    });
+    parallel_for(0, store.size(),
+                 [&](Index i) { gap[i] = std::min(gap[i], f.mass * positive(touching - sum[i])); });
 }
 
 // Adds a part of the density rate to it, if there is one.
@@ -187,10 +195,8 @@ void update_rates(Fluid& fluid)
     }
     if (store.has(field::solid_rate)) {
         update_solid_rates(fluid);
+        close_gaps(fluid);
         add_part(store, field::solid_rate);
-    }
-    if (pairs) {
-        add_paired_rates(fluid);
     }
     add_part(store, field::diffusion_rate);
     if (corrects) {

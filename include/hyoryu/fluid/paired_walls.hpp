@@ -49,10 +49,10 @@ struct WallCompression {
     using type = real;
     static constexpr FieldInfo info{"WallCompression", "m3/s", Holders::solids};
 };
-/// Part of the rate of density that fluid takes over from solids.
+/// Rate of compression that fluid takes over from solids, times its volume.
 struct PairedRate {
     using type = real;
-    static constexpr FieldInfo info{"PairedRate", "kg/m3/s", Holders::fluid};
+    static constexpr FieldInfo info{"PairedRate", "m3/s", Holders::fluid};
 };
 namespace field {
 inline constexpr WallNormal wall_normal{};
@@ -144,7 +144,8 @@ inline real compression_before(real compression, const Vec3& motion, const Vec3&
     return compression - along;
 }
 
-/// Adds to the rates of density what fluid takes over from solids, after the normals were summed.
+/// Adds what fluid takes over from solids to the part of its rate of density that is due to solids,
+/// after the normals were summed: solids do not stretch fluid without pressure (fluid/parting).
 void add_paired_rates(Fluid& fluid);
 
 /// The continuity at solids, as the user chooses it.
