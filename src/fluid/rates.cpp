@@ -60,13 +60,7 @@ void show_velocities(Fluid& fluid, SolidVelocity which)
 void with_mirrored_velocities(Fluid& fluid, const auto& f)
 {
     show_velocities(fluid, SolidVelocity::mirrored);
-    try {
-        f();
-    } catch (...) {
-        show_velocities(fluid, SolidVelocity::own);
-        throw;
-    }
-    show_velocities(fluid, SolidVelocity::own);
+    then_restore(f, [&] { show_velocities(fluid, SolidVelocity::own); });
 }
 
 // nu_t of every fluid particle.
@@ -121,7 +115,8 @@ void update_solid_rates(Fluid& fluid)
     }
 }
 
-// Closes gaps that are too near to solids. After the rates: these count the pairs of the forces.
+// Closes gaps that are too near to solids. It comes after the rates, since these must count the
+// same pairs as the forces.
 void close_gaps(Fluid& fluid)
 {
     Store& store = fluid.particles.fluid;

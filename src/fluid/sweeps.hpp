@@ -71,7 +71,19 @@ void load_solids(Fluid& fluid, const auto& fields)
     load_ghost_solids(fluid, fields);
 }
 
-/// Calls f while the records of fluid with a gap, which solids do not press on, show no pressure.
+/// Calls f, then `restore`, which is called if f throws, too.
+void then_restore(const auto& f, const auto& restore)
+{
+    try {
+        f();
+    } catch (...) {
+        restore();
+        throw;
+    }
+    restore();
+}
+
+/// Calls f while the records of fluid with a gap, on which solids do not push, show zero pressure.
 void with_touching_pressures(Fluid& fluid, const auto& f)
 {
     const auto show = [](auto& data, const Store& store, const Tiles& tiles) {
@@ -88,8 +100,7 @@ void with_touching_pressures(Fluid& fluid, const auto& f)
             }
         },
         fluid.pair_data);
-    f();
-    load_fluid(fluid, Fields<Pressure>{});
+    then_restore(f, [&] { load_fluid(fluid, Fields<Pressure>{}); });
 }
 
 /// For the walls that fluid or a body may be near and for the bodies: `of_store(store)` is called

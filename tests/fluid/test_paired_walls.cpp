@@ -5,11 +5,9 @@
 #include "hyoryu/fluid/fluid.hpp"
 #include "hyoryu/fluid/paired_walls.hpp"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
-#include <numbers>
 #include <vector>
 
 namespace hyoryu::test_paired_walls {
@@ -157,8 +155,8 @@ TEST(PairedWalls, WorkOfThePressureIsTheChangeOfTheCompression)
                 }
             }
         }
-        EXPECT_GT(paired, 0.02 * scale); // else the test is of the plain continuity
-        EXPECT_LT(std::abs(sum), 1e-12 * scale);
+        EXPECT_GT(paired, 0.02 * scale);         // else the test is of the plain continuity
+        EXPECT_LT(std::abs(sum), 1e-12 * scale); // some thousand sums of some hundred terms
     });
 }
 
@@ -252,7 +250,8 @@ TEST(PairedWalls, LoopsEqualSumsOverAllPairs)
             }
             const real largest = std::ranges::max(rates);
             ASSERT_GT(largest, 0);
-            // Single precision: records in units of 1e-6 spacings, some hundred terms each.
+            // Single precision: records in units of 1e-6 spacings, some hundred terms each; double:
+            // the same number of roundings.
             const real tolerance = precision == Precision::single_precision ? 1e-4 : 1e-11;
             for (Index i = 0; i < p.size(); ++i) {
                 EXPECT_NEAR(p[field::paired_rate][i], rates[at(i)], tolerance * largest);
@@ -313,6 +312,7 @@ Taken taken(Fluid& fluid, const Vec3& velocity)
     return sum;
 }
 
+// Exact by symmetry and by the adjoint; the tolerances are of rounding, some hundred terms.
 TEST(PairedWalls, WaterThatSlidesIsNotCompressedAndWaterThatApproachesIsByTheSameAgain)
 {
     for_clouds([](const Cloud& cloud, Dice& dice) {
@@ -329,6 +329,7 @@ TEST(PairedWalls, WaterThatSlidesIsNotCompressedAndWaterThatApproachesIsByTheSam
     });
 }
 
+// Velocities four times as large round alike; some hundred terms.
 TEST(PairedWalls, AVelocityOfAllChangesNothing)
 {
     for_clouds([](const Cloud& cloud, Dice& dice) {

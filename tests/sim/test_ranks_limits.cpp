@@ -169,13 +169,20 @@ size = [0.2, 1, 0.12]
 density = 400
 position = [0.4, 0, 0.62]
 )";
-    const std::vector<std::pair<std::string, long long>> scenes{
-        {dam, 5}, {dam + floating, 6}, {dam + crates, 7}};
-    for (const auto& scene : scenes) {
-        const Case of(scene.first, {});
+    struct Stepped {
+        std::string text;
+        std::vector<std::string> overrides;
+        long long calls;
+    };
+    const std::vector<Stepped> scenes{{dam, {}, 5},
+                                      {dam, {"fluid.wall_continuity=\"paired\""}, 7},
+                                      {dam + floating, {}, 6},
+                                      {dam + crates, {}, 7}};
+    for (const Stepped& scene : scenes) {
+        const Case of(scene.text, scene.overrides);
         test_help::on_ranks(3, [&](CountedComm& comm) {
             look_at_steps(of, comm, [&](const Simulation&, const Traffic& step) {
-                EXPECT_EQ(step.calls, scene.second);
+                EXPECT_EQ(step.calls, scene.calls);
             });
         });
     }

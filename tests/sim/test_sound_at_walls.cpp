@@ -19,8 +19,8 @@ struct Column {
     double sound_speed; // over sqrt(g L)
 };
 
-// The lowest mode of a column of water, started by its velocity, without gravity at an even
-// pressure that keeps all of it pressed on the walls.
+// The lowest mode of a column of water, started by its velocity. Its hydrostatic pressure keeps the
+// water pressed on the walls.
 std::string text_of(const Column& c)
 {
     const double L = c.length * c.spacing;
@@ -76,7 +76,8 @@ double period_of(const Column& c, const char* continuity)
 }
 
 // The static compression shortens the period by less than g L/c0^2, 0.25 % at the least sound
-// speed; the plain continuity lengthens it by 1.4 dp/W and more.
+// speed; half a per cent is the tolerance of the case `acoustic_column` for the discretisation. The
+// plain continuity lengthens the period by 1.4 dp/W and more.
 TEST(SoundAtWalls, HasItsPeriodWithThePairedContinuity)
 {
     Dice dice(static_cast<std::uint64_t>(number_from("HYORYU_SEED", 31)));

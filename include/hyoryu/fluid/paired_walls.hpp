@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Continuity at solids that belongs to the pressure of solids.
+// Continuity at solids that is the adjoint of the pressure of solids.
 //
-// A solid particle pushes with the pressure of the fluid before it. The plain continuity knows only
-// the motion of the fluid relative to the solid: it misses what is compressed before each solid
-// particle, as if the wall gave way. Sound beside walls is too slow, and the pressure of a jet on a
-// plate too low. Here each solid particle sums the compression before itself, and the fluid
-// before it takes it over with the weights by which the solid takes over its pressure. The work of
-// that pressure is then the change of the compression energy.
+// A solid particle pushes with the mean pressure of the fluid before it. The plain continuity
+// contains only the motion of the fluid relative to the solid, so that the water beside a wall is
+// too soft: sound beside walls is too slow, and the pressure of a jet on a plate too low. Here each
+// solid particle sums the compression of the fluid before it, and the fluid takes this compression
+// over with the weights with which the solid takes over its pressure. With the plain gradient the
+// work of that pressure is then the change of the compression energy.
 //
-// One part is left out. At a free surface the fluid that moves along a wall covers solid particles
-// or uncovers them, which is no compression. Therefore only the mean motion normal to the surface
-// counts, of the difference to the mean all. The normal is that which the fluid sees: kernel sums
-// over solid particles, which continue above the free surface. In a thin body with fluid on both
-// sides these normals cancel; the less they agree, the less is left out.
+// One part is left out. At a free surface, fluid that moves along a wall covers or uncovers solid
+// particles, and the sum takes this for a compression. The velocity of the fluid is therefore split
+// into its mean and the difference to the mean. Of the mean only the component normal to the
+// surface counts; the difference counts in full. The normal is that of the fluid particles: kernel
+// sums over solid particles, which continue above the free surface. In a thin body with fluid on
+// both sides these normals cancel; the less they agree, the less is left out.
 #pragma once
 
 #include "hyoryu/fluid/continuity.hpp"
@@ -30,8 +31,8 @@ struct WallNormal {
     using type = Vec3;
     static constexpr FieldInfo info{"WallNormal", "1/m", Holders::fluid};
 };
-/// Sums over the fluid before a solid particle: of its normals and of their squares, weighted by W;
-/// of V F r over fluid under pressure; and of the rate of compression of the latter.
+/// Sums over the fluid before a solid particle: W N and W N^2, N the normals of the fluid
+/// particles, and V F r over the fluid under pressure.
 struct NormalSum {
     using type = Vec3;
     static constexpr FieldInfo info{"NormalSum", "1/m4", Holders::solids};
@@ -44,7 +45,8 @@ struct GradientSum {
     using type = Vec3;
     static constexpr FieldInfo info{"GradientSum", "1/m", Holders::solids};
 };
-/// The rate of compression before a solid particle over its sum of W.
+/// The rate of compression of the fluid before a solid particle; after the sums divided by S = sum
+/// W.
 struct WallCompression {
     using type = real;
     static constexpr FieldInfo info{"WallCompression", "m3/s", Holders::solids};
