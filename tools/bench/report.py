@@ -8,52 +8,54 @@ import json
 import pathlib
 
 OURS = "hyoryu"
-# An error below this, in the unit of its number (0.1 nm, 0.1 um/s), is none: ratios count it as this.
+# Errors below this value, in the unit of the quantity (0.1 nm, 0.1 um/s), are raised to it in ratios.
 EXACT = 1e-7
 
 PREAMBLE = """# Contact benchmarks
 
-Cost and accuracy of rigid contact: Hyoryu beside the engines that Debian packages, on the scenes
-whose exact answer is known, and on heaps of boxes. Written by
+Cost and accuracy of rigid contact: Hyoryu and the physics engines that are packaged by Debian, in
+scenes with a known exact solution and in heaps of boxes. This page was written by
 
     scripts/bench {extent}--markdown docs/contact-benchmarks.md
 
-which builds `tools/bench/`, runs it and rewrites this file. `scripts/bench --against FILE` compares
-our cost with that of an earlier `contact.json`. Without the engines it gives our rows alone; they
-come with the Debian packages `libbullet-dev`, `libode-dev` and `libmujoco-dev`.
+which builds and runs `tools/bench/`. `scripts/bench --against FILE` compares the cost of Hyoryu with
+that in an earlier `contact.json`. Without the other engines the command measures Hyoryu alone. The
+engines are in the Debian packages `libbullet-dev`, `libode-dev` and `libmujoco-dev`.
 
 Measured on {machine}, {compiler}, {build} build, one thread; {versions}.
 
-## What is fair here, and what is not
+## Conditions of the comparison
 
-- Cost is CPU time of one thread inside the engine's step, without reading states. All engines run
-  one after the other in each of at least three rounds of one program (fewer where a round of a large
-  heap takes minutes), and of each fortieth of a run, in a heap of each step, the least time over the
-  rounds counts, so that a machine busy with something else cannot make one engine look slow.
-- The same shapes, masses, poses, velocities, gravity, restitution and friction for all; no damping,
-  no sleeping. The errors are read from a run of their own and stand against exact answers (closed
-  forms, or an event-driven solver good to 1e-8 m), never against Hyoryu.
-- Hyoryu steps by 1 ms and by 10 ms, the others by 1 ms and by 0.1 ms. Costs are compared at 1 ms.
-- We know our own engine better than the others. Each has one tight setting, below, that does well
-  over all scenes; an expert could tune each scene further. Bullet runs in single precision, as it is
-  packaged by default, and on a floor that is a box, since its plane lets a box tumble. ODE's
-  friction is an axis-aligned pyramid, which is its only model. MuJoCo has no restitution
-  coefficient: its contacts are springs and dashpots, set so that e comes out over ten steps; where
-  nothing can touch it runs with its fourth-order integrator. Its buffer cannot hold 1,000 boxes.
-- The rest position of soft or position-corrected contact lies a little below the surface; "sink"
-  and "overlap" count that as error, which a game or a controller need not care about.
-- The apex of the timber's right end depends on the law for simultaneous impacts. Ours solves them in
-  rounds; for an engine that solves all at once the exact apex is 0, so its error of 37 to 38 mm is
-  a choice of law, not a defect.
-- From the heaps' first impacts on, no two engines follow the same path; there, cost per contact,
-  overlap and energy at the end are what can be compared. Contacts are points as each engine makes
-  them.
+- Cost is the CPU time of one thread in the step function of the engine, without reading the states.
+  All engines run one after the other, in at least three rounds of one program (fewer if a round of a
+  large heap takes minutes). A run is divided into forty parts, and a run of a heap into its steps;
+  of each part the shortest time of all rounds counts. Other work on the machine therefore does not
+  favour any engine.
+- Shapes, masses, poses, velocities, gravity, restitution and friction are the same for all engines,
+  without damping and without sleeping. Errors are measured in a separate run, relative to exact
+  solutions (closed forms, or an event-driven solver with errors below 1e-8 m), never to Hyoryu.
+- Hyoryu uses steps of 1 ms and 10 ms, the other engines 1 ms and 0.1 ms. Costs are compared at 1 ms.
+- The authors know Hyoryu better than the other engines. Each of these has one set of accurate
+  settings, listed below, chosen for all scenes together; an expert could improve them for each
+  scene. Bullet uses single precision, the default of its package, and a box as the floor, since a
+  box tumbles on its plane. The friction of ODE is an axis-aligned pyramid, its only model. MuJoCo
+  has no restitution coefficient: its contacts are springs and dashpots, chosen such that e results
+  over ten steps; scenes without contacts use its fourth-order integrator. Its buffer is too small
+  for 1,000 boxes.
+- With soft or position-corrected contacts bodies rest slightly below the surface. "sink" and
+  "overlap" count this as an error, although it is irrelevant to a game or a controller.
+- The apex of the right end of the timber depends on the law for simultaneous impacts. Hyoryu solves
+  them one after the other in rounds. For engines that solve all impacts together the exact apex is
+  0; their error of 37 to 38 mm reflects the choice of the law and is not a defect.
+- After the first impacts in a heap the motion is different in each engine. Cost per contact,
+  overlap and energy at the end can still be compared. The number of contacts is the number of
+  contact points, as each engine creates them.
 
 """
 
 
 def machine_here():
-    """The processor and its widest registers, as Linux tells them."""
+    """The processor and its widest registers, from /proc/cpuinfo."""
     text = pathlib.Path("/proc/cpuinfo").read_text()
     known = dict(line.split(":", 1) for line in text.split("\n\n")[0].splitlines() if ":" in line)
     known = {key.strip(): value.strip() for key, value in known.items()}
@@ -71,7 +73,7 @@ def figure(value):
 
 
 def error_ratio(peer, ours):
-    """How many times larger a peer's error is than ours, or that both are as good as none."""
+    """Ratio of the error of another engine to ours; "both exact" if both are below EXACT."""
     theirs, mine = abs(peer["error"]), abs(ours["error"])
     if max(theirs, mine) < EXACT:
         return "both exact"
@@ -139,8 +141,8 @@ def error_tables(document):
 
 
 def claim_table(document):
-    """Our error at 1 ms beside the best of the peers at 0.1 ms, for each number of each scene."""
-    lines = ["| scene | number | unit | ours at 1 ms | best peer at 0.1 ms | which | ratio |",
+    """Our error at 1 ms and the smallest of the other engines at 0.1 ms, for each quantity of each scene."""
+    lines = ["| scene | quantity | unit | Hyoryu at 1 ms | best other engine at 0.1 ms | engine | ratio |",
              "|---|---|---|---|---|---|---|"]
     for scene in document["scenes"]:
         ours = by_engine(scene, 1e-3).get(OURS)
@@ -186,14 +188,14 @@ def markdown(document):
     lines = ["## Settings\n", "| engine | settings |", "|---|---|"]
     lines += [f"| {e['name']} | {e['settings']} |" for e in document["engines"]]
     lines += ["\n## Cost [us a step, at 1 ms]\n"] + cost_table(document)
-    lines += ["\n## Accuracy: ours at 1 ms, the best of the others at 0.1 ms\n",
-              "For each number the best of the other engines, whichever it is; an error below 1e-7 of the"
-              " unit counts as that, and where both are below the two are called exact.\n"]
+    lines += ["\n## Accuracy: Hyoryu at 1 ms, the best other engine at 0.1 ms\n",
+              "For each quantity the smallest error of the other engines is listed. Errors below 1e-7 of the unit are"
+              " raised to this value in the ratio; if both errors are below it, the table says \"both exact\".\n"]
     lines += claim_table(document)
     lines += ["\n## Heaps",
               "\nBoxes of 0.1 m and 0.5 kg in columns with seeded offsets and tilts, dropped into a basin;"
-              " e = 0.2, mu = 0.5, steps of 1 ms. Falling: the first quarter of the run; at rest: the"
-              " last.\n"]
+              " e = 0.2, mu = 0.5, steps of 1 ms. \"falling\" is the first quarter of the run, \"at rest\" the last"
+              " quarter.\n"]
     lines += heap_table(document)
     lines += ["\n## Errors, scene by scene"] + error_tables(document)
     return text + "\n".join(lines) + "\n"
