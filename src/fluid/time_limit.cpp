@@ -22,11 +22,12 @@ std::array<TimeLimit, 3> fluid_limits(const FluidParameters& fluid, real top_spe
             TimeLimit{"viscous", viscous}};
 }
 
-TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles)
+TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles,
+                     real stiffness)
 {
     const real wet_mass = static_cast<real>(std::max<Index>(surface_particles, 1)) * fluid.mass;
     const real crossing = fluid.h / (fluid.eos.c0 * sound_frequency(fluid.kernel));
-    return {"light body", 2 * crossing * std::sqrt(body_mass / wet_mass)};
+    return {"light body", 2 * crossing * std::sqrt(body_mass / (stiffness * wet_mass))};
 }
 
 TimeLimit shortest(std::span<const TimeLimit> limits)

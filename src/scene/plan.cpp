@@ -161,7 +161,7 @@ void list_walls_and_drive(const Scene& scene, const Plan& plan, Census& census)
                     "`fluid.walls` is \"no_slip\": friction at walls and bodies"),
                !fluid   ? none
                : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
-                        : "the fluid meets no wall and no body");
+                        : "the fluid touches no wall and no body");
     census.add("drive",
                when(fluid && scene.fluid->acceleration.norm() > 0,
                     "`fluid.acceleration` drives the fluid"),
@@ -183,22 +183,23 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                fluid ? "`fluid.gradient` is \"plain\"" : none);
     census.add("paired_walls",
                when(solids && !std::holds_alternative<Off>(plan.effects[slot::wall_continuity]),
-                    "`fluid.wall_continuity` is \"paired\": compression before walls and bodies"),
+                    "`fluid.wall_continuity` is \"paired\": compression in front of walls and "
+                    "bodies"),
                !fluid   ? none
                : solids ? "`fluid.wall_continuity` is \"plain\""
-                        : "the fluid meets no wall and no body");
+                        : "the fluid touches no wall and no body");
     census.add("isotropic_kernel",
                when(fluid && plan.fluid->kernel == KernelShape::isotropic,
                     "`fluid.kernel` is \"isotropic\": pressure stays isotropic among strained "
                     "particles"),
                fluid ? "`fluid.kernel` is \"wendland\"" : none);
-    census.add("wall_extrapolation", when(solids, "the fluid meets walls or bodies"),
-               fluid ? "the fluid meets no wall and no body" : none);
-    census.add("solid_backstop", when(solids, "the fluid meets walls or bodies"),
-               fluid ? "the fluid meets no wall and no body" : none);
+    census.add("wall_extrapolation", when(solids, "the fluid touches walls or bodies"),
+               fluid ? "the fluid touches no wall and no body" : none);
+    census.add("solid_backstop", when(solids, "the fluid touches walls or bodies"),
+               fluid ? "the fluid touches no wall and no body" : none);
     const bool surfaces = fluid && (plan.counts.walls > 0 || plan.counts.bodies > 0);
     census.add("wall_barrier",
-               when(surfaces, "the fluid meets walls or bodies: particles that would pass their "
+               when(surfaces, "the fluid touches walls or bodies: particles that would pass their "
                               "exact surfaces are stopped, and their momentum acts on the solid"),
                fluid ? "the scene has no wall and no body" : none);
     const FluidChoices choices = fluid ? scene.fluid->effects : FluidChoices{};
@@ -211,17 +212,17 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
     });
     const bool periodic =
         scene.domain && std::ranges::any_of(scene.domain->periodic, std::identity{});
-    census.add("periodic", when(periodic, "`domain.periodic` names directions"),
-               "`domain.periodic` names no direction");
+    census.add("periodic", when(periodic, "`domain.periodic` lists directions"),
+               "`domain.periodic` lists no direction");
     const bool coupled = fluid && plan.counts.bodies > 0;
-    census.add("body_load", when(coupled, "bodies stand in or may meet the fluid"),
+    census.add("body_load", when(coupled, "bodies are in the fluid or may touch it"),
                fluid ? "the scene has no bodies" : none);
     census.add("film_pressure", when(coupled, "thin films of fluid between solids carry pressure"),
                fluid ? "the scene has no bodies" : none);
     const auto sealed = std::ranges::count(scene.bodies, true, &BodySettings::sealed);
     census.add("seepage",
                when(coupled, fmt::format("water seeps under {} bodies where they stand; {} with "
-                                         "`body.stands` \"sealed\" keep it out",
+                                         "`body.stands` \"sealed\" prevent seepage",
                                          plan.counts.bodies - sealed, sealed)),
                fluid ? "the scene has no bodies" : none);
 }
@@ -236,8 +237,8 @@ void list_effects(const Scene& scene, Plan& plan)
     census.add("rigid_motion", when(plan.rigid, fmt::format("{} bodies", plan.counts.bodies)),
                plan.counts.bodies > 0 ? "every body is fixed" : "the scene has no bodies");
     census.add("contact",
-               when(plan.contact, plan.counts.bodies > 1 ? "bodies may meet each other or a wall"
-                                                         : "the body may meet a wall"),
+               when(plan.contact, plan.counts.bodies > 1 ? "bodies may touch each other or a wall"
+                                                         : "the body may touch a wall"),
                plan.counts.bodies == 0 ? "the scene has no bodies" : "a single body and no wall");
     const bool moving = has_moving_walls(scene);
     census.add("moving_walls", when(moving, "a wall has `motion`"), "all walls are fixed");
@@ -255,7 +256,7 @@ void list_effects(const Scene& scene, Plan& plan)
     const bool absorbs = std::ranges::any_of(
         scene.walls, [](const Wall& wall) { return wall.motion.absorption.has_value(); });
     census.add("wave_absorption",
-               when(fluid && absorbs, "a paddle gives way to waves: `wall.motion.absorb`"),
+               when(fluid && absorbs, "a paddle absorbs waves: `wall.motion.absorb`"),
                fluid ? "no wall has `motion.absorb`" : dry);
     census.add("open_boundary",
                when(!scene.open.empty(), fmt::format("{} open sides", scene.open.size())),
@@ -332,11 +333,14 @@ Plan plan_of(const Scene& scene, const PlanFacts& facts)
         const auto limits =
             fluid_limits(*plan.fluid, 0, scene.gravity.norm(), viscosity_of_scheme(plan));
         plan.limits.assign(limits.begin(), limits.end());
+        const bool plain = std::holds_alternative<Off>(plan.effects[slot::wall_continuity]);
+        const real stiffness = plain ? 1 : PairedWalls::stiffness;
         for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
             const BodySettings& body = scene.bodies[b];
             const double mass =
                 effective_density(body, scene.dimensions) * volume(body.shape, scene.dimensions);
-            plan.limits.push_back(body_limit(*plan.fluid, mass, facts.surface_points[b]));
+            plan.limits.push_back(
+                body_limit(*plan.fluid, mass, facts.surface_points[b], stiffness));
         }
     } else {
         plan.limits = {{"bodies only", bodies_only_step}};

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numbers>
 
 namespace hyoryu::test_rare_effects {
 namespace {
@@ -197,6 +198,19 @@ TEST(RareEffects, TheIsotropicKernelAsksForShorterSteps)
             const double shorter = sound ? 1.065 : (limit.name == "viscous" ? 1.14 : 1);
             EXPECT_DOUBLE_EQ(limit.dt, shorter * even.plan.limits[k].dt) << limit.name;
         }
+    }
+}
+
+// Water that a light body approaches is compressed twice as fast.
+TEST(RareEffects, ThePairedContinuityAsksForShorterStepsOfLightBodies)
+{
+    const Simulation plain = make(basin, {"fluid.wall_continuity=plain"});
+    const Simulation paired = make(basin, {"fluid.wall_continuity=paired"});
+    ASSERT_EQ(plain.plan.limits.size(), paired.plan.limits.size());
+    for (std::size_t k = 0; k < plain.plan.limits.size(); ++k) {
+        const TimeLimit& limit = plain.plan.limits[k];
+        const double shorter = limit.name == "light body" ? std::numbers::sqrt2 : 1;
+        EXPECT_NEAR(limit.dt, shorter * paired.plan.limits[k].dt, 1e-12 * limit.dt) << limit.name;
     }
 }
 

@@ -74,6 +74,9 @@ struct PairedWalls {
     using Writes = Fields<VelocitySum, NormalSum, NormalSquares, GradientSum, WallCompression>;
     using Columns = Union<Writes, Fields<WallNormal, PairedRate, ShepardSum>>;
     static constexpr bool needs_solids = true;
+    /// The compression of the fluid before a solid that approaches it, over that of the plain
+    /// continuity [1].
+    static constexpr real stiffness = 2;
 
     template <class N>
     void operator()(const Pair<N>& ij, const auto& i, const auto& j, auto& sum) const
@@ -157,10 +160,10 @@ struct WallContinuitySettings {
     static void keys(auto& keys, auto& chosen)
     {
         keys.choice("wall_continuity", chosen.paired, {"plain", "paired"},
-                    "Continuity at walls and bodies. \"plain\": from the motion of the fluid "
-                    "relative to them; \"paired\": also from the compression before each solid "
-                    "particle, with the weights of its pressure, which is more accurate for "
-                    "sound beside walls and for jets on walls.");
+                    "Continuity equation at walls and bodies. \"plain\": from the motion of the "
+                    "fluid relative to them; \"paired\": also from the compression in front of "
+                    "each solid particle, with the weights of its pressure, which is more accurate "
+                    "for sound near walls and for jets on walls.");
     }
 };
 

@@ -24,10 +24,12 @@ struct TimeLimit {
 std::array<TimeLimit, 3> fluid_limits(const FluidParameters& fluid, real top_speed,
                                       real top_acceleration, real nu);
 
-/// 2 (h/c0) sqrt(M / (N m)): the limit of explicit coupling for a light body of mass M with N
+/// 2 (h/c0) sqrt(M / (s N m)): the limit of explicit coupling for a light body of mass M with N
 /// particles in its surface layer and fluid particles of mass m (measured: 2 is stable, 4 is not);
-/// shorter with the isotropic kernel, as the acoustic one.
-TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles);
+/// shorter with the isotropic kernel, as the acoustic one. `stiffness` s [1]: the compression of
+/// the fluid before a solid that approaches it, over that of the plain continuity.
+TimeLimit body_limit(const FluidParameters& fluid, real body_mass, Index surface_particles,
+                     real stiffness);
 
 /// The shortest of the limits.
 TimeLimit shortest(std::span<const TimeLimit> limits);
