@@ -93,7 +93,8 @@ struct VerifyOptions {
     std::filesystem::path folder = "verify-results";
     std::filesystem::path json; // where else `verify.json` goes; empty: nowhere
     bool list = false;
-    int threads = 0; // 0: all
+    int threads = 0; // of each run; 0: all, divided among parallel runs
+    int jobs = 1;    // runs in parallel
     bool force = false;
 };
 int verify(const VerifyOptions& options);

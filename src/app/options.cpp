@@ -51,17 +51,17 @@ void add_run(CLI::App& app, RunOptions& options)
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     run->add_option("--threads", options.threads,
-                    "threads to use (default: OMP_NUM_THREADS, else all)")
+                    "number of threads (default: OMP_NUM_THREADS, else all)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     run->add_option("--rebalance", options.rebalance,
-                    "with several processes: steps between checks of their balance; 0: never "
-                    "(default: 50)")
+                    "with several processes: number of steps between checks of the load balance; "
+                    "0: never (default: 50)")
         ->type_name("STEPS")
         ->check(CLI::Range(0, 1000000));
     run->add_option("--parts", options.parts,
-                    "with several processes: most files for the particles of a frame or a "
-                    "checkpoint (default: one a process, at most 64)")
+                    "with several processes: maximum number of files for the particles of a frame "
+                    "or a checkpoint (default: one per process, at most 64)")
         ->type_name("N")
         ->check(CLI::Range(1, 9999));
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
@@ -87,13 +87,14 @@ void add_check(CLI::App& app, CheckOptions& options)
     auto* json = check->add_flag("--json", options.json, "print the plan as JSON");
     check
         ->add_flag("--accuracy", options.accuracy,
-                   "also print the expected error, from the standing studies")
+                   "also print the expected error, from the accuracy studies")
         ->excludes(json);
-    check->add_option("--plan", options.plan, "also draw the scene from above, as a picture")
+    check->add_option("--plan", options.plan, "also draw the scene in plan view, as a picture")
         ->type_name("FILE.png")
         ->check(a_name);
-    check->add_flag("--time", options.time,
-                    "measure some steps of the case for the forecast, and the cost of each effect");
+    check->add_flag(
+        "--time", options.time,
+        "measure some time steps of the case for the forecast, and the cost of each effect");
 }
 
 void add_describe(CLI::App& app, DescribeOptions& options)
@@ -114,16 +115,17 @@ void add_render(CLI::App& app, RenderOptions& options)
         ->type_name("T,T...")
         ->delimiter(',')
         ->check(finite);
-    render_->add_option("--width", options.settings.width, "pixels")
+    render_->add_option("--width", options.settings.width, "width of the pictures in pixels")
         ->type_name("N")
         ->check(CLI::Range(64, 7680));
-    render_->add_option("--height", options.settings.height, "pixels")
+    render_->add_option("--height", options.settings.height, "height of the pictures in pixels")
         ->type_name("N")
         ->check(CLI::Range(64, 4320));
-    render_->add_option("--azimuth", options.settings.azimuth_deg, "camera direction [deg]")
+    render_->add_option("--azimuth", options.settings.azimuth_deg, "azimuth of the camera [deg]")
         ->type_name("DEGREES")
         ->check(finite);
-    render_->add_option("--elevation", options.settings.elevation_deg, "camera height [deg]")
+    render_
+        ->add_option("--elevation", options.settings.elevation_deg, "elevation of the camera [deg]")
         ->type_name("DEGREES")
         ->check(finite);
     render_->add_option("--fps", options.settings.fps, "frames per second of the animation")
@@ -149,12 +151,14 @@ void add_report(CLI::App& app, ReportOptions& options)
 
 void add_verify(CLI::App& app, VerifyOptions& options)
 {
-    auto* verify_ = app.add_subcommand("verify", "run benchmarks against their references");
+    auto* verify_ =
+        app.add_subcommand("verify", "run benchmarks and compare them with their references");
     verify_->add_option("NAME", options.names, "benchmarks or groups of benchmarks (default: all)")
         ->type_name("NAME");
     verify_->add_option("--tier", options.tier, "quick (default), nightly or release")
         ->type_name("quick|nightly|release");
-    verify_->add_option("--cases", options.cases, "folder of the benchmark folders")
+    verify_
+        ->add_option("--cases", options.cases, "folder that contains the folders of the benchmarks")
         ->type_name("FOLDER")
         ->check(a_name);
     verify_
@@ -166,8 +170,16 @@ void add_verify(CLI::App& app, VerifyOptions& options)
         ->type_name("FILE")
         ->check(a_name);
     verify_
-        ->add_option("--threads", options.threads,
-                     "threads to use (default: OMP_NUM_THREADS, else all)")
+        ->add_option(
+            "--threads", options.threads,
+            "number of threads of each run (default: OMP_NUM_THREADS, else all, divided by "
+            "the number of parallel runs)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
+    verify_
+        ->add_option(
+            "--jobs", options.jobs,
+            "number of parallel runs, limited by the memory; affects wall times (default: 1)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     verify_->add_flag("--list", options.list, "only list the benchmarks");
@@ -188,12 +200,13 @@ void add_study(CLI::App& app, StudyOptions& options)
             "results folder (default: name of the study + -results, in the current folder)")
         ->type_name("FOLDER")
         ->check(a_name);
-    study->add_option("--threads", options.threads, "threads of each run (default: 1)")
+    study->add_option("--threads", options.threads, "number of threads of each run (default: 1)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     study
-        ->add_option("--jobs", options.jobs,
-                     "parallel runs, as far as memory allows; disturbs wall times (default: 1)")
+        ->add_option(
+            "--jobs", options.jobs,
+            "number of parallel runs, limited by the memory; affects wall times (default: 1)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     study->add_flag("--force", options.force, "repeat finished runs");
@@ -208,13 +221,13 @@ void add_bench(CLI::App& app, BenchOptions& options)
         ->excludes(quick);
     bench
         ->add_option("--sizes", options.sizes,
-                     "numbers of fluid particles for the cost against size")
+                     "numbers of fluid particles for the measurement of cost against size")
         ->type_name("N,N...")
         ->delimiter(',')
         ->check(CLI::Range(1e2, 1e8));
     bench
         ->add_option("--threads", options.threads,
-                     "threads to use (default: OMP_NUM_THREADS, else all)")
+                     "number of threads (default: OMP_NUM_THREADS, else all)")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     bench->add_option("--json", options.json, "write the results to this file as well")
@@ -231,12 +244,12 @@ void add_info(CLI::App& app, InfoOptions& options)
 {
     auto* info = app.add_subcommand("info", "list the contents of a results folder");
     add_results(*info, options.folder);
-    info->add_flag("--json", options.json, "the same as JSON, for programs");
+    info->add_flag("--json", options.json, "print the contents as JSON, for programs");
 }
 
 void add_stop(CLI::App& app, StopOptions& options)
 {
-    auto* stop = app.add_subcommand("stop", "ask a run to write a checkpoint and end");
+    auto* stop = app.add_subcommand("stop", "end a run with a checkpoint");
     add_results(*stop, options.folder);
 }
 

@@ -2,7 +2,9 @@
 // `hyoryu verify`: runs benchmarks as `hyoryu run` does and checks their results.
 #include "build_info.hpp"
 #include "commands.hpp"
+#include "errors.hpp"
 #include "options.hpp"
+#include "process_pool.hpp"
 #include "stop_request.hpp"
 
 #include "hyoryu/assess/verify_report.hpp"
@@ -10,6 +12,8 @@
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/plan.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +22,8 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <optional>
+#include <string_view>
 
 namespace hyoryu {
 
@@ -43,8 +49,8 @@ fs::path cases_folder(const VerifyOptions& options)
     if (!options.cases.empty()) {
         if (!holds_benchmarks(options.cases)) {
             throw CaseError(
-                fmt::format("no folder in `{}` holds a verify.toml", options.cases.string()),
-                "--cases names a folder of benchmark folders");
+                fmt::format("no folder in `{}` contains a verify.toml", options.cases.string()),
+                "--cases expects the folder that contains the benchmark folders");
         }
         return options.cases;
     }
@@ -53,7 +59,7 @@ fs::path cases_folder(const VerifyOptions& options)
                             program.parent_path() / "share" / "hyoryu" / "cases"};
     const auto* found = std::find_if(places.begin(), places.end(), holds_benchmarks);
     if (found == places.end()) {
-        throw CaseError("no benchmarks found", "name their folder with --cases");
+        throw CaseError("no benchmarks found", "give their folder with --cases");
     }
     return *found;
 }
@@ -119,6 +125,17 @@ void list(const std::vector<Benchmark>& benchmarks)
     }
 }
 
+/// The reason in the messages of a run that stopped: what follows "error: " at the start of a line.
+std::string reason_in(const std::string& messages)
+{
+    constexpr std::string_view mark = "error: ";
+    const std::size_t later = messages.find(fmt::format("\n{}", mark)); // behind warnings
+    if (messages.starts_with(mark)) {
+        return messages.substr(mark.size());
+    }
+    return later == std::string::npos ? messages : messages.substr(later + 1 + mark.size());
+}
+
 /// Why the run stopped; empty if it came to its end.
 std::string run_one(const VerifyOptions& options, const Benchmark& benchmark,
                     const BenchmarkRun& run, const fs::path& folder)
@@ -132,30 +149,121 @@ std::string run_one(const VerifyOptions& options, const Benchmark& benchmark,
                   .force = fs::exists(folder),
                   .quiet = true});
         return {};
-    } catch (const CaseError& error) {
-        return error.what();
-    } catch (const NumericalError& error) {
-        return error.what();
-    } catch (const IoError& error) {
-        return error.what();
+    } catch (const CaseError&) {
+        return reason_in(meaning_of(std::current_exception()).message);
+    } catch (const NumericalError&) {
+        return reason_in(meaning_of(std::current_exception()).message);
+    } catch (const IoError&) {
+        return reason_in(meaning_of(std::current_exception()).message);
     }
 }
 
-BenchmarkResult verify_one(const VerifyOptions& options, const Benchmark& benchmark,
-                           const TableWidths& widths)
+/// A run of a benchmark.
+struct VerifyJob {
+    std::size_t number = 0; // of the benchmark
+    const Benchmark* benchmark = nullptr;
+    const BenchmarkRun* run = nullptr;
+    fs::path folder;
+};
+
+std::vector<VerifyJob> jobs_of(const VerifyOptions& options,
+                               const std::vector<Benchmark>& benchmarks)
 {
-    BenchmarkResult result{benchmark, {}};
-    for (const BenchmarkRun& run : benchmark.runs) {
-        const fs::path folder = options.folder / benchmark.name / run.name;
-        const std::string error = run_one(options, benchmark, run, folder);
-        if (stop_requested()) {
-            break;
+    std::vector<VerifyJob> jobs;
+    for (std::size_t b = 0; b < benchmarks.size(); ++b) {
+        for (const BenchmarkRun& run : benchmarks[b].runs) {
+            jobs.push_back(
+                {b, &benchmarks[b], &run, options.folder / benchmarks[b].name / run.name});
         }
-        result.runs.push_back(judge_run(benchmark, run, folder, error));
-        fmt::print("{}", terminal_rows(widths, benchmark.name, result.runs.back()));
-        std::fflush(stdout);
     }
-    return result;
+    return jobs;
+}
+
+/// Judges ended runs in the order of the jobs, whatever the order of their ends, and prints the
+/// rows of each.
+class Judge {
+public:
+    Judge(const std::vector<Benchmark>& benchmarks, const std::vector<VerifyJob>& jobs)
+        : jobs_(jobs), widths_(widths_of(benchmarks)), errors_(jobs.size())
+    {
+        for (const Benchmark& benchmark : benchmarks) {
+            results_.push_back({benchmark, {}});
+        }
+        fmt::print("{}", terminal_header(widths_));
+    }
+
+    /// `error`: why the run stopped; empty if it reached its end.
+    void ended(std::size_t number, const std::string& error)
+    {
+        errors_[number] = error;
+        for (; next_ < jobs_.size() && errors_[next_]; ++next_) {
+            const VerifyJob& job = jobs_[next_];
+            std::vector<RunResult>& runs = results_[job.number].runs;
+            runs.push_back(judge_run(*job.benchmark, *job.run, job.folder, *errors_[next_]));
+            fmt::print("{}", terminal_rows(widths_, job.benchmark->name, runs.back()));
+            std::fflush(stdout);
+        }
+    }
+
+    const std::vector<BenchmarkResult>& results() const { return results_; }
+
+private:
+    const std::vector<VerifyJob>& jobs_;
+    TableWidths widths_;
+    std::vector<BenchmarkResult> results_;
+    std::vector<std::optional<std::string>> errors_; // of the ended runs
+    std::size_t next_ = 0;                           // to be judged
+};
+
+/// Runs in this process, one after the other.
+void run_in_turn(const VerifyOptions& options, const std::vector<VerifyJob>& jobs, Judge& judge)
+{
+    for (std::size_t k = 0; k < jobs.size(); ++k) {
+        const std::string error =
+            run_one(options, *jobs[k].benchmark, *jobs[k].run, jobs[k].folder);
+        if (stop_requested()) {
+            return;
+        }
+        judge.ended(k, error);
+    }
+}
+
+/// Forecast of the memory of a run [B]; 0 if its case has a mistake, which the run will report.
+double memory_of(const VerifyJob& job)
+{
+    try {
+        const Scene scene = read_case(job.benchmark->folder / "case.toml", job.run->set);
+        return make_plan(scene, fill(scene)).memory;
+    } catch (const CaseError&) {
+        return 0;
+    }
+}
+
+/// Threads of each of several parallel runs.
+int threads_of_each(const VerifyOptions& options)
+{
+    return options.threads > 0 ? options.threads : std::max(1, thread_count() / options.jobs);
+}
+
+/// Runs as processes, several at a time.
+void run_in_parallel(const VerifyOptions& options, const std::vector<VerifyJob>& jobs, Judge& judge)
+{
+    watch_for_stop();
+    ProcessPool pool(options.jobs, [&](std::size_t k, const std::string& messages) {
+        judge.ended(k, reason_in(messages));
+    });
+    for (std::size_t k = 0; k < jobs.size() && !stop_requested(); ++k) {
+        const VerifyJob& job = jobs[k];
+        fs::create_directories(job.folder.parent_path());
+        pool.start({.number = k,
+                    .arguments = run_arguments({.case_file = job.benchmark->folder / "case.toml",
+                                                .folder = job.folder,
+                                                .overrides = job.run->set,
+                                                .threads = threads_of_each(options)}),
+                    .messages = fmt::format("{}.messages.txt", job.folder.string()),
+                    .memory = memory_of(job)});
+    }
+    pool.wait_for_all();
 }
 
 void write_reports(const VerifyOptions& options, const std::vector<BenchmarkResult>& results,
@@ -195,22 +303,25 @@ int verify(const VerifyOptions& options)
     const std::vector<Benchmark> benchmarks = select(all, options.names, tier);
     prepare(options, benchmarks);
     const auto start = std::chrono::steady_clock::now();
-    const TableWidths widths = widths_of(benchmarks);
-    fmt::print("{}", terminal_header(widths));
-    std::vector<BenchmarkResult> results;
-    for (const Benchmark& benchmark : benchmarks) {
-        results.push_back(verify_one(options, benchmark, widths));
-        if (stop_requested()) {
-            return exit_code::interrupted;
-        }
+    const std::vector<VerifyJob> jobs = jobs_of(options, benchmarks);
+    Judge judge(benchmarks, jobs);
+    if (options.jobs > 1) {
+        run_in_parallel(options, jobs, judge);
+    } else {
+        run_in_turn(options, jobs, judge);
     }
+    if (stop_requested()) {
+        return exit_code::interrupted;
+    }
+    const std::vector<BenchmarkResult>& results = judge.results();
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     write_reports(options, results,
                   {.version = std::string(build_info::version),
                    .commit = std::string(build_info::commit),
                    .build = fmt::format("{}, {}", build_info::type, build_info::compiler),
                    .tier = tier,
-                   .threads = thread_count(),
+                   .threads = options.jobs > 1 ? threads_of_each(options) : thread_count(),
+                   .jobs = options.jobs,
                    .wall_seconds = wall.count()});
     const Tally count = tally(results);
     fmt::print("{}\n", against_line(count));

@@ -125,8 +125,8 @@ std::string title_of(const std::vector<Group>& groups, const SummaryTable::Item&
     }
     const auto [low, high] = std::minmax_element(asked.begin(), asked.end());
     return *low == *high
-               ? fmt::format("{}{}, asked {:.6g}", item.label, unit, *low)
-               : fmt::format("{}{}, asked {:.4g} to {:.4g}", item.label, unit, *low, *high);
+               ? fmt::format("{}{}, expected {:.6g}", item.label, unit, *low)
+               : fmt::format("{}{}, expected {:.4g} to {:.4g}", item.label, unit, *low, *high);
 }
 
 std::vector<TextTable::Head> heads_of(const SummaryTable& table, const std::vector<Group>& groups)
@@ -175,8 +175,9 @@ std::map<std::string, std::string> summary_documents(const std::vector<Benchmark
         }
     }
     for (auto& [file, text] : documents) {
-        text += fmt::format("Made by hyoryu {} (commit {}, {}) with {} threads in {:.3g} s.\n",
-                            info.version, info.commit, info.build, info.threads, info.wall_seconds);
+        text +=
+            fmt::format("Made by hyoryu {} (commit {}, {}) with {} in {:.3g} s.\n", info.version,
+                        info.commit, info.build, threads_of(info), info.wall_seconds);
     }
     return documents;
 }

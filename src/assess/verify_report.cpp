@@ -231,6 +231,13 @@ std::string against_line(const Tally& tally)
     return line;
 }
 
+std::string threads_of(const VerifyInfo& info)
+{
+    return info.jobs > 1
+               ? fmt::format("{} threads per run, {} parallel runs", info.threads, info.jobs)
+               : fmt::format("{} threads", info.threads);
+}
+
 std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info)
 {
     const Tally count = tally(results);
@@ -239,7 +246,8 @@ std::string verify_json(const std::vector<BenchmarkResult>& results, const Verif
                       {"build", info.build},
                       {"tier", to_string(info.tier)},
                       {"wall_seconds", info.wall_seconds},
-                      {"threads", info.threads}};
+                      {"threads", info.threads},
+                      {"jobs", info.jobs}};
     json["passed"] = count.pass;
     json["failed"] = count.failed();
     json["known_to_fail"] = count.xfail;
@@ -268,9 +276,9 @@ std::string verify_markdown(const std::vector<BenchmarkResult>& results, const V
                             const DrawnFigures& figures)
 {
     std::string text =
-        fmt::format("# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {} threads, {:.3g} s: "
+        fmt::format("# Verification\n\nhyoryu {} (commit {}, {}), tier {}, {}, {:.3g} s: "
                     "**{}**. {}.\n\n",
-                    info.version, info.commit, info.build, to_string(info.tier), info.threads,
+                    info.version, info.commit, info.build, to_string(info.tier), threads_of(info),
                     info.wall_seconds, summary_line(tally(results)), against_line(tally(results)));
     text += markdown_overview(results);
     for (const BenchmarkResult& result : results) {

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """Benchmarks held to their references."""
 import json
+import signal
+import subprocess
+import time
 import xml.etree.ElementTree
 
-from program import ProgramTest, main
+from program import HYORYU, ProgramTest, main
 
 
 class Verify(ProgramTest):
@@ -101,6 +104,44 @@ style = "points"
         done = self.verify()
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("out of range", done.stdout)
+
+    def test_parallel_runs_give_the_same_report(self):
+        """Apart from costs: runs that pass, fail, stop with a mistake and become unstable, in the order of the file."""
+        runs = "".join(f'[[run]]\nname = "{name}"\nset = ["{change}"]\n' for name, change in (
+            ("long", "time.step=1e-5"), ("odd", "body[0].density=-1"), ("short", "time.step=0.02"),
+            ("fast", "body[0].velocity=[0,0,-1e308]"), ("low", "body[0].position=[0,0,0.5]")))
+        self.benchmark(self.BENCHMARK + runs)
+        reports, rows = [], []
+        for jobs in ("1", "2", "4"):
+            done = self.verify("--force", "--jobs", jobs)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            rows.append([line.split()[1] for line in done.stdout.splitlines() if line.startswith("free_fall")])
+            report = json.loads((self.dir / "out/verify.json").read_text())
+            self.assertEqual(report["jobs"], int(jobs))
+            reports.append([{key: run.get(key) for key in ("name", "steps", "error", "checks")}
+                            for run in report["cases"][0]["runs"]])
+        self.assertEqual(rows[0], ["long", "odd", "short", "fast", "low"])
+        self.assertEqual(rows[1:], rows[:1] * 2)
+        self.assertEqual(reports[1:], reports[:1] * 2)
+        self.assertIn("out of range", json.dumps(reports[0]))
+        self.assertEqual(list(self.dir.rglob("*.messages.txt")), [])
+
+    def test_a_request_to_stop_reaches_parallel_runs(self):
+        self.benchmark(self.BENCHMARK + "".join(
+            f'[[run]]\nname = "{k}"\nset = ["time.end=100", "time.step=1e-4", "output.every=10"]\n' for k in range(3)))
+        process = subprocess.Popen([HYORYU, "verify", "--cases", "mine", "-o", "out", "--jobs", "2"], cwd=self.dir,
+                                   stdout=subprocess.DEVNULL)
+        self.addCleanup(process.kill)
+        end = time.monotonic() + 60
+        while not all((self.dir / f"out/free_fall/{k}/plan.json").exists() for k in (0, 1)):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(60), 130)
+        for k in (0, 1):
+            self.assertTrue((self.dir / f"out/free_fall/{k}/checkpoint.h5").exists())
+        self.assertFalse((self.dir / "out/free_fall/2").exists())
+        self.assertEqual(list(self.dir.rglob("*.messages.txt")), [])
 
     def test_mistakes_are_the_users(self):
         self.benchmark()

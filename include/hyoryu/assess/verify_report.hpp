@@ -18,7 +18,8 @@ struct VerifyInfo {
     std::string commit;
     std::string build; // type and compiler
     Tier tier = Tier::quick;
-    int threads = 0;
+    int threads = 0; // of each run
+    int jobs = 1;    // runs in parallel
     double wall_seconds = 0;
 };
 
@@ -36,6 +37,9 @@ std::string summary_line(const Tally& tally);
 
 /// "Checks held against an experiment: 12 (8 pass), ...": the sources of the expected numbers.
 std::string against_line(const Tally& tally);
+
+/// "2 threads", or "1 threads per run, 2 parallel runs".
+std::string threads_of(const VerifyInfo& info);
 
 std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info);
 
