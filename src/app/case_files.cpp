@@ -97,8 +97,8 @@ std::vector<KeyDifference> file_differences(const std::string& before, const std
     for (const auto& [key, hash] : hashes_in(before)) {
         const auto found = now.find(key);
         if (found != now.end() && found->second != hash) {
-            differences.push_back({key, fmt::format("a file of hash {}", hash),
-                                   fmt::format("one of hash {}", found->second)});
+            differences.push_back({key, fmt::format("a file with the hash {}", hash),
+                                   fmt::format("one with the hash {}", found->second)});
         }
     }
     return differences;

@@ -51,7 +51,7 @@ const FrameSet& set_named(const std::vector<FrameSet>& sets, const std::string& 
         known.push_back(set.name);
     }
     const std::string hint = did_you_mean(name, known);
-    throw CaseError(fmt::format("--only: the run wrote no \"{}\"", name),
+    throw CaseError(fmt::format("--only: the results contain no \"{}\"", name),
                     hint.empty() ? fmt::format("known: {}", quoted_list(known)) : hint);
 }
 
@@ -69,10 +69,10 @@ std::vector<FrameSet> chosen_sets(const ConvertOptions& options, ExportFormat fo
         chosen.push_back(set_named(sets, name));
         if (format == ExportFormat::csv && chosen.back().has_triangles) {
             throw CaseError(
-                fmt::format("--only: \"{}\" are triangles, which a table of points does "
-                            "not hold",
+                fmt::format("--only: \"{}\" are triangles, which cannot be written to a table of "
+                            "points",
                             name),
-                "--to vtp writes them");
+                "use --to vtp for triangles");
         }
     }
     return chosen;

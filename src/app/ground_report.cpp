@@ -18,7 +18,7 @@ std::string lines_of(const std::string& name, const MeshShape& mesh)
         "  ground \"{}\"\n"
         "    window                 x {:.6g} to {:.6g} m, y {:.6g} to {:.6g} m\n"
         "    surface                {} x {} cells of {:.4g} m, z {:.4g} to {:.4g} m\n"
-        "    grid less surface      rms {:.3g} m, largest {:.3g} m at ({:.6g}, {:.6g}) m, of {} "
+        "    grid minus surface     rms {:.3g} m, largest {:.3g} m at ({:.6g}, {:.6g}) m, of {} "
         "heights\n",
         name, patch.extent[0], patch.extent[2], patch.extent[1], patch.extent[3], check.cells[0],
         check.cells[1], patch.resolution, check.lowest, check.highest, check.rms, check.largest,

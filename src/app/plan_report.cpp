@@ -194,8 +194,8 @@ std::string busy_lines(const Plan& plan, const StepCost& timed)
     StepCost free = timed;
     free.slowdown = 1;
     return fmt::format("      the machine was busy   threads waited for a core in {:.0f} % of the "
-                       "timing,\n{:27}which made steps {:.1f} times as long: about {} once it is "
-                       "free\n",
+                       "timing,\n{:27}which made steps {:.1f} times as long: about {} on an idle "
+                       "machine\n",
                        100 * timed.waiting, "", timed.slowdown,
                        readable_seconds(wall_forecast(plan, free)));
 }
@@ -208,7 +208,8 @@ std::string entering_line(const Plan& plan, const std::optional<StepCost>& timed
     }
     return fmt::format("      open sides           from {} to at most {} fluid particles; {}\n",
                        plan.counts.fluid, plan.most_fluid,
-                       timed && timed->development ? "timed as they enter" : "their mean is taken");
+                       timed && timed->development ? "the measurement includes their inflow"
+                                                   : "the forecast uses their mean number");
 }
 
 std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)
@@ -242,7 +243,7 @@ std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& time
         const Development& d = *timed->development;
         text +=
             fmt::format("      {:<20} steps {:.2f} times as long as the first, and {:.2f} times as "
-                        "many\n      {:<20} (the same at {} times the spacing, {:.1f} s)\n",
+                        "many\n      {:<20} (measured at {} times the spacing, {:.1f} s)\n",
                         "development of flow", d.step, d.steps, "", d.coarsening, d.seconds);
     }
     text += entering_line(plan, timed);

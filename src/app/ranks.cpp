@@ -53,14 +53,15 @@ void expect_alike(Comm& comm)
 {
     if (comm.size() != processes_announced()) {
         throw IoError(fmt::format("the launcher has started {} processes, but MPI connects {} of "
-                                  "them: {} and the launcher are of different MPIs",
+                                  "them: {} and the launcher belong to different MPI "
+                                  "implementations",
                                   processes_announced(), comm.size(), mpi_module::file_name));
     }
     const auto own = static_cast<int>(widest_instruction_set());
     const std::vector<int> sets = gather(comm, std::span<const int>(&own, 1)).all;
     if (std::ranges::count(sets, own) != std::ssize(sets)) {
         throw IoError("the processes run on processors with different instruction sets, which "
-                      "round differently\n  hint: start the run on processors of one kind");
+                      "round differently\n  hint: start the run on processors of the same type");
     }
 }
 
@@ -79,9 +80,8 @@ void* open_mpi_module()
             return module;
         }
     }
-    throw IoError(fmt::format("this is one of several processes that are to share a run, which "
-                              "needs {}: on Debian it is in the package hyoryu-mpi; from source "
-                              "it is built with -DHYORYU_MPI=ON",
+    throw IoError(fmt::format("a run with several processes needs {}: on Debian it is in the "
+                              "package hyoryu-mpi; from source it is built with -DHYORYU_MPI=ON",
                               mpi_module::file_name));
 }
 
@@ -91,7 +91,7 @@ Function function_of(void* module, const char* name)
     void* const found = dlsym(module, name);
     if (found == nullptr) {
         throw IoError(
-            fmt::format("{} is of another version of the program", mpi_module::file_name));
+            fmt::format("{} belongs to another version of the program", mpi_module::file_name));
     }
     return reinterpret_cast<Function>(found);
 }
@@ -212,7 +212,8 @@ void expect_common(Comm* comm, const std::vector<Common>& things)
             throw CaseError(fmt::format("the processes do not have the same {}: ranks 0 and {} "
                                         "differ",
                                         things[thing].what, k / things.size()),
-                            "start all of them by one command, with files that all machines share");
+                            "start all processes with one command, with files that all machines "
+                            "share");
         }
     }
 }

@@ -198,7 +198,7 @@ Resumption resumption_of(const RunOptions& options, const fs::path& folder, cons
                         .key = "time.end",
                         .what = fmt::format("{} s is before the checkpoint, which is at {} s",
                                             scene.time.end, time),
-                        .hint = "a later end, or restart with --force"}});
+                        .hint = "set a later `time.end`, or restart with --force"}});
     }
     if (found.changed) {
         carry_over(state, before, found.scene);

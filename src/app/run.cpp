@@ -52,11 +52,10 @@ void check_memory(const Scene& scene, const Plan& plan, double part)
             fmt::format(
                 "the run needs about {} of memory, but only {} are available to this process",
                 readable_bytes(needed), readable_bytes(memory)),
-            by_steps
-                ? fmt::format("the histories of {:.2g} steps need it, of {:.2g} s each: `hyoryu "
-                              "check` tells what limits the step",
-                              plan.expected_steps, plan.first_step)
-                : "increase `particles.spacing`");
+            by_steps ? fmt::format("the time histories of {:.2g} steps of {:.2g} s each need this "
+                                   "memory: `hyoryu check` shows the limit of the time step",
+                                   plan.expected_steps, plan.first_step)
+                     : "increase `particles.spacing`");
     }
 }
 
@@ -121,7 +120,7 @@ void recover(Job& job, const NumericalError& error)
     sim.pair_visits = job.sim.pair_visits;
     job.progress.line(fmt::format("note: the simulation became unstable: {}", error.what()));
     job.progress.line(fmt::format(
-        "recovery: back to t = {} s, then to the end with time steps of {} of the limits",
+        "recovery: the run continues from t = {} s to the end with time steps of {} of the limits",
         sim.clock.time, sim.clock.share));
     if (job.outputs) {
         job.outputs.reset(); // all that it holds back is on disk before it is read again
@@ -229,8 +228,8 @@ void tell_doubts(Job& job, const Closing& now)
     if (const std::vector<int> outside = bodies_outside(job.sim); !outside.empty()) {
         const Body& first = job.sim.rigid.bodies[static_cast<std::size_t>(outside.front())];
         job.progress.line(fmt::format(
-            "note: {} wholly below or beside the domain of the fluid at the end, "
-            "first \"{}\" at ({:.4g}, {:.4g}, {:.4g}) m",
+            "note: {} completely below or beside the domain of the fluid at the end, first \"{}\" "
+            "at ({:.4g}, {:.4g}, {:.4g}) m",
             outside.size() == 1 ? "one body is" : fmt::format("{} bodies are", outside.size()),
             first.name, first.position.x(), first.position.y(), first.position.z()));
     }

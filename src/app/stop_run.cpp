@@ -39,11 +39,11 @@ int stop_run(const StopOptions& options)
             "name the folder that the run writes to");
     }
     if (!running) {
-        throw CaseError(fmt::format("no run writes to `{}`", options.folder.string()),
+        throw CaseError(fmt::format("no run is writing to `{}`", options.folder.string()),
                         "only a run that is in progress can be stopped");
     }
-    write_text(stop_file(options.folder), "This file asks the run to stop.\n");
-    fmt::print("the run will write a checkpoint and end after the step it is in\n");
+    write_text(stop_file(options.folder), "This file tells the run to stop.\n");
+    fmt::print("the run will write a checkpoint and end after the current step\n");
     return exit_code::done;
 }
 

@@ -161,7 +161,7 @@ int run_study(const StudyOptions& options)
     const std::vector<std::string> errors =
         run_jobs(study, runs, jobs, {.threads = options.threads, .side_by_side = options.jobs});
     if (stop_requested()) {
-        fmt::print("stopped; the same command continues\n");
+        fmt::print("stopped; run the same command again to continue\n");
         return exit_code::interrupted;
     }
     const StudyResult result = collect_results(study, runs, jobs, errors);

@@ -43,7 +43,7 @@ Function module_function(const char* name)
 {
     void* found = dlsym(open_vtk_module(), name); // dlopen counts: opening again is free
     if (found == nullptr) {
-        throw IoError(fmt::format("{} is of another version of the program", file_name));
+        throw IoError(fmt::format("{} belongs to another version of the program", file_name));
     }
     return reinterpret_cast<Function>(found);
 }

@@ -184,7 +184,7 @@ ExpectedError arrival_of_bore(const Scene& scene, const Plan& plan, double depth
     const double n = depth / scene.spacing;
     ExpectedError expected{.quantity = "arrival of a bore",
                            .error = error_at(bore, n),
-                           .why = fmt::format("{:.3g} spacings in the depth", n),
+                           .why = fmt::format("{:.3g} spacings over the depth", n),
                            .halving = not_studied,
                            .study = std::string(bore_study.study)};
     if (const auto halved = halved_at(bore, n, bore.back().number)) {
@@ -206,7 +206,7 @@ ExpectedError motion_in_water()
 {
     return {.quantity = "motion of bodies in contact, in water",
             .error = not_a_number,
-            .why = fmt::format("the impulse on the house of the debris flood moves by {:.0f} % "
+            .why = fmt::format("the impulse on the house of the debris flood changes by {:.0f} % "
                                "between the two finest runs",
                                100 * impulse_in_water),
             .halving = not_studied,
@@ -222,7 +222,8 @@ ExpectedError motion_of(const Scene& scene, const Plan& plan, double length)
     ExpectedError expected{.quantity = "motion of bodies in contact",
                            .error = penalty_error,
                            .why = "springs of the penalty method",
-                           .halving = "contact.method = \"impulse\"; no step, spacing or stiffness",
+                           .halving = "contact.method = \"impulse\"; no time step, spacing or "
+                                      "stiffness halves it",
                            .study = std::string(timber_study.study)};
     if (!scene.contact.penalty) {
         // The scale of time of a body that tilts is sqrt(L/g).
@@ -231,7 +232,7 @@ ExpectedError motion_of(const Scene& scene, const Plan& plan, double length)
         expected.error = step < finest ? timber.front().error : error_at(timber, step);
         expected.why = fmt::format("steps of {:.3g} sqrt(L/g), L = {:.3g} m{}",
                                    plan.first_step * std::sqrt(scene.gravity.norm() / length),
-                                   length, step < finest ? "; at most" : "");
+                                   length, step < finest ? "; an upper bound" : "");
         // On all rungs it is small beside any error of the water.
         expected.halving = std::isnan(expected.error) ? not_studied : "not needed";
     }
@@ -270,7 +271,7 @@ std::vector<std::string> not_covered(const StudyCoverage& coverage, const Scene&
     constexpr double round_off = 1e-9;
     if (depth > 0 && (spacings < coverage.fewest_spacings * (1 - round_off) ||
                       spacings > coverage.most_spacings * (1 + round_off))) {
-        differences.push_back(fmt::format("studied with {} to {} spacings in the depth",
+        differences.push_back(fmt::format("studied with {} to {} spacings over the depth",
                                           coverage.fewest_spacings, coverage.most_spacings));
     }
     return differences;
@@ -304,7 +305,7 @@ std::vector<ExpectedError> expected_errors(const Scene& scene, const Filling& fi
 std::string expected_errors_text(const std::vector<ExpectedError>& errors)
 {
     if (errors.empty()) {
-        return "accuracy     no study says anything of this scene (docs/accuracy.md)\n";
+        return "accuracy     no study applies to this scene (docs/accuracy.md)\n";
     }
     std::string text =
         "accuracy     expected from the studies of other scenes (docs/accuracy.md)\n";

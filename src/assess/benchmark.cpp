@@ -53,7 +53,7 @@ Benchmark read_root(Section& root)
     const std::vector<std::string_view> names(known.begin(), known.end());
     const std::string near = did_you_mean(name, names);
     throw CaseError(fmt::format("no benchmark and no group is named \"{}\"", name),
-                    near.empty() ? "there are: " + quoted_list(names) : near);
+                    near.empty() ? "known: " + quoted_list(names) : near);
 }
 
 bool is_named(const Benchmark& benchmark, const std::string& name)
@@ -134,7 +134,7 @@ Benchmark read_benchmark(const fs::path& folder)
     Section root(file, opened.document, "");
     Benchmark benchmark = read_root(root);
     if (benchmark.runs.empty() && file.mistakes.empty()) {
-        root.error("run", "makes no run", "leave it out to run the case as it is");
+        root.error("run", "defines no run", "omit it to run the case unchanged");
     }
     file.expect_no_mistakes();
     benchmark.folder = folder;

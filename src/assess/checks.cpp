@@ -63,14 +63,14 @@ void read_tolerance(Section& section, Check& check)
     if (check.comparison != Comparison::equal &&
         (section.has("tolerance") || section.has("relative"))) {
         section.error(section.has("tolerance") ? "tolerance" : "relative",
-                      "a bound has no tolerance besides itself");
+                      "cannot be combined with a bound, which is itself the limit");
     }
     if (is_error_measure(check.quantity.measure) && section.has("relative")) {
-        section.error("relative", "has no meaning for an error",
+        section.error("relative", "has no meaning for an error measure",
                       "give `tolerance` in the unit of the value");
     }
     if (check.because.empty()) {
-        section.error("because", "is missing: why this tolerance or bound?");
+        section.error("because", "is missing: give the reason for this tolerance or bound");
     }
 }
 
@@ -87,9 +87,10 @@ void find_same(Section& section, const Check& check, const Benchmark& benchmark)
         if (other == nullptr) {
             section.error("same_as", fmt::format("no run is named \"{}\"", name));
         } else if (place(*other) > place(run) || other->tier > run.tier) {
-            section.error("same_as",
-                          fmt::format("\"{}\" is not made before \"{}\"", name, run.name),
-                          "put it before, in the same tier or a lower one");
+            section.error(
+                "same_as",
+                fmt::format("the run \"{}\" is not made before the run \"{}\"", name, run.name),
+                "define it earlier, in the same tier or a lower one");
         }
     }
 }
@@ -150,7 +151,7 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
     read_known_failure(section, runs, check);
     check.mean_over = section.text("mean_over");
     if (!check.mean_over.empty() && !check.same_as.empty()) {
-        section.error("mean_over", "cannot stand beside `same_as`");
+        section.error("mean_over", "cannot be combined with `same_as`");
     } else if (!check.mean_over.empty()) {
         find_draws(section, check, runs);
     }
@@ -158,7 +159,7 @@ Check read_check(Section& section, const Benchmark& benchmark, std::optional<Aga
     try {
         if (!check.same_as.empty()) {
             if (!check.quantity.since.empty()) {
-                section.error("since", "cannot stand beside `same_as`");
+                section.error("since", "cannot be combined with `same_as`");
             }
             find_same(section, check, benchmark);
         }
@@ -185,7 +186,7 @@ WaveGauges read_waves(Section& section)
     waves.period = section.expression("period");
     waves.wavenumber = section.expression("wavenumber");
     if (section.has("beside") && waves.beside.size() + 1 < fewest_gauges) {
-        section.error("beside", "needs two gauges or more besides that of `value`");
+        section.error("beside", "needs at least two gauges in addition to that of `value`");
     } else if (section.has("distance") && waves.distance.size() != waves.beside.size()) {
         section.error("distance", fmt::format("has {} numbers for {} gauges", waves.distance.size(),
                                               waves.beside.size()));
@@ -210,13 +211,13 @@ Quantity read_quantity(Section& check)
         band->finish();
     }
     if (quantity.band.has_value() != (quantity.measure == Measure::share_within)) {
-        check.error("band", "belongs to the measure \"share_within\", and that measure to it");
+        check.error("band", "must be given with the measure \"share_within\", and only with it");
     }
     if (auto waves = check.table("waves")) {
         quantity.waves = read_waves(*waves);
     }
     if (quantity.waves.has_value() != (quantity.measure == Measure::reflection)) {
-        check.error("waves", "belongs to the measure \"reflection\", and that measure to it");
+        check.error("waves", "must be given with the measure \"reflection\", and only with it");
     }
     quantity.index = static_cast<int>(check.integer("index", 1));
     quantity.time = check.expression("time");
@@ -230,7 +231,7 @@ Quantity read_quantity(Section& check)
     quantity.from = check.expression("from");
     quantity.until = check.expression("until");
     if (quantity.index < 1) {
-        check.error("index", "counts from 1");
+        check.error("index", "must be at least 1");
     }
     if (quantity.measure == Measure::at && quantity.time.empty()) {
         check.error("time", "is missing: the measure \"at\" needs it");
@@ -254,7 +255,7 @@ void check_file(Section& section, const std::string& name)
 {
     const bool bad = has_control_characters(name);
     if (name.empty() || bad) {
-        section.error("file", name.empty() ? "is empty" : "holds control characters",
+        section.error("file", name.empty() ? "is empty" : "contains control characters",
                       "a history of the run, or a CSV file beside this one");
     } else if (name.ends_with(".csv") && name.find("${") == std::string::npos) {
         const auto path = section.file().file.parent_path() / name;
@@ -278,7 +279,7 @@ Series read_series(Section& section, std::string_view key)
     }
     series.frame = section.expression("frame");
     if (!series.frame.empty() && series.file != "fluid") {
-        section.error("frame", "has a meaning for `file = \"fluid\"` only");
+        section.error("frame", "has a meaning only for `file = \"fluid\"`");
     }
     series.filter = section.expression("filter");
     series.value = section.expression(key);
@@ -299,7 +300,7 @@ int read_expectation(Section& section, Expectation& expected)
     expected.formula = section.expression("expected");
     if (auto reference = section.table("reference")) {
         if (section.has("since")) {
-            section.error("since", "cannot stand beside `reference`",
+            section.error("since", "cannot be combined with `reference`",
                           "give `expected` as a number");
         }
         expected.reference = read_series(*reference, "value");
@@ -320,7 +321,8 @@ std::vector<Check> read_checks(Section& root, const Benchmark& benchmark)
         checks.push_back(read_check(section, benchmark, against));
         const auto same = [&](const Check& other) { return other.name == checks.back().name; };
         if (std::find_if(checks.begin(), checks.end() - 1, same) != checks.end() - 1) {
-            section.error("name", fmt::format("the check \"{}\" stands twice", checks.back().name));
+            section.error("name",
+                          fmt::format("the check \"{}\" is defined twice", checks.back().name));
         }
     }
     return checks;

@@ -74,7 +74,7 @@ Panel read_panel(Section& section, const std::vector<BenchmarkRun>& runs)
         panel.curves.push_back(read_curve(curve, runs));
         const bool of_time_alone = panel.curves.back().run.empty() && !curve.has("file");
         if (of_time_alone && !panel.x_range) {
-            section.error("x_range", "is missing: a curve of t alone needs it");
+            section.error("x_range", "is missing: a curve that depends on t alone needs it");
         }
     }
     section.finish();

@@ -34,7 +34,7 @@ namespace {
     }
     const std::string near = did_you_mean(name, known);
     throw FormulaError(fmt::format("unknown name \"{}\"; {}", name,
-                                   near.empty() ? "there are: " + quoted_list(known) : near));
+                                   near.empty() ? "known: " + quoted_list(known) : near));
 }
 
 /// Columns evaluated so far; a deque, because the addresses of its elements stay.
@@ -81,7 +81,8 @@ private:
             }
             const auto is_number = [](double x) { return !std::isnan(x); };
             if (!column->texts.empty() && std::ranges::none_of(numbers, is_number)) {
-                throw FormulaError(fmt::format("the column \"{}\" holds texts", name));
+                throw FormulaError(
+                    fmt::format("the column \"{}\" contains text, not numbers", name));
             }
             return numbers;
         }

@@ -43,8 +43,8 @@ Measured at_time(const Samples& s, double time)
     if (const auto value = interpolate(s, time)) {
         return {*value, ""};
     }
-    return {not_a_number, fmt::format("t = {} s is not within the rows, {} to {} s", time,
-                                      s.t.front(), s.t.back())};
+    return {not_a_number, fmt::format("t = {} s is outside the time range of the rows, {} to {} s",
+                                      time, s.t.front(), s.t.back())};
 }
 
 struct Extremum {
@@ -94,7 +94,7 @@ std::vector<double> passes(const Samples& s, double level)
 
 Measured too_few(std::size_t passes, double level)
 {
-    return {not_a_number, fmt::format("it passes {} only {} times", level, passes)};
+    return {not_a_number, fmt::format("it crosses {} only {} times", level, passes)};
 }
 
 Measured crossing(const Samples& s, double level, int index)
@@ -209,7 +209,7 @@ Measured error_of(Measure measure, const std::vector<double>& differences)
     double largest = 0;
     for (const double d : differences) {
         if (std::isnan(d)) {
-            return {not_a_number, "the values or the expected ones are not all numbers"};
+            return {not_a_number, "some values or expected values are not numbers"};
         }
         squares += d * d;
         largest = std::max(largest, std::abs(d));
@@ -227,10 +227,13 @@ struct ValuesAt {
 ValuesAt values_at(const Samples& run, const Samples& rows, const char* of)
 {
     if (run.values.empty() || rows.values.empty()) {
-        return {{}, "no row fits"};
+        return {{}, "no row matches"};
     }
     if (std::ranges::adjacent_find(rows.t) != rows.t.end()) {
-        return {{}, fmt::format("two rows of the {} have one time: has it a column `time`?", of)};
+        return {{},
+                fmt::format("two rows of the {} have the same time: check that it has a column "
+                            "`time`",
+                            of)};
     }
     ValuesAt found;
     for (const double time : rows.t) {
@@ -302,7 +305,7 @@ Measured measure(const Quantity& quantity, const Scope& scope, const Samples& sa
         return {static_cast<double>(s.values.size()), ""};
     }
     if (s.values.empty()) {
-        return {not_a_number, "no row fits"};
+        return {not_a_number, "no row matches"};
     }
     const std::vector<double>& values = s.values;
     const auto [min, max] = std::ranges::minmax_element(values);
@@ -359,7 +362,7 @@ Measured error_from(const Quantity& quantity, const std::string& expected, const
     Series difference = quantity.series;
     difference.value = fmt::format("({}) - ({})", quantity.series.value, expected);
     const Samples s = within(quantity, scope, samples(difference, scope, files));
-    return s.values.empty() ? Measured{not_a_number, "no row fits"}
+    return s.values.empty() ? Measured{not_a_number, "no row matches"}
                             : error_of(quantity.measure, s.values);
 }
 

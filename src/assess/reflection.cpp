@@ -66,7 +66,7 @@ Measured reflection(const std::vector<WaveRecord>& records, double period, doubl
     for (const WaveRecord& record : records) {
         const Samples& s = record.elevation;
         if (s.t.empty() || !(s.t.back() - s.t.front() >= period)) {
-            return not_measured("the rows do not last for a period");
+            return not_measured("the rows cover less than one period");
         }
         const Complex wave = std::polar(1.0, wavenumber * record.x);
         const Complex seen = amplitude(s, omega);
@@ -78,12 +78,13 @@ Measured reflection(const std::vector<WaveRecord>& records, double period, doubl
     const auto count = static_cast<double>(records.size());
     const double determinant = count * count - std::norm(spread);
     if (!(determinant > least_determinant * count * count)) {
-        return not_measured("the gauges stand about whole halves of a wavelength apart");
+        return not_measured("the distances between the gauges are close to multiples of half a "
+                            "wavelength");
     }
     const double there = std::abs(count * coming - std::conj(spread) * going);
     const double back = std::abs(count * going - spread * coming);
     if (!std::isfinite(back) || !(there > least_wave * determinant * most)) {
-        return not_measured("the gauges see no wave, or not all values are numbers");
+        return not_measured("the gauges record no wave, or some values are not numbers");
     }
     return {back / there, ""};
 }

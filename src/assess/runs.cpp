@@ -45,7 +45,7 @@ std::vector<Axis> read_grid(Section& run)
     }
     if (count > most_runs) {
         run.error("grid",
-                  fmt::format("asks for {:.0f} runs, at most {} are made", count, most_runs));
+                  fmt::format("defines {:.0f} runs, at most {} are allowed", count, most_runs));
         return {};
     }
     return axes;
@@ -87,7 +87,7 @@ std::string expand(const std::string& text, const Parameters& parameters, const 
     for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", done)) {
         const std::size_t end = text.find('}', at);
         if (end == std::string::npos) {
-            throw FormulaError(fmt::format("\"{}\": no }} closes the ${{", text));
+            throw FormulaError(fmt::format("\"{}\": the closing }} of ${{ is missing", text));
         }
         result += text.substr(done, at - done);
         result += substitute(text.substr(at + 2, end - at - 2), parameters, scope);
@@ -153,8 +153,8 @@ void append_run(Section& section, const Constants& constants, Tier tier,
         }
         const auto same = [&](const BenchmarkRun& other) { return other.name == run.name; };
         if (std::any_of(runs.begin(), runs.end(), same)) {
-            section.error("name", fmt::format("the run \"{}\" stands twice", run.name),
-                          axes.empty() ? "" : "put every parameter of the grid into the name");
+            section.error("name", fmt::format("the run \"{}\" is defined twice", run.name),
+                          axes.empty() ? "" : "include every parameter of the grid in the name");
             return;
         }
         if (!is_folder_name(run.name)) {
@@ -227,7 +227,7 @@ std::vector<BenchmarkRun> read_runs(Section& root, const Definitions& definition
         if (run.name.empty() || run.name.front() == '.' ||
             run.name.find_first_of("/\\*,;\"\n") != std::string::npos) {
             root.error("run", fmt::format("\"{}\" is not the name of a run", run.name),
-                       "it names a folder: use letters, digits, `_`, `-`, `=` and `.`");
+                       "the name is used for a folder: use letters, digits, `_`, `-`, `=` and `.`");
         }
     }
     if (!root.has("run")) {
@@ -253,7 +253,8 @@ std::vector<std::string> read_patterns(Section& section, std::string_view key,
             }
             const std::string near = did_you_mean(pattern, names);
             section.error(key, fmt::format("no run is named \"{}\"", pattern),
-                          near.empty() ? "the first is " + quoted_list({names.data(), 1}) : near);
+                          near.empty() ? "the first run is " + quoted_list({names.data(), 1})
+                                       : near);
         }
     }
     return patterns;

@@ -90,7 +90,7 @@ void Section::mistyped(const TomlEntry& entry, std::string_view expected)
 void Section::require(std::string_view key)
 {
     if (!has(key)) {
-        error(key, "is missing", fmt::format("write {} = and its value", key));
+        error(key, "is missing", fmt::format("write {} = followed by its value", key));
     }
 }
 
@@ -169,7 +169,7 @@ std::optional<std::size_t> Section::choice(std::string_view key,
     if (has(key)) {
         const std::string near = did_you_mean(name, names);
         error(key, fmt::format("unknown \"{}\"", name),
-              near.empty() ? "there are: " + quoted_list(names) : near);
+              near.empty() ? "known: " + quoted_list(names) : near);
     }
     return std::nullopt;
 }

@@ -90,8 +90,9 @@ void check_name(Section& section, const StudySweep& sweep)
         std::ranges::all_of(sweep.name,
                             [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
     if (!is_name) {
-        section.error("name", fmt::format("\"{}\" cannot stand in an expression", sweep.name),
-                      "letters, digits and _");
+        section.error("name",
+                      fmt::format("\"{}\" cannot be used as a name in an expression", sweep.name),
+                      "use letters, digits and _");
     }
 }
 
@@ -144,7 +145,7 @@ void read_expected(Section& section, StudyQuantity& quantity)
         section.error("", "give one of `expected`, `reference` and `against = \"finest\"`");
     }
     if (is_error_measure(quantity.quantity.measure) && quantity.against_finest) {
-        section.error("measure", "is a difference already; give `expected` or `reference`");
+        section.error("measure", "is already a difference; give `expected` or `reference`");
     }
     if (quantity.quantity.measure == Measure::share_within) {
         section.error("measure", "is not a quantity with an error");
@@ -173,7 +174,7 @@ void refuse_doubles(Section& root, std::string_view key, const std::vector<T>& a
     std::set<std::string> seen;
     for (const T& one : all) {
         if (!seen.insert(name(one)).second) {
-            root.error(key, fmt::format("\"{}\" stands twice", name(one)));
+            root.error(key, fmt::format("\"{}\" is defined twice", name(one)));
         }
     }
     if (all.empty()) {
@@ -289,8 +290,8 @@ void check_count(Section& root, const Study& study)
     if (count > most_runs_of_study) {
         root.error(
             "sweep",
-            fmt::format("asks for {:.10g} runs, at most {} are made", count, most_runs_of_study),
-            "fewer values or repeats, or mode = \"one_at_a_time\"");
+            fmt::format("defines {:.10g} runs, at most {} are allowed", count, most_runs_of_study),
+            "use fewer values or repeats, or mode = \"one_at_a_time\"");
     }
 }
 
@@ -301,7 +302,7 @@ void check_runs(Section& root, const Study& study)
         std::set<std::string> names;
         for (const StudyRun& run : runs_of(study)) {
             if (!names.insert(run.run.name).second) {
-                root.error("sweep", fmt::format("the run \"{}\" stands twice", run.run.name),
+                root.error("sweep", fmt::format("the run \"{}\" is defined twice", run.run.name),
                            "give every value once");
             }
         }

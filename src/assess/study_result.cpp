@@ -43,7 +43,7 @@ StudyValue value_in(const StudyQuantity& q, const std::string& error, MadeRun& m
     v.expected = found.expected;
     v.why = found.why;
     if (v.why.empty() && !std::isfinite(q.against_finest ? v.value : v.value + v.expected)) {
-        v.why = "the value, or what is expected, is not a finite number";
+        v.why = "the value or the expected value is not a finite number";
     }
     if (!q.against_finest && std::isfinite(v.value)) {
         set_error(q, made.scope, v);
@@ -123,7 +123,7 @@ void hold_against_finest(StudyResult& result, std::size_t quantity)
         if (finest == k) {
             const char* const alone = has_finer_and_coarser(result, k)
                                           ? "the finest run"
-                                          : "no finer run to be held against";
+                                          : "no finer run to compare with";
             v.why = v.why.empty() ? alone : v.why;
             continue;
         }

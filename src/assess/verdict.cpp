@@ -54,14 +54,14 @@ void judge_known_failure(const Check& check, const Scope& scope, CheckResult& re
     result.known_within = evaluate(check.xfail_within, scope);
     if (is_good(result)) {
         result.verdict = Verdict::xpass;
-        result.note = fmt::format("passes now, take away its xfail: {}", check.xfail);
+        result.note = fmt::format("passes now, remove its xfail: {}", check.xfail);
         return;
     }
     const bool within = distance_off(result) <= result.known_within;
     result.verdict = within ? Verdict::xfail : Verdict::fail;
     if (result.note.empty()) {
         result.note = fmt::format("{}, {} {:.3g}: {}", distance_text(result),
-                                  within ? "known up to" : "MORE THAN THE KNOWN",
+                                  within ? "known up to" : "MORE THAN THE KNOWN ERROR",
                                   result.known_within, check.xfail);
     }
 }
@@ -235,7 +235,7 @@ CheckResult judge_in(const Benchmark& benchmark, const Check& check, MadeRun& ma
 CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
 {
     CheckResult result{.check = "stops and says why",
-                       .note = error.empty() ? "it came to its end" : error,
+                       .note = error.empty() ? "the run reached its end" : error,
                        .because = fmt::format("\"{}\"", run.stops)};
     result.against = Against::itself;
     result.verdict = error.find(run.stops) != std::string::npos ? Verdict::pass : Verdict::fail;

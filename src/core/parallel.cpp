@@ -45,7 +45,7 @@ void set_threads(int threads)
     const int wanted = threads > 0 ? threads : offered;
     constexpr int most = 4096; // as of --threads
     if (wanted > most) {
-        throw CaseError(fmt::format("OMP_NUM_THREADS asks for {} threads, at most {} are allowed",
+        throw CaseError(fmt::format("OMP_NUM_THREADS requests {} threads, at most {} are allowed",
                                     wanted, most),
                         "set it to the number of processors, or give --threads");
     }

@@ -131,8 +131,8 @@ MeshKind stl_kind(const std::filesystem::path& file, std::uintmax_t size)
     const std::uint32_t count = little_endian(head);
     if (size >= stl_header && size == stl_header + stl_triangle * count) {
         if (count > most_triangles) {
-            refuse(file,
-                   fmt::format("has {} triangles, at most {} are read", count, most_triangles));
+            refuse(file, fmt::format("has {} triangles, at most {} are supported", count,
+                                     most_triangles));
         }
         return MeshKind::stl_binary;
     }

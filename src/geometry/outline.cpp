@@ -48,8 +48,8 @@ std::string ring_fault(const Ring& ring)
         }
         for (std::size_t m = k + 2; m < n && (k > 0 || m + 1 < n); ++m) {
             if (segments_meet(a, b, ring[m], ring[(m + 1) % n])) {
-                return fmt::format("it crosses itself: its edge from corner {} meets that from "
-                                   "corner {}",
+                return fmt::format("it crosses itself: its edge from corner {} touches or crosses "
+                                   "that from corner {}",
                                    k + 1, m + 1);
             }
         }
@@ -241,14 +241,14 @@ std::string outline_fault(const std::vector<Ring>& rings)
             return k == 0 ? fault : fmt::format("inner ring {}: {}", k, fault);
         }
         if (k > 0 && !holds(rings[0], rings[k][0])) {
-            return fmt::format("inner ring {} lies outside of the outer one", k);
+            return fmt::format("inner ring {} lies outside the outer ring", k);
         }
         for (std::size_t m = 0; m < k; ++m) {
             const bool nested =
                 m > 0 && (holds(rings[m], rings[k][0]) || holds(rings[k], rings[m][0]));
             if (nested || rings_meet(rings[m], rings[k])) {
-                return m == 0 ? fmt::format("inner ring {} meets the outer one", k)
-                              : fmt::format("inner rings {} and {} meet", m, k);
+                return m == 0 ? fmt::format("inner ring {} touches or crosses the outer ring", k)
+                              : fmt::format("inner rings {} and {} touch or overlap", m, k);
             }
         }
     }

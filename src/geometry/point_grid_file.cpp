@@ -132,7 +132,7 @@ std::array<Axis, 2> axes_of(const std::filesystem::path& file, const std::vector
     const std::array<Axis, 2> axes{axis_of(std::move(x)), axis_of(std::move(y))};
     const double cells = axes[0].count * axes[1].count;
     if (axes[0].count < 2 || axes[1].count < 2) {
-        refuse(file, points.back().line, "the places lie on one line, expected a grid");
+        refuse(file, points.back().line, "the points lie on one line, expected a grid");
     }
     const bool sparse = static_cast<double>(points.size()) < least_given * cells;
     const auto off = [](const Axis& axis, double value) {
@@ -144,7 +144,7 @@ std::array<Axis, 2> axes_of(const std::filesystem::path& file, const std::vector
     if (sparse || lost != points.end() || cells > most_grid_cells) {
         refuse(
             file, (lost != points.end() ? *lost : points.front()).line,
-            "the places are scattered, expected a regular grid; with the heading x,y,z: `ogr2ogr "
+            "the points are scattered, expected a regular grid; with the header x,y,z: `ogr2ogr "
             "-oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y points.gpkg FILE.csv`, then `gdal_grid "
             "-a linear -zfield z -tr 1 1 points.gpkg ground.tif` grids them at 1 m");
     }
@@ -170,7 +170,7 @@ HeightGrid grid_of_points(const std::filesystem::path& file, const std::string& 
     const std::vector<Point> points = points_of(file, text);
     if (points.empty()) {
         refuse(file, 1,
-               "no point follows the heading, expected lines of easting, northing and height in m");
+               "no point follows the header, expected lines of easting, northing and height in m");
     }
     const auto [x, y] = axes_of(file, points);
     HeightGrid grid{.columns = static_cast<Index>(x.count),
@@ -189,7 +189,7 @@ HeightGrid grid_of_points(const std::filesystem::path& file, const std::string& 
         const auto k = static_cast<std::size_t>(j * grid.columns + i);
         if (given[k]) {
             refuse(file, p.line,
-                   fmt::format("the place ({:.9g}, {:.9g}) is given twice", p.x, p.y));
+                   fmt::format("the point ({:.9g}, {:.9g}) is given twice", p.x, p.y));
         }
         given[k] = true;
         grid.height[k] = std::isnan(p.z) || p.z == none_given ? substitute : p.z;

@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* without =
-    "this program reads no GeoTIFF without its module {}, which on Debian is in the package "
-    "hyoryu-gis; `gdal_translate -of AAIGrid FILE.tif FILE.asc` writes a grid that it reads";
+    "GeoTIFF files need the module {}, which on Debian is in the package hyoryu-gis; without it, "
+    "`gdal_translate -of AAIGrid FILE.tif FILE.asc` converts the file to a supported format";
 
 void* open_module()
 {
@@ -52,7 +52,7 @@ HeightGrid read_raster(const fs::path& file, double substitute)
     void* const found = dlsym(open_module(), raster_module::read_raster_name);
     if (found == nullptr) {
         throw IoError(
-            fmt::format("{} is of another version of the program", raster_module::file_name));
+            fmt::format("{} belongs to another version of the program", raster_module::file_name));
     }
     HeightGrid grid;
     reinterpret_cast<raster_module::ReadRaster>(found)(file, substitute, grid);

@@ -51,7 +51,7 @@ Dataset open_raster(const std::filesystem::path& file)
     const double rows = GDALGetRasterYSize(raster.get());
     if (GDALGetRasterCount(raster.get()) != 1) {
         refuse(file, fmt::format("it has {} bands, expected one of heights; `gdal_translate -b 1` "
-                                 "takes the first",
+                                 "extracts the first",
                                  GDALGetRasterCount(raster.get())));
     }
     if (columns < 2 || rows < 2 || columns * rows > most_cells) {
@@ -78,8 +78,8 @@ void check_map(const std::filesystem::path& file, GDALDatasetH raster, const Hei
     if (map != nullptr && OSRIsProjected(map) != 0) {
         const double unit = OSRGetLinearUnits(map, nullptr);
         if (std::abs(unit - 1) > 1e-9) {
-            refuse(file, fmt::format("its map has units of {:.7g} m, expected metres; `gdalwarp "
-                                     "-t_srs EPSG:32654` reprojects it",
+            refuse(file, fmt::format("its map projection has units of {:.7g} m, expected metres; "
+                                     "`gdalwarp -t_srs EPSG:32654` reprojects it",
                                      unit));
         }
     }
@@ -90,10 +90,10 @@ void place(const std::filesystem::path& file, GDALDatasetH raster, HeightGrid& g
 {
     std::array<double, 6> t{}; // easting = t0 + t1 column + t2 row, northing = t3 + ...
     if (GDALGetGeoTransform(raster, t.data()) != CE_None) {
-        refuse(file, "it has no place on a map; `gdal_translate -a_ullr` gives it one");
+        refuse(file, "it is not georeferenced; `gdal_translate -a_ullr` assigns coordinates to it");
     }
     if (t[2] != 0 || t[4] != 0 || !(t[1] > 0) || t[5] == 0) {
-        refuse(file, "its rows are not from west to east; `gdalwarp` turns it");
+        refuse(file, "its rows do not run from west to east; `gdalwarp` reorients it");
     }
     grid.columns = GDALGetRasterXSize(raster);
     grid.rows = GDALGetRasterYSize(raster);

@@ -100,7 +100,7 @@ Snapshot get_snapshot(hid_t file)
         const Column column = get_column(texts, link);
         const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&column.values);
         if (bytes == nullptr) {
-            throw IoError(fmt::format("`{}` of the checkpoint is not a text", link));
+            throw IoError(fmt::format("`{}` of the checkpoint is not text", link));
         }
         snapshot.texts[name_of(link)] = std::string(bytes->begin(), bytes->end());
     }
@@ -223,7 +223,8 @@ void expect_written(const std::filesystem::path& folder, const CheckpointPart& p
 {
     const CheckpointPart found = verified(folder / part.name);
     if (found.bytes != part.bytes || found.checksum != part.checksum) {
-        throw IoError(fmt::format("`{}` belongs to another checkpoint than the one that names it",
+        throw IoError(fmt::format("`{}` belongs to another checkpoint than the one that refers to "
+                                  "it",
                                   (folder / part.name).string()));
     }
 }
@@ -395,8 +396,8 @@ NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder)
 {
     std::error_code fault;
     if (std::filesystem::is_directory(checkpoint_file(folder), fault)) {
-        throw IoError(fmt::format("`{}` is a folder, but the name belongs to the checkpoint of the "
-                                  "run: move it away to resume",
+        throw IoError(fmt::format("`{}` is a folder, but this name is reserved for the checkpoint "
+                                  "of the run: move it away to resume",
                                   checkpoint_file(folder).string()));
     }
     std::string passed_over;
@@ -406,14 +407,15 @@ NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder)
         passed_over = error.what();
     }
     if (!std::filesystem::exists(previous_file(folder), fault)) {
-        throw IoError(passed_over + "; there is no older one");
+        throw IoError(passed_over + "; there is no older checkpoint");
     }
     try {
         NewestCheckpoint older = read_generation(previous_file(folder));
         older.passed_over = passed_over;
         return older;
     } catch (const IoError& error) {
-        throw IoError(fmt::format("{}; and of the older one: {}", passed_over, error.what()));
+        throw IoError(
+            fmt::format("{}; error of the older checkpoint: {}", passed_over, error.what()));
     }
 }
 

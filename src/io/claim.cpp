@@ -43,7 +43,8 @@ void claim_unguarded(const fs::path& folder, const Claim& claim)
         const std::vector<std::string> names = names_owned(folder, claim);
         if (!names.empty()) {
             throw CaseError(
-                fmt::format("`{}` contains files that no {} wrote and that would be replaced: {}",
+                fmt::format("`{}` contains files that were not written by {} and would be "
+                            "replaced: {}",
                             folder.string(), claim.command, fmt::join(names, ", ")),
                 "move them away, or choose another folder with -o");
         }

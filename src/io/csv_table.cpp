@@ -65,7 +65,7 @@ const std::vector<double>& numbers_of(const CsvTable& table, std::string_view co
 {
     const CsvTable::Column& found = column_of(table, column);
     if (!found.texts.empty()) {
-        throw IoError(fmt::format("`{}`: column `{}` holds something else than numbers",
+        throw IoError(fmt::format("`{}`: column `{}` contains values that are not numbers",
                                   table.file.string(), column));
     }
     return found.numbers;
@@ -108,7 +108,7 @@ CsvTable read_csv(const std::filesystem::path& file)
         table.rows += 1;
     }
     if (table.columns.empty()) {
-        throw IoError(fmt::format("`{}` names no columns", file.string()));
+        throw IoError(fmt::format("`{}` has no header with column names", file.string()));
     }
     return table;
 }

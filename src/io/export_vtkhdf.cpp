@@ -139,8 +139,8 @@ void put_virtual(hid_t group, const std::vector<Step>& steps, const std::string&
             }
             if (own != nullptr &&
                 (own->type != shape->type || own->components != shape->components)) {
-                throw IoError(fmt::format("the array `{}` of `{}` is of another type than that of "
-                                          "earlier frames",
+                throw IoError(fmt::format("the array `{}` of `{}` has another type than in earlier "
+                                          "frames",
                                           name, part.file));
             }
         }

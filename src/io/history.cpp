@@ -48,8 +48,8 @@ struct Kept {
 void expect_rows(const std::filesystem::path& file, std::int64_t rows, std::int64_t expected)
 {
     if (expected != History::all_rows && rows < expected) {
-        throw IoError(fmt::format("cannot continue `{}`: it has {} rows of the run before the "
-                                  "checkpoint, which was written after {}: it was truncated",
+        throw IoError(fmt::format("cannot continue `{}`: it has {} rows up to the checkpoint, "
+                                  "expected {}: it was truncated",
                                   file.string(), rows, expected));
     }
 }
@@ -65,7 +65,7 @@ Kept kept_of(const std::filesystem::path& file, const Table& table, double keep_
     }
     const std::string text = file_text(file);
     if (!text.starts_with(kept) && !kept.starts_with(text)) { // the latter: torn within the header
-        throw IoError(fmt::format("cannot continue `{}`: it has other columns than this run writes",
+        throw IoError(fmt::format("cannot continue `{}`: its columns differ from those of this run",
                                   file.string()));
     }
     const std::size_t header = std::min(kept.size(), text.size());

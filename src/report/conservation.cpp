@@ -64,12 +64,14 @@ std::string energy_text(const RunResults& run, double remainder, double scale)
     const bool fluid = run.plan.at("counts").at("fluid").get<std::int64_t>() > 0;
     return html_paragraph(
         "Each line is the change since the start; contact loss is the energy dissipated by impacts "
-        "and friction, and the energy of lost fluid is kinetic and potential. " +
+        "and friction, and the energy of lost fluid is the sum of its kinetic and potential "
+        "energy. " +
         closing +
         (fluid
              ? "With a fluid it is not zero: the dissipation by viscosity, physical and numerical, "
-               "and the work of moving walls have no line of their own and are part of the sum."
-             : "Without a fluid it is the closure error of the run, and the work of moving walls "
+               "and the work of moving walls are not shown as separate lines and are part of the "
+               "sum."
+             : "Without a fluid it is the closure error of the run plus the work of moving walls, "
                "if there are any."));
 }
 

@@ -136,7 +136,7 @@ std::string force_text(const RunResults& run, const DeclaredContact& declared, b
         "u sqrt(k m) estimates the peak force by an undamped spring (Haehnel and Daly 2004; "
         "contact stiffness approach of ASCE 7): approach speed u, effective mass m, and the "
         "contact stiffness k {}. It is a design formula, not a result of the simulation, which "
-        "computes impulses. A dash: no k for that pair.",
+        "computes impulses. A dash means that no k is given for the pair.",
         declared.stiffness
             ? fmt::format("= {} N/m{} of --stiffness", readable(*declared.stiffness), width)
             : "that the case declares for the two materials");

@@ -62,7 +62,7 @@ std::string picture_section(const RunResults& run)
     const std::vector<SeriesEntry> bodies = frames_of(run, "surfaces");
     const std::vector<SeriesEntry>& frames = water.empty() ? bodies : water;
     if (frames.empty()) {
-        return heading + html_paragraph("The folder holds no frames.");
+        return heading + html_paragraph("The folder contains no frames.");
     }
     std::vector<std::size_t> shown{0, nearest(frames, hardest_moment(run, frames)),
                                    frames.size() - 1};

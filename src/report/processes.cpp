@@ -114,8 +114,8 @@ std::string waiting_text(const nlohmann::ordered_json& shared)
 {
     constexpr double noteworthy = 0.5;
     return number(shared.at("waited_share")) > noteworthy
-               ? " So much means that processes share cores, or that the case is too small for "
-                 "them."
+               ? " Such a large share means that processes share cores, or that the case is too "
+                 "small for them."
                : "";
 }
 
@@ -139,7 +139,7 @@ std::string process_section(const RunResults& run)
             100 * number(shared.at("waited_share")), waiting_text(shared),
             shared.at("rebalances").get<long long>()));
     if (count == 0 || run.ranks->rows < count) {
-        return text + html_paragraph("ranks.csv holds no frame of all processes.");
+        return text + html_paragraph("ranks.csv contains no frame of all processes.");
     }
     return text + charts(*run.ranks, count) + html_paragraph("Until the last frame:") +
            table_of(*run.ranks, count);

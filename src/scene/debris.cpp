@@ -230,9 +230,9 @@ std::string describe_debris_library()
                 fmt::format("    stiffness  {}: {}\n", stiffness.name, listed(stiffness, "N/m"));
         }
     }
-    return text + "\nWater sees every piece as closed; none fills and sinks. Drag and added mass "
-                  "come out of the flow.\nA stiffness goes into `contact.pair.stiffness`, for the "
-                  "peak forces of reports.\n\n";
+    return text + "\nEvery piece is closed to water; none fills and sinks. Drag and added mass "
+                  "result from the flow.\nA stiffness is entered as `contact.pair.stiffness`, for "
+                  "the peak forces of reports.\n\n";
 }
 
 DebrisPiece debris_piece(const DebrisLoad& load, int dimensions)

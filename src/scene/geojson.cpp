@@ -161,12 +161,12 @@ json parse_file(const std::filesystem::path& file)
     try {
         json document = json::parse(text, is_shallow);
         if (too_deep) {
-            throw Fault{fmt::format("more than {} levels, expected polygons", deepest)};
+            throw Fault{fmt::format("more than {} levels of nesting, expected polygons", deepest)};
         }
         return document;
     } catch (const json::parse_error& error) {
-        throw IoError(
-            fmt::format("{}: is not JSON, see {}", file.string(), place_in(text, error.byte)));
+        throw IoError(fmt::format("{}: is not valid JSON, see {}", file.string(),
+                                  place_in(text, error.byte)));
     } catch (const json::out_of_range&) {
         throw Fault{"a number that is too large"};
     }

@@ -187,7 +187,7 @@ void keys_of(auto& keys, Is<BodyCopies> auto& copies, auto& body, auto& bodies)
 {
     constexpr double most = 100000;
     keys.integer("count", copies.count, 1, most, "1 .. 100000",
-                 "Number of bodies along x, y and z, the first one included.", required);
+                 "Number of bodies along x, y and z, including the first body.", required);
     keys.vector("pitch", copies.pitch, "m", "Distance from one body to the next along x, y and z.",
                 required);
     keys.rule(append_copies, copies, body, bodies);
@@ -199,9 +199,10 @@ void matter_keys(auto& keys, Is<BodySettings> auto& body, int dimensions)
     std::size_t kind = body.shape.index();
     keys.alternatives(
         "shape", kind, {"box", "sphere", "cylinder", "mesh", "particles"},
-        "box: size; sphere: radius, a disc in 2-D; cylinder: radius and length along its x axis, "
-        "a rectangle in 2-D; mesh: a closed surface from a file; particles: an aggregate of cubes "
-        "of body.spacing about the points of a file, in 3-D.",
+        "Shape of the body. \"box\": size; \"sphere\": radius, a disc in 2-D; \"cylinder\": radius "
+        "and length along its x axis, a rectangle in 2-D; \"mesh\": a closed surface from a file; "
+        "\"particles\": an aggregate of cubes with edges of body.spacing about the points of a "
+        "file, in 3-D.",
         required, [&](std::size_t k) {
             keys.select(body.shape, k);
             shape_keys(keys, body.shape,
@@ -209,7 +210,7 @@ void matter_keys(auto& keys, Is<BodySettings> auto& body, int dimensions)
                         .radius = "Radius of a sphere or cylinder.",
                         .length = "Length of a cylinder.",
                         .file = "STL or OBJ file of a mesh, or text file of particle centres (x, "
-                                "y, z in m, one a line), relative to the case file."});
+                                "y, z in m, one per line), relative to the case file."});
         });
     std::optional<double> density;
     std::optional<double> mass;
@@ -242,17 +243,16 @@ void keys_of(auto& keys, Is<BodySettings> auto& body, auto& scene)
                   "Spacing of the particles of the body, on which the fluid acts.",
                   "particles.spacing");
     keys.rule(finish_matter, body);
-    keys.planar(
-        "center_of_mass", body.centre_of_mass, "m",
-        "Centre of mass from the middle of the shape (of a mesh, the centre of its volume), "
-        "in body axes.",
-        "[0.0, 0.0, 0.0]");
+    keys.planar("center_of_mass", body.centre_of_mass, "m",
+                "Position of the centre of mass relative to the centre of the shape (for a mesh, "
+                "the centre of its volume), in body axes.",
+                "[0.0, 0.0, 0.0]");
     keys.vector("inertia", body.inertia, "kg m2",
                 "Moments of inertia [Ixx, Iyy, Izz] about the centre of mass, in body axes; in 2-D "
-                "Iyy alone counts.",
+                "only Iyy is used.",
                 "of the uniform shape about its middle");
     keys.rule(check_mass, body);
-    keys.text("material", body.material, "Name of its material, for contact.pair.");
+    keys.text("material", body.material, "Name of the material, for contact.pair.");
     keys.rule(check_material, body.material);
     keys.flag("fixed", body.fixed, "Whether the body is fixed.");
     keys.rule(check_velocities, body);
@@ -265,8 +265,9 @@ void keys_of(auto& keys, Is<BodySettings> auto& body, auto& scene)
                "World axes along which the body cannot move (x, y, z) or about which it cannot "
                "rotate (rx, ry, rz).");
     std::optional<BodyCopies> copies;
-    keys.table("copies", "A block of equal bodies named NAME.1, NAME.2 ..., x fastest.", copies,
-               body, scene.bodies);
+    keys.table("copies",
+               "A regular array of equal bodies named NAME.1, NAME.2 ..., numbered along x first.",
+               copies, body, scene.bodies);
     keys.rule(claim_names, body, scene.bodies, before);
 }
 

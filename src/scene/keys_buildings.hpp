@@ -32,7 +32,7 @@ inline std::vector<Footprint> load_footprints(TableReader& table, const Building
         Footprints found = read_footprints(
             *path, {buildings.height.name, buildings.height.number, buildings.name});
         for (const std::string& fault : found.faults) {
-            table.error("file", fault, "mend the file there, or leave that feature out");
+            table.error("file", fault, "correct the file there, or remove that feature");
         }
         return found.faults.empty() ? std::move(found.list) : std::vector<Footprint>{};
     } catch (const IoError& error) {
@@ -80,17 +80,18 @@ inline void add_buildings(TableReader& table, const BuildingKeys& buildings, Sce
 void keys_of(auto& keys, Is<BuildingKeys> auto& buildings, auto& scene)
 {
     keys.text("file", buildings.file,
-              "GeoJSON file of the footprints, Polygon or MultiPolygon, relative to the case file, "
-              "in the coordinates of the terrain if there is one.",
+              "GeoJSON file of the footprints (Polygon or MultiPolygon), relative to the case "
+              "file, in the coordinates of the terrain if the case has a terrain.",
               required);
     keys.number_or_name("height", buildings.height, "m",
-                        "Height above the lowest ground under the footprint: of all, or the name "
-                        "of the property that has it.",
+                        "Height above the lowest ground under the footprint: a number for all "
+                        "buildings, or the name of the property that contains the height.",
                         required);
     keys.rule(check_height_of_all, buildings);
     keys.text("name", buildings.name,
-              "Property that names each building; without it they are building.1, building.2 ...");
-    keys.text("material", buildings.material, "Name of their material, for contact.pair.");
+              "Property that contains the name of each building; without this key the names are "
+              "building.1, building.2 ...");
+    keys.text("material", buildings.material, "Name of the material, for contact.pair.");
     keys.rule(check_material, buildings.material);
     keys.rule(add_buildings, buildings, scene);
 }

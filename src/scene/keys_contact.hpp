@@ -63,7 +63,7 @@ inline void check_pair(TableReader& table, const MaterialPair& pair, const Conta
             table.error_at(
                 "materials", k,
                 fmt::format("no wall or body has the material \"{}\"", pair.materials[k]),
-                near.empty() && !known.empty() ? "named are: " + quoted_list(known) : near);
+                near.empty() && !known.empty() ? "known: " + quoted_list(known) : near);
         }
     }
     const bool again = std::ranges::any_of(
@@ -78,18 +78,18 @@ void keys_of(auto& keys, Is<PenaltyParameters> auto& penalty)
     keys.positive("stiffness", penalty.stiffness, "N/m",
                   "Stiffness of a pair of particles; in 2-D per metre of width.");
     keys.not_negative("damping", penalty.damping, "N s/m",
-                      "Damping of a pair of particles along the line between them, and across it "
-                      "up to the friction; in 2-D per metre of width.");
+                      "Damping coefficient of a pair of particles along the line between them, and "
+                      "perpendicular to it up to the friction limit; in 2-D per metre of width.");
     keys.positive("step", penalty.step, "s",
-                  "Longest sub-step of the explicit integration; a step of the bodies is split "
-                  "into equal ones.");
+                  "Maximum sub-step of the explicit integration; a time step of the bodies is "
+                  "divided into equal sub-steps.");
 }
 
 void keys_of(auto& keys, Is<MaterialPair> auto& pair, const ContactSettings& contact,
              const std::set<std::string>& materials)
 {
     keys.text_list("materials", pair.materials, 2,
-                   "The two materials, as walls and bodies name them.", required);
+                   "Names of the two materials, as given for walls and bodies.", required);
     keys.rule(check_pair, pair, contact, materials);
     keys.rule(inherit, pair.restitution, contact.restitution);
     keys.rule(inherit, pair.friction, contact.friction);
@@ -104,35 +104,40 @@ void keys_of(auto& keys, Is<MaterialPair> auto& pair, const ContactSettings& con
 void keys_of(auto& keys, Is<ContactSettings> auto& contact, const Scene& scene)
 {
     bool springs = contact.penalty.has_value();
-    keys.choice("method", springs, {"impulse", "penalty"},
-                "\"impulse\" solves for the impulses that keep bodies apart, with friction; "
-                "\"penalty\" uses springs between particles, a baseline for comparison.");
+    keys.choice(
+        "method", springs, {"impulse", "penalty"},
+        "Contact method. \"impulse\" solves for the impulses that prevent penetration, with "
+        "friction; \"penalty\" uses springs between particles and is a baseline for comparison.");
     if (keys.shows(!springs)) {
-        keys.choice("law", contact.law, {"coupled", "paper", "simultaneous"},
-                    "Impact law of the impulse method. \"coupled\": all contacts that approach "
-                    "together, round after round, with the circular Coulomb cone; \"paper\": the "
-                    "uncoupled equations (1)-(6) of the Iwate paper, which can gain energy; "
-                    "\"simultaneous\": all touching contacts at once (Moreau).");
+        keys.choice(
+            "law", contact.law, {"coupled", "paper", "simultaneous"},
+            "Impact law of the impulse method. \"coupled\": all approaching contacts are solved "
+            "together, in repeated rounds, with the circular Coulomb cone; \"paper\": the "
+            "uncoupled equations (1)-(6) of the Iwate paper, which can increase the energy; "
+            "\"simultaneous\": all touching contacts are solved at once (Moreau).");
         keys.not_negative(
             "locating_share", contact.locating_share, "",
-            "Work limit for locating impacts in time, as a share of the cost of the fluid in a "
-            "step, in addition to a small allowance per body. Beyond it impacts are resolved by "
-            "time stepping, first of the bodies with most impacts; contacts.csv marks each contact "
-            "as located or not. Impulse method only.");
+            "Work limit for locating impacts in time, as a fraction of the cost of the fluid in a "
+            "step, in addition to a small allowance per body. Beyond the limit impacts are "
+            "resolved by time stepping, beginning with the bodies that have the most impacts; "
+            "contacts.csv marks each contact as located or not. Impulse method only.");
     }
     keys.fraction("restitution", contact.restitution,
-                  "Coefficient of restitution, unless contact.pair names the pair. In the penalty "
-                  "method it follows from stiffness and damping.");
-    keys.not_negative("friction", contact.friction, "",
-                      "Dynamic friction coefficient, unless contact.pair names the pair.");
+                  "Coefficient of restitution of all pairs of materials without a contact.pair. In "
+                  "the penalty method it follows from stiffness and damping.");
+    keys.not_negative(
+        "friction", contact.friction, "",
+        "Dynamic friction coefficient of all pairs of materials without a contact.pair.");
     PenaltyParameters penalty = contact.penalty.value_or(PenaltyParameters{});
     if (keys.shows(springs)) {
-        keys.table("penalty", "The penalty method, with method = \"penalty\".", penalty);
+        keys.table("penalty", "Parameters of the penalty method, for method = \"penalty\".",
+                   penalty);
     }
     keys.rule(choose_method, springs, penalty, contact);
     std::set<std::string> materials;
     keys.rule(find_materials, scene, materials);
-    keys.tables("pair", "The contact of two materials.", contact.pairs, contact, materials);
+    keys.tables("pair", "Contact parameters of a pair of materials.", contact.pairs, contact,
+                materials);
 }
 
 } // namespace hyoryu

@@ -33,7 +33,7 @@ inline void check_state(TableReader& table, const DebrisKeys& debris)
                     "there is " + quoted_list(states) + "; `load` sets any cargo");
     }
     if (debris.load.load > 0 && kind.shape == DebrisShape::lying_cylinder) {
-        table.error("load", fmt::format("a {} has no inside", kind.name));
+        table.error("load", fmt::format("a {} has no interior", kind.name));
     }
     const bool laden = debris.load.load > 0 ||
                        (known != kind.masses.end() && known->value > kind.masses.front().value);
@@ -121,7 +121,7 @@ inline void place(TableReader& table, DebrisKeys& debris, const std::optional<De
         table.reading().names_known && table.reading().diagnostics.empty();
     if (arrayed == scattered && !table.mistaken({"array", "scatter"})) {
         table.error(arrayed ? "scatter" : "", arrayed ? "give either `array` or `scatter`, not both"
-                                                      : "has no place: give `array` or `scatter`");
+                                                      : "has no position: give `array` or `scatter`");
         return;
     }
     if (!table.reading().diagnostics.empty()) {
@@ -142,7 +142,7 @@ inline void check_array_count(TableReader& table, const DebrisArray& array)
 {
     constexpr std::int64_t most = 10000;
     if (array.count[0] * array.count[1] * array.count[2] > most) {
-        table.error("count", fmt::format("asks for more than {} pieces", most),
+        table.error("count", fmt::format("defines more than {} pieces", most),
                     "use fewer pieces, or several cases");
     }
 }
@@ -163,12 +163,14 @@ void keys_of(auto& keys, Is<DebrisArray> auto& array)
                 "Distance from one piece to the next along x, y and z; 0 along z stacks them.",
                 required);
     keys.vector("from", array.from, "m",
-                "Place of the middle of the first piece: x, y, and without `on` z.", required, 2);
+                "Position of the centre of the first piece: x, y and, without `on`, z.", required,
+                2);
     keys.rule(check_array_count, array);
     keys.number("turn_deg", array.turn_deg, "deg", "Rotation of every piece about z, in 3-D.");
     keys.text("on", array.on,
-              "\"ground\" drops every piece to rest on the walls, its lowest corner 1 mm above "
-              "them; the name of a wall, on that wall. Upper pieces of a stack keep their pitch.");
+              "Support of the pieces. \"ground\": every piece is placed on the walls, with its "
+              "lowest corner 1 mm above them; the name of a wall: every piece is placed on that "
+              "wall. Upper pieces of a stack keep their pitch.");
     keys.rule(check_height, array);
 }
 
@@ -179,32 +181,37 @@ void keys_of(auto& keys, Is<DebrisScatter> auto& scatter, auto& scene)
     std::vector<Vec3> corners;
     keys.text("polygon", file,
               "GeoJSON file of the yard, relative to the case file, in the coordinates of the "
-              "terrain if there is one.");
+              "terrain if the case has a terrain.");
     keys.path("corners", corners, "m",
-              "Corners of the yard in place of a file, [x, y, z] each, of which z is not read.",
-              no_default);
+              "Corners of the yard, instead of a file, [x, y, z] each; z is ignored.", no_default);
     keys.integer("count", scatter.count, 1, most, "1 .. 10000", "Number of pieces.", required);
-    keys.not_negative("gap", scatter.gap, "m", "Least distance between two pieces.");
-    keys.numbers("turn_deg", scatter.turn_deg, "deg",
-                 "Least and largest rotation about z, between which each piece is turned.",
-                 "[0.0, 360.0]");
-    keys.text("on", scatter.on, "The wall that they lie on, or \"ground\" for all walls.",
-              "ground");
+    keys.not_negative("gap", scatter.gap, "m", "Minimum distance between two pieces.");
+    keys.numbers(
+        "turn_deg", scatter.turn_deg, "deg",
+        "Minimum and maximum rotation about z; the rotation of each piece is between them.",
+        "[0.0, 360.0]");
+    keys.text("on", scatter.on,
+              "Name of the wall on which the pieces lie, or \"ground\" for all walls.", "ground");
     keys.rule(find_polygon, scatter, file, corners, scene);
 }
 
 void keys_of(auto& keys, Is<DebrisKeys> auto& debris, auto& scene)
 {
     keys.choice("kind", debris.load.kind, debris_names(),
-                "Kind of the library; `hyoryu describe debris` lists sizes, masses and sources.",
+                "Kind of debris from the library; `hyoryu describe debris` lists sizes, masses and "
+                "sources.",
                 required);
     keys.rule(number_name, "debris", debris.name);
-    keys.text("name", debris.name, "Pieces are named NAME.1, NAME.2 ...", "debris.1, debris.2 ...");
+    keys.text("name", debris.name, "Name of the group; its pieces are named NAME.1, NAME.2 ...",
+              "debris.1, debris.2 ...");
     keys.rule(check_name, "name", debris.name);
-    keys.text("state", debris.load.state, "Which mass of the library.", "empty");
-    keys.not_negative("load", debris.load.load, "kg", "Mass of cargo, besides that of the state.");
+    keys.text("state", debris.load.state,
+              "State of the pieces, which selects their mass from the library.", "empty");
+    keys.not_negative("load", debris.load.load, "kg",
+                      "Mass of the cargo, in addition to the mass of the state.");
     keys.fraction("load_height", debris.load.load_height,
-                  "Height of the centre of the cargo above the floor, as a part of the inside.");
+                  "Height of the centre of the cargo above the floor, as a fraction of the height "
+                  "of the inside.");
     keys.numbers("size", debris.size, "m", "Diameter and height of a tank.", no_default);
     keys.rule(check_sizes, debris);
     keys.rule(check_state, debris);
@@ -214,8 +221,8 @@ void keys_of(auto& keys, Is<DebrisKeys> auto& debris, auto& scene)
     std::optional<DebrisScatter> scatter;
     keys.table("array", "Pieces in rows, columns and stacks.", array);
     keys.table("scatter",
-               "Pieces at random places of a yard, drawn with the seed of the case: none nearer "
-               "than `gap` to another (random sequential addition).",
+               "Pieces at random positions in a yard, generated with the seed of the case; the "
+               "distance between two pieces is at least `gap` (random sequential addition).",
                scatter, scene);
     keys.rule(place, debris, array, scatter, scene);
 }

@@ -148,11 +148,10 @@ void still_water_keys(auto& keys, Is<SeededWater> auto& water, int dimensions)
     if (dimensions == 3) {
         seed.push_back(water.seed.y());
     }
-    keys.number("level", water.level, "m", "z of the surface of still water.", needed);
-    keys.plan_place(
-        "seed", seed,
-        "A place under still water, [x, y], in two dimensions [x]: all that is connected "
-        "with it below the level and outside of walls is filled.");
+    keys.number("level", water.level, "m", "z of the free surface of still water.", needed);
+    keys.plan_place("seed", seed,
+                    "A point under still water, [x, y], or [x] in two dimensions. All space that "
+                    "is connected with it below the level and outside of walls is filled.");
     keys.rule(set_seed, seed, water);
 }
 
@@ -162,8 +161,9 @@ void keys_of(auto& keys, Is<FluidBlock> auto& block, const Scene& scene)
     std::size_t kind = block.seeded ? still_water : block.shape.index();
     const bool known = keys.alternatives(
         "shape", kind, {"box", "sphere", "cylinder", "mesh", "still_water"},
-        "box: min and max, or size and position; sphere: radius; cylinder: radius and length "
-        "along x before rotation; mesh: a closed surface from a file; still_water: level and seed.",
+        "Shape of the region. \"box\": min and max, or size and position; \"sphere\": radius; "
+        "\"cylinder\": radius and length along x before rotation; \"mesh\": a closed surface from "
+        "a file; \"still_water\": level and seed.",
         required, [&](std::size_t k) {
             if (k == still_water) {
                 if constexpr (!std::is_const_v<std::remove_reference_t<decltype(block)>>) {
@@ -186,21 +186,21 @@ void keys_of(auto& keys, Is<FluidBlock> auto& block, const Scene& scene)
                        std::holds_alternative<CylinderShape>(block.shape);
     if (keys.applies(known && round) && keys.shows(block.layers)) {
         keys.flag("layers", block.layers,
-                  "Whether the particles of a sphere or cylinder are in layers below its surface, "
-                  "as those of bodies, instead of on a lattice.");
+                  "Whether the particles of a sphere or cylinder are arranged in layers below its "
+                  "surface, as the particles of bodies are, instead of on a lattice.");
     }
     if (keys.shows(block.velocity_field.empty())) {
         keys.planar("velocity", block.velocity, "m/s", "Initial velocity.");
     }
     if (keys.shows(!block.velocity_field.empty())) {
         keys.text_list("velocity_field", block.velocity_field, 3,
-                       "Initial velocity as a field: three expressions of x, y and z in metres "
-                       "that give m/s, for instance [\"-2*x\", \"0\", \"2*z\"].");
+                       "Initial velocity field: three expressions in x, y and z [m] for the "
+                       "velocity components [m/s], for instance [\"-2*x\", \"0\", \"2*z\"].");
     }
     if (keys.shows(!block.pressure_field.empty())) {
         keys.text("pressure_field", block.pressure_field,
-                  "Initial pressure above the hydrostatic pressure, in Pa: an expression of x, y "
-                  "and z in metres.");
+                  "Initial pressure in excess of the hydrostatic pressure [Pa]: an expression in "
+                  "x, y and z [m].");
     }
     keys.rule(check_fields, block);
 }
@@ -212,17 +212,17 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid, const Scene& scene)
                 "Discretisation of the fluid: \"sph\" is weakly compressible SPH, \"mps\" weakly "
                 "compressible MPS.");
     keys.positive("sound_speed", fluid.sound_speed, "m/s",
-                  "Artificial speed of sound; without it ten times the largest expected speed of "
-                  "the scene, which keeps density within 1 % of that at rest.");
+                  "Artificial speed of sound. By default it is ten times the largest expected "
+                  "speed of the scene, which keeps the density within 1 % of the density at rest.");
     constexpr double least = 1.2;
     constexpr double most = 2.0;
-    keys.between("smoothing_ratio", fluid.smoothing_ratio, least, most, "1.2 .. 2.0",
-                 "Smoothing length over particle spacing: a larger ratio is smoother and slower.");
-    keys.choice(
-        "kernel", fluid.kernel, {"wendland", "isotropic"},
-        "Kernel of the gradients of SPH. \"isotropic\": the pressure stays isotropic as waves "
-        "and flows strain the arrangement of the particles, which moves waves more "
-        "accurately; steps are 6 % shorter.");
+    keys.between(
+        "smoothing_ratio", fluid.smoothing_ratio, least, most, "1.2 .. 2.0",
+        "Ratio of smoothing length to particle spacing; a larger ratio is smoother and slower.");
+    keys.choice("kernel", fluid.kernel, {"wendland", "isotropic"},
+                "Kernel of the SPH gradients. \"isotropic\": the pressure remains isotropic when "
+                "waves and flows strain the particle arrangement, so that wave propagation is more "
+                "accurate; time steps are 6 % shorter.");
     keys.rule(check_kernel, fluid);
     GradientSettings::keys(keys, fluid.gradient);
     keys.rule(check_gradient, fluid);
@@ -232,8 +232,8 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid, const Scene& scene)
     SlipSettings::keys(keys, fluid.walls);
     keys.planar("acceleration", fluid.acceleration, "m/s2",
                 "Driving acceleration of the fluid in addition to gravity, for instance the "
-                "pressure gradient of a channel, divided by the density: it exerts no hydrostatic "
-                "pressure on walls and bodies.");
+                "pressure gradient of a channel flow divided by the density. It causes no "
+                "hydrostatic pressure on walls and bodies.");
     for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
         keys.effect(slot.table.key, slot.table.meaning, [&](auto& inside) {
             model_keys(inside, slot.table, fluid.effects[slot], fluid.formulation);

@@ -79,13 +79,13 @@ void filter_keys(auto& keys, Is<Gauge> auto& gauge)
 {
     const auto filtered = [&] { return gauge.filter != GaugeFilter::none; };
     if (keys.shows(filtered())) {
-        keys.choice(
-            "filter", gauge.filter, {"none", "mean", "median", "exponential"},
-            "A column of filtered readings beside the raw ones, named NAME_mean and so on: mean or "
-            "median of the last `window` seconds, or the mean with the weights exp(-age/window).");
+        keys.choice("filter", gauge.filter, {"none", "mean", "median", "exponential"},
+                    "Filter of the readings. The filtered readings are a column in addition to the "
+                    "raw one, named NAME_mean and so on: mean or median of the last `window` "
+                    "seconds, or the mean with the weights exp(-age/window).");
     }
     if (keys.applies(filtered())) {
-        keys.positive("window", gauge.window, "s", "Window of the filter.", needed);
+        keys.positive("window", gauge.window, "s", "Time window of the filter.", needed);
     }
 }
 
@@ -106,10 +106,11 @@ void gauge_face_keys(auto& keys, Is<Gauge> auto& gauge)
     keys.rule(find_face, face);
     const bool pressure = gauge.type == GaugeType::pressure;
     if (keys.applies(pressure) && keys.shows(face)) {
-        keys.positive("area", gauge.area, "",
-                      "Area of the face of a pressure sensor, over which it averages [m2]; its "
-                      "length [m] in 2-D. Without it the pressure is that at a point.",
-                      face ? needed : no_default);
+        keys.positive(
+            "area", gauge.area, "",
+            "Area of the face of a pressure sensor [m2], over which the pressure is averaged; in "
+            "2-D its length [m]. Without this key the pressure is measured at a point.",
+            face ? needed : no_default);
     }
     const bool flux = gauge.type == GaugeType::flux;
     if (keys.applies(flux || (pressure && face))) {
@@ -144,13 +145,12 @@ void keys_of(auto& keys, Is<Gauge> auto& gauge, const Scene& scene, GaugeColumns
         gauge_place_keys(keys, gauge);
     }
     if (keys.applies(known && force)) {
-        keys.text("on", gauge.on, "The wall or body on which forces are measured, by its name.",
-                  needed);
+        keys.text("on", gauge.on, "Name of the wall or body on which forces are measured.", needed);
         keys.rule(find_target, gauge, scene);
     }
     if (keys.applies(known && front)) {
         keys.choice("axis", gauge.axis, {"x", "y", "z"},
-                    "The axis along which the front is followed.");
+                    "Axis along which the position of the front is measured.");
     }
     if (!keys.writes) {
         filter_keys(keys, gauge);

@@ -184,12 +184,12 @@ inline void check_columns(TableReader& table, const std::vector<std::string>& co
             columns[k] != "-" && std::find(columns.begin(), columns.begin() + static_cast<Index>(k),
                                            columns[k]) != columns.begin() + static_cast<Index>(k);
         if (twice) {
-            table.error_at("columns", k, fmt::format("\"{}\" stands twice", columns[k]),
+            table.error_at("columns", k, fmt::format("\"{}\" is listed twice", columns[k]),
                            "a column that is not needed is \"-\"");
         }
     }
     if (!columns.empty() && std::ranges::find(columns, "time") == columns.end()) {
-        table.error("columns", "names no column \"time\"", "each row of the table needs its time");
+        table.error("columns", "contains no \"time\"", "each row of the table needs its time");
     }
 }
 
@@ -263,8 +263,8 @@ inline void check_stations(TableReader& table, const OpenSettings& open)
         if (!(next.at > one.at)) {
             table.error(
                 "station",
-                fmt::format("the station at {} m does not follow that at {} m", next.at, one.at),
-                "stations stand in the order of `at`, each at a place of its own");
+                fmt::format("the station at {} m is not beyond that at {} m", next.at, one.at),
+                "give the stations in ascending order of `at`, at different positions");
         }
         if (next.levels.empty() != one.levels.empty() ||
             next.velocities.empty() != one.velocities.empty() ||
@@ -280,7 +280,7 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
 {
     if (keys.file) {
         if (table.has("times")) {
-            table.error("times", "has no meaning beside `file`", "give one of them");
+            table.error("times", "cannot be combined with `file`", "give one of them");
         }
         load_series(table, "file", keys, open, series);
         return;
@@ -293,8 +293,8 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
         !keys.columns.empty()) {
         table.error(
             "times",
-            "stands beside `datum`, `time_offset`, `scale` or `columns` of the window, which "
-            "tell how a file is read",
+            "cannot be combined with `datum`, `time_offset`, `scale` or `columns` of the window, "
+            "which apply to files",
             "give times and values as they are in the scene");
     }
     for (const auto* values : {&series.levels, &series.velocities, &series.discharges}) {
@@ -310,7 +310,7 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
         std::ranges::adjacent_find(series.times, [](double a, double b) { return b <= a; });
     if (unsorted != series.times.end()) {
         table.error_at("times", static_cast<std::size_t>(unsorted + 1 - series.times.begin()),
-                       "does not follow the time before it", "times must ascend");
+                       "is not later than the time before it", "times must ascend");
     }
     check_series(table, "times", series);
 }
@@ -319,25 +319,26 @@ void keys_of(auto& keys, Is<OpenSeries> auto& series, const SeriesKeys& source,
              const OpenSettings& open)
 {
     SeriesKeys own = source;
-    keys.number("at", series.at, "m",
-                "Place of the station along the window: y, or x in a window "
-                "that opens along y.");
+    keys.number(
+        "at", series.at, "m",
+        "Position of the station along the window: y, or x in a window that opens along y.");
     if (keys.shows(false)) {
-        keys.text("file", own.file, "File of the series, as for `series`.");
+        keys.text("file", own.file, "File of the time series, as for `series`.");
     }
-    keys.path("times", series.times, "s", "Times of a series within the case file, ascending.",
-              no_default, 1);
+    keys.path("times", series.times, "s",
+              "Times of a series that is given in the case file, ascending.", no_default, 1);
     if (keys.shows(!series.levels.empty())) {
-        keys.path("levels", series.levels, "m", "z of the free surface at the times.", no_default,
-                  1);
+        keys.path("levels", series.levels, "m", "z of the free surface at each of the times.",
+                  no_default, 1);
     }
     if (keys.shows(!series.velocities.empty())) {
         keys.path("velocities", series.velocities, "m/s",
-                  "Velocities into the domain at the times.", no_default, 1);
+                  "Velocity into the domain at each of the times.", no_default, 1);
     }
     if (keys.shows(!series.discharges.empty())) {
         keys.path("discharges", series.discharges, "",
-                  "Discharges into the domain at the times [m3/s]; [m2/s] in 2-D.", no_default, 1);
+                  "Discharge into the domain at each of the times [m3/s]; [m2/s] in 2-D.",
+                  no_default, 1);
     }
     keys.rule(finish_station, own, open, series);
 }
@@ -345,21 +346,25 @@ void keys_of(auto& keys, Is<OpenSeries> auto& series, const SeriesKeys& source,
 void series_keys(auto& keys, SeriesKeys& source)
 {
     keys.text("series", source.file,
-              "File of the flow to follow, relative to the case file: linear in time, held before "
-              "the first and after the last row. [[open.station]] gives several along a window.");
+              "File of the prescribed time series of the flow, relative to the case file. Values "
+              "are interpolated linearly in time, and held constant before the first and after the "
+              "last row. [[open.station]] gives several series along a window.");
     keys.choice("format", source.format, {"csv", "geoclaw"},
-                "csv: columns time, level and velocity into the domain, or time and level, or time "
-                "and discharge, with or without a header; geoclaw: a gauge of GeoClaw.");
+                "Format of the series. \"csv\": columns time, level and velocity into the domain, "
+                "or time and level, or time and discharge, with or without a header; \"geoclaw\": "
+                "a gauge file of GeoClaw.");
     keys.texts("columns", source.columns, {"time", "level", "velocity", "discharge", "-"},
-               "Quantity of each column of a CSV file; \"-\" passes over one. By default the "
-               "header names them.",
+               "Quantity of each column of a CSV file; \"-\" skips a column. By default the header "
+               "names the quantities.",
                no_default);
     keys.number("azimuth_deg", source.azimuth_deg, "deg",
                 "Direction of `into`, clockwise from north, by which the velocities of a GeoClaw "
-                "gauge are turned; by default as the terrain lies, without one x is east.");
+                "gauge are rotated. By default it follows from the orientation of the terrain; "
+                "without a terrain x points east.");
     keys.number("datum", source.datum, "m",
-                "z of the scene at level 0 of the file; by default the datum of the terrain.");
-    keys.number("time_offset", source.time_offset, "s", "Time of the file at time 0 of the scene.");
+                "z in the scene of level 0 of the file; by default the datum of the terrain.");
+    keys.number("time_offset", source.time_offset, "s",
+                "Time in the file that corresponds to time 0 of the scene.");
     keys.number("scale", source.scale, "",
                 "Factor on the levels above the datum, the velocities "
                 "and the discharges of the file.");
@@ -379,43 +384,46 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
     keys.text("name", open.name, "Name in results; unique among open sides.", "open.1, open.2 ...");
     keys.rule(check_open_name, open, scene);
     keys.planar("min", open.min, "m",
-                "Lower corner of the window, a box without thickness along its normal, which lies "
-                "on a side of the domain; its lower edge is on the ground or below it.",
+                "Lower corner of the window. The window is a box without thickness along its "
+                "normal, on a side of the domain; its lower edge is on the ground or below it.",
                 required);
     keys.planar("max", open.max, "m", "Upper corner of the window.", required);
     keys.choice("into", open.into, {"+x", "-x", "+y", "-y"},
                 "Direction through the window into the domain.", required);
     keys.rule(check_window, open, scene);
     keys.choice("kind", open.kind, {"inflow", "outflow", "absorb"},
-                "inflow: follows a level, a level and a velocity, or a discharge, and lets the "
-                "waves from inside leave; outflow: prescribes no flow, for water that only leaves; "
-                "absorb: keeps a level and a velocity outside, by default those of still water at "
-                "the level of the start, and lets waves leave.",
+                "Type of the boundary. \"inflow\": prescribes a level, a level and a velocity, or "
+                "a discharge, and lets waves from inside leave; \"outflow\": prescribes no flow, "
+                "for water that only leaves; \"absorb\": maintains a level and a velocity outside, "
+                "by default those of still water at the initial level, and lets waves leave.",
                 required);
     keys.number("level", open.level, "m", "z of the free surface outside, if it is constant.");
     keys.number("velocity", open.velocity, "m/s",
-                "Velocity into the domain, with `level`. An inflow that gives a level alone is a "
-                "wave into the water that is at rest at the start.");
+                "Velocity into the domain, used with `level`. An inflow with a level but no "
+                "velocity is a wave into water that is initially at rest.");
     keys.number("discharge", open.discharge, "",
-                "Discharge into the domain [m3/s]; [m2/s] in 2-D. It reflects waves: for channels "
-                "and basins.");
+                "Discharge into the domain [m3/s]; [m2/s] in 2-D. A discharge reflects waves; it "
+                "is intended for channels and basins.");
     if (keys.shows(false)) {
         series_keys(keys, source);
     }
     keys.choice("profile", open.profile, {"uniform", "power"},
-                "Velocity over the depth: uniform, or with the height above the ground to the "
-                "power of 1/7.");
+                "Velocity profile over the depth: uniform, or proportional to the height above the "
+                "ground to the power of 1/7.");
     keys.rule(default_bodies, open);
     keys.choice("bodies", open.bodies, {"stop", "leave"},
-                "stop: for bodies the window is a smooth wall without rebound; leave: a body that "
-                "has passed the window whole is taken out of the run and listed in `summary.json`.",
+                "Treatment of bodies at the window. \"stop\": for bodies the window is a "
+                "frictionless wall without rebound; \"leave\": a body that has passed the window "
+                "completely is removed from the run and listed in `summary.json`.",
                 "stop at an inflow, leave elsewhere");
     if (keys.shows(open.hold)) {
         keys.flag("hold", open.hold,
-                  "The last values of a series that ends before the run hold to its end; no "
-                  "warning.");
+                  "Whether the last values of a series that ends before the run are held to the "
+                  "end of the run without a warning.");
     }
-    keys.tables("station", "A series at a place along the window; linear between them.",
+    keys.tables("station",
+                "A series at a position along the window; values between stations are interpolated "
+                "linearly.",
                 open.series, source, open);
     keys.rule(check_asked, open, source);
     keys.rule(check_file_keys, open, source);

@@ -53,8 +53,8 @@ void prism_keys(auto& keys, Is<MeshShape> auto& shape)
     }
     constexpr int fewest = 3;
     keys.path("corners", corners, "m",
-              "Corners of a prism seen from above, [x, y, z] each, of which z is not read. An edge "
-              "that is passed in both directions has no side: it joins a courtyard to the outside.",
+              "Corners of a prism in plan view, [x, y, z] each; z is ignored. An edge that is "
+              "passed in both directions has no side face: it connects a courtyard to the outside.",
               needed, fewest);
     keys.number("bottom", outline.bottom, "m", "z of the lower side of a prism.", needed);
     keys.number("top", outline.top, "m", "z of the upper side of a prism.", needed);

@@ -109,15 +109,16 @@ void keys_of(auto& keys, Is<TimeSettings> auto& time)
 {
     keys.positive("end", time.end, "s", "Simulated time at which the run ends.", required);
     keys.positive("step", time.step, "s",
-                  "A fixed time step; without it each step has the largest length within the "
-                  "limits of sound speed, viscosity and force.");
-    keys.positive("cfl", time.cfl, "",
-                  "Factor on the limits of the adaptive time step; smaller is safer and slower.");
+                  "Fixed time step. Without it the time step is adaptive: the largest step within "
+                  "the limits of sound speed, viscosity and force.");
+    keys.positive(
+        "cfl", time.cfl, "",
+        "Factor on the limits of the adaptive time step; a smaller factor is safer and slower.");
     if (keys.shows(time.recover)) {
         keys.flag("recover", time.recover,
-                  "If the simulation becomes unstable, return to the last frame and continue with "
-                  "half the time step, at most five times. Results written since are removed, and "
-                  "`run.log` reports it.");
+                  "Whether a run that becomes unstable returns to the last frame and continues "
+                  "with half the time step, at most five times. Results written after that frame "
+                  "are removed, and `run.log` reports this.");
     }
     keys.rule(check_time, time);
 }
@@ -134,10 +135,10 @@ void keys_of(auto& keys, Is<DomainSettings> auto& domain, const Scene& scene)
         }
     }
     if (keys.shows(!periods.empty())) {
-        keys.texts(
-            "periodic", periods, {},
-            "Directions, of \"x\", \"y\", \"z\", in which the domain is periodic: particles that "
-            "leave on one side enter on the other. For scenes without bodies and moving walls.");
+        keys.texts("periodic", periods, {},
+                   "Directions (\"x\", \"y\", \"z\") in which the domain is periodic: particles "
+                   "that leave on one side enter on the opposite side. For scenes without bodies "
+                   "and without moving walls.");
     }
     keys.rule(find_periods, periods, scene, domain);
 }
@@ -147,16 +148,17 @@ void keys_of(auto& keys, Is<OutputSettings> auto& output, const Scene& scene)
     keys.rule(inherit, output.every, scene.time.end / 100);
     keys.positive("every", output.every, "s", "Simulated time between two frames.",
                   "time.end / 100");
-    keys.not_negative("history_every", output.history_every, "s",
-                      "Simulated time between two rows of the CSV histories; 0 is every step.");
+    keys.not_negative(
+        "history_every", output.history_every, "s",
+        "Simulated time between two rows of the CSV histories; 0: a row at every step.");
     keys.rule(inherit, output.gauge_every, output.history_every);
     keys.not_negative("gauge_every", output.gauge_every, "s",
-                      "Simulated time between two rows of gauges.csv; 0 is every step.",
+                      "Simulated time between two rows of gauges.csv; 0: a row at every step.",
                       "output.history_every");
     keys.texts("fields", output.fields,
                {"velocity", "pressure", "density", "volume", "id", "kind", "body"},
-               "Fields of each particle in a frame besides its position; an empty list is the "
-               "default set.");
+               "Fields of each particle in a frame in addition to its position; an empty list "
+               "selects the default set.");
     keys.positive("checkpoint_every", output.checkpoint_every, "s",
                   "Wall-clock time between two checkpoints, from which `run --resume` continues.");
 }
@@ -166,36 +168,38 @@ void general_keys(auto& keys, Is<Scene> auto& scene)
 {
     keys.text("title", scene.title, "Title of the case in reports and pictures.");
     keys.rule(check_title, scene.title);
-    keys.integer("dimensions", scene.dimensions, 2, 3, "2 or 3",
-                 "3, or 2 for a case in the x-z plane whose masses and forces are per metre of "
-                 "width and whose y components are read and ignored.");
+    keys.integer(
+        "dimensions", scene.dimensions, 2, 3, "2 or 3",
+        "Number of dimensions: 3, or 2 for a case in the x-z plane. In two dimensions, masses and "
+        "forces are per metre of width, and y components are read and ignored.");
     keys.rule(set_dimensions, scene.dimensions);
-    keys.planar("gravity", scene.gravity, "m/s2", "Acceleration of gravity; z is up.");
+    keys.planar("gravity", scene.gravity, "m/s2", "Acceleration of gravity; z points up.");
     keys.rule(forget_mistaken, scene.gravity);
     constexpr double unbounded = 1e300;
     keys.integer("seed", scene.seed, 0, unbounded, ">= 0",
-                 "Seed of all random numbers; the same seed gives the same bits.");
+                 "Seed of all random numbers; the same seed gives bitwise identical numbers.");
     keys.table("time", "Simulated time and time steps.", scene.time);
-    keys.table("particles", "The resolution.", [&](auto& particles) {
-        particles.positive(
-            "spacing", scene.spacing, "m",
-            "Distance between the particles of fluid and walls at the start: the resolution of "
-            "the run.",
-            required);
-        particles.choice(
-            "precision", scene.precision, {"single", "double"},
-            "Floating-point type of the pair interactions; state and bodies are double in either "
-            "case. \"double\" is for verification and takes about twice the time.");
-        constexpr double no_bound = 1e15;
-        particles.integer(
-            "most", scene.most_fluid, 0, no_bound, ">= 0",
-            "Fluid particles that a run with open sides may come to hold, with those behind the "
-            "windows; beyond, it ends with its last good state on disk. 0: as many as fit into "
-            "four "
-            "fifths of the memory of the machine.");
-    });
+    keys.table(
+        "particles", "Resolution, floating-point precision and maximum number of the particles.",
+        [&](auto& particles) {
+            particles.positive("spacing", scene.spacing, "m",
+                               "Initial distance between the particles of fluid and walls: the "
+                               "resolution of the run.",
+                               required);
+            particles.choice("precision", scene.precision, {"single", "double"},
+                             "Floating-point type of the pair interactions. The state and the "
+                             "bodies use double precision in either case. \"double\" is for "
+                             "verification and needs about twice the time.");
+            constexpr double no_bound = 1e15;
+            particles.integer("most", scene.most_fluid, 0, no_bound, ">= 0",
+                              "Maximum number of fluid particles in a run with open sides, "
+                              "including the particles outside the windows. A run that exceeds it "
+                              "ends with its last good state on disk. 0: the number that fits into "
+                              "four fifths of the memory of the machine.");
+        });
     keys.table("domain",
-               "Box outside of which particles are removed; without it the bounds of the scene.",
+               "Box outside of which particles are removed; without this table it is the bounds of "
+               "the scene.",
                scene.domain, scene);
 }
 
@@ -203,26 +207,29 @@ void keys_of(auto& keys, Is<Scene> auto& scene)
 {
     general_keys(keys, scene);
     keys.table("fluid", "The fluid; without this table no fluid is simulated.", scene.fluid, scene);
-    keys.tables("wall", "A fixed or moving boundary, for fluid and for bodies.", scene.walls,
+    keys.tables("wall", "A fixed or moving boundary of the fluid and the bodies.", scene.walls,
                 scene.gravity.norm(), scene);
     std::vector<BuildingKeys> buildings; // walls when the case is resolved
-    keys.tables("buildings", "Buildings from footprints, each a wall of its own.", buildings,
-                scene);
-    keys.tables("sponge", "A box that damps waves before they reach its end, or restores a stream.",
-                scene.sponges, scene.gravity.norm());
+    keys.tables("buildings", "Buildings from footprints; each building becomes a separate wall.",
+                buildings, scene);
+    keys.tables(
+        "sponge",
+        "A sponge layer: a box that damps waves before they reach its end, or restores a stream.",
+        scene.sponges, scene.gravity.norm());
     keys.tables("open", "A window in a side of the domain through which fluid enters and leaves.",
                 scene.open, scene);
     keys.tables("body", "A rigid body, such as a timber, a container or a car.", scene.bodies,
                 scene);
     std::vector<DebrisKeys> debris; // bodies when the case is resolved
-    keys.tables("debris", "Pieces of the debris library: containers, logs, cars ...", debris,
+    keys.tables("debris", "Pieces of the debris library, such as containers, logs or cars.", debris,
                 scene);
     keys.rule(find_still_water, scene);
     keys.rule(check_bodies, scene.bodies);
     keys.table("contact", "Contact of bodies with each other and with walls.", scene.contact,
                scene);
     GaugeColumns columns{{"time", 0}};
-    keys.tables("gauge", "An instrument: columns of gauges.csv.", scene.gauges, scene, columns);
+    keys.tables("gauge", "A measuring instrument, whose readings are columns of gauges.csv.",
+                scene.gauges, scene, columns);
     keys.table("output", "Contents and frequency of the output.", scene.output, scene);
     keys.rule(expect_something);
 }

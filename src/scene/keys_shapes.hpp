@@ -184,7 +184,7 @@ struct ShapeWords {
 void keys_of(auto& keys, Is<AxisAngle> auto& turn, auto& rotation)
 {
     keys.rule(require_axis);
-    keys.vector("axis", turn.axis, "", "Axis of rotation, of any length.",
+    keys.vector("axis", turn.axis, "", "Axis of rotation, a vector of any length.",
                 "[0.0, 1.0, 0.0] in 2-D, else required");
     keys.number("angle", turn.degrees, "deg", "Angle of rotation, by the right-hand rule.",
                 required);
@@ -197,7 +197,7 @@ void rotation_keys(auto& keys, Is<Quat> auto& rotation, std::string_view meaning
     std::optional<AxisAngle> turn;
     keys.table("rotation_deg", meaning, turn, rotation);
     keys.quaternion("rotation", rotation,
-                    "The rotation as a unit quaternion [w, x, y, z], instead of rotation_deg.");
+                    "Rotation as a unit quaternion [w, x, y, z], instead of rotation_deg.");
     keys.rule(check_one_rotation, turn.has_value());
 }
 
@@ -220,7 +220,8 @@ void shape_keys(auto& keys, Is<Shape> auto& shape, const ShapeWords& words)
         keys.positive("length", cylinder->length, "m", words.length, needed);
     } else if (auto* mesh = std::get_if<MeshShape>(&shape)) {
         keys.text("file", mesh->file, words.file, needed);
-        keys.positive("scale", mesh->scale, "", "Factor on the numbers of a mesh file, to metres.");
+        keys.positive("scale", mesh->scale, "",
+                      "Factor that converts the numbers of a mesh file to metres.");
         keys.rule(load_mesh, *mesh);
     } else if (auto* particles = std::get_if<ParticleShape>(&shape)) {
         keys.text("file", particles->file, words.file, needed);

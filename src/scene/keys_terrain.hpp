@@ -32,7 +32,7 @@ inline void find_ring(TableReader& table, LevelKeys& level)
     if (table.has("polygon") == table.has("corners")) {
         table.error(table.has("polygon") ? "corners" : "",
                     table.has("polygon") ? "give either `polygon` or `corners`, not both"
-                                         : "has no place: give `polygon` or `corners`");
+                                         : "has no area: give `polygon` or `corners`");
         return;
     }
     const char* key = table.has("polygon") ? "polygon" : "corners";
@@ -66,8 +66,8 @@ void keys_of(auto& keys, Is<LevelKeys> auto& level)
     }
     constexpr int fewest = 3;
     keys.path("corners", level.corners, "m",
-              "Corners of the area in the axes of the case in place of a file, [x, y, z] each, of "
-              "which z is not read.",
+              "Corners of the area in the axes of the case, instead of a file, [x, y, z] each; z "
+              "is ignored.",
               no_default, fewest);
     keys.number("z", level.z, "m", "z of the ground within the area, in the axes of the case.",
                 required);
@@ -101,7 +101,7 @@ inline void check_levels(TableReader& table, const TerrainPatch& patch)
         const Ring& corners = patch.levels[k].corners;
         if (!corners.empty() && points_within(patch, corners) == 0) {
             table.error("level",
-                        fmt::format("number {} holds no point of the surface, whose points are "
+                        fmt::format("number {} contains no point of the surface, whose points are "
                                     "{:.4g} m apart",
                                     k + 1, patch.resolution),
                         "give a smaller `resolution`, or an area within `extent`");
@@ -247,23 +247,25 @@ void terrain_keys(auto& keys, Is<MeshShape> auto& shape, TerrainKeys& given,
     }
     keys.text("file", shape.file, of_file, needed);
     keys.numbers("origin", given.origin, "m",
-                 "Easting and northing of the grid that become x = y = 0.",
+                 "Easting and northing in the grid that become x = y = 0.",
                  "the south-western centre of the grid");
     keys.number("azimuth_deg", patch.azimuth_deg, "deg",
                 "Direction of the x axis of the case, clockwise from north: 90 is east.");
-    keys.number("datum", patch.datum, "m", "Added to the heights of the grid.");
+    keys.number("datum", patch.datum, "m", "Offset that is added to the heights of the grid.");
     keys.numbers("extent", given.extent, "m",
                  "Part of the ground in the axes of the case: [x_min, y_min, x_max, y_max].",
                  "the whole grid if azimuth_deg is a multiple of 90, else required");
-    keys.positive("resolution", given.resolution, "m",
-                  "Longest edge of the cells of the surface. Coarser than the grid it takes means, "
-                  "finer it interpolates.",
-                  "the larger of the cells of the grid and particles.spacing");
+    keys.positive(
+        "resolution", given.resolution, "m",
+        "Longest edge of the cells of the surface. If the surface is coarser than the grid, its "
+        "heights are means of the grid heights; if it is finer, they are interpolated.",
+        "the larger of the cells of the grid and particles.spacing");
     keys.number("bottom", given.bottom, "m",
                 "z of the lower side of the ground, which is a solid, or of a prism.",
                 "a twentieth of the width below the lowest ground");
-    keys.number("nodata", given.nodata, "m",
-                "Height to use where the grid has none; without it such places are refused.");
+    keys.number(
+        "nodata", given.nodata, "m",
+        "Height to use where the grid has none; without this key such places are an error.");
 }
 
 } // namespace hyoryu

@@ -160,8 +160,8 @@ inline void check_absorption(TableReader& table, const AbsorbKeys& keys, MotionW
         return;
     }
     if (way == MotionWay::table || way == MotionWay::lift || motion.velocity.norm() > 0) {
-        table.error("absorb", "needs to know the waves that the paddle makes",
-                    "beside a `piston`, beside `times` and `places` with `levels`, or alone");
+        table.error("absorb", "needs the waves that the paddle generates",
+                    "use it with a `piston`, with `times`, `places` and `levels`, or alone");
     } else if (way == MotionWay::points && keys.levels.size() != motion.times.size()) {
         table.error(table.has("levels") ? "levels" : "absorb",
                     fmt::format("expected a level of the water for each of {} times, found {}",
@@ -175,9 +175,9 @@ inline void check_absorption(TableReader& table, const AbsorbKeys& keys, MotionW
 
 void keys_of(auto& keys, Is<PlaneWall> auto& plane)
 {
-    keys.planar("point", plane.point, "m", "A point of a plane.");
+    keys.planar("point", plane.point, "m", "A point on a plane.");
     keys.direction("normal", plane.normal,
-                   "Normal of a plane, into the free space, of any length.");
+                   "Normal vector of a plane, directed into the free space; of any length.");
 }
 
 void keys_of(auto& keys, Is<BasinWall> auto& basin)
@@ -188,9 +188,10 @@ void keys_of(auto& keys, Is<BasinWall> auto& basin)
     keys.flags("open", basin.open, {"-x", "+x", "-y", "+y", "-z", "+z"},
                "Sides of a basin without a wall.");
     keys.positive("thickness", basin.thickness, "m",
-                  "Thickness of the sides of a basin for contact with bodies, including the "
-                  "outside and the rims; by default 2 fluid.smoothing_ratio spacings rounded up to "
-                  "whole ones, without a fluid three; the penalty method takes two spacings.",
+                  "Thickness of the sides of a basin for contact with bodies, including contact at "
+                  "the outside and the rims. By default it is 2 fluid.smoothing_ratio spacings, "
+                  "rounded up to a whole number of spacings, or three spacings without a fluid. "
+                  "The penalty method uses two spacings.",
                   "that of the rows of wall particles");
 }
 
@@ -203,19 +204,19 @@ void absorb_keys(auto& keys, MotionWay way, auto& wall)
     }
     if (keys.shows(absorb.absorbs)) {
         keys.flag("absorb", absorb.absorbs,
-                  "Whether the paddle gives way to waves that come towards it, so that they do not "
-                  "return: it moves with the speed sqrt(g/d) (level - level asked for) as well "
-                  "(active absorption of the first order). A paddle without a path only absorbs.");
+                  "Whether the paddle absorbs incoming waves so that they are not reflected: in "
+                  "addition to its path it retreats with the speed sqrt(g/d) (level - target "
+                  "level) (first-order active absorption). A paddle without a path only absorbs.");
     }
     if (keys.applies(absorb.absorbs)) {
         keys.positive("depth", absorb.depth, "m",
-                      "Depth of the water at rest before a paddle that absorbs; a piston has its "
-                      "own.",
+                      "Depth of the water at rest in front of an absorbing paddle; a piston has "
+                      "its own depth key.",
                       no_default);
         keys.rule(find_levels, absorb.leveled);
         if (keys.applies(absorb.leveled)) {
             keys.path("levels", absorb.levels, "m",
-                      "Level of the water at the paddle, above still water, that the path makes at "
+                      "Water level at the paddle, above still water, that the path generates at "
                       "each of the times.");
         }
     }
@@ -233,29 +234,30 @@ void keys_of(auto& keys, Is<Motion> auto& motion, auto& wall, double gravity, co
         std::string file;
         keys.text("table", file,
                   "CSV file of a path, relative to the case file: columns time, x, y, z in s and "
-                  "m, a header line or none. The wall follows it by monotone cubics, starts at its "
-                  "position in the case regardless of the position in the file at time 0, and is "
-                  "at rest outside of the times of the file.",
+                  "m, with or without a header line. The path is interpolated by monotone cubics. "
+                  "The wall starts at its position in the case regardless of the position in the "
+                  "file at time 0, and is at rest outside of the time range of the file.",
                   needed);
         keys.rule(load_path, file, motion);
     }
     if (keys.applies(way == MotionWay::points)) {
         keys.path("times", motion.times, "s",
-                  "Times of a path within the case file, ascending; with places.");
-        keys.path("places", motion.places, "m",
-                  "Displacements at the times, [x, y, z] each, from its position at time 0.");
+                  "Times of a path that is given in the case file, ascending; used with places.");
+        keys.path(
+            "places", motion.places, "m",
+            "Displacements from the position at time 0, one [x, y, z] for each of the times.");
         keys.rule(check_path, motion);
     }
     if (keys.applies(way == MotionWay::piston)) {
         PistonWave wave;
         keys.table("piston",
-                   "The motion along +x of a paddle that makes waves, from time 0 on: a solitary "
+                   "Motion along +x of a paddle that generates waves, from time 0 on: a solitary "
                    "wave (Goring 1978) or regular waves (Madsen 1971).",
                    wave, wall, gravity, scene.time.end);
     }
     if (keys.applies(way == MotionWay::lift)) {
         Lift lift;
-        keys.table("lift", "The motion along +z of a gate that opens.", lift, motion, scene.spacing,
+        keys.table("lift", "Motion along +z of a gate that opens.", lift, motion, scene.spacing,
                    scene.time.end);
     }
     absorb_keys(keys, way, wall);
@@ -301,8 +303,8 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, TerrainKeys& given)
                                "Edge lengths of a box, instead of min and max.",
                                "Radius of a sphere, cylinder or round basin.",
                                "Length of a cylinder, along x before rotation.",
-                               "STL or OBJ file of a mesh, or ESRI ASCII grid of the "
-                               "heights of a terrain, relative to the case file."};
+                               "STL or OBJ file of a mesh, or ESRI ASCII grid of terrain heights, "
+                               "relative to the case file."};
     const auto* held = std::get_if<SolidWall>(&wall.geometry);
     std::size_t kind = is_terrain(wall)  ? terrain
                        : is_prism(wall)  ? prism
@@ -311,10 +313,11 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, TerrainKeys& given)
     const bool known = keys.alternatives(
         "shape", kind,
         {"plane", "basin", "round_basin", "box", "sphere", "cylinder", "mesh", "terrain", "prism"},
-        "plane: point and normal; basin: the inside of a box; round_basin: the inside of a "
-        "sphere, of a circle in two dimensions; box: min and max, or size and position; sphere, "
-        "cylinder and mesh as for bodies; terrain: the ground from a height grid; prism: a "
-        "polygon between two heights, such as a building.",
+        "Shape of the wall. \"plane\": point and normal; \"basin\": the inside of a box; "
+        "\"round_basin\": the inside of a sphere, or of a circle in two dimensions; \"box\": min "
+        "and max, or size and position; \"sphere\", \"cylinder\" and \"mesh\": as for bodies; "
+        "\"terrain\": the ground from a height grid; \"prism\": a polygon between two heights, "
+        "such as a building.",
         required, [&](std::size_t k) {
             keys.select(wall.geometry, std::min(k, solid));
             if (auto* plane = std::get_if<PlaneWall>(&wall.geometry)) {
@@ -368,8 +371,8 @@ void ground_keys(auto& keys, Is<Wall> auto& wall, const TerrainKeys& given, doub
     }
     if (keys.applies(is_terrain(wall))) {
         keys.tables("level",
-                    "An area of a terrain that is level, such as a quay or a yard that the grid "
-                    "smears: within its polygon the ground has this z.",
+                    "A level area of a terrain, such as a quay or a yard whose edges the grid "
+                    "smooths: within its polygon the ground has the height z.",
                     levels);
     }
     keys.rule(finish_ground, given, levels, spacing, wall);
@@ -404,16 +407,16 @@ void keys_of(auto& keys, Is<Wall> auto& wall, double gravity, const Scene& scene
     keys.rule(claim_name, wall.name);
     TerrainKeys given; // of the ground, which is made when its areas are read as well
     geometry_keys(keys, wall, given);
-    keys.text("material", wall.material, "Name of its material, for contact.pair.");
+    keys.text("material", wall.material, "Name of the material, for contact.pair.");
     keys.rule(check_material, wall.material);
     if (keys.shows(wall.manning > 0)) {
         keys.not_negative("manning", wall.manning, "",
-                          "Roughness n of the bed in s/m^(1/3), by Manning's formula: 0.025 is a "
-                          "natural channel, 0.015 concrete. The fluid must slip along walls.");
+                          "Manning's roughness coefficient n of the bed [s/m^(1/3)]: 0.025 for a "
+                          "natural channel, 0.015 for concrete. The walls must be free-slip.");
     }
     keys.rule(check_manning, wall, scene);
-    keys.table("motion", "Motion of the wall; without it the wall is fixed.", wall.motion, wall,
-               gravity, scene);
+    keys.table("motion", "Motion of the wall; without this table the wall is fixed.", wall.motion,
+               wall, gravity, scene);
     ground_keys(keys, wall, given, scene.spacing);
 }
 

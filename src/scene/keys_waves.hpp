@@ -44,7 +44,7 @@ inline void refuse_second_crests(TableReader& table, const PistonWave& wave, dou
                     fmt::format("H L^2 / d^3 is {:.3g}, above 8 pi^2 / 3 = {:.3g}: the second "
                                 "order would have a second crest in every trough",
                                 number, most),
-                    "a lower or shorter wave, or deeper water; order = 1 is taken as it is");
+                    "a lower or shorter wave, or deeper water; order = 1 has no such limit");
     }
 }
 
@@ -66,7 +66,7 @@ inline void move_as_piston(TableReader& table, PistonWave& wave, Wall& wall, dou
         constexpr double most_periods = 15000; // 64 points each, a million in all
         wave.train.height = *wave.height;
         if (!(end / wave.train.period <= most_periods)) {
-            table.error("period", fmt::format("the run would hold {:.3g} periods, at most {} are "
+            table.error("period", fmt::format("the run would last {:.3g} periods, at most {} are "
                                               "allowed",
                                               end / wave.train.period, most_periods));
             return;
@@ -103,18 +103,19 @@ void keys_of(auto& keys, Is<PistonWave> auto& wave, auto& wall, double gravity, 
     const bool regular = wave.height.has_value() || keys.gives("height");
     if (keys.applies(regular)) {
         keys.positive("period", wave.train.period, "s", "Period of regular waves.", needed);
-        keys.integer("order", wave.train.order, 1, 2, "1 or 2",
-                     "Order of the motion for regular waves: 2 adds the second harmonic, without "
-                     "which the paddle sheds a free wave of twice the frequency (Madsen 1971).");
+        keys.integer(
+            "order", wave.train.order, 1, 2, "1 or 2",
+            "Order of the paddle motion for regular waves: 2 adds the second harmonic, without "
+            "which the paddle generates a free wave of twice the frequency (Madsen 1971).");
         keys.rule(inherit, wave.train.ramp, wave.train.period);
         keys.not_negative("ramp", wave.train.ramp, "s",
-                          "Time in which regular waves grow to their height.",
+                          "Time over which regular waves grow to their full height.",
                           "wall.motion.piston.period");
     }
     if (keys.applies(!regular)) {
         keys.choice("theory", wave.theory, {"boussinesq", "rayleigh"},
-                    "Shape of the solitary wave; \"rayleigh\" is longer where the wave is high and "
-                    "leaves less of a tail.");
+                    "Theory of the shape of the solitary wave. With \"rayleigh\" high waves are "
+                    "longer and the tail behind the wave is smaller.");
     }
     keys.rule(move_as_piston, wave, wall, gravity, end);
 }
@@ -122,7 +123,7 @@ void keys_of(auto& keys, Is<PistonWave> auto& wave, auto& wall, double gravity, 
 void keys_of(auto& keys, Is<Lift> auto& lift, auto& motion, double spacing, double end)
 {
     keys.not_negative("start", lift.start, "s", "Time at which the gate starts to rise.");
-    keys.positive("speed", lift.speed, "m/s", "Speed at which it rises.", needed);
+    keys.positive("speed", lift.speed, "m/s", "Speed at which the gate rises.", needed);
     keys.rule(lift_gate, lift, motion, spacing, end);
 }
 
@@ -146,26 +147,26 @@ void keys_of(auto& keys, Is<Sponge> auto& sponge, double gravity)
     keys.planar("min", sponge.min, "m", "Lower corner of the box of a sponge.", required);
     keys.planar("max", sponge.max, "m", "Upper corner of the box of a sponge.", required);
     keys.rule(check_corners, sponge.min, sponge.max);
-    keys.choice("side", sponge.side, {"-x", "+x", "-y", "+y"},
-                "The side of the box where it damps most; at the opposite side it begins.", "+x");
-    keys.positive("depth", sponge.depth, "m",
-                  "Depth of the water at rest, for waves: the rate of damping at the side is "
-                  "10 sqrt(g/depth); give either depth or rate.");
-    keys.positive("rate", sponge.rate, "1/s",
-                  "Rate of damping at the side; give either depth or rate.");
-    keys.planar("velocity", sponge.velocity, "m/s",
-                "Velocity to which the fluid is brought: that of a stream which a sponge in a "
-                "periodic domain restores.");
     keys.choice(
-        "profile", sponge.parabolic, {"uniform", "parabolic"},
-        "Velocity over z: \"parabolic\" is that of viscous flow between plates at the lower "
-        "and the upper side of the box, of which `velocity` is the mean.");
-    keys.number(
-        "pressure", sponge.pressure, "Pa",
-        "Pressure at `min`, hydrostatic above it, to which the fluid in the box relaxes while "
-        "sound crosses the box. A periodic or closed domain without a surface needs it: its "
-        "mean density drifts.",
-        no_default);
+        "side", sponge.side, {"-x", "+x", "-y", "+y"},
+        "Side of the box with the strongest damping; the damping begins at the opposite side.",
+        "+x");
+    keys.positive("depth", sponge.depth, "m",
+                  "Depth of the water at rest, for the damping of waves: the damping rate at the "
+                  "side is 10 sqrt(g/depth). Give either depth or rate.");
+    keys.positive("rate", sponge.rate, "1/s",
+                  "Damping rate at the side; give either depth or rate.");
+    keys.planar("velocity", sponge.velocity, "m/s",
+                "Velocity to which the fluid relaxes: the velocity of a stream that a sponge in a "
+                "periodic domain restores.");
+    keys.choice("profile", sponge.parabolic, {"uniform", "parabolic"},
+                "Velocity profile over z. \"parabolic\": the profile of viscous flow between "
+                "plates at the lower and the upper side of the box, with `velocity` as its mean.");
+    keys.number("pressure", sponge.pressure, "Pa",
+                "Pressure at `min`, hydrostatic above it, to which the fluid in the box relaxes in "
+                "the time in which sound crosses the box. A periodic or closed domain without a "
+                "free surface needs this key, because its mean density drifts otherwise.",
+                no_default);
     keys.rule(check_sponge, sponge, gravity);
 }
 

@@ -106,8 +106,8 @@ std::string read_header(const std::vector<std::string_view>& words,
         const auto column = static_cast<std::size_t>(at - columns.begin());
         if (at == columns.end() || std::ranges::find(order, column) != order.end()) {
             return fmt::format("the header has {} \"{}\", expected the columns {}",
-                               at == columns.end() ? "an unknown column" : "twice the column", part,
-                               names_of(columns));
+                               at == columns.end() ? "an unknown column" : "a repeated column",
+                               part, names_of(columns));
         }
         order.push_back(column);
     }
@@ -183,7 +183,7 @@ NumberTable read_number_table(const std::filesystem::path& file,
         std::vector<double> row;
         const std::string fault = mixes_separators(line)
                                       ? "commas and semicolons in one line, expected one of them "
-                                        "between the numbers and a decimal point in each"
+                                        "as separator and a decimal point in each number"
                                   : header ? read_header(words, columns, order)
                                            : parse_row(words, columns, order, row);
         if (!fault.empty() && table.faults.size() < most_faults_of_table) {

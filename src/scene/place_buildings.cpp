@@ -111,7 +111,7 @@ void build(const Footprint& footprint, const std::string& name, const Ground& gr
                                   : fmt::format("{} (\"{}\")", footprint.where, name);
     if (outline.corners.empty() || ear_triangles(outline.corners).empty()) {
         buildings.faults.push_back(
-            {fmt::format("{} does not outline a building: {}", where,
+            {fmt::format("{} is not a valid outline of a building: {}", where,
                          fault.empty() ? "it cannot be divided into triangles" : fault),
              "repair it, for instance by `ogr2ogr -makevalid NEW.geojson FILE.geojson`"});
         return;
@@ -160,8 +160,8 @@ void look_for_overlaps(Buildings& buildings)
     if (pairs > 0) {
         buildings.warnings.push_back(
             {fmt::format("{} pairs of buildings overlap, first {}", pairs, first),
-             "they act as one solid, but the force on each is that on its own part of the "
-             "surface; merge them in the file if one is meant"});
+             "they act as one solid, but the force on each is that on its own part of the surface; "
+             "merge them in the file if they are one building"});
     }
 }
 
@@ -254,7 +254,7 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
     }
     if (!partly.empty()) {
         buildings.warnings.push_back(
-            {fmt::format("\"{}\" stands only in part on the terrain", partly),
+            {fmt::format("\"{}\" stands only partly on the terrain", partly),
              "enlarge `wall.extent`, or cut the footprint there"});
     }
     if (beside == footprints.size()) {
@@ -265,10 +265,10 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
                          beside, patch->extent[0], patch->extent[2], patch->extent[1],
                          patch->extent[3], footprints[0].rings[0][0][0],
                          footprints[0].rings[0][0][1]),
-             "both files must be in one map projection"});
+             "both files must use the same map projection"});
     } else if (beside > 0) {
-        buildings.warnings.push_back({fmt::format("{} of {} footprints lie beside the terrain and "
-                                                  "are left out",
+        buildings.warnings.push_back({fmt::format("{} of {} footprints lie outside the terrain and "
+                                                  "are omitted",
                                                   beside, footprints.size()),
                                       "enlarge `wall.extent` if they are needed"});
     }

@@ -93,11 +93,12 @@ Rest rest_on(const Ground& ground, const std::vector<Plan2>& corners)
 std::string fault_of(const Rest& rest, double height, const Plan2& at)
 {
     if (!rest.whole) {
-        return fmt::format("has no ground under all of it at ({:.4g}, {:.4g}) m", at[0], at[1]);
+        return fmt::format("has no ground under at least a part of it at ({:.4g}, {:.4g}) m", at[0],
+                           at[1]);
     }
     if (rest.uneven > most_uneven * height) {
-        return fmt::format("would stand on an edge at ({:.4g}, {:.4g}) m: the ground under it "
-                           "differs by {:.3g} m",
+        return fmt::format("would stand on an edge at ({:.4g}, {:.4g}) m: the height of the ground "
+                           "under it varies by {:.3g} m",
                            at[0], at[1], rest.uneven);
     }
     return {};
@@ -324,7 +325,7 @@ std::vector<PlaceFault> scatter_over_yard(DebrisKeys& debris, Scene& scene)
         return {{"a yard has a width, so it needs three dimensions", "use `array`"}};
     }
     if (scatter.turn_deg[1] < scatter.turn_deg[0]) {
-        return {{"the largest of `turn_deg` is below the least"}};
+        return {{"the maximum of `turn_deg` is below the minimum"}};
     }
     Placing placing(debris, scene);
     const Vec3& extent = placing.extent();
@@ -349,9 +350,9 @@ std::vector<PlaceFault> scatter_over_yard(DebrisKeys& debris, Scene& scene)
         Spot spot;
         if (!find_spot(scatter, extent, ground, occupied, dice, spot)) {
             return {{fmt::format("the yard has room for {} of {} pieces on level ground, after {} "
-                                 "tries for the next",
+                                 "attempts to place the next",
                                  occupied.pieces.size(), scatter.count, most_tries),
-                     "a larger yard, fewer pieces, or a smaller `gap`"}};
+                     "use a larger yard, fewer pieces, or a smaller `gap`"}};
         }
         placing.put({spot.at[0], spot.at[1], spot.ground + clearance + extent.z() / 2}, spot.turn);
         occupied.pieces.push_back(std::move(spot));

@@ -204,8 +204,8 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
         const double across = thinnest(body.shape, scene.dimensions);
         if (across < 3 * scene.spacing * (1 - 1e-9)) {
             warn(scene, body.place, body_key(b),
-                 fmt::format("body \"{}\" is {:.3g} m thin, less than 3 spacings ({:.3g} m): fluid "
-                             "forces on it are coarse and water may pass through it",
+                 fmt::format("body \"{}\" is {:.3g} m thick, less than 3 spacings ({:.3g} m): "
+                             "fluid forces on it are inaccurate and water may pass through it",
                              body.name, across, 3 * scene.spacing),
                  "use a smaller `particles.spacing`", plan);
         }
@@ -215,14 +215,14 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
 void warn_about_room(const Scene& scene, Plan& plan)
 {
     if (scene.most_fluid > 0 && scene.open.empty()) {
-        warn(scene, {}, "particles.most", "bounds runs with open sides, and this one has none",
+        warn(scene, {}, "particles.most", "limits only runs with open sides, and there are none",
              "remove it", plan);
     } else if (scene.most_fluid > 0 && plan.most_fluid > scene.most_fluid) {
         warn(scene, {}, "particles.most",
-             fmt::format("{} fluid particles are allowed, but the open sides may bring the run to "
-                         "about {}: it would end early",
+             fmt::format("{} fluid particles are allowed, but with the open sides the run may "
+                         "reach about {}: it would end early",
                          scene.most_fluid, plan.most_fluid),
-             "allow more, or increase `particles.spacing`", plan);
+             "increase it, or increase `particles.spacing`", plan);
     }
 }
 
@@ -234,7 +234,9 @@ void warn_about_sound(const Scene& scene, Plan& plan)
              fmt::format("{:.4g} m/s is only {:.1f} times the largest expected speed ({:.3g} m/s): "
                          "densities will vary by about {:.1f} %",
                          plan.fluid->eos.c0, 1 / mach, plan.expected_speed, 100 * sq(mach)),
-             fmt::format("10 times would be {:.3g} m/s", 10 * plan.expected_speed), plan);
+             fmt::format("10 times the largest expected speed is {:.3g} m/s",
+                         10 * plan.expected_speed),
+             plan);
     }
 }
 
@@ -282,7 +284,7 @@ void warn_about_cfl(const Scene& scene, Plan& plan)
              fmt::format("{:.4g} makes steps longer than the stability limit of the fluid, which "
                          "is at {:.2g}",
                          scene.time.cfl, stable_cfl),
-             "omit it, for the default", plan);
+             "omit it to use the default", plan);
     }
 }
 
@@ -296,7 +298,7 @@ void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>
             scene, {}, "output.every",
             fmt::format("gives about {:.2g} frames, at most {:.0g} are allowed", plan.frames,
                         most_frames),
-            fmt::format("a larger `output.every`, for instance {:.3g}", scene.time.end / 100)));
+            fmt::format("use a larger `output.every`, for instance {:.3g}", scene.time.end / 100)));
     }
     if (!(plan.expected_steps <= most_steps)) {
         const auto least = std::ranges::min_element(plan.limits, {}, &TimeLimit::dt);
@@ -306,9 +308,9 @@ void check_outputs(const Scene& scene, const Plan& plan, std::vector<Diagnostic>
                         "{:.0g} are allowed",
                         plan.first_step, plan.expected_steps, most_steps),
             scene.time.step || least == plan.limits.end()
-                ? "an earlier end, or a longer `time.step`"
-                : fmt::format("an earlier end; the {} limit makes the step so short, see "
-                              "`hyoryu describe time.cfl`",
+                ? "set an earlier `time.end`, or a longer `time.step`"
+                : fmt::format("set an earlier `time.end`; the time step is short because of the {} "
+                              "limit, see `hyoryu describe time.cfl`",
                               least->name)));
     }
 }
@@ -347,7 +349,7 @@ void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
                                     fmt::format("the run starts with {} fluid particles, more "
                                                 "than the {} that are allowed",
                                                 plan.counts.fluid, scene.most_fluid),
-                                    "allow more, or increase `particles.spacing`"));
+                                    "increase it, or increase `particles.spacing`"));
     }
     if (!errors.empty()) {
         show_places(scene, errors);

@@ -40,7 +40,7 @@ void list_method(const ContactSettings& contact, Plan& plan)
         const char* meaning;
     };
     for (const Law& known :
-         {Law{ImpactLaw::coupled, "coupled", "rounds of all contacts that approach"},
+         {Law{ImpactLaw::coupled, "coupled", "iterations over all approaching contacts"},
           Law{ImpactLaw::paper, "paper", "uncoupled equations (1)-(6), which can gain energy"},
           Law{ImpactLaw::simultaneous, "simultaneous", "all touching contacts at once"}}) {
         const std::string off = impulse   ? "`contact.law` selects another law"

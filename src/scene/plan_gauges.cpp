@@ -158,9 +158,9 @@ void warn_about_volume(const Scene& scene, const PlanFacts& facts, const Gauge& 
             Diagnostic note = diagnostic_without_line(
                 scene, gauge.place, key,
                 fmt::format(
-                    "the particles of the wall \"{}\" have {:.2f} of its volume, since its "
-                    "edges are rounded to whole spacings: buoyancy and inertia in the gauge "
-                    "\"{}\" are off by {:+.0f} %",
+                    "the particles of the wall \"{}\" have {:.2f} of its volume, because its edges "
+                    "are rounded to whole spacings: buoyancy and inertia in the gauge \"{}\" have "
+                    "an error of {:+.0f} %",
                     gauge.on, share, gauge.name, 100 * (share - 1)),
                 "make it a body with `fixed = true`, whose particles have its volume, or choose a "
                 "spacing that divides its edges");

@@ -202,17 +202,16 @@ void warn_about_drops(const Scene& scene, const Place& place, const std::string&
 {
     for (std::size_t way = 0; way < directions.size(); ++way) {
         if (drops.columns[way] > 0) {
-            warn(
-                scene, place, "wall",
-                fmt::format(
-                    "{}water can flow to a drop: in direction {} of {} columns one spacing wide, "
-                    "the first at ({:.4g}, {:.4g}) m, the ground ends; water that passes "
-                    "there leaves the scene",
-                    when, directions[way], drops.columns[way], drops.first[way].x(),
-                    drops.first[way].y()),
-                "close that side, or add a floor beyond it; an `[[open]]` side lets water out in a "
-                "measured way",
-                plan);
+            warn(scene, place, "wall",
+                 fmt::format(
+                     "{}water can reach the edge of the ground: in direction {} of {} columns one "
+                     "spacing wide, the first at ({:.4g}, {:.4g}) m, the ground ends; water that "
+                     "passes there leaves the scene",
+                     when, directions[way], drops.columns[way], drops.first[way].x(),
+                     drops.first[way].y()),
+                 "close that side, or add a floor beyond it; an `[[open]]` side lets water out and "
+                 "records the outflow",
+                 plan);
         }
     }
 }

@@ -139,7 +139,7 @@ void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& 
 {
     if (!(mean_bed(side) < infinity)) {
         errors.push_back(note_at(scene, open, "min", "the window is filled by walls",
-                                 "move it to where water may pass"));
+                                 "move it to a place where water can pass"));
         return;
     }
     if (is_walled(scene, side)) {
@@ -166,15 +166,15 @@ void check_water(const Scene& scene, const OpenSettings& open, const WaterAtStar
                                                   open.series.front().velocities.empty());
     if (alone && water.deepest < scene.spacing) {
         errors.push_back(note_at(scene, open, "level",
-                                 "a level alone is a wave into still water, but the window is dry "
-                                 "at the start",
-                                 "give the velocity too, or a discharge"));
+                                 "a level without a velocity defines a wave into still water, but "
+                                 "the window is dry at the start",
+                                 "also give the velocity, or give a discharge"));
     }
     if (open.kind == OpenKind::absorb && !open.level && open.series.empty() &&
         water.deepest < scene.spacing) {
         errors.push_back(note_at(scene, open, "kind",
-                                 "an absorbing side keeps the level of the start, but the window "
-                                 "is dry then",
+                                 "an absorbing side maintains the initial level, but the window is "
+                                 "dry at the start",
                                  "give `level`, or use kind = \"outflow\""));
     }
     const double highest = highest_asked(open).value_or(-infinity);
@@ -207,8 +207,8 @@ void check_shifting(const Scene& scene, const Plan& plan, const OpenSettings& op
 {
     if (plan.runs("shifting")) {
         errors.push_back(note_at(scene, open, "name",
-                                 "an open side has no meaning with `fluid.shifting`, under which "
-                                 "fluid expands at its free surface",
+                                 "an open side cannot be combined with `fluid.shifting`, with "
+                                 "which fluid expands at its free surface",
                                  "set fluid.shifting.model = \"none\""));
     }
 }
@@ -243,9 +243,9 @@ void warn_about_ground(const Scene& scene, const OpenSide& side, const auto& war
     if (ends < carpet - scene.spacing) {
         warn(
             "bodies",
-            fmt::format("the ground ends {:.3g} m behind the window, and the longest body needs "
-                        "{:.3g} m of it until all of it has passed: a body that touches the ground "
-                        "may tip over its end",
+            fmt::format("the ground ends {:.3g} m behind the window, but the longest body needs "
+                        "{:.3g} m of ground to pass completely: a body that touches the ground may "
+                        "tip over its end",
                         ends, carpet),
             "extend the walls beyond the window; they may leave the domain");
     }
@@ -263,10 +263,11 @@ void warn_about_start(const Scene& scene, const OpenSettings& open, const WaterA
     const double off = asked - water.level;
     if (std::abs(off) > scene.spacing) {
         warn("series",
-             fmt::format("asks for a level of {:.4g} m at the start, where the water before the "
-                         "window stands at {:.4g} m: the difference enters as a wave at once",
+             fmt::format("prescribes a level of {:.4g} m at the start, but the water level in "
+                         "front of the window is {:.4g} m: the difference enters as a wave "
+                         "immediately",
                          asked, water.level),
-             "look at `datum` and `time_offset`, and at the level of the still water");
+             "check `datum`, `time_offset` and the level of the still water");
     }
 }
 
@@ -279,7 +280,7 @@ void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
     if (scene.contact.penalty) {
         errors.push_back(note_at(scene, open, "bodies",
                                  "bodies do not stop at a window with contact.method = "
-                                 "\"penalty\", which knows walls by their particles alone",
+                                 "\"penalty\", which represents walls only by their particles",
                                  "set bodies = \"leave\", or contact.method = \"impulse\""));
     }
     const auto refuse_name = [&](std::string_view kind, const std::string& name) {
@@ -318,7 +319,8 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
         }
         if (times.front() > 0) {
             warn("series",
-                 fmt::format("begins at {:.6g} s: the first values hold before", times.front()),
+                 fmt::format("begins at {:.6g} s: the first values are used before that time",
+                             times.front()),
                  "set `time_offset`, or `hold = true`");
         }
     }
@@ -335,7 +337,7 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
     if (open.kind == OpenKind::inflow && rows < least_rows) {
         warn("name",
              fmt::format("the inflow is {:.2g} spacings deep at its peak: at least {:.0f} are "
-                         "needed to carry a body, and below 1.5 nothing enters",
+                         "needed to carry a body, and below 1.5 no fluid enters",
                          rows, least_rows),
              "use a smaller `particles.spacing`");
     }

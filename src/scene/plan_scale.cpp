@@ -82,8 +82,8 @@ void list_body(const Scene& scene, std::size_t b, Plan& plan)
     if (spacings < 1) {
         warn(
             scene, body.place, fmt::format("body[{}]", b),
-            fmt::format("body \"{}\" floats at {:.2g} spacings: its draft of {:.3g} m is below the "
-                        "spacing of {:.3g} m; its weight is right, its draft is not resolved",
+            fmt::format("body \"{}\" floats with a draft of {:.2g} spacings: {:.3g} m is below the "
+                        "spacing of {:.3g} m; its weight is correct, its draft is not resolved",
                         body.name, spacings, floating->as_placed.draft, scene.spacing),
             "use a smaller `particles.spacing` where the draft matters", plan);
     }
@@ -168,7 +168,7 @@ void check_gate(const Scene& scene, const Wall& wall, double top, Plan& plan)
              fmt::format("the gate \"{}\" takes {:.3g} s to rise out of {:.3g} m of water: a dam "
                          "break is sudden within 1.25 sqrt(d/g) = {:.3g} s",
                          wall.name, opens, depth, limit),
-             "a faster gate, unless a slow one is meant", plan);
+             "use a faster gate, unless a slow one is intended", plan);
     }
 }
 
@@ -211,11 +211,11 @@ void check_submerged(const Scene& scene, const PlanFacts& facts, Plan& plan)
     if (count > 0) {
         const BodySettings& body = scene.bodies[first];
         warn(scene, body.place, fmt::format("body[{}]", first),
-             fmt::format("body \"{}\"{} begins under {:.3g} m of water and is lighter than it: it "
-                         "will shoot up",
-                         body.name, count > 1 ? fmt::format(", as {} more,", count - 1) : "",
+             fmt::format("body \"{}\"{} starts under {:.3g} m of water and is lighter than water: "
+                         "it will rise rapidly",
+                         body.name, count > 1 ? fmt::format(", like {} others,", count - 1) : "",
                          deepest),
-             "place it at the surface or on dry ground, unless this is meant", plan);
+             "place it at the surface or on dry ground, unless this is intended", plan);
     }
 }
 
@@ -232,9 +232,9 @@ void list_scale(const Scene& scene, const PlanFacts& facts, double viscosity, Pl
     scale.shortest_load = load_spacings * scene.spacing / plan.fluid->eos.c0;
     scale.viscosity = viscosity;
     scale.reynolds = viscosity > 0 ? scale.speed * scale.depth / viscosity : infinity;
-    scale.absent = {"air: one phase, no cushions and no entrained air"};
+    scale.absent = {"air: single phase, no air cushions and no entrained air"};
     if (!scene.bodies.empty()) {
-        scale.absent.emplace_back("ingress: no water enters bodies, none sinks by filling");
+        scale.absent.emplace_back("ingress: no water enters bodies, so none fills and sinks");
         scale.absent.emplace_back("breaking: bodies and walls are rigid");
     }
     scale.absent.emplace_back("morphology: the ground does not move");
@@ -243,7 +243,7 @@ void list_scale(const Scene& scene, const PlanFacts& facts, double viscosity, Pl
              fmt::format("the effective Reynolds number u h/nu is {:.3g}: {:.3g} m/s x {:.3g} m / "
                          "{:.3g} m2/s, the viscosity of the scheme; eddies are damped",
                          scale.reynolds, scale.speed, scale.depth, viscosity),
-             "a smaller `particles.spacing` or `fluid.viscosity.alpha`", plan);
+             "use a smaller `particles.spacing` or `fluid.viscosity.alpha`", plan);
     }
     plan.scale = std::move(scale);
 }
@@ -259,10 +259,10 @@ void check_waves(const Scene& scene, const PlanFacts& facts, Plan& plan)
         const double length = sponge.max[axis] - sponge.min[axis];
         if (longest > length) {
             warn(scene, sponge.place, "sponge",
-                 fmt::format("the sponge is {:.3g} m long, shorter than the wave of {:.3g} m: much "
-                             "of it will return",
+                 fmt::format("the sponge is {:.3g} m long, shorter than the wavelength of {:.3g} "
+                             "m: much of the wave will be reflected",
                              length, longest),
-                 "a longer sponge, or a paddle with `absorb`", plan);
+                 "use a longer sponge, or a paddle with `absorb`", plan);
         }
     }
     for (const Wall& wall : scene.walls) {

@@ -211,10 +211,10 @@ void look_for_thin_walls(const Scene& scene, PlanWarnings& slips)
             scene.dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
         if (thin < scene.spacing * (1 - 1e-9)) {
             slips.add(wall.place, fmt::format("wall[{}]", w),
-                      fmt::format("wall \"{}\" is {:.3g} m thin, less than the spacing of {:.3g} "
+                      fmt::format("wall \"{}\" is {:.3g} m thick, less than the spacing of {:.3g} "
                                   "m: the fluid on its two sides is not well separated",
                                   wall.name, thin, scene.spacing),
-                      "a thicker wall, or a smaller `particles.spacing`");
+                      "use a thicker wall, or a smaller `particles.spacing`");
         }
     }
 }
@@ -228,8 +228,8 @@ void look_for_water_below(const Wall& ground, double bottom, const Scene& scene,
         const double lowest = box_of(scene, block).min.z();
         if (lowest < bottom) {
             slips.add(block.place, fmt::format("fluid.block[{}]", b),
-                      fmt::format("the block reaches down to {:.4g} m, below the underside of "
-                                  "the ground \"{}\" at {:.4g} m: water fills in there, too",
+                      fmt::format("the block reaches down to {:.4g} m, below the underside of the "
+                                  "ground \"{}\" at {:.4g} m: water is also placed there",
                                   lowest, ground.name, bottom),
                       "raise the lower side of the block, or lower `wall.bottom`");
         }
@@ -245,9 +245,9 @@ void look_for_bodies_below(const Wall& ground, double bottom, const Scene& scene
         if (box_of(scene, body).max.z() < bottom) {
             slips.add(body.place, fmt::format("body[{}]", b),
                       fmt::format("body \"{}\" lies below the underside of the ground \"{}\" at "
-                                  "{:.4g} m, which does not hold it",
+                                  "{:.4g} m, which does not support it",
                                   body.name, ground.name, bottom),
-                      "raise it: z is up, and the `datum` of the ground moves its zero");
+                      "raise it: z is up, and the `datum` of the ground shifts its zero level");
         }
     }
 }

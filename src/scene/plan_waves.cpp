@@ -33,17 +33,19 @@ void look_at_height(const Wall& wall, const std::string& key, PlanWarnings& warn
     const double number = 2 * std::numbers::pi / wave.length;
     const double steep = steepest * std::tanh(number * wave.depth);
     if (wave.height > highest * wave.depth) {
-        warnings.add(wall.place, fmt::format("{}.piston.{}", key, name),
-                     fmt::format("a wave of {:.3g} m is {:.2f} of the depth of {:.3g} m, above "
-                                 "{}: it breaks at once",
-                                 wave.height, wave.height / wave.depth, wave.depth, highest),
-                     fmt::format("below {:.3g} m, or deeper water", highest * wave.depth));
+        warnings.add(
+            wall.place, fmt::format("{}.piston.{}", key, name),
+            fmt::format("a wave height of {:.3g} m is {:.2f} of the depth of {:.3g} m, "
+                        "above the limit of {}: the wave breaks immediately",
+                        wave.height, wave.height / wave.depth, wave.depth, highest),
+            fmt::format("use a height below {:.3g} m, or deeper water", highest * wave.depth));
     } else if (wave.period > 0 && wave.height > steep * wave.length) {
-        warnings.add(wall.place, key + ".piston.height",
-                     fmt::format("a wave of {:.3g} m is {:.3f} of its length of {:.3g} m, above "
-                                 "{:.3f}: it breaks at once",
-                                 wave.height, wave.height / wave.length, wave.length, steep),
-                     fmt::format("below {:.3g} m, or a longer `period`", steep * wave.length));
+        warnings.add(
+            wall.place, key + ".piston.height",
+            fmt::format("a wave height of {:.3g} m is {:.3f} of the wavelength of {:.3g} "
+                        "m, above the limit of {:.3f}: the wave breaks immediately",
+                        wave.height, wave.height / wave.length, wave.length, steep),
+            fmt::format("use a height below {:.3g} m, or a longer `period`", steep * wave.length));
     }
 }
 
@@ -63,13 +65,13 @@ void look_at_depth(const Scene& scene, const Span& before, const Wall& wall, con
     if (found == 0) {
         warnings.add(wall.place, own,
                      fmt::format("there is no water at the +x side of \"{}\"", wall.name),
-                     "a paddle makes waves along +x: the water begins at its face");
+                     "a paddle generates waves along +x: the water must begin at its face");
     } else if (std::abs(found - asked) > spacings_off * scene.spacing + share_off * asked) {
         warnings.add(wall.place, own,
-                     fmt::format("{:.3g} m, but the water before \"{}\" is {:.3g} m deep at the "
-                                 "start: the wave will not have its height",
+                     fmt::format("{:.3g} m, but the water in front of \"{}\" is {:.3g} m deep at "
+                                 "the start: the wave will not have the specified height",
                                  asked, wall.name, found),
-                     "write the depth of the water at rest");
+                     "give the depth of the water at rest");
     }
 }
 

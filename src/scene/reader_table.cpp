@@ -181,7 +181,7 @@ std::vector<TableReader> TableReader::each_inside(std::string_view key)
     if (items == nullptr) {
         reading_.error(*node, full(key),
                        fmt::format("expected a list of tables, found {}", found(*node)),
-                       fmt::format("write [[{}]], once for each", joined(schema_, key)));
+                       fmt::format("write [[{}]] once for each table", joined(schema_, key)));
         mistaken_.emplace_back(key);
         return readers;
     }
@@ -190,7 +190,7 @@ std::vector<TableReader> TableReader::each_inside(std::string_view key)
         const TomlNode& item = (*items)[k];
         if (item.table() == nullptr) {
             reading_.error(item, path, fmt::format("expected a table, found {}", found(item)),
-                           fmt::format("write [[{}]], once for each", joined(schema_, key)));
+                           fmt::format("write [[{}]] once for each table", joined(schema_, key)));
             mistaken_.emplace_back(key);
         } else {
             readers.emplace_back(reading_, &item, path, schema, k + 1);
@@ -244,17 +244,16 @@ void TableReader::report_unknown(const TomlEntry& entry)
     }
     const std::string hint = did_you_mean(entry.key, names);
     reading_.error(entry.place, entry.node.override_number, full(entry.key), "unknown key",
-                   hint.empty() ? fmt::format("known here: {}", quoted_list(names)) : hint);
+                   hint.empty() ? fmt::format("known keys: {}", quoted_list(names)) : hint);
 }
 
 void TableReader::report_unused(const TomlEntry& entry)
 {
     const std::vector<std::string_view> used(asked_.begin(), asked_.end());
-    reading_.error(
-        entry.place, entry.node.override_number, full(entry.key),
-        chosen_.empty() ? "has no meaning in this scene"
-                        : fmt::format("has no meaning with {}", chosen_),
-        chosen_.empty() ? "" : fmt::format("keys with a meaning here: {}", quoted_list(used)));
+    reading_.error(entry.place, entry.node.override_number, full(entry.key),
+                   chosen_.empty() ? "has no meaning in this scene"
+                                   : fmt::format("has no meaning with {}", chosen_),
+                   chosen_.empty() ? "" : fmt::format("keys used here: {}", quoted_list(used)));
 }
 
 void TableReader::finish()

@@ -133,7 +133,7 @@ private:
                 if (at > static_cast<std::ptrdiff_t>(none)) {
                     fault(line.number,
                           fmt::format("the header has an unknown column \"{}\", expected time, "
-                                      "level, velocity or discharge; `columns` names others",
+                                      "level, velocity or discharge; use `columns` for other names",
                                       name));
                     return {};
                 }
@@ -173,7 +173,7 @@ private:
         if (count != 2 && count != 3) {
             fault(lines.front().number,
                   fmt::format("has {} columns without a header, expected time, level and velocity; "
-                              "`columns` names others",
+                              "use `columns` for other names",
                               count));
             return {};
         }
@@ -187,7 +187,7 @@ private:
         const bool header = !lines.empty() && !number_of(lines.front().words.front());
         const std::vector<std::size_t> columns = columns_of(lines, header);
         if (sound() && !lines.empty() && std::ranges::find(columns, time_column) == columns.end()) {
-            fault(lines.front().number, "has no column of the time");
+            fault(lines.front().number, "has no time column");
         }
         for (std::size_t k = header ? 1 : 0; k < lines.size() && !columns.empty(); ++k) {
             if (lines[k].words.size() != columns.size()) {
@@ -238,7 +238,7 @@ private:
         if (quantity == time_column) {
             const double time = value - source_.time_offset;
             if (!series_.times.empty() && !(time > series_.times.back())) {
-                fault(line.number, fmt::format("time {} does not follow {}", value, last_time_));
+                fault(line.number, fmt::format("time {} is not later than {}", value, last_time_));
             }
             last_time_ = value;
             series_.times.push_back(time);

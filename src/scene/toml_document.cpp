@@ -79,7 +79,7 @@ void refuse_endless_keys(std::string_view text)
         if (dots > most_dots_in_key) {
             throw TomlFault{
                 {.line = line, .column = 1},
-                fmt::format("a key has more than {} parts, as its dots say", most_dots_in_key),
+                fmt::format("a key has more than {} parts separated by dots", most_dots_in_key),
                 "a text or a long number must be in quotes"};
         }
         line += c == '\n' ? 1 : 0;

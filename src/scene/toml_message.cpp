@@ -61,13 +61,13 @@ std::optional<Words> slip_in(const std::string& line)
     }
     if (line.find("\xe2\x80\x9c") != std::string::npos ||
         line.find("\xe2\x80\x9d") != std::string::npos) {
-        return Words{"typographic quotes do not begin a text", "write straight ones: \""};
+        return Words{"a text cannot begin with typographic quotes", "use straight quotes: \""};
     }
     if (std::regex_match(line, m, word)) {
         const std::string value = m.str(2);
         if (value == "True" || value == "TRUE" || value == "False" || value == "FALSE") {
             return Words{
-                "true and false are written in small letters",
+                "true and false are written in lower case",
                 fmt::format("write {} = {}", m.str(1), value[0] == 'T' ? "true" : "false")};
         }
         if (value != "true" && value != "false" && value != "inf" && value != "nan") {
@@ -91,23 +91,23 @@ Words rare_meaning_of(const std::string& description)
     };
     if (says("utf-8") || says("surrogates") || says("U+10FFFF")) {
         return {"the text is not encoded in UTF-8",
-                "save the file as UTF-8 in the editor, or remove the letter"};
+                "save the file as UTF-8 in the editor, or remove the character"};
     }
     if (says("after '\\r'")) {
-        return {"a line ends with a carriage return alone",
-                "save the file with the line ends of Unix or Windows"};
+        return {"a line ends with a carriage return only",
+                "save the file with the line endings of Unix or Windows"};
     }
     if (says("nested value depth")) {
-        return {"lists or tables in braces are nested too deeply", "at most 256 deep"};
+        return {"lists or tables in braces are nested too deeply", "at most 256 levels"};
     }
     if (says("too long to identify") || says("length limit")) {
-        return {"the number is too long", "at most 17 digits count"};
+        return {"the number is too long", "at most 17 digits are significant"};
     }
     if (says("comment or whitespace")) {
-        return {"expected the end of the line", "write one key a line; a comment begins with #"};
+        return {"expected the end of the line", "write one key per line; a comment begins with #"};
     }
     if (says("date") || says("time")) {
-        return {"the date or time is invalid", "no key takes one; a text must be in quotes"};
+        return {"the date or time is invalid", "no key has one; a text must be in quotes"};
     }
     return {};
 }
@@ -146,7 +146,7 @@ Words meaning_of(const std::string& description, bool at_end)
         return {"the header of a table is invalid or not closed", "write [name] or [[name]]"};
     }
     if (says("expected '='")) {
-        return {"expected `=` behind the key", "write key = value"};
+        return {"expected `=` after the key", "write key = value"};
     }
     if (says("expected value")) {
         return {"the key has no value", "write key = value"};

@@ -311,8 +311,8 @@ void describe_left_bodies(State& state, Simulation& sim)
         const std::size_t count = bodies.size();
         if (sides.size() != count || times.size() != count || positions.size() != count ||
             velocities.size() != count || !are_of_case(sim, bodies, sides)) {
-            throw IoError("the checkpoint lists bodies that left, but they are not of this case: "
-                          "it is damaged or belongs to another case");
+            throw IoError("the checkpoint lists bodies that left the domain, but they are not in "
+                          "this case: it is damaged or belongs to another case");
         }
         for (std::size_t k = 0; k < count; ++k) {
             sim.open.left.push_back({bodies[k], sides[k], times[k], positions[k], velocities[k]});
@@ -380,8 +380,8 @@ void expect_particles_of_case(const Simulation& sim, Index particles)
         return;
     }
     if (particles > sim.plan.counts.fluid) {
-        throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be of the "
-                                  "{} of this case: it belongs to another case",
+        throw IoError(fmt::format("the checkpoint has {} fluid particles, which cannot be a subset "
+                                  "of the {} of this case: it belongs to another case",
                                   particles, sim.plan.counts.fluid));
     }
 }

@@ -67,7 +67,7 @@ public:
             if (extremes_[k] != -extremes_[k + 1]) {
                 throw BodiesDiffer(fmt::format(
                     "after step {} the processes disagree on body \"{}\": probably their "
-                    "processors or C libraries are not of one kind",
+                    "processors or C libraries are of different types",
                     sim.clock.step, sim.rigid.bodies[k / 2].name));
             }
         }

@@ -120,12 +120,13 @@ void watch_bodies(const Simulation& sim)
                             body.orientation.coeffs().allFinite();
         if (!finite) {
             report(sim, fmt::format("body \"{}\"", body.name), "pose or velocity is not finite",
-                   "probably its mass or a load on it is extreme; compare it with its neighbours");
+                   "probably its mass or a load on it is extreme; compare them with those of other "
+                   "bodies");
         }
     }
     if (const auto body = crushed(sim)) {
         report(sim, fmt::format("body \"{}\"", body->name),
-               fmt::format("wall \"{}\" presses it against {}, {:.4g} m of room are missing",
+               fmt::format("wall \"{}\" presses it against {}, {:.4g} m of space are missing",
                            body->from, body->against, body->missing),
                "over-constrained: the moving wall leaves no space for it");
     }

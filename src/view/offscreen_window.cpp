@@ -149,8 +149,8 @@ vtkSmartPointer<vtkRenderWindow> offscreen_window(int width, int height)
         window = vtkSmartPointer<vtkRenderWindow>::New();
     } else {
         throw IoError(
-            "cannot render: EGL gives no off-screen context (libegl1 with Mesa is needed) and "
-            "no X server answers; start the program by `xvfb-run`");
+            "cannot render: EGL provides no off-screen context (libegl1 with Mesa is needed) and "
+            "no X server is available; start the program with `xvfb-run`");
     }
     window->SetOffScreenRendering(1);
     window->SetMultiSamples(0); // many samples a pixel double the time; FXAA smooths the edges

@@ -213,7 +213,7 @@ std::string Picture::png_of(const Moment& moment)
     writer->Write();
     vtkUnsignedCharArray* const bytes = writer->GetResult();
     if (bytes == nullptr || bytes->GetNumberOfValues() == 0) {
-        throw IoError("VTK gave no picture");
+        throw IoError("VTK returned no picture");
     }
     const auto* const begin = reinterpret_cast<const char*>(bytes->GetPointer(0));
     return {begin, begin + bytes->GetNumberOfValues()};

@@ -130,7 +130,7 @@ TEST_F(BenchmarkFiles, TheRunThatACheckIsHeldAgainstIsMadeBefore)
     EXPECT_EQ(read(with("a-${n > 1 ? 1 : n}", "")).checks[0].same_as, "a-${n > 1 ? 1 : n}");
     EXPECT_NE(mistake(with("b", "")).find("no run is named \"b\""), std::string::npos);
     EXPECT_NE(mistake(with("a-${m}", "")).find("check[0].same_as"), std::string::npos);
-    EXPECT_NE(mistake(with("a-2", "")).find("\"a-2\" is not made before \"a-1\""),
+    EXPECT_NE(mistake(with("a-2", "")).find("the run \"a-2\" is not made before the run \"a-1\""),
               std::string::npos);
     const std::string later = "[[run]]\nname = \"c\"\ntier = \"quick\"\n";
     EXPECT_NE(mistake(with("a-1", "tier = \"nightly\"\n" + later)).find("not made before"),
@@ -143,7 +143,7 @@ TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
     EXPECT_EQ(mistake(head + "tiers = \"quick\"\n"),
               "4:tiers: unknown key (did you mean \"tier\"?)");
     EXPECT_EQ(mistake("title = \"t\"\ngroup = \"g\"\n").substr(2),
-              "source: is missing (write source = and its value)");
+              "source: is missing (write source = followed by its value)");
     EXPECT_NE(mistake(head + "[[check]]\nname = \"x\"\nvalue = \"x +\"\nmeasure = \"last\"\n"
                              "expected = 1\ntolerance = 1\nbecause = \"b\"\n")
                   .find("6:check[0].value: \"x +\" is not an expression"),
@@ -160,7 +160,7 @@ TEST_F(BenchmarkFiles, MistakesHaveTheirPlaceAndAHint)
 TEST_F(BenchmarkFiles, WithoutAnyRunThereIsNothingToCheck)
 {
     const std::string none = head + "run = []\n" + check;
-    EXPECT_EQ(mistake(none), "4:run: makes no run (leave it out to run the case as it is)");
+    EXPECT_EQ(mistake(none), "4:run: defines no run (omit it to run the case unchanged)");
     // Patterns of runs that a mistake has left out.
     EXPECT_EQ(mistake(head + "[constants]\ng = nan\n[[run]]\ngrid = { k = [1] }\n" + check +
                       "runs = [\"a*\"]\n"),
@@ -191,11 +191,12 @@ TEST_F(BenchmarkFiles, ReflectionNeedsThreeGaugesWithTheirPlaces)
     EXPECT_EQ(quantity.waves->beside, (std::vector<std::string>{"b", "c - 1"}));
     EXPECT_EQ(quantity.waves->distance, (std::vector<double>{0.5, 1}));
     EXPECT_EQ(quantity.waves->period, "2*2");
-    EXPECT_NE(mistake(with("")).find("belongs to the measure \"reflection\""), std::string::npos);
-    EXPECT_NE(mistake(with(waves, "last")).find("belongs to"), std::string::npos);
+    EXPECT_NE(mistake(with("")).find("must be given with the measure \"reflection\""),
+              std::string::npos);
+    EXPECT_NE(mistake(with(waves, "last")).find("must be given with"), std::string::npos);
     EXPECT_NE(mistake(with("waves = { beside = [\"b\"], distance = [1], period = 2, "
                            "wavenumber = 1 }\n"))
-                  .find("two gauges or more"),
+                  .find("at least two gauges"),
               std::string::npos);
     EXPECT_NE(mistake(with("waves = { beside = [\"b\", \"c\"], distance = [1], period = 2, "
                            "wavenumber = 1 }\n"))
@@ -283,7 +284,7 @@ TEST_F(BenchmarkFiles, AGridIsCountedBeforeItIsMade)
     }
     EXPECT_NE(mistake(head + check + "[[run]]\nname = \"${a}-${b}-${c}\"\ngrid = { a = " + list +
                       "], b = " + list + "], c = " + list + "] }\n")
-                  .find("asks for 1000000000 runs"),
+                  .find("defines 1000000000 runs"),
               std::string::npos);
 }
 

@@ -83,7 +83,8 @@ TEST(Reflection, NeedsGaugesThatTellTheWavesApart)
     const Flume flume;
     for (const std::vector<double>& gauges :
          {std::vector<double>{0, 2.25, 4.5}, {1, 1, 1}, {0, 0.05, 2.3}}) {
-        EXPECT_NE(flume.measured(gauges).why.find("halves of a wavelength"), std::string::npos);
+        EXPECT_NE(flume.measured(gauges).why.find("multiples of half a wavelength"),
+                  std::string::npos);
     }
 }
 

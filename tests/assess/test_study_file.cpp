@@ -246,11 +246,11 @@ TEST_F(StudyFiles, E8RunsAreCountedBeforeTheyAreListed)
         }
         sweeps += "]\n";
     }
-    EXPECT_NE(mistake(head + sweeps + place).find("asks for 1000000000 runs, at most 10000"),
+    EXPECT_NE(mistake(head + sweeps + place).find("defines 1000000000 runs, at most 10000"),
               std::string::npos);
     EXPECT_NE(mistake(head + "repeats = 1000\n" + step + step.substr(0, 10) +
                       "key = \"time.end\"\nvalues = [1,2,3,4,5,6,7,8,9]\n" + place)
-                  .find("asks for 11000 runs"),
+                  .find("defines 11000 runs"),
               std::string::npos);
 }
 
@@ -271,9 +271,12 @@ TEST_F(StudyFiles, WhatIsShownHoldsNoControlCharacters)
 TEST_F(StudyFiles, RunsThatCannotBeToldApartAreRefused)
 {
     const std::string twice = "[[sweep]]\nkey = \"time.step\"\nvalues = [0.01, 0.01]\n";
-    EXPECT_NE(mistake(head + twice + place).find("\"step=0.01\" stands twice"), std::string::npos);
-    EXPECT_NE(mistake(head + step + step + place).find("\"step\" stands twice"), std::string::npos);
-    EXPECT_NE(mistake(head + step + place + place).find("\"x\" stands twice"), std::string::npos);
+    EXPECT_NE(mistake(head + twice + place).find("\"step=0.01\" is defined twice"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + step + step + place).find("\"step\" is defined twice"),
+              std::string::npos);
+    EXPECT_NE(mistake(head + step + place + place).find("\"x\" is defined twice"),
+              std::string::npos);
 }
 
 TEST_F(StudyFiles, AnOverrideThatCannotBeEvaluatedIsRefusedBeforeAnyRun)

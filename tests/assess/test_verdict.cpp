@@ -311,7 +311,7 @@ TEST_F(Verdicts, AReportCountsThemAndNamesTheCost)
               std::string::npos);
     // Worst and rms error 10 m; 5000 us a step, half a second a second.
     const std::string proof = summary_documents(results, {}).at("proof.md");
-    EXPECT_NE(proof.find("way [mm], asked 0: worst error"), std::string::npos);
+    EXPECT_NE(proof.find("way [mm], expected 0: worst error"), std::string::npos);
     EXPECT_NE(proof.find("| 2 | 1 | 1e+04 | 1e+04 | 5e+03 | 0.5 |"), std::string::npos);
 }
 

@@ -120,15 +120,15 @@ TEST_F(GridFormats, LinesThatAreNoGridAreRefusedWithTheirPlace)
               ":2: expected three numbers: easting, northing and height in m");
     EXPECT_EQ(fault("0 0 1\n1 inf 1\n"),
               ":2: expected three numbers: easting, northing and height in m");
-    EXPECT_EQ(fault("0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 0 2\n"), ":5: the place (1, 0) is given twice");
-    EXPECT_EQ(fault("0 0 1\n1 0 1\n2 0 1\n"), ":3: the places lie on one line, expected a grid");
+    EXPECT_EQ(fault("0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 0 2\n"), ":5: the point (1, 0) is given twice");
+    EXPECT_EQ(fault("0 0 1\n1 0 1\n2 0 1\n"), ":3: the points lie on one line, expected a grid");
     EXPECT_NE(
         fault("x y z\n140.001 38.001 1\n140.002 38.001 1\n140.001 38.002 1\n140.002 38.002 1\n")
             .find("in degrees"),
         std::string::npos);
     EXPECT_EQ(
         fault("x,y,z\n"),
-        ":1: no point follows the heading, expected lines of easting, northing and height in m");
+        ":1: no point follows the header, expected lines of easting, northing and height in m");
 }
 
 // A TIFF 6.0 file of one strip of floats with the tags of GeoTIFF 1.1, little-endian.
@@ -233,7 +233,7 @@ TEST_F(GridFormats, RastersThatAreNoGroundAreRefused)
 {
     Dice dice(44);
     HeightGrid grid = draw_grid(dice);
-    EXPECT_NE(fault(tiff_of(grid, 0, false)).find("no place on a map"), std::string::npos);
+    EXPECT_NE(fault(tiff_of(grid, 0, false)).find("not georeferenced"), std::string::npos);
     EXPECT_NE(fault(tiff_of(grid, 1, true, 2)).find("it has 2 bands"), std::string::npos);
     EXPECT_NE(fault(tiff_of(grid, 1).substr(0, 60)).find("GDAL cannot read it"), std::string::npos);
     grid.first = {140.5, 38.2};

@@ -240,17 +240,18 @@ TEST(Outlines, FaultsNameTheirCorners)
     EXPECT_EQ(outline_fault({}), "it has no corners");
     EXPECT_EQ(outline_fault({{{0, 0}, {1, 0}}}), "it has 2 corners, expected at least 3");
     EXPECT_EQ(outline_fault({{{0, 0}, {4, 0}, {0, 4}, {4, 4}}}),
-              "it crosses itself: its edge from corner 2 meets that from corner 4");
+              "it crosses itself: its edge from corner 2 touches or crosses that from corner 4");
     EXPECT_EQ(outline_fault({{{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}}),
-              "it crosses itself: its edge from corner 1 meets that from corner 3");
+              "it crosses itself: its edge from corner 1 touches or crosses that from corner 3");
     EXPECT_EQ(outline_fault({{{0, 0}, {4, 0}, {4, 4}, {4, 1}, {0, 4}}}),
               "it turns back on itself at corner 3");
-    EXPECT_EQ(outline_fault({square, moved(yard, 9)}),
-              "inner ring 1 lies outside of the outer one");
-    EXPECT_EQ(outline_fault({square, moved(yard, 2)}), "inner ring 1 meets the outer one");
-    EXPECT_EQ(outline_fault({square, yard, moved(yard, 0.5)}), "inner rings 1 and 2 meet");
+    EXPECT_EQ(outline_fault({square, moved(yard, 9)}), "inner ring 1 lies outside the outer ring");
+    EXPECT_EQ(outline_fault({square, moved(yard, 2)}),
+              "inner ring 1 touches or crosses the outer ring");
+    EXPECT_EQ(outline_fault({square, yard, moved(yard, 0.5)}),
+              "inner rings 1 and 2 touch or overlap");
     EXPECT_EQ(outline_fault({square, yard, {{1.5, 1.5}, {2, 1.5}, {2, 2}}}),
-              "inner rings 1 and 2 meet");
+              "inner rings 1 and 2 touch or overlap");
     EXPECT_EQ(outline_fault({square, {{1, 1}, {2, 1}}}),
               "inner ring 1: it has 2 corners, expected at least 3");
     EXPECT_TRUE(prism_mesh({{{0, 0}, {4, 0}, {0, 4}, {4, 4}}, 0, 1}).triangles.empty());

@@ -111,7 +111,7 @@ class Kills(CrashTest):
             (self.dir / "out" / name).write_bytes(b"torn")
         done = self.call("run", "case.toml", "-o", "out", "--resume")
         self.assertEqual(done.returncode, 4)
-        self.assertIn("and of the older one", done.stderr)
+        self.assertIn("error of the older checkpoint", done.stderr)
 
 
 class Ends(CrashTest):

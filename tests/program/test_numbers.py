@@ -92,7 +92,7 @@ open = ["+z"]
                 other.send_signal(signal.SIGKILL)
                 other.wait()
         self.assertRegex(text, r"the machine was busy +threads waited for a core in [0-9]+ %")
-        self.assertRegex(text, r"about .* once it is free")
+        self.assertRegex(text, r"about .* on an idle machine")
         self.assertGreater(cost["waiting_for_a_core"], 0.1)
 
     def test_d4_memory_is_told_as_the_user_measures_it_beside_the_columns(self):

@@ -234,7 +234,7 @@ class Bits(RanksTest):
     def test_a_recovery_is_that_of_one_process(self):
         self.write(FLOOD.replace("end = 0.5\n", "end = 0.5\ncfl = 3\nrecover = true\n"))
         self.run_by(1, "one")
-        self.assertIn("recovery: back to", (self.dir / "one/run.log").read_text())
+        self.assertIn("recovery: the run continues from", (self.dir / "one/run.log").read_text())
         for ranks in (2, 3):
             self.run_by(ranks, f"by{ranks}")
             self.expect_equal("one", f"by{ranks}")

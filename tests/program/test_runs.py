@@ -119,7 +119,7 @@ class Runs(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         log = (self.dir / "out" / "run.log").read_text()
         self.assertRegex(log, "the simulation became unstable: step .*: probably `time.cfl` = 3 is too large")
-        self.assertIn("recovery: back to t = ", log)
+        self.assertIn("recovery: the run continues from t = ", log)
         self.assertLess(json.loads((self.dir / "out" / "summary.json").read_text())["share_of_time_step"], 1)
         times = [float(line.split(",")[0]) for line in (self.dir / "out" / "energy.csv").read_text().splitlines()[2:]]
         self.assertTrue(all(a < b for a, b in zip(times, times[1:])), "no row of what was taken back is left")
@@ -223,7 +223,7 @@ class Runs(ProgramTest):
         shutil.move(self.dir / "out-fram", self.dir / "out")
         again = self.call("stop", "out")
         self.assertEqual(again.returncode, 2)
-        self.assertIn("no run writes to", again.stderr)
+        self.assertIn("no run is writing to", again.stderr)
         self.assertEqual(self.call("stop", ".").returncode, 2)
         (self.dir / "out" / "stop").write_text("left by another run")
         done = self.call("run", case, "-o", "out", "--resume", "--until", "0.3")
@@ -494,7 +494,7 @@ every = 0.1
             self.assertEqual(self.call("run", whole, "-o", "whole").returncode, 0)
             self.assertEqual((self.dir / "out/open.csv").read_bytes(), (self.dir / "whole/open.csv").read_bytes())
         closed = FLOOD.replace("spacing = 0.05", "spacing = 0.05\nmost = 5000")
-        self.assertIn("`particles.most`: bounds runs with open sides", self.call("check", self.write(closed)).stderr)
+        self.assertIn("`particles.most`: limits only runs with open sides", self.call("check", self.write(closed)).stderr)
 
     def test_the_forecast_holds_what_enters(self):
         for spacing in (0.025, 0.02):
@@ -502,7 +502,7 @@ every = 0.1
             for options in ((), ("--time",)):
                 shown = self.call("check", case, *options).stdout
                 told = re.search(r"open sides +from (\d+) to at most (\d+) fluid particles; "
-                                 r"(their mean is taken|timed as they enter)", shown)
+                                 r"(the forecast uses their mean number|the measurement includes their inflow)", shown)
                 self.assertTrue(told, shown)
                 # The water of the start fills 0.8 x 0.2 m2, and 0.2 m2/s enter for 1.2 s.
                 self.assertEqual(int(told[1]), round(0.16 / spacing**2))
@@ -534,7 +534,7 @@ fixed = true
             self.assertEqual(done.returncode, 0, done.stderr)
             summary = json.loads((self.dir / "out/summary.json").read_text())
             self.assertEqual(summary["bodies_outside"], ["missed"])
-            self.assertIn('one body is wholly below or beside the domain of the fluid at the end, first "missed"',
+            self.assertIn('one body is completely below or beside the domain of the fluid at the end, first "missed"',
                           done.stderr)
 
     def test_render_makes_pictures(self):

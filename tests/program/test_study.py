@@ -135,10 +135,10 @@ paper = ["contact.law=paper"]
         summary = self.dir / "slide-results" / "runs" / "step=0.01" / "summary.json"
         first = summary.stat().st_mtime_ns
         done = self.study()
-        self.assertEqual(done.stdout.count("done before"), 3, done.stdout)
+        self.assertEqual(done.stdout.count("already done"), 3, done.stdout)
         self.assertEqual(self.rows(), table)
         self.assertEqual(summary.stat().st_mtime_ns, first)
-        self.assertNotIn("done before", self.study("--force").stdout)
+        self.assertNotIn("already done", self.study("--force").stdout)
         self.assertEqual(self.rows(), table)
 
     def test_a_run_cut_short_and_a_changed_case_are_run_again(self):
@@ -146,10 +146,10 @@ paper = ["contact.law=paper"]
         table = self.rows()
         runs = self.dir / "slide-results" / "runs"
         (runs / "step=0.01" / "summary.json").unlink()
-        self.assertEqual(self.study().stdout.count("done before"), 2)
+        self.assertEqual(self.study().stdout.count("already done"), 2)
         self.assertEqual(self.rows(), table)
         other = self.STUDY.replace("[[sweep]]", 'set = ["contact.friction=0.4"]\n[[sweep]]', 1)
-        self.assertNotIn("done before", self.study(text=other).stdout)
+        self.assertNotIn("already done", self.study(text=other).stdout)
         self.assertNotEqual(self.rows(), table)
 
     def test_stopping_and_resuming_gives_the_same_table(self):
@@ -163,7 +163,7 @@ paper = ["contact.law=paper"]
         self.assertIn(process.returncode, (130, 0), rest)
         done = self.study("-o", "parts")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("done before", done.stdout)
+        self.assertIn("already done", done.stdout)
         self.assertEqual(self.rows("parts"), self.rows("whole"))
 
     def children_of(self, process):
@@ -248,7 +248,7 @@ paper = ["contact.law=paper"]
         changed = text.replace("[[sweep]]", 'set = ["contact.friction=0.4"]\n[[sweep]]', 1)
         done = self.study(text=changed)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertNotIn("done before", done.stdout)
+        self.assertNotIn("already done", done.stdout)
 
     def test_mistakes_are_all_told_and_nothing_is_written(self):
         done = self.study(text=self.STUDY.replace("values", "value").replace("last", "lst"))

@@ -324,7 +324,7 @@ every = 0.05
         self.town()
         done = self.call("check", "case.toml", "--plan", "plan.png")
         self.assertEqual(done.returncode, 0, done.stderr)
-        for text in ("ground \"ground\"", "window ", "grid less surface", "rms", "steeper than 45 deg"):
+        for text in ("ground \"ground\"", "window ", "grid minus surface", "rms", "steeper than 45 deg"):
             self.assertIn(text, done.stdout)
         colours = self.colours_of("plan.png")
         self.assertGreater(colours["solid"], 5000)

@@ -119,7 +119,7 @@ TEST_F(BuildingFiles, WhatIsLeftOutOrOverlapsIsTold)
     ASSERT_EQ(scene.walls.size(), 5u);
     EXPECT_EQ(scene.walls[2].name, "building.3"); // numbers are those of the file
     ASSERT_EQ(scene.notices.size(), 2u);
-    EXPECT_NE(scene.notices[0].what.find("1 of 5 footprints lie beside"), std::string::npos);
+    EXPECT_NE(scene.notices[0].what.find("1 of 5 footprints lie outside"), std::string::npos);
     EXPECT_NE(scene.notices[1].what.find("2 pairs of buildings overlap, first \"building.1\" and "
                                          "\"building.4\" by 4 m2"),
               std::string::npos)
@@ -145,7 +145,7 @@ TEST_F(BuildingFiles, ThoseAcrossTheEdgeOfTheTerrainAreToldOf)
         write("b.geojson", collection({building(dice.between(-50, 50)), building(60)}));
         const Scene scene = read(case_of(terrain_of(plane), "height = 5"));
         ASSERT_EQ(scene.notices.size(), 1u);
-        EXPECT_NE(scene.notices[0].what.find("\"building.2\" stands only in part on the terrain"),
+        EXPECT_NE(scene.notices[0].what.find("\"building.2\" stands only partly on the terrain"),
                   std::string::npos);
     }
 }
@@ -194,9 +194,9 @@ TEST_F(BuildingFiles, MistakesAreToldWithTheirPlace)
         {ring(""), "height = \"h\"", "polygon without corners"},
         {collection({}), "height = \"h\"", "0 polygons"},
         {feature("{\"h\": 5}", "[3, 4]", "Point"), "height = \"h\"", "0 polygons"},
-        {"[[1, 2", "height = \"h\"", "is not JSON, see line 1"},
+        {"[[1, 2", "height = \"h\"", "is not valid JSON, see line 1"},
         {std::string(40, '[') + std::string(40, ']'), "height = \"h\"", "levels"},
-        {"", "height = \"h\"", "is not JSON"}};
+        {"", "height = \"h\"", "is not valid JSON"}};
     for (const auto& [file, keys, expected] : mistakes) {
         const std::string found = told(file, keys);
         EXPECT_NE(found.find(expected), std::string::npos) << file << "\n" << keys << "\n" << found;

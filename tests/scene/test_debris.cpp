@@ -183,7 +183,7 @@ TEST(Debris, MistakesAreToldWithTheirReason)
     const std::string array = "array = { count = [1, 1, 1], pitch = [0, 0, 0], from = [0, 0, 5] }";
     EXPECT_NE(fault_of("kind = \"contaner_20ft\"\n" + array).find("container_20ft"),
               std::string::npos);
-    EXPECT_NE(fault_of("kind = \"log\"\nload = 5\n" + array).find("has no inside"),
+    EXPECT_NE(fault_of("kind = \"log\"\nload = 5\n" + array).find("has no interior"),
               std::string::npos);
     EXPECT_NE(fault_of("kind = \"car\"\nstate = \"full\"\n" + array).find("there is \"empty\""),
               std::string::npos);
@@ -237,8 +237,9 @@ TEST(Debris, YardsThatAreNoneAreRefusedInWordsOfOurs)
         {of_ring("[[[0,0],[\"a\",0],[1,1]]]"), "a corner that is not [x, y]: number 2"},
         {"{\"type\": \"Polygon\"}", "an object without \"coordinates\""},
         {"[1]", "an object without \"type\""},
-        {"{\"type\": \"Polygon\",\n  \"coordinates\": [[[0,0],[NaN", "is not JSON, see line 2,"},
-        {"", "is not JSON"},
+        {"{\"type\": \"Polygon\",\n  \"coordinates\": [[[0,0],[NaN",
+         "is not valid JSON, see line 2,"},
+        {"", "is not valid JSON"},
         {of_ring("[[[0,0],[60,0],[0,0]]]"), "needs three corners"},
         {of_ring("[[[0,0],[60,60],[60,0],[0,60],[0,0]]]"), "crosses itself"}};
     for (const auto& [polygon, told] : mistakes) {
@@ -286,7 +287,7 @@ TEST(Debris, KeysWithoutMeaningAreRefused)
               std::string::npos);
     // A mistake at the table itself names the table and no empty key.
     const std::string none = fault_of("kind = \"car\"\n");
-    EXPECT_NE(none.find("`debris[0]`: has no place"), std::string::npos) << none;
+    EXPECT_NE(none.find("`debris[0]`: has no position"), std::string::npos) << none;
     const std::string body = "[[body]]\nshape = \"box\"\nsize = [1, 1, 1]\ndensity = 500\nposition "
                              "= [0, 0, 9]\nfixed = true\n";
     for (const std::string key : {"inertia = [80, 80, 80]", "center_of_mass = [0.1, 0, 0]"}) {

@@ -123,7 +123,7 @@ TEST_F(WallMotion, AHeaderThatIsNotUnderstoodIsRefused)
     const std::vector<std::array<std::string, 2>> headers = {
         {"time,x,y", "names 3 columns, expected time, x, y, z"},
         {"time,x,y,w", "unknown column \"w\""},
-        {"time,x,y,y", "twice the column \"y\""},
+        {"time,x,y,y", "a repeated column \"y\""},
         {"time,x,y,z,q", "unknown column \"q\""},
         {"time [ms],x,y,z", "unit \"ms\", expected s"},
         {"time,x [mm],y,z", "unit \"mm\", expected m"},

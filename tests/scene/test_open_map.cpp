@@ -97,7 +97,7 @@ TEST_F(GaugesInAMap, AStepAtTheStartIsToldOf)
             const Scene scene = read(text);
             const Plan plan = make_plan(scene, fill(scene));
             return std::ranges::any_of(plan.warnings, [](const Diagnostic& note) {
-                return note.what.find("enters as a wave at once") != std::string::npos;
+                return note.what.find("enters as a wave immediately") != std::string::npos;
             });
         };
         EXPECT_FALSE(told(plane.datum + 4));

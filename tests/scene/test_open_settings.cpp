@@ -69,13 +69,13 @@ TEST(OpenSettings, MistakesAreToldWithTheirKeyLineAndHint)
         {"[fluid]\n", "[fluid]\nshifting.model = \"sun\"\n", "name", "fluid.shifting"},
         {"level = 0.7\nvelocity = 0.2\n",
          "[[open.station]]\nat = 0.5\ntimes = [0, 2, 1]\nlevels = [0.7, 0.7, 0.7]\n", "times[2]",
-         "does not follow"},
+         "is not later than"},
         {"level = 0.7\nvelocity = 0.2\n",
          "[[open.station]]\nat = 0.5\ntimes = [0, 1]\nlevels = [0.7]\n", "times", "1 values"},
         {"level = 0.7\n",
          "[[open.station]]\nat = 0.5\ntimes = [0, 1]\nlevels = [0.7, 0.7]\n"
          "[[open.station]]\nat = 0.2\ntimes = [0, 1]\nlevels = [0.7, 0.7]\n",
-         "station", "does not follow"},
+         "station", "is not beyond"},
     };
     for (const Refusal& r : refusals) {
         const std::string text = replaced(good, r.from, r.to);
@@ -120,7 +120,8 @@ TEST(OpenSettings, BodiesStopWhereContactKnowsTheWindow)
     const auto named_alike = [](const std::string& text) {
         return replaced(text, "name = \"sea\"", "name = \"basin\"");
     };
-    EXPECT_NE(words_of(named_alike(stops + body)).find("already used by a wall"), std::string::npos);
+    EXPECT_NE(words_of(named_alike(stops + body)).find("already used by a wall"),
+              std::string::npos);
     EXPECT_EQ(words_of(named_alike(leaves + body)), "");
 }
 
@@ -142,7 +143,7 @@ TEST(OpenSettings, StationsInTheCaseTakeNoKeysOfFiles)
     for (const char* key : {"scale = 2.0\n", "datum = 0.1\n", "time_offset = 100.0\n"}) {
         const auto all = refused(basin(std::string("kind = \"inflow\"\n") + key + station));
         ASSERT_EQ(all.size(), 1U) << key;
-        EXPECT_NE(all.front().what.find("tell how a file is read"), std::string::npos);
+        EXPECT_NE(all.front().what.find("which apply to files"), std::string::npos);
     }
 }
 
@@ -345,12 +346,12 @@ TEST_F(SeriesFiles, TablesTellTheirColumnsByHeaderOrKey)
 TEST_F(SeriesFiles, FaultsNameTheLine)
 {
     const std::vector<std::pair<std::string, std::string>> files{
-        {"0 1 2\n1 1 2\n1 1 2\n", ":3: time 1 does not follow 1"},
+        {"0 1 2\n1 1 2\n1 1 2\n", ":3: time 1 is not later than 1"},
         {"0 1 2\n1 one 2\n", ":2: expected a number, found \"one\""},
         {"0 1 2\n1 2\n", ":2: expected 3 numbers, found 2"},
         {"time,height\n0,1\n", ":1: the header has an unknown column \"height\""},
         {"time [min],level\n0,1\n", ":1: the header gives the unit \"min\""},
-        {"level,velocity\n0,1\n", ":1: has no column of the time"},
+        {"level,velocity\n0,1\n", ":1: has no time column"},
         {"# nothing\n", "has no row of numbers"},
     };
     for (const auto& [text, words] : files) {

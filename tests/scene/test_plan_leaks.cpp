@@ -65,7 +65,7 @@ bool warns(const std::string& text, const std::string& words)
     });
 }
 
-const std::string drop = "water can flow to a drop";
+const std::string drop = "water can reach the edge of the ground";
 
 TEST(PlanLeaks, WaterAtAnOpenSideIsToldWithItsDirection)
 {
@@ -335,10 +335,10 @@ TEST(PlanLeaks, ABodyBelowTheTankFallsAndDoesNotFloatUp)
         };
         const std::string below = with_body_at(dice.between(-3, -0.5));
         EXPECT_TRUE(warns(below, "neither wall nor water below")) << below;
-        EXPECT_FALSE(warns(below, "shoot up")) << below;
+        EXPECT_FALSE(warns(below, "rise rapidly")) << below;
         const std::string sunk = with_body_at(dice.between(0.071, 0.14));
         EXPECT_FALSE(warns(sunk, "neither wall nor water below")) << sunk;
-        EXPECT_TRUE(warns(sunk, "shoot up")) << sunk;
+        EXPECT_TRUE(warns(sunk, "rise rapidly")) << sunk;
     }
 }
 

@@ -91,7 +91,7 @@ TEST(PlanWarnings, OfWhatIsProbablyASlip)
         {"density = 1000", "density = 1.0", "1 kg/m3 is lower than"},
         {"-9.81", "9.81", "points upward"},
         {"[domain]\nmin = [-0.3, -0.3, -0.3]\nmax = [2.3, 1.3, 2.3]\n", "", ""},
-        {"[1.0, 0, 0]\nmax = [1.2", "[1.1, 0, 0]\nmax = [1.15", "\"gate\" is 0.05 m thin"},
+        {"[1.0, 0, 0]\nmax = [1.2", "[1.1, 0, 0]\nmax = [1.15", "\"gate\" is 0.05 m thick"},
         {"max = [2.3, 1.3, 2.3]", "max = [1.5, 1.3, 2.3]", "a closed side of wall \"tank\""},
         {"max = [2.3, 1.3, 2.3]", "max = [0.6, 1.3, 2.3]", "fluid block 1 reaches beyond"},
         {"max = [2.3, 1.3, 2.3]", "max = [2.3, 1.3, 0.2]", "the domain ends within"},
@@ -150,12 +150,12 @@ std::string box_in_water(double z, double density, const std::string& keys)
 
 TEST(PlanWarnings, OfLightBodiesUnderWater)
 {
-    EXPECT_TRUE(warns(box_in_water(0.2, 300, ""), "begins under 0.6 m of water"));
-    EXPECT_TRUE(warns(box_in_water(0.6, 900, ""), "begins under 0.2 m of water"));
-    EXPECT_FALSE(warns(box_in_water(0.95, 500, ""), "begins under")) << "it floats";
-    EXPECT_FALSE(warns(box_in_water(1.6, 500, ""), "begins under")) << "it falls in";
-    EXPECT_FALSE(warns(box_in_water(0.2, 1200, ""), "begins under")) << "it lies";
-    EXPECT_FALSE(warns(box_in_water(0.2, 300, "fixed = true\n"), "begins under"));
+    EXPECT_TRUE(warns(box_in_water(0.2, 300, ""), "starts under 0.6 m of water"));
+    EXPECT_TRUE(warns(box_in_water(0.6, 900, ""), "starts under 0.2 m of water"));
+    EXPECT_FALSE(warns(box_in_water(0.95, 500, ""), "starts under")) << "it floats";
+    EXPECT_FALSE(warns(box_in_water(1.6, 500, ""), "starts under")) << "it falls in";
+    EXPECT_FALSE(warns(box_in_water(0.2, 1200, ""), "starts under")) << "it lies";
+    EXPECT_FALSE(warns(box_in_water(0.2, 300, "fixed = true\n"), "starts under"));
 }
 
 // A square obstacle in a tank, its lower edge at a height over the floor [m].

@@ -36,15 +36,15 @@ struct VoidCavitation {
     static constexpr std::string_view name = Cavitation::name;
     using Makes = TermList<Cavitation>;
     static constexpr std::string_view model = "void";
-    static constexpr std::string_view says = "lets a void open if the pressure would fall below "
-                                             "that of the void, as in a closed tank that is shaken";
+    static constexpr std::string_view says = "opens a void where the pressure would otherwise fall "
+                                             "below the void pressure, as in a shaken closed tank";
     double pressure = 0; // of the void [Pa]
 
     static void keys(auto& keys, auto& chosen)
     {
         keys.not_positive("pressure", chosen.pressure, "Pa",
-                          "Pressure of the void relative to that of the air: 0 without air, about "
-                          "-99000 for water under the atmosphere.");
+                          "Pressure in the void relative to the air pressure: 0 without air, about "
+                          "-99000 Pa for water under atmospheric pressure.");
     }
     std::string why() const
     {
@@ -61,7 +61,8 @@ struct CavitationSlot {
     using Models = std::variant<Off, VoidCavitation>;
     using Terms = TermsOf<Models>;
     static constexpr SlotTable table{
-        "cavitation", "Voids that open under tension.", "; \"none\": the fluid sustains tension.",
+        "cavitation", "Cavitation: voids that open under tension.",
+        "; \"none\": the fluid sustains tension.",
         "`fluid.cavitation.model` is \"none\": the fluid sustains tension"};
 };
 

@@ -36,8 +36,8 @@ struct DynamicCollision {
     using Makes = TermList<ParticleCollision>;
     static constexpr std::string_view model = "dynamic";
     static constexpr std::string_view says =
-        "stops fluid particles that approach each other closer than a spacing, which calms "
-        "splashes and takes energy";
+        "stops the approach of fluid particles that are closer than a spacing, which damps "
+        "splashes and dissipates energy";
     double restitution = 0; // [1]
 
     static void keys(auto& keys, auto& chosen)
@@ -56,9 +56,9 @@ struct DynamicCollision {
 struct CollisionSlot {
     using Models = std::variant<Off, DynamicCollision>;
     using Terms = TermsOf<Models>;
-    static constexpr SlotTable table{"collision", "Collisions of fluid particles, for splashes.",
-                                     "; \"none\" switches it off.",
-                                     "`fluid.collision.model` is \"none\""};
+    static constexpr SlotTable table{
+        "collision", "Collisions between fluid particles, for splashes.",
+        "; \"none\" disables collisions.", "`fluid.collision.model` is \"none\""};
 };
 
 namespace slot {

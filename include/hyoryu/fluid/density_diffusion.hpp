@@ -103,7 +103,7 @@ struct FourtakasDiffusion : DiffusionSettings {
     using Makes = TermList<DensityDiffusion>;
     static constexpr std::string_view model = "fourtakas";
     static constexpr std::string_view says =
-        "corrects for the hydrostatic part and suits deep still water";
+        "corrects for the hydrostatic density gradient and suits deep still water";
     void fill(auto& slot, const FluidParameters& f) const
     {
         fill_with(slot, f, f.eos.rho0 / sq(f.eos.c0) * f.gravity);
@@ -112,14 +112,14 @@ struct FourtakasDiffusion : DiffusionSettings {
 struct MolteniDiffusion : DiffusionSettings {
     using Makes = TermList<DensityDiffusion>;
     static constexpr std::string_view model = "molteni";
-    static constexpr std::string_view says = "does not";
+    static constexpr std::string_view says = "has no such correction";
     void fill(auto& slot, const FluidParameters& f) const { fill_with(slot, f, Vec3::Zero()); }
 };
 struct AntuonoDiffusion : DiffusionSettings {
     using Makes = TermList<RenormalisedDiffusion>;
     static constexpr std::string_view model = "antuono";
     static constexpr std::string_view says =
-        "corrects for any gradient, at the cost of two more sums";
+        "corrects for any density gradient at the cost of two additional particle sums";
     std::string why() const
     {
         return "`fluid.density_diffusion.model` is \"antuono\": renormalised gradients";
@@ -137,8 +137,8 @@ struct DiffusionSlot {
     using Models = std::variant<FourtakasDiffusion, MolteniDiffusion, AntuonoDiffusion, Off>;
     using Terms = TermsOf<Models>;
     static constexpr SlotTable table{
-        "density_diffusion", "Diffusion of density, which removes noise of the pressure.",
-        ", \"none\" switches it off.", "`fluid.density_diffusion.model` is \"none\""};
+        "density_diffusion", "Density diffusion, which removes pressure noise.",
+        ", \"none\" disables density diffusion.", "`fluid.density_diffusion.model` is \"none\""};
 };
 
 namespace slot {

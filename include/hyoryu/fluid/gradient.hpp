@@ -126,8 +126,8 @@ struct GradientSettings {
     {
         keys.choice("gradient", chosen.corrected, {"plain", "corrected"},
                     "Pressure gradient of SPH. \"plain\": the symmetric form; \"corrected\": with "
-                    "reverse kernel gradient correction, which moves waves and accelerating "
-                    "bodies more accurately. MPS has the corrected one.");
+                    "reverse kernel gradient correction, which is more accurate for waves and "
+                    "accelerating bodies. MPS always uses the corrected gradient.");
     }
 };
 

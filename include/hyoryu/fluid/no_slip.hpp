@@ -60,8 +60,8 @@ struct SlipSettings {
     static void keys(auto& keys, auto& chosen)
     {
         keys.choice("walls", chosen.sticks, {"free_slip", "no_slip"},
-                    "\"free_slip\": no friction at walls and bodies; \"no_slip\": the fluid sticks "
-                    "to them by its viscosity.");
+                    "Velocity boundary condition at walls and bodies. \"free_slip\": no friction; "
+                    "\"no_slip\": the fluid adheres to them through its viscosity.");
     }
 };
 

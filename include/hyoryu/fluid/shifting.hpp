@@ -36,17 +36,17 @@ struct SunShifting {
     static constexpr std::string_view name = Shifting::name;
     using Makes = TermList<Shifting>;
     static constexpr std::string_view model = "sun";
-    static constexpr std::string_view says = "moves particles from where they are dense, for "
-                                             "flows without a free surface, at which the "
-                                             "fluid would expand";
+    static constexpr std::string_view says =
+        "moves particles away from regions of high particle concentration, for flows without a "
+        "free surface, at which the fluid would expand";
     static constexpr bool for_sph_alone = true; // its kernel is that of SPH
     double coefficient = 8;                     // [1]
 
     static void keys(auto& keys, auto& chosen)
     {
-        keys.not_negative(
-            "coefficient", chosen.coefficient, "",
-            "Strength of the shifting: C in -C h |v|max dt times the gradient of concentration.");
+        keys.not_negative("coefficient", chosen.coefficient, "",
+                          "Coefficient C of the shift, which is -C h |v|max dt times the gradient "
+                          "of the particle concentration.");
     }
     std::string why() const
     {
@@ -66,8 +66,8 @@ struct ShiftingSlot {
     using Models = std::variant<Off, SunShifting>;
     using Terms = TermsOf<Models>;
     static constexpr SlotTable table{
-        "shifting", "Particle shifting, which evens out the particle positions.",
-        "; \"none\" switches it off.", "`fluid.shifting.model` is \"none\""};
+        "shifting", "Particle shifting, which makes the particle distribution more uniform.",
+        "; \"none\" disables shifting.", "`fluid.shifting.model` is \"none\""};
 };
 
 namespace slot {

@@ -67,7 +67,7 @@ struct SpsViscosity {
     static constexpr std::string_view name = "sps_turbulence"; // in the plan
     using Makes = TermList<Viscosity, EddyViscosity>;
     static constexpr std::string_view model = "sps";
-    static constexpr std::string_view says = "adds an eddy viscosity to that";
+    static constexpr std::string_view says = "adds an eddy viscosity to the physical viscosity";
     double kinematic = 1e-6;   // [m2/s]
     double smagorinsky = 0.12; // Cs [1]
 
@@ -75,7 +75,8 @@ struct SpsViscosity {
     {
         LaminarViscosity::kinematic_key(keys, chosen.kinematic);
         keys.not_negative("smagorinsky", chosen.smagorinsky, "",
-                          "Cs of \"sps\": eddies have the length Cs times the particle spacing.");
+                          "Smagorinsky constant Cs of \"sps\": the length scale of the eddies is "
+                          "Cs times the particle spacing.");
     }
     std::string why() const
     {

@@ -77,7 +77,7 @@ struct ArtificialViscosity {
     static constexpr std::string_view name = "artificial_viscosity"; // in the plan
     using Makes = TermList<Viscosity>;
     static constexpr std::string_view model = "artificial";
-    static constexpr std::string_view says = "damps with `alpha`";
+    static constexpr std::string_view says = "damps with the coefficient `alpha`";
     double alpha = 0.02; // [1]
     double beta = 0;     // [1]
 
@@ -86,9 +86,10 @@ struct ArtificialViscosity {
         keys.not_negative(
             "alpha", chosen.alpha, "",
             "Coefficient of the artificial viscosity; 0.01 to 0.1 for dam breaks and bores.");
-        keys.not_negative("beta", chosen.beta, "",
-                          "Coefficient of the quadratic part, between particles that approach; 3 "
-                          "takes the energy of impacts and leaves smooth flow alone.");
+        keys.not_negative(
+            "beta", chosen.beta, "",
+            "Coefficient of the quadratic part, which acts between approaching particles; 3 "
+            "dissipates the energy of impacts and leaves smooth flow unaffected.");
     }
     std::string why() const
     {
@@ -108,7 +109,7 @@ struct LaminarViscosity {
     static constexpr std::string_view name = "laminar_viscosity"; // in the plan
     using Makes = TermList<Viscosity, MorrisViscosity>;
     static constexpr std::string_view model = "laminar";
-    static constexpr std::string_view says = "takes a physical viscosity (`kinematic`)";
+    static constexpr std::string_view says = "uses a physical viscosity (`kinematic`)";
     double kinematic = 1e-6; // [m2/s]
     bool morris = false;     // the form of `MorrisViscosity`
 
@@ -116,15 +117,15 @@ struct LaminarViscosity {
     {
         keys.not_negative(
             "kinematic", kinematic, "m2/s",
-            "Kinematic viscosity of the laminar model; 1e-6 m2/s is water at 20 degrees.");
+            "Kinematic viscosity of the laminar model; 1e-6 m2/s for water at 20 degrees Celsius.");
     }
     static void keys(auto& keys, auto& chosen)
     {
         kinematic_key(keys, chosen.kinematic);
         keys.choice("form", chosen.morris, {"central", "morris"},
-                    "Form of the laminar model. \"central\" acts along the line between particles "
-                    "and is right at free surfaces; \"morris\" is exact in a shear along rows of "
-                    "particles, for flows between walls.");
+                    "Form of the laminar model. \"central\" acts along the line between two "
+                    "particles and is correct at free surfaces; \"morris\" is exact in shear flow "
+                    "along rows of particles and is intended for flows between walls.");
     }
     std::string why() const
     {
