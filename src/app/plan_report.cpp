@@ -208,8 +208,7 @@ std::string entering_line(const Plan& plan, const std::optional<StepCost>& timed
     }
     return fmt::format("      open sides           from {} to at most {} fluid particles; {}\n",
                        plan.counts.fluid, plan.most_fluid,
-                       timed && timed->development ? "the measurement includes their inflow"
-                                                   : "the forecast uses their mean number");
+                       timed && timed->development ? "measured as they enter" : "mean number used");
 }
 
 std::string run_time_lines(const Plan& plan, const std::optional<StepCost>& timed)

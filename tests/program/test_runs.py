@@ -502,7 +502,7 @@ every = 0.1
             for options in ((), ("--time",)):
                 shown = self.call("check", case, *options).stdout
                 told = re.search(r"open sides +from (\d+) to at most (\d+) fluid particles; "
-                                 r"(the forecast uses their mean number|the measurement includes their inflow)", shown)
+                                 r"(mean number used|measured as they enter)", shown)
                 self.assertTrue(told, shown)
                 # The water of the start fills 0.8 x 0.2 m2, and 0.2 m2/s enter for 1.2 s.
                 self.assertEqual(int(told[1]), round(0.16 / spacing**2))
