@@ -65,6 +65,7 @@ void ProcessPool::start(const ProcessJob& job)
     if (stop_requested()) {
         return;
     }
+    fs::remove(job.messages); // of an earlier call that was killed: messages are appended
     std::vector<std::string> command{"/proc/self/exe"};
     command.insert(command.end(), job.arguments.begin(), job.arguments.end());
     const pid_t process = start_child(std::move(command), {.messages = job.messages});
