@@ -120,8 +120,9 @@ inline void place(TableReader& table, DebrisKeys& debris, const std::optional<De
     table.reading().names_known =
         table.reading().names_known && table.reading().diagnostics.empty();
     if (arrayed == scattered && !table.mistaken({"array", "scatter"})) {
-        table.error(arrayed ? "scatter" : "", arrayed ? "give either `array` or `scatter`, not both"
-                                                      : "has no position: give `array` or `scatter`");
+        table.error(arrayed ? "scatter" : "", arrayed
+                                                  ? "give either `array` or `scatter`, not both"
+                                                  : "has no position: give `array` or `scatter`");
         return;
     }
     if (!table.reading().diagnostics.empty()) {

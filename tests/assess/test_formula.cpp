@@ -45,7 +45,8 @@ TEST(Formula, SaysWhatIsWrong)
     EXPECT_NE(fault_of([] { evaluate("1 +", {}); }).find("not an expression"), std::string::npos);
     EXPECT_NE(fault_of([&] { evaluate("velocty", {}, table); }).find("did you mean \"velocity\""),
               std::string::npos);
-    EXPECT_NE(fault_of([&] { evaluate("body", {}, table); }).find("texts"), std::string::npos);
+    EXPECT_NE(fault_of([&] { evaluate("body", {}, table); }).find("contains text"),
+              std::string::npos);
     EXPECT_NE(fault_of([&] { evaluate("p", circle, table); }).find("itself"), std::string::npos);
 }
 

@@ -100,7 +100,8 @@ TEST_F(Verdicts, AKnownFailureHasABound)
     known.xfail = "not solved yet";
     known.xfail_within = "1.99";
     EXPECT_EQ(judged(known).verdict, Verdict::fail);
-    EXPECT_EQ(judged(known).note, "off by 2 (25 %), MORE THAN THE KNOWN 1.99: not solved yet");
+    EXPECT_EQ(judged(known).note,
+              "off by 2 (25 %), MORE THAN THE KNOWN ERROR 1.99: not solved yet");
     known.xfail_within = "2";
     EXPECT_EQ(judged(known).verdict, Verdict::xfail);
     // Of a bound the distance beyond it counts.

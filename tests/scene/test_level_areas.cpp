@@ -70,7 +70,8 @@ TEST_F(BuildingFiles, MistakesOfLevelAreasAreTold)
         {"polygon = \".\"\nz = 1.8", "is a folder"},
         {"corners = [[0, 0, 0], [20, 20, 0], [20, 0, 0], [0, 20, 0]]\nz = 1.8", "crosses itself"},
         {"corners = [[0, 0, 0], [20, 20, 0]]\nz = 1.8", "corners"},
-        {"corners = [[1, 1, 0], [2, 1, 0], [2, 2, 0]]\nz = 1.8", "contains no point of the surface"},
+        {"corners = [[1, 1, 0], [2, 1, 0], [2, 2, 0]]\nz = 1.8",
+         "contains no point of the surface"},
         {corners + "z = nan", "not a finite number"}};
     for (const auto& [keys, expected] : mistakes) {
         EXPECT_NE(told(keys).find(expected), std::string::npos) << keys << "\n" << told(keys);
