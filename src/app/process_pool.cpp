@@ -17,7 +17,9 @@
 #include <cstring>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace hyoryu {
 
@@ -27,6 +29,19 @@ namespace fs = std::filesystem;
 
 // The share of the machine's memory that parallel runs may fill by their forecasts.
 constexpr double usable_memory = 0.8;
+
+// An empty temporary file for the messages of a process. It is outside the results, in which a file
+// of the user could have its name.
+fs::path file_for_messages()
+{
+    std::string name = (fs::temp_directory_path() / "hyoryu-messages-XXXXXX").string();
+    const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor < 0) {
+        throw IoError(fmt::format("cannot create `{}`: {}", name, std::strerror(errno)));
+    }
+    ::close(descriptor);
+    return name;
+}
 
 // Why the process failed; empty if it succeeded. Its messages are removed.
 std::string outcome(const fs::path& messages, int status)
@@ -65,14 +80,14 @@ void ProcessPool::start(const ProcessJob& job)
     if (stop_requested()) {
         return;
     }
-    fs::remove(job.messages); // of an earlier call that was killed: messages are appended
+    const fs::path messages = file_for_messages();
     std::vector<std::string> command{"/proc/self/exe"};
     command.insert(command.end(), job.arguments.begin(), job.arguments.end());
-    const pid_t process = start_child(std::move(command), {.messages = job.messages});
+    const pid_t process = start_child(std::move(command), {.messages = messages});
     if (process < 0) {
         throw IoError(fmt::format("cannot start a run: {}", std::strerror(errno)));
     }
-    running_.push_back({job.number, process, job.messages, job.memory});
+    running_.push_back({job.number, process, messages, job.memory});
 }
 
 void ProcessPool::wait_for_all()

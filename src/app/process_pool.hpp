@@ -19,7 +19,6 @@ namespace hyoryu {
 struct ProcessJob {
     std::size_t number = 0;             // by which the caller knows it
     std::vector<std::string> arguments; // of the program
-    std::filesystem::path messages;     // file of its messages while it runs
     double memory = 0;                  // forecast [B]
 };
 
@@ -40,7 +39,7 @@ public:
     }
 
     /// Starts the job as soon as there is room for it. After a request to stop it starts nothing.
-    /// Throws IoError if no process can be started.
+    /// Throws IoError if no process can be started, or no temporary file for its messages created.
     void start(const ProcessJob& job);
 
     /// Waits for all processes. They receive a request to stop; `ended` is not called after one.

@@ -24,19 +24,9 @@ std::string read_all(const fs::path& file)
 }
 
 // Beside the folder of the run, in which a run tolerates no files but its own.
-fs::path beside(const StudyJob& job, const char* what)
-{
-    return fmt::format("{}.{}.txt", job.folder.string(), what);
-}
-
 fs::path asked_of(const StudyJob& job)
 {
-    return beside(job, "asked");
-}
-
-fs::path messages_of(const StudyJob& job)
-{
-    return beside(job, "messages");
+    return fmt::format("{}.asked.txt", job.folder.string());
 }
 
 // Repeats are there for their times: nothing else of them is kept, except for the plan, by which
@@ -97,7 +87,6 @@ std::vector<std::string> run_jobs(const Study& study, const std::vector<StudyRun
                          .folder = job.folder,
                          .overrides = run.run.set,
                          .threads = run.threads > 0 ? run.threads : settings.threads}),
-                    .messages = messages_of(job),
                     .memory = job.memory});
     }
     pool.wait_for_all();

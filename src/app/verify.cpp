@@ -260,7 +260,6 @@ void run_in_parallel(const VerifyOptions& options, const std::vector<VerifyJob>&
                                                 .folder = job.folder,
                                                 .overrides = job.run->set,
                                                 .threads = threads_of_each(options)}),
-                    .messages = fmt::format("{}.messages.txt", job.folder.string()),
                     .memory = memory_of(job)});
     }
     pool.wait_for_all();

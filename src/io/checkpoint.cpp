@@ -407,7 +407,7 @@ NewestCheckpoint read_newest_checkpoint(const std::filesystem::path& folder)
         passed_over = error.what();
     }
     if (!std::filesystem::exists(previous_file(folder), fault)) {
-        throw IoError(passed_over + "; there is no older checkpoint");
+        throw IoError(passed_over + "; an older checkpoint does not exist");
     }
     try {
         NewestCheckpoint older = read_generation(previous_file(folder));

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Benchmarks held to their references."""
 import json
+import os
 import signal
 import subprocess
 import time
+import unittest.mock
 import xml.etree.ElementTree
 
 from program import HYORYU, ProgramTest, main
@@ -111,9 +113,13 @@ style = "points"
             ("long", "time.step=1e-5"), ("odd", "body[0].density=-1"), ("short", "time.step=0.02"),
             ("fast", "body[0].velocity=[0,0,-1e308]"), ("low", "body[0].position=[0,0,0.5]")))
         self.benchmark(self.BENCHMARK + runs)
+        (self.dir / "tmp").mkdir()
+        (self.dir / "out/free_fall").mkdir(parents=True)
+        self.write("mine", "out/free_fall/long.messages.txt")
         reports, rows = [], []
         for jobs in ("1", "2", "4"):
-            done = self.verify("--force", "--jobs", jobs)
+            with unittest.mock.patch.dict(os.environ, TMPDIR=str(self.dir / "tmp")):
+                done = self.verify("--force", "--jobs", jobs)
             self.assertEqual(done.returncode, 1, done.stderr)
             rows.append([line.split()[1] for line in done.stdout.splitlines() if line.startswith("free_fall")])
             report = json.loads((self.dir / "out/verify.json").read_text())
@@ -124,13 +130,15 @@ style = "points"
         self.assertEqual(rows[1:], rows[:1] * 2)
         self.assertEqual(reports[1:], reports[:1] * 2)
         self.assertIn("out of range", json.dumps(reports[0]))
-        self.assertEqual(list(self.dir.rglob("*.messages.txt")), [])
+        self.assertEqual(list((self.dir / "tmp").iterdir()), [], "files of messages are left")
+        self.assertEqual(self.read("out/free_fall", "long.messages.txt"), b"mine")
 
     def test_a_request_to_stop_reaches_parallel_runs(self):
         self.benchmark(self.BENCHMARK + "".join(
             f'[[run]]\nname = "{k}"\nset = ["time.end=100", "time.step=1e-4", "output.every=10"]\n' for k in range(3)))
+        (self.dir / "tmp").mkdir()
         process = subprocess.Popen([HYORYU, "verify", "--cases", "mine", "-o", "out", "--jobs", "2"], cwd=self.dir,
-                                   stdout=subprocess.DEVNULL)
+                                   env={**os.environ, "TMPDIR": str(self.dir / "tmp")}, stdout=subprocess.DEVNULL)
         self.addCleanup(process.kill)
         end = time.monotonic() + 60
         while not all((self.dir / f"out/free_fall/{k}/plan.json").exists() for k in (0, 1)):
@@ -141,7 +149,7 @@ style = "points"
         for k in (0, 1):
             self.assertTrue((self.dir / f"out/free_fall/{k}/checkpoint.h5").exists())
         self.assertFalse((self.dir / "out/free_fall/2").exists())
-        self.assertEqual(list(self.dir.rglob("*.messages.txt")), [])
+        self.assertEqual(list((self.dir / "tmp").iterdir()), [], "files of messages are left")
 
     def test_mistakes_are_the_users(self):
         self.benchmark()
