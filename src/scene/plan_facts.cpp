@@ -12,11 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-std::size_t at(std::int32_t wall)
-{
-    return static_cast<std::size_t>(wall);
-}
-
 bool is_moving_solid(const Wall& wall)
 {
     return std::holds_alternative<SolidWall>(wall.geometry) && moves(wall.motion);
