@@ -233,9 +233,10 @@ std::string against_line(const Tally& tally)
 
 std::string threads_of(const VerifyInfo& info)
 {
-    return info.jobs > 1
-               ? fmt::format("{} threads per run, {} parallel runs", info.threads, info.jobs)
-               : fmt::format("{} threads", info.threads);
+    const std::string threads =
+        fmt::format("{} thread{}", info.threads, info.threads == 1 ? "" : "s");
+    return info.jobs > 1 ? fmt::format("{} per run, {} parallel runs", threads, info.jobs)
+                         : threads;
 }
 
 std::string verify_json(const std::vector<BenchmarkResult>& results, const VerifyInfo& info)
