@@ -219,7 +219,8 @@ std::string chart_body(const Chart& chart)
         if (!line.label.empty()) {
             const double left =
                 area.left + legend.entry_width * static_cast<double>(entry % legend.abreast);
-            const double middle = 28 + entry_height * static_cast<double>(entry / legend.abreast);
+            const std::size_t row = entry / legend.abreast;
+            const double middle = 28 + entry_height * static_cast<double>(row);
             entries += drawn(line, coloured, fmt::format("M{:.1f} {:.1f}h22", left, middle),
                              fmt::format("M{:.1f} {:.1f}h0", left + 11, middle)) +
                        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", left + 27,
