@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -132,7 +133,7 @@ void ProcessPool::wait_for_one()
     if (at == running_.end()) {
         return;
     }
-    const Running run = *at;
+    const Running run = std::move(*at);
     running_.erase(at);
     if (stop_requested()) {
         fs::remove(run.messages);

@@ -316,7 +316,7 @@ std::vector<Common> what_processes_share(const RunOptions& options, const Scene&
 {
     std::string files;
     for (const auto& [name, text] : texts_of_given_case(options, scene)) {
-        files += name + '=' + text + '\n';
+        files.append(name).append(1, '=').append(text).append(1, '\n');
     }
     return {{"program", fmt::format("{} {}", build_info::version, build_info::commit)},
             {"case", to_toml(scene)},

@@ -108,10 +108,12 @@ SurfaceCheck check_surface(const HeightGrid& grid, const TerrainPatch& patch,
     const double azimuth = patch.azimuth_deg * std::numbers::pi / 180;
     double sum = 0;
     for (Index k = 0; k < grid.columns * grid.rows; ++k) {
+        const Index column = k % grid.columns;
+        const Index row = k / grid.columns;
         const double east =
-            grid.first[0] - patch.origin[0] + static_cast<double>(k % grid.columns) * grid.cell[0];
+            grid.first[0] - patch.origin[0] + static_cast<double>(column) * grid.cell[0];
         const double north =
-            grid.first[1] - patch.origin[1] + static_cast<double>(k / grid.columns) * grid.cell[1];
+            grid.first[1] - patch.origin[1] + static_cast<double>(row) * grid.cell[1];
         const Plan2 place{east * std::sin(azimuth) + north * std::cos(azimuth),
                           north * std::sin(azimuth) - east * std::cos(azimuth)};
         const bool inside = place[0] >= patch.extent[0] && place[0] <= patch.extent[2] &&

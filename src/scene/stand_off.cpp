@@ -89,7 +89,9 @@ Vec3 step_aside(const FreeSpace& space, std::span<const int> among, double dista
     constexpr int directions = 27;
     for (int sphere = 1; sphere <= spheres; ++sphere) {
         for (int k = 0; k < directions; ++k) {
-            const Vec3 way = Vec3(k % 3, k / 3 % 3, k / 9) - Vec3::Constant(1);
+            const int layer = k / 9;
+            const int row = k / 3 % 3;
+            const Vec3 way = Vec3(k % 3, row, layer) - Vec3::Constant(1);
             if (way == Vec3(0, 0, 0) || (space.dimensions() == 2 && way.y() != 0)) {
                 continue;
             }

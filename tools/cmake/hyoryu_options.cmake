@@ -56,7 +56,7 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 # the program is to run on any x86-64, one after the other, chosen at start.
 if(HYORYU_NATIVE OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   if(HYORYU_NATIVE)
-    set(native_flag -march=native)
+    set(native_flag -march=native -w)
   endif()
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${native_flag} -dM -E -x c++ /dev/null
     OUTPUT_VARIABLE predefined)
