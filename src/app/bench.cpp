@@ -6,6 +6,7 @@
 
 #include "hyoryu/bench/bench.hpp"
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 
 #include <fmt/format.h>
@@ -28,6 +29,11 @@ bench::Extent extent_of(const BenchOptions& options)
 
 int run_bench(const BenchOptions& options)
 {
+    if (!options.json.empty()) {
+        expect_own_file(options.json, {.command = "bench --json",
+                                       .start = "{\n  \"build\"",
+                                       .within = "\"instruction_set\""});
+    }
     set_threads(options.threads);
     bench::Setting setting{
         .extent = extent_of(options),

@@ -11,6 +11,7 @@
 #include "hyoryu/assess/accuracy.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/io/claim.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/debris.hpp"
 #include "hyoryu/scene/parameter.hpp"
@@ -35,6 +36,9 @@ void draw_plan(const CheckOptions& options, const Scene& scene, const Filling& f
         throw CaseError("--plan shows a scene from above, which needs three dimensions",
                         "leave --plan out");
     }
+    expect_own_file(options.plan, {.command = "check --plan",
+                                   .start = "\x89PNG",
+                                   .within = std::string_view("Software\0hyoryu", 15)});
     write_png(options.plan, plan_picture(scene, filling));
 }
 

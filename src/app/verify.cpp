@@ -91,6 +91,11 @@ bool is_of_verify(const std::vector<Benchmark>& benchmarks, const std::string& n
 /// Runs of an earlier call are replaced one by one with --force; nothing else is removed.
 void prepare(const VerifyOptions& options, const std::vector<Benchmark>& benchmarks)
 {
+    if (!options.json.empty()) {
+        expect_own_file(options.json, {.command = "verify --json",
+                                       .start = "{\n  \"version\"",
+                                       .within = "\"known_to_fail\""});
+    }
     std::error_code fault;
     if (fs::exists(options.folder, fault) &&
         (!fs::is_directory(options.folder, fault) || !fs::is_empty(options.folder, fault)) &&

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <fstream>
 #include <vector>
 
 namespace hyoryu {
@@ -55,6 +56,30 @@ void claim_unguarded(const fs::path& folder, const Claim& claim)
 }
 
 } // namespace
+
+void expect_own_file(const fs::path& file, const FileMark& mark)
+{
+    std::error_code fault;
+    const fs::file_status status = fs::symlink_status(file, fault);
+    if (status.type() == fs::file_type::not_found) {
+        return;
+    }
+    if (status.type() != fs::file_type::regular) {
+        throw CaseError(fmt::format("`{}` exists and is not a regular file", file.string()),
+                        "choose another file");
+    }
+    constexpr std::streamsize most = 4096;
+    std::string begin(most, '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(begin.data(), most);
+    begin.resize(static_cast<std::size_t>(stream.gcount()));
+    const bool empty = stream.eof() && begin.empty();
+    if (!empty && !(begin.starts_with(mark.start) && begin.find(mark.within) != begin.npos)) {
+        throw CaseError(fmt::format("`{}` exists and was not written by `hyoryu {}`", file.string(),
+                                    mark.command),
+                        "choose another file, or move this one away");
+    }
+}
 
 void claim_folder(const fs::path& folder, const Claim& claim)
 {

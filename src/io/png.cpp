@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/io/png.hpp"
 
-#include "hyoryu/core/error.hpp"
+#include "hyoryu/io/results.hpp"
 
-#include <fmt/format.h>
 #include <libdeflate.h>
 
-#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -63,13 +61,9 @@ void write_png(const std::filesystem::path& file, const Pixels& pixels)
     const std::string header = big_endian(static_cast<std::uint32_t>(pixels.width)) +
                                big_endian(static_cast<std::uint32_t>(pixels.height)) +
                                "\x08\x02\0\0\0"s; // 8 bits, true colour
-    std::ofstream stream(file, std::ios::binary);
-    stream << "\x89PNG\r\n\x1a\n"s << chunk("IHDR", header) << chunk("IDAT", compressed(rows))
-           << chunk("IEND", "");
-    stream.close();
-    if (!stream) {
-        throw IoError(fmt::format("cannot write the picture {}", file.string()));
-    }
+    write_text(file, "\x89PNG\r\n\x1a\n"s + chunk("IHDR", header) +
+                         chunk("tEXt", "Software\0hyoryu"s) + chunk("IDAT", compressed(rows)) +
+                         chunk("IEND", ""));
 }
 
 } // namespace hyoryu

@@ -30,8 +30,9 @@ std::string page_of(const RunResults& run, const ReportSettings& settings)
 {
     const std::string title = escaped(run.plan.at("title").get<std::string>());
     return fmt::format("<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" "
-                       "lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
-                       "<style>{1}{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
+                       "lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+                       "<meta name=\"generator\" content=\"hyoryu report\"/>\n"
+                       "<title>{0}</title>\n<style>{1}{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                        title, style, chart_style) +
            case_section(run) + run_section(run) + picture_section(run) +
            impact_section(run, settings.stiffness) + trajectory_section(run) + gauge_section(run) +

@@ -12,8 +12,24 @@ import subprocess
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from program import DOCS, FLOOD, ProgramTest, main
+from program import CASES, DOCS, FLOOD, ProgramTest, main
 
+TANK_3D = """
+[time]
+end = 1.0
+[particles]
+spacing = 0.1
+[fluid]
+[[fluid.block]]
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [0.5, 0.5, 0.3]
+[[wall]]
+shape = "basin"
+min = [0.0, 0.0, 0.0]
+max = [0.5, 0.5, 0.5]
+open = ["+z"]
+"""
 TEMPLATES = ["bore_with_debris", "contact_alone", "dam_break", "floating_body",
              "street_with_buildings", "tank"]
 COMMANDS = ["run", "check", "describe", "new", "info", "render", "report", "convert", "verify",
@@ -114,6 +130,39 @@ def array(xml, name):
     assert size == len(data) - 8
     letter = formats[node.get("type")]
     return list(struct.unpack(f"<{size // struct.calcsize(letter)}{letter}", data[8:]))
+
+
+class Pages(Results):
+    """Files that a command writes where it is told to: its own are replaced, those of the user stay."""
+
+    def test_e1_only_own_files_are_replaced(self):
+        self.write(TANK_3D, "case3.toml")
+        own = [("report", "out", "-o", "page.html"), ("check", "case3.toml", "--plan", "plan.png")]
+        for command in own:
+            for _ in range(2):
+                done = self.call(*command)
+                self.assertEqual(done.returncode, 0, done.stderr)
+        os.mkfifo(self.dir / "pipe")
+        os.symlink("page.html", self.dir / "link")
+        (self.dir / "empty").write_text("")
+        before = self.tree(".")
+        wrong = ["case3.toml", "out/plan.json", "pipe", "link", "out"]
+        for command in own:
+            for name in [*wrong, "plan.png" if command[0] == "report" else "page.html"]:
+                done = self.call(*command[:-1], name)
+                self.assertEqual(done.returncode, 2, (command, name, done.stderr))
+                self.assertIn("exists and", done.stderr)
+        self.assertEqual(self.tree("."), before)
+        self.assertTrue((self.dir / "pipe").is_fifo() and (self.dir / "link").is_symlink())
+        self.assertEqual(self.call("report", "out", "-o", "empty").returncode, 0)
+
+    def test_e1_verify_tells_of_a_foreign_file_before_it_runs(self):
+        self.write("mine", "mine.json")
+        done = self.call("verify", "couette", "--cases", str(CASES), "--json", "mine.json")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("was not written by `hyoryu verify --json`", done.stderr)
+        self.assertEqual((self.dir / "mine.json").read_text(), "mine")
+        self.assertFalse((self.dir / "verify-results").exists())
 
 
 class Convert(Results):

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Folders that a command shares with files of the user: a mark identifies the files of the command.
+// Folders and files that a command shares with the user: a mark identifies what the command wrote.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace hyoryu {
 
@@ -19,6 +20,18 @@ struct Claim {
 /// Without the mark such files belong to the user: throws CaseError that names them, and writes
 /// nothing. Other files do not matter. Throws IoError if the folder cannot be written.
 void claim_folder(const std::filesystem::path& folder, const Claim& claim);
+
+/// By what a file that a command wrote is recognised.
+struct FileMark {
+    std::string_view command; // `hyoryu COMMAND` in messages
+    std::string_view start;   // its first bytes
+    std::string_view within;  // a text among its first 4096 bytes
+};
+
+/// Throws CaseError unless the command may write this file: nothing has that name, or it is a
+/// regular file that is empty or has the mark. A link or device is no regular file. Changes
+/// nothing.
+void expect_own_file(const std::filesystem::path& file, const FileMark& mark);
 
 /// Throws CaseError if a run could not replace the folder (see `prepare_results`): it is not empty
 /// and either no results folder or holds files that no run wrote. Changes nothing.
