@@ -17,7 +17,11 @@ namespace {
 // The words of a text, which are separated by blanks and ends of lines.
 class Words {
 public:
-    Words(const std::filesystem::path& file, const std::string& text) : file_(file), text_(text) {}
+    /// A byte order mark before the text is passed over.
+    Words(const std::filesystem::path& file, const std::string& text)
+        : file_(file), text_(text), place_(text.starts_with("\xef\xbb\xbf") ? 3 : 0)
+    {
+    }
 
     /// The next word, or an empty one at the end.
     std::string_view next()
@@ -80,7 +84,7 @@ private:
 
     const std::filesystem::path& file_;
     const std::string& text_;
-    std::size_t place_ = 0;
+    std::size_t place_;
     std::size_t start_ = 0;
 };
 

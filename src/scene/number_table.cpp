@@ -2,49 +2,21 @@
 #include "number_table.hpp"
 
 #include "hyoryu/core/input_file.hpp"
+#include "table_lines.hpp"
 #include "units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <optional>
 
 namespace hyoryu {
 
 namespace {
 
 constexpr std::size_t most_faults_of_table = 5;
-constexpr std::string_view separators = " \t\r,;";
 constexpr std::string_view quotes = "\"'";
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // Excel begins a CSV with it
-
-std::vector<std::string_view> words_of(std::string_view line)
-{
-    std::vector<std::string_view> words;
-    while (true) {
-        const auto first = line.find_first_not_of(separators);
-        if (first == std::string_view::npos) {
-            return words;
-        }
-        line.remove_prefix(first);
-        const auto length = std::min(line.find_first_of(separators), line.size());
-        words.push_back(line.substr(0, length));
-        line.remove_prefix(length);
-    }
-}
-
-std::optional<double> number_of(std::string_view word)
-{
-    double value = 0;
-    word.remove_prefix(word.starts_with('+') ? 1 : 0);
-    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool whole = fault == std::errc() && end == word.data() + word.size();
-    return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
 
 using Order = std::vector<std::size_t>; // of each number of a line, the column that it belongs to
 
@@ -70,10 +42,10 @@ std::string unquoted(std::string_view word)
 }
 
 // Parts "z[m]" into name and unit; a unit may be a word of its own.
-std::vector<std::string> names_and_units(const std::vector<std::string_view>& words)
+std::vector<std::string> names_and_units(const std::vector<std::string>& words)
 {
     std::vector<std::string> parts;
-    for (const std::string_view word : words) {
+    for (const std::string& word : words) {
         const std::string text = unquoted(word);
         const auto bracket = text.find_first_of("[(");
         if (bracket != 0) {
@@ -88,7 +60,7 @@ std::vector<std::string> names_and_units(const std::vector<std::string_view>& wo
 }
 
 // The fault of the header; empty if it names every column once.
-std::string read_header(const std::vector<std::string_view>& words,
+std::string read_header(const std::vector<std::string>& words,
                         std::span<const NumberColumn> columns, Order& order)
 {
     order.clear();
@@ -116,23 +88,16 @@ std::string read_header(const std::vector<std::string_view>& words,
                                                         order.size(), names_of(columns));
 }
 
-// Whether a line has commas and semicolons: its commas may be decimal, so the line is ambiguous.
-bool mixes_separators(std::string_view line)
-{
-    return line.find(',') != std::string_view::npos && line.find(';') != std::string_view::npos;
-}
-
 // The numbers of a line, or its fault.
-std::string parse_row(const std::vector<std::string_view>& words,
-                      std::span<const NumberColumn> columns, const Order& order,
-                      std::vector<double>& row)
+std::string parse_row(const std::vector<std::string>& words, std::span<const NumberColumn> columns,
+                      const Order& order, std::vector<double>& row)
 {
     if (words.size() != order.size()) {
         return fmt::format("expected {} numbers, found {}", order.size(), words.size());
     }
     row.resize(order.size());
     for (std::size_t k = 0; k < words.size(); ++k) {
-        const auto value = number_of(words[k]);
+        const auto value = table_number(words[k]);
         if (!value) {
             return fmt::format("expected a number, found \"{}\"", words[k]);
         }
@@ -166,35 +131,24 @@ NumberTable read_number_table(const std::filesystem::path& file,
         table.faults.push_back(fmt::format("{}: {}", file.string(), why));
         return table;
     }
-    std::ifstream stream(file);
-    std::string line;
     Order order = order_asked_for(columns.size());
     bool header_allowed = true;
-    for (int number = 1; std::getline(stream, line); ++number) {
-        if (number == 1 && line.starts_with(byte_order_mark)) {
-            line.erase(0, byte_order_mark.size());
-        }
-        const std::vector<std::string_view> words = words_of(line);
-        if (words.empty() || words.front().starts_with('#')) {
-            continue;
-        }
-        const bool header = header_allowed && !number_of(words.front());
+    for (const TableLine& line : table_lines(file)) {
+        const bool header = header_allowed && !table_number(line.words.front());
         header_allowed = false;
         std::vector<double> row;
-        const std::string fault = mixes_separators(line)
-                                      ? "commas and semicolons in one line, expected one of them "
-                                        "as separator and a decimal point in each number"
-                                  : header ? read_header(words, columns, order)
-                                           : parse_row(words, columns, order, row);
+        const std::string fault = line.mixed ? std::string(mixed_separators)
+                                  : header   ? read_header(line.words, columns, order)
+                                             : parse_row(line.words, columns, order, row);
         if (!fault.empty() && table.faults.size() < most_faults_of_table) {
-            table.faults.push_back(fmt::format("{}:{}: {}", file.string(), number, fault));
+            table.faults.push_back(fmt::format("{}:{}: {}", file.string(), line.number, fault));
         }
         if (header && !fault.empty()) {
             return table; // which number is which is not known
         }
         if (!header && fault.empty()) {
             table.rows.push_back(std::move(row));
-            table.lines.push_back(number);
+            table.lines.push_back(line.number);
         }
     }
     return table;

@@ -2,6 +2,7 @@
 #include "series.hpp"
 
 #include "hyoryu/core/input_file.hpp"
+#include "table_lines.hpp"
 #include "units.hpp"
 
 #include <fmt/format.h>
@@ -9,9 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 
 namespace hyoryu {
@@ -26,12 +25,6 @@ constexpr std::size_t none = 4;
 constexpr std::size_t most_faults_of_series = 5;
 constexpr double least_depth = 1e-3; // below which a cell of GeoClaw is dry [m]
 
-// A line of a table, split at commas, semicolons and blanks.
-struct Line {
-    int number = 0;
-    std::vector<std::string> words;
-};
-
 class SeriesReader {
 public:
     SeriesReader(const SeriesSource& source, std::vector<std::string>& faults)
@@ -41,7 +34,7 @@ public:
 
     OpenSeries read()
     {
-        const std::vector<Line> lines = lines_of();
+        const std::vector<TableLine> lines = lines_of();
         if (!sound()) {
             return {};
         }
@@ -66,47 +59,28 @@ private:
         }
     }
 
-    std::vector<Line> lines_of()
+    std::vector<TableLine> lines_of()
     {
-        std::vector<Line> lines;
         const std::string why = why_unreadable(source_.file, largest_text);
         if (!why.empty()) {
             faults_.push_back(fmt::format("{}: {}", source_.file.string(), why));
-            return lines;
+            return {};
         }
-        constexpr std::string_view separators = " \t\r,;";
-        std::ifstream stream(source_.file);
-        std::string text;
-        for (int number = 1; std::getline(stream, text); ++number) {
-            Line line{number, {}};
-            std::size_t from = text.find_first_not_of(separators);
-            while (from != std::string::npos) {
-                const std::size_t end = text.find_first_of(separators, from);
-                line.words.push_back(text.substr(from, end - from));
-                from = text.find_first_not_of(separators, end);
-            }
-            if (!line.words.empty() && line.words.front().front() != '#') {
-                lines.push_back(std::move(line));
+        std::vector<TableLine> lines = table_lines(source_.file);
+        for (const TableLine& line : lines) {
+            if (line.mixed) {
+                fault(line.number, std::string(mixed_separators));
             }
         }
         return lines;
     }
 
-    static std::optional<double> number_of(std::string_view word)
-    {
-        double value = 0;
-        word.remove_prefix(word.starts_with('+') ? 1 : 0);
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        const bool whole = error == std::errc() && end == word.data() + word.size();
-        return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
-    }
-
     // The numbers of a line; none, and a fault, where one is mistaken.
-    std::optional<std::vector<double>> numbers_of(const Line& line)
+    std::optional<std::vector<double>> numbers_of(const TableLine& line)
     {
         std::vector<double> numbers;
         for (const std::string& word : line.words) {
-            const auto value = number_of(word);
+            const auto value = table_number(word);
             if (!value) {
                 fault(line.number, fmt::format("expected a number, found \"{}\"", word));
                 return std::nullopt;
@@ -117,7 +91,7 @@ private:
     }
 
     // The quantity of each column by the words of a header; units may be words of their own.
-    std::vector<std::size_t> header_columns(const Line& line)
+    std::vector<std::size_t> header_columns(const TableLine& line)
     {
         std::vector<std::size_t> columns;
         for (std::string word : line.words) {
@@ -147,7 +121,7 @@ private:
         return columns;
     }
 
-    void check_unit(const Line& line, const std::string& unit, std::size_t quantity)
+    void check_unit(const TableLine& line, const std::string& unit, std::size_t quantity)
     {
         const bool flat = quantity == 3 && unit == "m2/s";
         if (quantity != none && unit != units[quantity] && !flat) {
@@ -156,7 +130,7 @@ private:
         }
     }
 
-    std::vector<std::size_t> columns_of(const std::vector<Line>& lines, bool header)
+    std::vector<std::size_t> columns_of(const std::vector<TableLine>& lines, bool header)
     {
         std::vector<std::size_t> columns;
         for (const std::string& name : source_.columns) {
@@ -182,9 +156,9 @@ private:
         return columns;
     }
 
-    void read_csv(const std::vector<Line>& lines)
+    void read_csv(const std::vector<TableLine>& lines)
     {
-        const bool header = !lines.empty() && !number_of(lines.front().words.front());
+        const bool header = !lines.empty() && !table_number(lines.front().words.front());
         const std::vector<std::size_t> columns = columns_of(lines, header);
         if (sound() && !lines.empty() && std::ranges::find(columns, time_column) == columns.end()) {
             fault(lines.front().number, "has no time column");
@@ -202,10 +176,10 @@ private:
         }
     }
 
-    void read_geoclaw(const std::vector<Line>& lines)
+    void read_geoclaw(const std::vector<TableLine>& lines)
     {
         constexpr std::size_t least = 6; // level, time, h, hu, hv, eta
-        for (const Line& line : lines) {
+        for (const TableLine& line : lines) {
             if (line.words.size() < least) {
                 fault(line.number, fmt::format("expected level, time, h, hu, hv and eta, found {} "
                                                "numbers",
@@ -225,7 +199,7 @@ private:
         }
     }
 
-    void take(const Line& line, std::size_t quantity, double value)
+    void take(const TableLine& line, std::size_t quantity, double value)
     {
         if (quantity == none) {
             return;

@@ -150,6 +150,7 @@ TEST_F(HeightGrids, MistakesHaveTheirLine)
 {
     const std::string head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
     EXPECT_EQ(fault(head + "1 2\n3 4\n"), "none");
+    EXPECT_EQ(fault("\xef\xbb\xbf" + head + "1 2\n3 4\n"), "none") << "a byte order mark";
     EXPECT_EQ(fault(head + "1 2\n3 x\n"), ":7: expected a height, found \"x\"");
     EXPECT_EQ(fault(head + "1 2\n3\n"), ":8: the file ends after 3 of 4 heights");
     EXPECT_EQ(fault(head + "1 2\n3 4 5\n"), ":7: there are more than 4 heights");

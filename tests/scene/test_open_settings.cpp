@@ -343,6 +343,17 @@ TEST_F(SeriesFiles, TablesTellTheirColumnsByHeaderOrKey)
     EXPECT_TRUE(faults.empty());
 }
 
+// A spreadsheet begins a CSV file with a byte order mark.
+TEST_F(SeriesFiles, AByteOrderMarkIsPassedOver)
+{
+    for (const std::string text : {"time,level\n0,1\n2,3\n", "0,1\n2,3\n", "# me\n0 1\n2 3\n"}) {
+        std::vector<std::string> faults;
+        const OpenSeries series = read_series(source("\xef\xbb\xbf" + text), faults);
+        EXPECT_TRUE(faults.empty()) << faults.front();
+        EXPECT_EQ(series.levels, (std::vector<double>{1, 3})) << text;
+    }
+}
+
 TEST_F(SeriesFiles, FaultsNameTheLine)
 {
     const std::vector<std::pair<std::string, std::string>> files{
@@ -353,6 +364,7 @@ TEST_F(SeriesFiles, FaultsNameTheLine)
         {"time [min],level\n0,1\n", ":1: the header gives the unit \"min\""},
         {"level,velocity\n0,1\n", ":1: has no time column"},
         {"# nothing\n", "has no row of numbers"},
+        {"0;1,0\n4;1,5\n", ":1: commas and semicolons in one line"},
     };
     for (const auto& [text, words] : files) {
         std::vector<std::string> faults;
