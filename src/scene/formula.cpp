@@ -20,6 +20,25 @@ double floor_of(double x)
     return std::floor(x);
 }
 
+// muParser takes "0,5" for two expressions, of which the last counts, and "x = 5" for an
+// assignment.
+void expect_one_value(const std::string& text, int values)
+{
+    if (values != 1) {
+        throw FormulaError(fmt::format("\"{}\" is not one expression but {}, separated by a comma; "
+                                       "the decimal sign is a point",
+                                       text, values));
+    }
+    const std::string of_comparisons = "=!<>";
+    for (std::size_t k = text.find('='); k != text.npos; k = text.find('=', k + 1)) {
+        const bool begun = k > 0 && of_comparisons.find(text[k - 1]) != of_comparisons.npos;
+        const bool doubled = k + 1 < text.size() && text[k + 1] == '=';
+        if (!begun && !doubled) {
+            throw FormulaError(fmt::format("\"{}\" assigns a value; equality is written ==", text));
+        }
+    }
+}
+
 double radians(double degrees)
 {
     return degrees * std::numbers::pi / 180;
@@ -51,7 +70,9 @@ Formula::Formula(const std::string& text) : state_(std::make_unique<State>())
         for (std::size_t k = 0; k < state_->names.size(); ++k) {
             parser.DefineVar(state_->names[k], &state_->values[k]);
         }
-        parser.Eval();
+        int values = 0;
+        parser.Eval(values);
+        expect_one_value(text, values);
     } catch (const mu::Parser::exception_type& fault) {
         throw FormulaError(fmt::format("\"{}\" is not an expression: {}", text, fault.GetMsg()));
     }
