@@ -123,7 +123,9 @@ void keys_of(auto& keys, Is<PistonWave> auto& wave, auto& wall, double gravity, 
 void keys_of(auto& keys, Is<Lift> auto& lift, auto& motion, double spacing, double end)
 {
     keys.not_negative("start", lift.start, "s", "Time at which the gate starts to rise.");
-    keys.positive("speed", lift.speed, "m/s", "Speed at which the gate rises.", needed);
+    keys.positive(
+        "speed", lift.speed, "m/s",
+        "Speed at which the gate rises; it gains this speed over half a particle spacing.", needed);
     keys.rule(lift_gate, lift, motion, spacing, end);
 }
 

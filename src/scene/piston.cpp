@@ -114,16 +114,19 @@ Motion lifted_gate(double start, double speed, double runway, double end)
 {
     const double gains = 2 * runway / speed; // with a constant acceleration [s]
     Motion motion;
-    const auto add = [&](double t, double z) {
-        motion.times.push_back(t);
-        motion.places.emplace_back(0, 0, z);
-    };
-    add(start, 0);
-    add(start + gains, runway);
-    // Three points of constant speed, so that the cubics keep it between the first and the last.
-    const double rest = std::max(end - start - gains, gains);
-    for (const double part : {0.01, 0.99, 1.0}) {
-        add(start + gains + part * rest, runway + part * rest * speed);
+    constexpr int parts = 8; // of the parabola of the acceleration
+    for (int k = 0; k <= parts; ++k) {
+        const double part = static_cast<double>(k) / parts;
+        motion.times.push_back(start + part * gains);
+        motion.places.emplace_back(0, 0, part * part * runway);
+    }
+    // Between points of one speed the cubics keep it; behind the last they come to rest, a day
+    // later at least, so that an extended run has the same path.
+    constexpr double day = 86400;
+    const double rest = std::max(day, 2 * end);
+    for (const double later : {gains / parts, rest, rest + gains}) {
+        motion.times.push_back(start + gains + later);
+        motion.places.emplace_back(0, 0, runway + later * speed);
     }
     return motion;
 }

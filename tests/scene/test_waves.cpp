@@ -111,6 +111,33 @@ TEST(Waves, GatesRiseWithTheSpeedOfTheCase)
     EXPECT_NEAR(velocity(motion, 3).z(), 2, 1e-6);
 }
 
+// z = a t^2/2 up to half a spacing, then at the speed of the case to the end of the run, whatever
+// that end is: the path of an extended run is the same.
+TEST(Waves, GatesRiseEvenlyForAnySpeedSpacingAndEnd)
+{
+    Dice dice(12);
+    for (int n = 0; n < 100; ++n) {
+        const double start = dice.between(0, 2);
+        const double speed = std::exp(dice.between(-4, 3));
+        const double runway = std::exp(dice.between(-8, 0));
+        const double end = std::exp(dice.between(-2, 6));
+        const Motion motion = lifted_gate(start, speed, runway, end);
+        const Motion longer = lifted_gate(start, speed, runway, 2 * end);
+        const double gains = 2 * runway / speed;
+        for (int k = 0; k <= 50; ++k) {
+            const double t = start + (k < 25 ? k / 25.0 * gains : (k - 25) / 25.0 * end);
+            const double on = t - start;
+            const double z =
+                on < gains ? speed * on * on / (2 * gains) : runway + speed * (on - gains);
+            EXPECT_NEAR(displacement(motion, t).z(), z, 0.01 * runway + 1e-9 * z) << k;
+            EXPECT_EQ(displacement(motion, t), displacement(longer, t));
+            if (on > 1.2 * gains) {
+                EXPECT_NEAR(velocity(motion, t).z(), speed, 1e-6 * speed);
+            }
+        }
+    }
+}
+
 TEST(Waves, MotionsReadBackBitByBit)
 {
     for (const char* motion :

@@ -45,8 +45,8 @@ double ursell_number(const WaveTrain& wave, double gravity);
 /// paddle. Madsen, J. Geophys. Res. 76 (1971) 8672.
 Motion regular_piston(const WaveTrain& wave, double gravity, double end);
 
-/// A gate that starts to rise at a time [s] with a speed [m/s] along +z until `end`. It gains the
-/// speed over `runway` [m].
+/// A gate that starts to rise at a time [s] with a speed [m/s] along +z, for a day or until twice
+/// `end`. It gains the speed at a constant acceleration over `runway` [m].
 Motion lifted_gate(double start, double speed, double runway, double end);
 
 } // namespace hyoryu
