@@ -82,6 +82,16 @@ std::vector<FluidNear> fluid_about(const Fluid& fluid, const GaugeSearch& search
     return fluid_of(fluid, rows);
 }
 
+// A sensor sees the fluid in front of its face, not that behind a thin wall; a face may lie half a
+// spacing in front of the surface of its wall.
+void leave_out_behind(const Fluid& fluid, const Gauge& gauge, std::vector<FluidNear>& near)
+{
+    const double behind = -0.5 * fluid.parameters.spacing;
+    std::erase_if(near, [&](const FluidNear& particle) {
+        return shortest_way(fluid, gauge.at, particle.place).dot(gauge.normal) < behind;
+    });
+}
+
 double farthest(const GaugeSearch& search, int axis)
 {
     double place = -infinity;
@@ -175,6 +185,9 @@ GaugeTerms terms_of(const Fluid& fluid, const GaugeSearch& search, const Gauge& 
             face.add(point);
         }
         terms.fluid = fluid_about(fluid, search, face);
+        if (gauge.area > 0) {
+            leave_out_behind(fluid, gauge, terms.fluid);
+        }
         break;
     }
     case GaugeType::velocity:

@@ -94,9 +94,17 @@ inline double elevation(const Fluid& fluid, const Vec3& place)
     return nothing;
 }
 
-// Kernel average over the fluid about a place.
+// Whether a particle lies behind the face of a sensor; a point has no face.
+inline bool is_behind(const Fluid& fluid, const Gauge& gauge, const Vec3& particle)
+{
+    return gauge.type == GaugeType::pressure && gauge.area > 0 &&
+           way(fluid, gauge.at, particle).dot(gauge.normal) < -0.5 * fluid.parameters.spacing;
+}
+
+// Kernel average about a place over the fluid that a gauge sees.
 template <class T, class F>
-T average(const Fluid& fluid, const Vec3& place, const T& zero, const T& dry, const F& value)
+T average(const Fluid& fluid, const Gauge& gauge, const Vec3& place, const T& zero, const T& dry,
+          const F& value)
 {
     const auto x = fluid.particles.fluid[field::position];
     const auto V = fluid.particles.fluid[field::volume];
@@ -105,7 +113,7 @@ T average(const Fluid& fluid, const Vec3& place, const T& zero, const T& dry, co
     double weight = 0;
     for (Index j = rows.begin; j < rows.end; ++j) {
         const Vec3 r = way(fluid, x[at(j)], place);
-        if (r.squaredNorm() < sq(fluid.kernel.support)) {
+        if (r.squaredNorm() < sq(fluid.kernel.support) && !is_behind(fluid, gauge, x[at(j)])) {
             const double w = V[at(j)] * pair_at(fluid, r).w;
             weighted += w * value(at(j));
             weight += w;
@@ -156,7 +164,7 @@ inline double pressure(const Fluid& fluid, const Gauge& gauge)
     double total = 0;
     const std::vector<Vec3> points = face_points(gauge, fluid);
     for (const Vec3& point : points) {
-        total += std::max(0.0, average(fluid, point, 0.0, 0.0, [&](std::size_t j) {
+        total += std::max(0.0, average(fluid, gauge, point, 0.0, 0.0, [&](std::size_t j) {
                               return p[j] + rho[j] * g.dot(point - x[j]);
                           }));
     }
@@ -189,7 +197,7 @@ inline std::vector<double> read_fluid(const Fluid& fluid, const Gauge& gauge)
         return {pressure(fluid, gauge)};
     case GaugeType::velocity: {
         const Vec3 mean =
-            average(fluid, gauge.at, Vec3(Vec3::Zero()), Vec3(Vec3::Constant(nothing)),
+            average(fluid, gauge, gauge.at, Vec3(Vec3::Zero()), Vec3(Vec3::Constant(nothing)),
                     [&](std::size_t j) { return v[j]; });
         return {mean.x(), mean.y(), mean.z()};
     }

@@ -3,6 +3,7 @@
 #include "hyoryu/core/error.hpp"
 #include "runs.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,6 +109,37 @@ TEST(Gauges, StillWaterHasTheHydrostaticPressureOnEveryFaceAndAirHasNone)
     EXPECT_EQ(read(sim, "air"), 0);
     EXPECT_NEAR(read(sim, "level"), 0.4, 0.02 * 0.02); // a fiftieth of a spacing
     EXPECT_NEAR(read(sim, "level_at_wall"), 0.4, 0.02 * 0.02);
+}
+
+// Water before a sheet of one to three spacings: its wet face has the hydrostatic pressure, its dry
+// face none, whichever side is wet.
+TEST(Gauges, AFaceReadsTheWaterInFrontOfItAlone)
+{
+    for (const double spacing : {0.02, 0.0125}) {
+        for (const double rows : {1.0, 1.5, 2.0, 3.0}) {
+            for (const bool left : {false, true}) {
+                const double thick = rows * spacing;
+                const std::string sides =
+                    gauge("left", "type = \"pressure\"\nat = [0.5, 0.0, 0.1]\narea = 0.05\n"
+                                  "normal = [-1.0, 0.0, 0.0]") +
+                    gauge("right", fmt::format("type = \"pressure\"\nat = [{}, 0.0, 0.1]\n"
+                                               "area = 0.05\nnormal = [1.0, 0.0, 0.0]",
+                                               0.5 + thick));
+                Simulation sim = make(fmt::format(
+                    "dimensions = 2\n[time]\nend = 1.0\n[particles]\nspacing = {}\n[fluid]\n"
+                    "[[fluid.block]]\nshape = \"box\"\nmin = [{}, 0.0, 0.0]\n"
+                    "max = [{}, 0.0, 0.3]\n[[wall]]\nshape = \"basin\"\nmin = [0.0, 0.0, 0.0]\n"
+                    "max = [{}, 0.0, 0.5]\nopen = [\"+z\"]\n[[wall]]\nname = \"sheet\"\n"
+                    "shape = \"box\"\nmin = [0.5, 0.0, 0.0]\nmax = [{}, 0.0, 0.4]\n{}",
+                    spacing, left ? 0 : 0.5 + thick, left ? 0.5 : 1 + thick, 1 + thick, 0.5 + thick,
+                    sides));
+                step_on(sim);
+                const double head = 1000 * 9.81 * 0.2;
+                EXPECT_NEAR(read(sim, left ? "left" : "right"), head, 0.06 * head) << rows;
+                EXPECT_EQ(read(sim, left ? "right" : "left"), 0) << rows;
+            }
+        }
+    }
 }
 
 TEST(Gauges, ForcesAddUpToTheImpulsesOfTheBooks)
