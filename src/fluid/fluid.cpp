@@ -327,29 +327,4 @@ real effective_viscosity(const Fluid& fluid)
     return eddies->kappa / unit + worst(fluid, [&](Index i) { return nu[i]; });
 }
 
-void shift(Fluid& fluid, real dt)
-{
-    const auto* shifting = held<Shifting>(fluid.effects);
-    if (shifting == nullptr) {
-        return;
-    }
-    constexpr real most_spacings = 0.05;
-    Store& store = fluid.particles.fluid;
-    const FluidParameters& f = fluid.parameters;
-    const FluidNeighbours& n = fluid.neighbours;
-    const FluidTerms terms = terms_of(fluid, dt);
-    const real fastest = largest_of_all(fluid, top_speed(fluid));
-    const real scale = shifting->coefficient * f.h * fastest * dt;
-    clear(store, StageWrites<stage::Crowding>{});
-    run<pass::CrowdingSums>(fluid, n.fluid_fluid, to_fluid(fluid), terms);
-    run<pass::CrowdingSums>(fluid, n.fluid_solid, to_fluid(fluid), terms);
-    const auto x = store[field::position];
-    const auto S = store[field::shift_gradient];
-    parallel_for(0, store.size(), [&](Index i) {
-        const real way = scale * S[i].norm();
-        const real most = most_spacings * f.spacing;
-        x[i] -= (way > most ? most / way : 1) * scale * S[i];
-    });
-}
-
 } // namespace hyoryu

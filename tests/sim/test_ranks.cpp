@@ -135,6 +135,9 @@ TEST(Ranks, APeriodicDomainHasTheBitsOfOneProcess)
 {
     expect_ranks_agree(ring, {}, {2, 3, 7}, 200);
     expect_ranks_agree(ring, {"fluid.shifting.model=\"sun\""}, {3}, 100);
+    expect_ranks_agree(
+        ring, {"fluid.shifting.model=\"sun\"", "fluid.shifting.continuity=\"conservative\""},
+        {2, 5}, 100);
 }
 
 TEST(Ranks, CutsAtRandomChangeNothing)

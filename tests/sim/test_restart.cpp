@@ -33,13 +33,21 @@ std::vector<Features> combinations()
     return all;
 }
 
+// Both forms of its continuity, by the precision.
+const char* shifting_of(const Features& f)
+{
+    return !f.shifting ? R"({ model = "none" })"
+           : f.exact   ? R"({ model = "sun", continuity = "conservative" })"
+                       : R"({ model = "sun" })";
+}
+
 std::string head_of(const Features& f)
 {
     return fmt::format(
         "dimensions = 2\n[time]\nend = 10.0\n[particles]\nspacing = 0.04\nprecision = \"{}\"\n"
-        "[fluid]\nformulation = \"{}\"\nshifting.model = \"{}\"\n[[fluid.block]]\nshape = \"box\"\n"
+        "[fluid]\nformulation = \"{}\"\nshifting = {}\n[[fluid.block]]\nshape = \"box\"\n"
         "min = [0.0, 0.0, 0.0]\nmax = [{}, 0.0, 0.4]\nvelocity = [0.5, 0.0, 0.0]\n",
-        f.exact ? "double" : "single", f.mps ? "mps" : "sph", f.shifting ? "sun" : "none",
+        f.exact ? "double" : "single", f.mps ? "mps" : "sph", shifting_of(f),
         f.periodic ? 1.2 : 0.6);
 }
 
