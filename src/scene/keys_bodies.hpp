@@ -106,6 +106,25 @@ inline void check_velocities(TableReader& table, const BodySettings& body)
     }
 }
 
+inline void check_locks(TableReader& table, const BodySettings& body)
+{
+    if (body.fixed && std::ranges::find(body.locks, true) != body.locks.end()) {
+        table.error("locks", "has no meaning for a fixed body", "remove it, or `fixed = true`");
+    }
+    for (Index k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        if (body.locks[axis] && body.velocity[k] != 0) {
+            table.error("velocity", fmt::format("is not 0 along {}, which is locked", "xyz"[k]),
+                        "write 0, or remove the lock");
+        }
+        if (body.locks[3 + axis] && body.angular_velocity[k] != 0) {
+            table.error("angular_velocity",
+                        fmt::format("is not 0 about {}, which is locked", "xyz"[k]),
+                        "write 0, or remove the lock");
+        }
+    }
+}
+
 inline void check_mass(TableReader& table, const BodySettings& body)
 {
     const int dimensions = table.reading().dimensions;
@@ -136,9 +155,11 @@ inline void append_copies(TableReader& table, const BodyCopies& copies, BodySett
     if (!table.sound("count") || !table.sound("pitch") || too_many(bodies)) {
         return;
     }
-    auto count = copies.count;
-    if (table.reading().dimensions == 2) {
-        count[1] = 1;
+    const auto& count = copies.count;
+    if (table.reading().dimensions == 2 && count[1] > 1) {
+        table.error("count", fmt::format("{} along y, where two dimensions have one", count[1]),
+                    "write 1 there; copies along z lie above each other");
+        return;
     }
     const std::int64_t total = count[0] * count[1] * count[2];
     if (total > most_bodies || total * triangle_count(body.shape) > most_copied_triangles) {
@@ -264,6 +285,7 @@ void keys_of(auto& keys, Is<BodySettings> auto& body, auto& scene)
     keys.flags("locks", body.locks, {"x", "y", "z", "rx", "ry", "rz"},
                "World axes along which the body cannot move (x, y, z) or about which it cannot "
                "rotate (rx, ry, rz).");
+    keys.rule(check_locks, body);
     std::optional<BodyCopies> copies;
     keys.table("copies",
                "A regular array of equal bodies named NAME.1, NAME.2 ..., numbered along x first.",

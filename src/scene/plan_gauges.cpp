@@ -97,8 +97,27 @@ bool has_place(const Gauge& gauge)
            gauge.type == GaugeType::velocity;
 }
 
+// Whether all corners of the domain are on one side of the plane of a flux gauge.
+bool misses(const Gauge& gauge, const Bounds& domain)
+{
+    double low = infinity;
+    double high = -infinity;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p((corner & 1) != 0 ? domain.max.x() : domain.min.x(),
+                     (corner & 2) != 0 ? domain.max.y() : domain.min.y(),
+                     (corner & 4) != 0 ? domain.max.z() : domain.min.z());
+        const double side = (p - gauge.at).dot(gauge.normal);
+        low = std::min(low, side);
+        high = std::max(high, side);
+    }
+    return low > 0 || high < 0;
+}
+
 bool outside(const Scene& scene, const Gauge& gauge, const Bounds& domain)
 {
+    if (gauge.type == GaugeType::flux) {
+        return misses(gauge, domain);
+    }
     const auto beyond = [&](int axis) {
         const bool counts = !(axis == 1 && scene.dimensions == 2) &&
                             !(axis == 2 && gauge.type == GaugeType::elevation);
@@ -170,6 +189,32 @@ void warn_about_volume(const Scene& scene, const PlanFacts& facts, const Gauge& 
     }
 }
 
+// The kernel of a point near a thin wall reaches the water on its other side; a face does not.
+void warn_about_other_sides(const Scene& scene, const Gauge& gauge, const std::string& key,
+                            Plan& plan)
+{
+    if (!scene.fluid || gauge.type == GaugeType::elevation || gauge.area > 0) {
+        return;
+    }
+    const double support = 2 * scene.fluid->smoothing_ratio * scene.spacing;
+    for (const Wall& wall : scene.walls) {
+        const double distance = std::max(0.0, -depth_behind(wall, gauge.at, scene.dimensions));
+        const double thin = box_thickness(wall, scene.dimensions);
+        if (distance + thin < support * (1 - 1e-9)) {
+            Diagnostic note = diagnostic_without_line(
+                scene, gauge.place, key,
+                fmt::format(
+                    "the gauge \"{}\" also reads water behind the wall \"{}\", which is {:.3g} "
+                    "m thick and {:.3g} m away: the kernel reaches {:.3g} m",
+                    gauge.name, wall.name, thin, distance, support),
+                "move the gauge away from the wall; for the pressure on the wall give `normal` and "
+                "`area`");
+            note.severity = Diagnostic::Severity::warning;
+            plan.warnings.push_back(std::move(note));
+        }
+    }
+}
+
 } // namespace
 
 void list_gauges(const Scene& scene, Plan& plan)
@@ -196,7 +241,7 @@ void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
         if (gauge.type == GaugeType::force) {
             warn_about_volume(scene, facts, gauge, fmt::format("gauge[{}].on", k), plan);
         }
-        if (!has_place(gauge)) {
+        if (!has_place(gauge) && gauge.type != GaugeType::flux) {
             continue;
         }
         if (outside(scene, gauge, facts.domain)) {
@@ -207,6 +252,10 @@ void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
                 "no fluid can reach it"));
             continue;
         }
+        if (gauge.type == GaugeType::flux) {
+            continue;
+        }
+        warn_about_other_sides(scene, gauge, key, plan);
         // A sensor flush with a wall is placed correctly; one deeper inside than the kernel support
         // is not.
         for (const Wall& wall : scene.walls) {

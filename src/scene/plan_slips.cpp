@@ -2,6 +2,7 @@
 #include "hyoryu/scene/plan_slips.hpp"
 
 #include "plan_warnings.hpp"
+#include "walls.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/shapes.hpp"
@@ -198,17 +199,66 @@ void look_at_meshes(const Scene& scene, PlanWarnings& slips)
     }
 }
 
+// Share of the cells of a body of particles that a second cell covers.
+double doubled_share(const ParticleShape& shape)
+{
+    std::vector<Vec3> points = shape.points;
+    std::ranges::sort(points, {}, [](const Vec3& p) { return p.x(); });
+    const double edge = shape.spacing;
+    double doubled = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t j = i + 1; j < points.size() && points[j].x() - points[i].x() < edge;
+             ++j) {
+            const Vec3 common = (edge - (points[j] - points[i]).cwiseAbs().array()).matrix();
+            doubled += common.minCoeff() > 0 ? common.prod() : 0;
+        }
+    }
+    return doubled / (static_cast<double>(points.size()) * edge * edge * edge);
+}
+
+void look_for_doubled_cells(const Scene& scene, PlanWarnings& slips)
+{
+    constexpr double noteworthy = 0.01;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        const auto* shape = std::get_if<ParticleShape>(&body.shape);
+        if (shape == nullptr || (b > 0 && body.place.line == scene.bodies[b - 1].place.line)) {
+            continue;
+        }
+        if (const double share = doubled_share(*shape); share > noteworthy) {
+            slips.add(
+                body.place, fmt::format("body[{}].spacing", b),
+                fmt::format("the cells of the particles of body \"{}\", cubes with an edge of "
+                            "{:.3g} m, overlap by {:.0f} % of their volume: volume, mass and "
+                            "draft count this part twice",
+                            body.name, shape->spacing, 100 * share),
+                "set `spacing` to the distance of the particles in the file");
+        }
+    }
+}
+
+void look_for_coarse_bodies(const Scene& scene, PlanWarnings& slips)
+{
+    for (std::size_t b = 0; scene.fluid && b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        const bool copy = b > 0 && body.place.line == scene.bodies[b - 1].place.line;
+        if (!copy && body.spacing > scene.spacing * (1 + 1e-9)) {
+            slips.add(
+                body.place, fmt::format("body[{}].spacing", b),
+                fmt::format("the particles of body \"{}\" are {:.3g} m apart, those of the fluid "
+                            "{:.3g} m: the body displaces too little water and floats too "
+                            "deep",
+                            body.name, body.spacing, scene.spacing),
+                "omit `spacing`, or give at most that of the fluid");
+        }
+    }
+}
+
 void look_for_thin_walls(const Scene& scene, PlanWarnings& slips)
 {
     for (std::size_t w = 0; scene.fluid && w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
-        const auto* solid = std::get_if<SolidWall>(&wall.geometry);
-        const auto* box = solid != nullptr ? std::get_if<BoxShape>(&solid->shape) : nullptr;
-        if (box == nullptr) {
-            continue;
-        }
-        const double thin =
-            scene.dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
+        const double thin = box_thickness(wall, scene.dimensions);
         if (thin < scene.spacing * (1 - 1e-9)) {
             slips.add(wall.place, fmt::format("wall[{}]", w),
                       fmt::format("wall \"{}\" is {:.3g} m thick, less than the spacing of {:.3g} "
@@ -329,6 +379,8 @@ void warn_about_slips(const Scene& scene, Plan& plan)
     look_at_gravity(scene, slips);
     look_for_bodies_far_away(scene, slips);
     look_at_meshes(scene, slips);
+    look_for_doubled_cells(scene, slips);
+    look_for_coarse_bodies(scene, slips);
     look_for_thin_walls(scene, slips);
     look_below_terrain(scene, slips);
     const std::string cut = cut_by_domain(scene);

@@ -118,6 +118,16 @@ WallMaker wall_maker(const Scene& scene, const Filling& filling,
         };
 }
 
+double box_thickness(const Wall& wall, int dimensions)
+{
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    const auto* box = solid != nullptr ? std::get_if<BoxShape>(&solid->shape) : nullptr;
+    if (box == nullptr) {
+        return infinity;
+    }
+    return dimensions == 2 ? std::min(box->size.x(), box->size.z()) : box->size.minCoeff();
+}
+
 double depth_behind(const Wall& wall, const Vec3& point, int dimensions)
 {
     return std::visit([&](const auto& g) { return depth_in(g, point, dimensions); }, wall.geometry);

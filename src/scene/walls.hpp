@@ -17,6 +17,9 @@ double depth_behind(const Wall& wall, const Vec3& point, int dimensions);
 double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& point,
                     int dimensions);
 
+/// The least edge of a wall that is a box [m]; infinite for other walls.
+double box_thickness(const Wall& wall, int dimensions);
+
 /// Whether a place is within the periods: beyond them there are images of the particles in them.
 bool in_period(const Scene& scene, const Vec3& point);
 

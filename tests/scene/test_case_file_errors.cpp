@@ -142,6 +142,12 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "body[0].velocity", "fixed body", ""},
         {sphere + "radius = 1\nmass = 1\nlocks = [\"q\"]\n", 6, 10, 3, "body[0].locks[0]",
          "expected one of \"x\"", ""},
+        {sphere + "radius = 1\nmass = 1\nfixed = true\nlocks = [\"z\"]\n", 7, 9, 5, "body[0].locks",
+         "fixed body", ""},
+        {sphere + "radius = 1\nmass = 1\nvelocity = [0, 0, 1]\nlocks = [\"z\"]\n", 6, 12, 9,
+         "body[0].velocity", "is not 0 along z, which is locked", ""},
+        {sphere + "radius = 1\nmass = 1\nangular_velocity = [0, 2, 0]\nlocks = [\"ry\"]\n", 6, 20,
+         9, "body[0].angular_velocity", "is not 0 about y, which is locked", ""},
         {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[9999,9999,9999]\npitch=[1,1,1]\n", 7, 7,
          16, "body[0].copies.count", "too many", ""},
         {sphere + "radius=1\nmass=1\n[body.copies]\ncount=[2,1,1.5]\npitch=[1,1,1]\n", 7, 12, 3,
@@ -184,6 +190,12 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
         {"[[fluid.block]]\nshape = \"sphere\"\nradius = 1\nposition = [0, 0, 0]\n"
          "pressure_field = \"2*\"\n",
          5, 18, 4, "fluid.block[1].pressure_field", "is not an expression", ""},
+        {"[[fluid.block]]\nshape = \"sphere\"\nradius = 1\nposition = [0, 0, 0]\n"
+         "pressure_field = \"0,5\"\n",
+         5, 18, 5, "fluid.block[1].pressure_field", "the decimal sign is a point", ""},
+        {"[[fluid.block]]\nshape = \"sphere\"\nradius = 1\nposition = [0, 0, 0]\n"
+         "pressure_field = \"z = 5\"\n",
+         5, 18, 7, "fluid.block[1].pressure_field", "equality is written ==", ""},
         {"[[gauge]]\ntype = \"front\"\non = \"w\"\n", 3, 1, 2, "gauge[0].on",
          "has no meaning with type = \"front\"", ""},
         {"[fluid.viscosity]\nmodel = \"laminar\"\nalpha = 0.1\n", 3, 1, 5, "fluid.viscosity.alpha",

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the plan warns of, and what it has no reason to.
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
+
+#include "own_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -111,6 +114,74 @@ TEST(PlanWarnings, OfWhatIsProbablyASlip)
             EXPECT_TRUE(warns(text, slip.words)) << slip.words;
         }
     }
+}
+
+// A body of three by three by three particles, farther apart or nearer than their cells.
+TEST(PlanWarnings, OfParticlesThatOverlapOrAreCoarserThanTheFluid)
+{
+    const OwnFolder folder;
+    for (const double distance : {0.04, 0.09, 0.1, 0.13}) {
+        std::string points;
+        for (int k = 0; k < 27; ++k) {
+            const int row = k / 3;
+            points +=
+                fmt::format("{} {} {}\n", k % 3 * distance, row % 3 * distance, row / 3 * distance);
+        }
+        const std::filesystem::path file = folder.put("points.txt", points);
+        const std::string text = fmt::format(
+            "[time]\nend = 1.0\n[particles]\nspacing = 0.1\n[fluid]\n[[fluid.block]]\n"
+            "shape = \"box\"\nmin = [2, 0, 0]\nmax = [3, 1, 0.5]\n[[wall]]\nshape = \"plane\"\n"
+            "[[body]]\nname = \"b\"\nshape = \"particles\"\nfile = \"{}\"\n"
+            "density = 500\nposition = [0, 0, 1]\n",
+            file.string());
+        EXPECT_EQ(warns(text, "of their volume: volume, mass and draft"), distance < 0.1);
+        EXPECT_FALSE(warns(text, "floats too deep"));
+        EXPECT_TRUE(warns(text + "spacing = 0.13\n", "floats too deep"));
+    }
+}
+
+// A point gauge reaches through a wall that is thinner than the kernel; a face does not.
+TEST(PlanWarnings, OfGaugesThatReadTheOtherSideOfAWall)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> of_spacings(0.1, 4);
+    for (int n = 0; n < 40; ++n) {
+        const double dp = n % 2 == 0 ? 0.1 : 0.04;
+        const double thick = of_spacings(random) * dp;
+        const double away = of_spacings(random) * dp;
+        const std::string text = fmt::format(
+            "[time]\nend = 1.0\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\n"
+            "shape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 0.5]\n[[wall]]\nshape = \"basin\"\n"
+            "min = [0, 0, 0]\nmax = [3, 1, 1]\nopen = [\"+z\"]\n[[wall]]\nname = \"sheet\"\n"
+            "shape = \"box\"\nmin = [1, 0, 0]\nmax = [{}, 1, 1]\n[[gauge]]\n"
+            "type = \"pressure\"\nat = [{}, 0.5, 0.2]\n",
+            dp, 1 + thick, 1 + thick + away);
+        const std::string words = "also reads water behind the wall \"sheet\"";
+        EXPECT_EQ(warns(text, words), thick + away < 3 * dp) << text;
+        EXPECT_FALSE(warns(text + "normal = [1, 0, 0]\narea = 0.01\n", words));
+    }
+}
+
+TEST(PlanErrors, AFluxThroughAPlaneOutsideTheDomain)
+{
+    const auto faults = [](const std::string& at, const std::string& normal) {
+        const std::string text =
+            "[time]\nend = 1.0\n[particles]\nspacing = 0.1\n[domain]\nmin = [0, 0, 0]\n"
+            "max = [3, 1, 2]\n[fluid]\n[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
+            "max = [1, 1, 0.5]\n[[gauge]]\ntype = \"flux\"\nat = " +
+            at + "\nnormal = " + normal + "\n";
+        const Scene scene = parse_case(text, "case.toml");
+        try {
+            make_plan(scene, fill(scene));
+        } catch (const CaseError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(faults("[2.9, 9, 9]", "[1, 0, 0]"), "") << "any point of the plane";
+    EXPECT_EQ(faults("[4, 0, 0]", "[1, 0, 1]"), "") << "askew through a corner";
+    EXPECT_NE(faults("[3.1, 0.5, 0]", "[-2, 0, 0]").find("outside the domain"), std::string::npos);
+    EXPECT_NE(faults("[6, 0, 0]", "[1, 0, 1]").find("outside the domain"), std::string::npos);
 }
 
 // Water over a slab that lies askew to the lattice, a square of a side.
