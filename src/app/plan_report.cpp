@@ -315,17 +315,16 @@ std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<
     }
     if (!plan.fields.empty()) {
         text += "  fields\n";
-        std::size_t of_all = 0;
-        std::size_t of_fluid = 0;
+        std::size_t of_fluid = 0, of_solids = 0;
         for (const auto& field : plan.fields) {
-            text +=
-                fmt::format("    {:<22} {:<8} {:>3} B{}\n", field.name, field.unit,
-                            field.bytes_per_particle, field.of_fluid_alone ? "  fluid only" : "");
-            (field.of_fluid_alone ? of_fluid : of_all) += field.bytes_per_particle;
+            text += fmt::format("    {:<22} {:<8} {:>3} B{}\n", field.name, field.unit,
+                                field.bytes_per_particle, field.holders());
+            of_fluid += field.of_solids_alone ? 0 : field.bytes_per_particle;
+            of_solids += field.of_fluid_alone ? 0 : field.bytes_per_particle;
         }
         text +=
             fmt::format("    {:<22} {:<8} {:>3} B per fluid particle, {} B per solid particle\n",
-                        "together", "", of_all + of_fluid, of_all);
+                        "together", "", of_fluid, of_solids);
     }
     return text + material_lines(scene, plan) + gauge_lines(scene, plan) + open_lines(plan) +
            scale_lines(plan) + size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
@@ -353,6 +352,7 @@ ordered_json fields_json(const Plan& plan)
                          {"unit", field.unit},
                          {"bytes_per_particle", field.bytes_per_particle},
                          {"of_fluid_alone", field.of_fluid_alone},
+                         {"of_solids_alone", field.of_solids_alone},
                          {"bytes", field.bytes()}});
     }
     return array;

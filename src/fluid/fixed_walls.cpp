@@ -184,6 +184,7 @@ void gather_rows(FixedWalls& walls, Store& store, std::span<std::byte> room)
         x[row] = point.place;
         store.id()[row] = walls.first_number + made[at(k)];
         store.owner()[row] = point.owner;
+        store[field::displaced_mass][row] = point.displaced_mass;
         if (store.has(field::depth)) {
             store[field::depth][row] = point.depth;
         }

@@ -26,11 +26,6 @@ bool sticks_to_solids(const Fluid& fluid)
     return held<NoSlip>(fluid.effects) != nullptr;
 }
 
-real stand_in_mass(const Fluid& fluid, std::int32_t owner)
-{
-    return owner >= 0 ? fluid.body_particle_mass[at(owner)] : mass_of_cube(fluid.parameters);
-}
-
 namespace {
 
 // Reports an effect that the scene requests but this build does not contain.
@@ -94,8 +89,11 @@ void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_coun
                 Fields<Position, Velocity, Density, DensityRate, Volume, Pressure, Force>{});
     for_each_effect(fluid.effects, [&](const auto& effect) { add_columns_of(fluid, effect); });
     if (has_solids(fluid)) {
-        add_columns(fluid.particles,
-                    Union<WallExtrapolation::Writes, SolidContinuity::Writes, Fields<Gap>>{});
+        add_columns(fluid.particles, Union<WallExtrapolation::Writes, SolidContinuity::Writes,
+                                           Fields<Gap, DisplacedMass>>{});
+        for_solids(fluid.particles, [&](Store& store) {
+            std::ranges::fill(store[field::displaced_mass], mass_of_cube(fluid.parameters));
+        });
     }
 }
 
@@ -167,13 +165,14 @@ void extrapolate_pressure(Fluid& fluid)
     run<pass::Extrapolation>(fluid, n.wall_fluid, to_walls(fluid), terms);
     run<pass::Extrapolation>(fluid, n.body_fluid, to_bodies(fluid), terms);
     for_wet_solids(fluid, [&](Store& solids) {
-        return [&fluid, eos = fluid.parameters.eos, p_w = solids[field::pressure],
-                rho_w = solids[field::density], V_w = solids[field::volume],
-                shepard = solids[field::shepard_sum], owner = solids.owner()](Index i) {
-            p_w[i] = shepard[i] > 0 ? positive(p_w[i] / shepard[i]) : 0;
-            rho_w[i] = eos.density(p_w[i]);
-            V_w[i] = stand_in_mass(fluid, owner[i]) / rho_w[i];
-        };
+        return
+            [eos = fluid.parameters.eos, p_w = solids[field::pressure],
+             rho_w = solids[field::density], V_w = solids[field::volume],
+             shepard = solids[field::shepard_sum], mass = solids[field::displaced_mass]](Index i) {
+                p_w[i] = shepard[i] > 0 ? positive(p_w[i] / shepard[i]) : 0;
+                rho_w[i] = eos.density(p_w[i]);
+                V_w[i] = mass[i] / rho_w[i];
+            };
     });
     send_pressures(fluid);
     load_own_solids(fluid, Fields<Volume, Pressure>{});

@@ -31,14 +31,17 @@ bool stale(const Fluid& fluid, const Displacement& motion)
 // step update those near fluid.
 void dry(Fluid& fluid)
 {
+    if (!has_solids(fluid)) {
+        return;
+    }
     for_solids(fluid.particles, [&](Store& store) {
         clear(store, Fields<Pressure, Force, ShepardSum>{});
         const auto rho = store[field::density];
         const auto V = store[field::volume];
-        const auto owner = store.owner();
+        const auto mass = store[field::displaced_mass];
         parallel_for(0, store.size(), [&](Index i) {
             rho[i] = fluid.parameters.eos.rho0;
-            V[i] = stand_in_mass(fluid, owner[i]) / rho[i];
+            V[i] = mass[i] / rho[i];
         });
     });
 }

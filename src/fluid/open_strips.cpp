@@ -87,7 +87,7 @@ void add_displaced(const Fluid& fluid, const Carpet& carpet, std::vector<StripSu
             const real surface = side.station_strip(c) + carpet.stations[at(c)].depth;
             const real wet = std::clamp((surface - x.z()) / dp + 0.5, real(0), real(1));
             sums[at(c)].displaced +=
-                w * wet * stand_in_mass(fluid, store.owner()[at(row)]) / fluid.parameters.eos.rho0;
+                w * wet * store[field::displaced_mass][row] / fluid.parameters.eos.rho0;
         }
     }
 }

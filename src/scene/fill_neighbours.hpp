@@ -10,8 +10,10 @@ namespace hyoryu {
 /// in the destructor; keeps copies of wall particles apart.
 class FillNeighbours {
 public:
-    /// `reach`: distance within which particles interact [m].
-    FillNeighbours(const FillRegion& region, double reach, Filling& filling)
+    /// `reach`: distance within which particles interact [m]. `cubes`: volumes of the cells of the
+    /// walls.
+    FillNeighbours(const FillRegion& region, double reach, std::span<const float> cubes,
+                   Filling& filling)
         : own_(filling.fluid.size()), filling_(filling), halo_(region, filling.fluid, reach)
     {
         append(filling.fluid);
@@ -20,6 +22,7 @@ public:
         filling.fluid_number = joined(filling.fluid_number);
         const FillHalo of_walls(region, filling.wall, reach);
         walls_ = of_walls.fetch(std::span<const Vec3>(filling.wall));
+        wall_cubes_ = of_walls.fetch(cubes);
     }
     ~FillNeighbours()
     {
@@ -33,6 +36,7 @@ public:
 
     std::size_t own() const { return own_; }
     const std::vector<Vec3>& walls() const { return walls_; }
+    const std::vector<float>& wall_cubes() const { return wall_cubes_; }
     /// The values of this process, followed by those of the copies.
     template <class T>
     std::vector<T> joined(std::vector<T> own) const
@@ -55,7 +59,8 @@ private:
     std::size_t own_;
     Filling& filling_;
     FillHalo halo_;
-    std::vector<Vec3> walls_; // of other processes [m]
+    std::vector<Vec3> walls_;       // of other processes [m]
+    std::vector<float> wall_cubes_; // volumes of their cells [cubes of the spacing]
 };
 
 } // namespace hyoryu

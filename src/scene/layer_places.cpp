@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "layer_places.hpp"
 
+#include "crowd.hpp"
+#include "way_out.hpp"
+
 #include "hyoryu/scene/fill.hpp"
 
 #include <algorithm>
@@ -14,6 +17,14 @@ namespace {
 std::array<Index, 3> cell(Index k, const std::array<Index, 3>& count)
 {
     return {k % count[0], k / count[0] % count[1], k / count[0] / count[1]};
+}
+
+// A volume in cubes of the spacing; that of a lattice that fits is one cube but for rounding.
+double in_cubes(double volume, const LayerLattice& lattice)
+{
+    constexpr double rounding = 1e-9;
+    const double cubes = volume / std::pow(lattice.spacing, lattice.dimensions);
+    return std::abs(cubes - 1) < rounding ? 1 : cubes;
 }
 
 PlanePlaces places_of(const PlaneWall& plane, const LayerLattice& lattice)
@@ -56,13 +67,26 @@ BasinPlaces places_of(const BasinWall& basin, const LayerLattice& lattice)
         places.cavity[1] = 1;
         places.layers[1] = 0;
     }
+    double volume = 1;
+    for (int a = 0; a < 3; ++a) {
+        const bool is_across = lattice.dimensions == 2 && a == 1;
+        volume *= is_across ? 1 : size[a] / static_cast<double>(places.cavity[at(a)]);
+    }
+    places.cubes = in_cubes(volume, lattice);
     return places;
+}
+
+// Volume of each of the cells that a shape consists of.
+double cubes_of(const Shape& shape, Index cells, const LayerLattice& lattice)
+{
+    return in_cubes(volume(shape, lattice.dimensions) / static_cast<double>(cells), lattice);
 }
 
 RoundPlaces places_of(const RoundWall& round, const LayerLattice& lattice)
 {
-    return {round, shape_points(SphereShape{round.radius + lattice.depth()}, lattice.spacing,
-                                lattice.dimensions)};
+    const SphereShape ball{round.radius + lattice.depth()};
+    const ShapePoints points = shape_points(ball, lattice.spacing, lattice.dimensions);
+    return {round, points, cubes_of(ball, number_of(points), lattice)};
 }
 
 LayerPlaces places_of(const SolidWall& solid, const SolidSurface& surface,
@@ -70,17 +94,45 @@ LayerPlaces places_of(const SolidWall& solid, const SolidSurface& surface,
 {
     const auto of_shape = [&]<class Own>(const Own& shape) -> LayerPlaces {
         if constexpr (std::same_as<Own, MeshShape>) {
-            return MeshPlaces{&solid, &std::get<TriangleTree>(surface.shape),
-                              mesh_lattice(shape, lattice.spacing), lattice.spacing,
-                              lattice.depth()};
+            const MeshLattice cells = mesh_lattice(shape, lattice.spacing);
+            return MeshPlaces{&solid,          &std::get<TriangleTree>(surface.shape),
+                              cells,           in_cubes(cells.cell().prod(), lattice),
+                              lattice.spacing, lattice.depth()};
         } else if constexpr (std::same_as<Own, ParticleShape>) {
-            return CubePlaces{&solid, &shape.points, lattice.depth(), lattice.dimensions};
+            // Finer cubes are not all taken.
+            const double edge =
+                shape.spacing < Crowd::distance * lattice.spacing ? lattice.spacing : shape.spacing;
+            return CubePlaces{&solid, &shape.points,
+                              in_cubes(std::pow(edge, lattice.dimensions), lattice),
+                              lattice.depth(), lattice.dimensions};
         } else {
-            return ObstaclePlaces{&solid, shape_points(shape, lattice.spacing, lattice.dimensions),
+            const ShapePoints points = shape_points(shape, lattice.spacing, lattice.dimensions);
+            return ObstaclePlaces{&solid, points, cubes_of(shape, number_of(points), lattice),
                                   lattice.depth(), lattice.dimensions};
         }
     };
     return std::visit(of_shape, solid.shape);
+}
+
+// A surface above or below a lattice point of a mesh.
+struct RowSurface {
+    double distance = infinity; // along the axis [m]
+    Index rows = 0;             // between it and the point
+    double weight = 0;          // 1 if it is about perpendicular to the axis, 0 if it is not
+};
+
+constexpr double steep_cosine = 0.75, flat_cosine = 0.85; // cosines of 41 and 32 degrees
+constexpr double grazing = 1e-6; // depth of points that lie on the surface [spacings]
+
+RowSurface row_surface(const WayOut& out, int axis, double pitch, double spacing)
+{
+    if (!(out.distance < infinity)) {
+        return {};
+    }
+    const double rows = std::floor((out.distance - grazing * spacing) / pitch);
+    return {out.distance, std::max<Index>(0, static_cast<Index>(rows)),
+            std::clamp((std::abs(out.normal[axis]) - steep_cosine) / (flat_cosine - steep_cosine),
+                       0.0, 1.0)};
 }
 
 Vec3 in_world(const SolidWall& solid, const Vec3& own)
@@ -95,7 +147,7 @@ LayerLattice layer_lattice(const Scene& scene, const Bounds& domain)
     return {scene.spacing, wall_layers(scene.fluid->smoothing_ratio), scene.dimensions, domain};
 }
 
-std::optional<Vec3> PlanePlaces::place(Index k) const
+std::optional<WallCell> PlanePlaces::place(Index k) const
 {
     const auto half = [&](Index index) { return (static_cast<double>(index) + 0.5) * spacing; };
     const std::array<Index, 3> c = cell(k, count);
@@ -106,7 +158,7 @@ std::optional<Vec3> PlanePlaces::place(Index k) const
     }
     const Vec3 inside = p.cwiseMax(box.min).cwiseMin(box.max);
     const bool in_box = dimensions == 2 ? inside.x() == p.x() && inside.z() == p.z() : inside == p;
-    return in_box ? std::optional(p) : std::nullopt;
+    return in_box ? std::optional(WallCell{p}) : std::nullopt;
 }
 
 Index BasinPlaces::number() const
@@ -118,7 +170,7 @@ Index BasinPlaces::number() const
     return product;
 }
 
-std::optional<Vec3> BasinPlaces::place(Index k) const
+std::optional<WallCell> BasinPlaces::place(Index k) const
 {
     const std::array<Index, 3> c =
         cell(k, {cavity[0] + 2 * layers[0], cavity[1] + 2 * layers[1], cavity[2] + 2 * layers[2]});
@@ -139,41 +191,85 @@ std::optional<Vec3> BasinPlaces::place(Index k) const
         const double step = (basin.max - basin.min)[axis] / static_cast<double>(cavity[a]);
         p[axis] = basin.min[axis] + (static_cast<double>(own) + 0.5) * step;
     }
-    return outside ? std::optional(p) : std::nullopt;
+    return outside ? std::optional(WallCell{p, cubes}) : std::nullopt;
 }
 
-std::optional<Vec3> RoundPlaces::place(Index k) const
+std::optional<WallCell> RoundPlaces::place(Index k) const
 {
     const Vec3 p = point_of(points, k).place;
-    return p.norm() > round.radius ? std::optional(Vec3(round.centre + p)) : std::nullopt;
+    return p.norm() > round.radius ? std::optional(WallCell{round.centre + p, cubes})
+                                   : std::nullopt;
 }
 
-std::optional<Vec3> ObstaclePlaces::place(Index k) const
+std::optional<WallCell> ObstaclePlaces::place(Index k) const
 {
     const Vec3 p = point_of(points, k).place;
     const bool is_core =
         signed_distance({.shape = &solid->shape, .dimensions = dimensions}, p) <= -depth;
-    return is_core ? std::nullopt : std::optional(in_world(*solid, p));
+    return is_core ? std::nullopt : std::optional(WallCell{in_world(*solid, p), cubes});
 }
 
-std::optional<Vec3> CubePlaces::place(Index k) const
+std::optional<WallCell> CubePlaces::place(Index k) const
 {
     const Vec3 p = (*points)[static_cast<std::size_t>(k)];
     const bool is_core =
         signed_distance({.shape = &solid->shape, .dimensions = dimensions}, p) <= -depth;
-    return is_core ? std::nullopt : std::optional(in_world(*solid, p));
+    return is_core ? std::nullopt : std::optional(WallCell{in_world(*solid, p), cubes});
 }
 
-std::optional<Vec3> MeshPlaces::place(Index k) const
+std::optional<WallCell> MeshPlaces::place(Index k) const
 {
     const Vec3 p = lattice.place(k);
-    return place_of({k, p, nearest_place(*tree, p, infinity)});
+    return cell_of({k, p, nearest_place(*tree, p, infinity)});
 }
 
-Vec3 MeshPlaces::place_of(const MeshPoint& point) const
+MeshPlaces::InRow MeshPlaces::in_row(int axis, const Vec3& point) const
 {
-    const double lacking = point.nearest.distance + spacing / 2;
-    return in_world(*solid, point.place - std::max(lacking, 0.0) * point.nearest.normal);
+    const double pitch = lattice.cell()[axis];
+    const auto surface = [&](int sense) {
+        return row_surface(way_out(*tree, point, {axis, sense}, 2 * depth), axis, pitch, spacing);
+    };
+    const RowSurface below = surface(-1);
+    const RowSurface above = surface(1);
+    const double thickness = below.distance + above.distance;
+    if (const double weight = std::min(below.weight, above.weight);
+        weight > 0 && thickness < 2 * depth) {
+        const auto most = static_cast<Index>(thickness / (Crowd::distance * spacing));
+        const Index count = std::clamp<Index>(most, 1, below.rows + above.rows + 1);
+        const double own = thickness / static_cast<double>(count);
+        const double place = (static_cast<double>(std::min(below.rows, count - 1)) + 0.5) * own;
+        return {weight * (place - below.distance), pitch + weight * (own - pitch), weight};
+    }
+    const bool is_below =
+        below.weight > 0 && !(above.weight > 0 && above.distance < below.distance);
+    const RowSurface& nearest = is_below ? below : above;
+    if (nearest.weight == 0) {
+        return {0, pitch, 0};
+    }
+    const double place = (static_cast<double>(nearest.rows) + 0.5) * pitch;
+    return {(is_below ? 1 : -1) * nearest.weight * (place - nearest.distance), pitch,
+            nearest.weight};
+}
+
+std::optional<WallCell> MeshPlaces::cell_of(const MeshPoint& point) const
+{
+    if (std::abs(point.nearest.distance) < grazing * spacing && point.number < lattice.number()) {
+        return std::nullopt;
+    }
+    WallCell cell{point.place, cubes};
+    double least = spacing / 2;
+    for (int axis = 0; axis < 3; ++axis) {
+        const InRow row = in_row(axis, point.place);
+        const double pitch = lattice.cell()[axis];
+        cell.place[axis] += row.shift;
+        cell.cubes *= row.pitch / pitch;
+        least = row.weight < 1 ? least : std::min(least, flat_cosine / 2 * row.pitch);
+    }
+    const NearestPlace nearest =
+        cell.place == point.place ? point.nearest : nearest_place(*tree, cell.place, infinity);
+    const double lacking = nearest.distance + least;
+    cell.place = in_world(*solid, cell.place - std::max(lacking, 0.0) * nearest.normal);
+    return cell;
 }
 
 LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface, const LayerLattice& lattice)
@@ -188,6 +284,20 @@ LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface, const La
         return places_of(*basin, lattice);
     }
     return places_of(std::get<RoundWall>(wall.geometry), lattice);
+}
+
+double cubes_at(const LayerPlaces& places, Index number)
+{
+    const auto cubes = [&]<class Own>(const Own& own) -> double {
+        if constexpr (std::same_as<Own, MeshPlaces>) {
+            return own.place(number).value().cubes;
+        } else if constexpr (std::same_as<Own, PlanePlaces>) {
+            return 1;
+        } else {
+            return own.cubes;
+        }
+    };
+    return std::visit(cubes, places);
 }
 
 } // namespace hyoryu

@@ -25,6 +25,12 @@ struct LayerLattice {
 
 LayerLattice layer_lattice(const Scene& scene, const Bounds& domain);
 
+/// Where a layer may have a particle.
+struct WallCell {
+    Vec3 place{0, 0, 0}; // [m]
+    double cubes = 1;    // volume of its cell [cubes of the spacing]
+};
+
 /// Layers behind a plane, on a lattice that is aligned with it and covers the domain. Its indices
 /// count from the origin, so that parallel walls share one lattice.
 struct PlanePlaces {
@@ -37,7 +43,7 @@ struct PlanePlaces {
     Bounds box; // of the domain with a margin for the layers
 
     Index number() const { return count[0] * count[1] * count[2]; }
-    std::optional<Vec3> place(Index k) const;
+    std::optional<WallCell> place(Index k) const;
 };
 
 /// The cells outside a basin whose cavity whole cells fill.
@@ -45,53 +51,72 @@ struct BasinPlaces {
     BasinWall basin;
     std::array<Index, 3> cavity{}; // cells of it
     std::array<Index, 3> layers{}; // on each side of it
+    double cubes = 1;              // volume of a cell
     int dimensions = 3;
 
     Index number() const;
-    std::optional<Vec3> place(Index k) const;
+    std::optional<WallCell> place(Index k) const;
 };
 
 /// The outermost shells of a ball, which are behind the surface of a smaller one.
 struct RoundPlaces {
     RoundWall round;
     ShapePoints points;
+    double cubes = 1; // volume of a cell
 
     Index number() const { return number_of(points); }
-    std::optional<Vec3> place(Index k) const;
+    std::optional<WallCell> place(Index k) const;
 };
 
 /// The particles of a simple obstacle without its core, which is out of reach of the fluid.
 struct ObstaclePlaces {
     const SolidWall* solid = nullptr;
     ShapePoints points;
+    double cubes = 1; // volume of a cell
     double depth = 0; // of the layers [m]
     int dimensions = 3;
 
     Index number() const { return number_of(points); }
-    std::optional<Vec3> place(Index k) const;
+    std::optional<WallCell> place(Index k) const;
 };
 
 /// The same for an obstacle that consists of cubes.
 struct CubePlaces {
     const SolidWall* solid = nullptr;
     const std::vector<Vec3>* points = nullptr;
+    double cubes = 1; // volume of a cell
     double depth = 0; // of the layers [m]
     int dimensions = 3;
 
     Index number() const { return static_cast<Index>(points->size()); }
-    std::optional<Vec3> place(Index k) const;
+    std::optional<WallCell> place(Index k) const;
 };
 
-/// Lattice points inside a mesh, down to the layers. Those that the lattice puts nearer to the
-/// surface than half a spacing move to that depth; otherwise they would crowd the fluid.
+/// Lattice points inside a mesh, down to the layers.
+///
+/// Where the surface is about perpendicular to an axis of the lattice, the points below it move
+/// along this axis so that their cells begin at the surface. On the lattice itself the surface that
+/// the fluid sees would be up to half a spacing too deep. Between two surfaces less than two depths
+/// of the layers apart the cells share the thickness evenly. Elsewhere points nearer to the surface
+/// than half a spacing move to that depth; otherwise they would crowd the fluid.
 struct MeshPlaces {
     const SolidWall* solid = nullptr;
     const TriangleTree* tree = nullptr;
     MeshLattice lattice;
+    double cubes = 1;              // volume of a cell of the lattice
     double spacing = 0, depth = 0; // [m]
 
-    std::optional<Vec3> place(Index k) const;
-    Vec3 place_of(const MeshPoint& point) const;
+    std::optional<WallCell> place(Index k) const;
+    std::optional<WallCell> cell_of(const MeshPoint& point) const;
+
+private:
+    /// A point in a row along an axis.
+    struct InRow {
+        double shift = 0;  // along the axis [m]
+        double pitch = 0;  // of the row [m]
+        double weight = 0; // 1 if the row follows a surface, 0 if it does not
+    };
+    InRow in_row(int axis, const Vec3& point) const;
 };
 
 using LayerPlaces =
@@ -101,6 +126,9 @@ using LayerPlaces =
 LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface,
                          const LayerLattice& lattice);
 
+/// Volume of the cell of a place [cubes of the spacing].
+double cubes_at(const LayerPlaces& places, Index number);
+
 /// Calls put(number, place) for every place in the layers, in the order of numbers. Each of several
 /// processes handles a part of the places.
 void for_each_place(const LayerPlaces& places, Comm* comm, const auto& put)
@@ -108,7 +136,9 @@ void for_each_place(const LayerPlaces& places, Comm* comm, const auto& put)
     if (const auto* mesh = std::get_if<MeshPlaces>(&places)) {
         for (const MeshPoint& point :
              points_within(mesh->lattice, *mesh->tree, mesh->depth, comm)) {
-            put(point.number, mesh->place_of(point));
+            if (const std::optional<WallCell> cell = mesh->cell_of(point)) {
+                put(point.number, cell->place);
+            }
         }
         return;
     }
@@ -116,8 +146,8 @@ void for_each_place(const LayerPlaces& places, Comm* comm, const auto& put)
         if constexpr (!std::same_as<Places, MeshPlaces>) {
             const FillPart part = part_of(own.number(), comm);
             for (Index k = part.first; k < part.last; ++k) {
-                if (const std::optional<Vec3> place = own.place(k)) {
-                    put(k, *place);
+                if (const std::optional<WallCell> place = own.place(k)) {
+                    put(k, place->place);
                 }
             }
         }

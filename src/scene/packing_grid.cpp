@@ -256,8 +256,10 @@ Vec3 pressure_sum(const PackingGrid& fluid, const PackingGrid* solids,
         return own + positive(its);
     };
     add(fluid, pressure, place, scale * pressure.volume, of_fluid, force);
-    const auto of_solids = [&](Index, const Vec<Lanes>& r) {
-        return own + positive(Lanes(depth) - dot(pressure.down, r));
+    const auto of_solids = [&](Index k, const Vec<Lanes>& r) {
+        Lanes cubes;
+        std::memcpy(&cubes.value, &solids->cubes[at(k)], sizeof cubes.value);
+        return cubes * (own + positive(Lanes(depth) - dot(pressure.down, r)));
     };
     if (solids != nullptr) {
         add(*solids, pressure, place, scale, of_solids, force);

@@ -40,6 +40,7 @@ struct PackingGrid {
     std::vector<std::int32_t> order;     // rows of the points, in the order of the cells
     std::vector<std::int32_t> x, y, z; // of the points in that order, then a pack of zeros [units]
     std::vector<float> depth;          // of fluid, in that order [spacings]; else empty
+    std::vector<float> cubes;          // of solids, in that order: volume of the cell [spacings^d]
 };
 
 /// Sorts places into cells for searches within `reach` [units]. The order within a cell is that of
@@ -66,9 +67,9 @@ struct PackingPressure {
 };
 
 /// sum V_j (d_i + d_j) R F r over the fluid and the solids (null: none near) about a place, r = x_i
-/// - x_j, in weights of a particle; R = max(1, apart/|r|). A solid has the volume of a cube and the
-/// depth that i sees there, d_i - r . down. Depths below zero count as zero. The sum is of whole
-/// numbers: the same in any order.
+/// - x_j, in weights of a particle; R = max(1, apart/|r|). A solid has the depth that i sees there,
+/// d_i - r . down. Depths below zero count as zero. The sum is of whole numbers: the same in any
+/// order.
 Vec3 pressure_sum(const PackingGrid& fluid, const PackingGrid* solids,
                   const PackingPressure& pressure, const UnitPlace& place, float depth);
 

@@ -293,11 +293,11 @@ void list_fields(Plan& plan)
     probe.effects = plan.effects;
     allocate(probe, 0, std::min<Index>(plan.counts.wall, 1), std::min<Index>(plan.counts.body, 1));
     for (const ColumnInfo& column : active_columns(probe.particles)) {
-        const bool of_fluid_alone = !column.of_solids;
         const Index rows = (column.of_fluid ? plan.counts.fluid : 0) +
                            (column.of_solids ? plan.counts.wall + plan.counts.body : 0);
         plan.fields.push_back({std::string(column.field.name), std::string(column.field.unit),
-                               column.bytes_per_particle, of_fluid_alone, rows});
+                               column.bytes_per_particle, !column.of_solids, !column.of_fluid,
+                               rows});
     }
 }
 

@@ -96,11 +96,9 @@ void look_at_waves(const Scene& scene, const Filling& filling, PlanFacts& facts)
 
 void look_at_walls(const Scene& scene, const Filling& filling, PlanFacts& facts)
 {
-    facts.of_wall.assign(scene.walls.size(), 0);
     facts.moving.resize(scene.walls.size());
     for (std::size_t k = 0; k < filling.wall.size(); ++k) {
         const std::size_t wall = at(filling.wall_owner[k]);
-        facts.of_wall[wall] += 1;
         if (is_moving_solid(scene.walls[wall])) {
             facts.moving[wall].push_back(filling.wall[k]);
         }
@@ -188,12 +186,10 @@ void join(Comm& comm, PlanFacts& facts)
         }
     }
     std::vector<std::int64_t> counts{facts.fluid, facts.wall, facts.unsupported};
-    counts.insert(counts.end(), facts.of_wall.begin(), facts.of_wall.end());
     comm.add(counts);
     facts.fluid = counts[0];
     facts.wall = counts[1];
     facts.unsupported = counts[2];
-    std::copy(counts.begin() + 3, counts.end(), facts.of_wall.begin());
     for (std::vector<Vec3>& points : facts.moving) {
         points = gather(comm, std::span<const Vec3>(points)).all;
     }

@@ -20,7 +20,6 @@ struct PlanFacts {
     std::vector<Index> surface_points; // of each body, in its outermost layer
 
     Index fluid = 0, wall = 0;  // particles
-    std::vector<Index> of_wall; // particles of each wall
     double particle_volume = 0; // of the fluid [m3], [m2] in two dimensions
 
     Span height;                           // of the fluid, against gravity, which is not zero [m]

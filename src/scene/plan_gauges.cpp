@@ -126,69 +126,6 @@ bool outside(const Scene& scene, const Gauge& gauge, const Bounds& domain)
     return beyond(0) || beyond(1) || beyond(2);
 }
 
-// Whether water can surround an obstacle.
-bool is_clear(const Scene& scene, std::size_t wall, const Placed& shape)
-{
-    const Bounds box = bounds(shape);
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 p((corner & 1) != 0 ? box.max.x() : box.min.x(),
-                     (corner & 2) != 0 ? box.max.y() : box.min.y(),
-                     (corner & 4) != 0 ? box.max.z() : box.min.z());
-        for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-            if (w != wall &&
-                depth_behind(scene.walls[w], p, scene.dimensions) > -scene.spacing / 2) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-// Volume of the particles of an obstacle over its own. Particles of walls are cubes of the spacing.
-double share_of_volume(const Scene& scene, const PlanFacts& facts, std::size_t wall,
-                       const Shape& shape)
-{
-    return static_cast<double>(facts.of_wall[wall]) * std::pow(scene.spacing, scene.dimensions) /
-           volume(shape, scene.dimensions);
-}
-
-// An obstacle that is filled with particles displaces their volume: its buoyancy, and what
-// accelerated water exerts on it, are off in this proportion.
-void warn_about_volume(const Scene& scene, const PlanFacts& facts, const Gauge& gauge,
-                       const std::string& key, Plan& plan)
-{
-    constexpr double noteworthy = 0.05;
-    for (std::size_t w = 0; scene.fluid && w < scene.walls.size(); ++w) {
-        const auto* solid = std::get_if<SolidWall>(&scene.walls[w].geometry);
-        if (solid == nullptr || scene.walls[w].name != gauge.on) {
-            continue;
-        }
-        const Bounds box = bounds({.shape = &solid->shape, .dimensions = scene.dimensions});
-        const Vec3 size = box.max - box.min;
-        const double across =
-            scene.dimensions == 2 ? std::min(size.x(), size.z()) : size.minCoeff();
-        const Placed placed{&solid->shape, solid->centre, solid->rotation, scene.dimensions};
-        if (across > 2 * wall_layers(scene.fluid->smoothing_ratio) * scene.spacing ||
-            !is_clear(scene, w, placed)) {
-            continue;
-        }
-        const double share = share_of_volume(scene, facts, w, solid->shape);
-        if (std::abs(share - 1) > noteworthy) {
-            Diagnostic note = diagnostic_without_line(
-                scene, gauge.place, key,
-                fmt::format(
-                    "the particles of the wall \"{}\" have {:.2f} of its volume, because its edges "
-                    "are rounded to whole spacings: buoyancy and inertia in the gauge \"{}\" have "
-                    "an error of {:+.0f} %",
-                    gauge.on, share, gauge.name, 100 * (share - 1)),
-                "make it a body with `fixed = true`, whose particles have its volume, or choose a "
-                "spacing that divides its edges");
-            note.severity = Diagnostic::Severity::warning;
-            plan.warnings.push_back(std::move(note));
-        }
-    }
-}
-
 // The kernel of a point near a thin wall reaches the water on its other side; a face does not.
 void warn_about_other_sides(const Scene& scene, const Gauge& gauge, const std::string& key,
                             Plan& plan)
@@ -238,9 +175,6 @@ void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
     for (std::size_t k = 0; k < scene.gauges.size(); ++k) {
         const Gauge& gauge = scene.gauges[k];
         const std::string key = fmt::format("gauge[{}].at", k);
-        if (gauge.type == GaugeType::force) {
-            warn_about_volume(scene, facts, gauge, fmt::format("gauge[{}].on", k), plan);
-        }
         if (!has_place(gauge) && gauge.type != GaugeType::flux) {
             continue;
         }

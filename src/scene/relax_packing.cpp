@@ -6,6 +6,8 @@
 #include "free_space.hpp"
 #include "near_points.hpp"
 #include "packing_grid.hpp"
+#include "solid_cells.hpp"
+#include "walls.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/ranks/reduction.hpp"
@@ -64,21 +66,6 @@ struct Packing {
     PackingGrid grid, solids;
 };
 
-std::vector<Vec3> solid_points(const Scene& scene, const Filling& filling,
-                               const FillNeighbours* neighbours)
-{
-    std::vector<Vec3> points = filling.wall;
-    if (neighbours != nullptr) {
-        points.insert(points.end(), neighbours->walls().begin(), neighbours->walls().end());
-    }
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        for (const Vec3& p : filling.bodies[b].points) {
-            points.push_back(scene.bodies[b].position + scene.bodies[b].rotation * p);
-        }
-    }
-    return points;
-}
-
 void add_fluid(const Filling& filling, std::span<const std::uint8_t> rows, Packing& packing)
 {
     const auto all = packing.rows.size() + static_cast<std::size_t>(std::ranges::count(rows, 1));
@@ -93,19 +80,25 @@ void add_fluid(const Filling& filling, std::span<const std::uint8_t> rows, Packi
 }
 
 // Adds the solids that some moving particle may see.
-void add_solids(std::span<const Vec3> solids, double seen, double reach, Packing& packing)
+void add_solids(const SolidCells& solids, double seen, double reach, Packing& packing)
 {
     CellGrid grid;
     build(grid, std::span(packing.points).first(at(packing.moving)), 0, seen);
     std::vector<UnitPlace> places;
-    for (const Vec3& p : solids) {
+    std::vector<float> cubes;
+    for (std::size_t k = 0; k < solids.points.size(); ++k) {
         bool near = false;
-        for_cells_about(grid, p, [&](std::size_t) { near = true; });
+        for_cells_about(grid, solids.points[k], [&](std::size_t) { near = true; });
         if (near) {
-            places.push_back(packing.units.whole(p));
+            places.push_back(packing.units.whole(solids.points[k]));
+            cubes.push_back(solids.cubes[k]);
         }
     }
     packing.solids = packing_grid(places, reach);
+    packing.solids.cubes.assign(packing.solids.x.size(), 0); // with the zeros behind the last one
+    for (std::size_t slot = 0; slot < places.size(); ++slot) {
+        packing.solids.cubes[slot] = cubes[at(packing.solids.order[slot])];
+    }
     packing.sees_solids.resize(at(packing.moving));
     parallel_for(0, packing.moving, [&](Index i) {
         const UnitPlace place = packing.units.whole(packing.points[at(i)]);
@@ -211,13 +204,13 @@ double sight(double support, double dp)
 }
 
 // The particles of this process that move, with all that they may see.
-Packing packing_of(const Scene& scene, const Filling& filling, double support, Comm* comm,
-                   FillNeighbours* neighbours)
+Packing packing_of(const Scene& scene, const Filling& filling, std::vector<float> wall_cubes,
+                   double support, Comm* comm, FillNeighbours* neighbours)
 {
     const double dp = scene.spacing;
     const std::size_t own = neighbours != nullptr ? neighbours->own() : filling.fluid.size();
-    const std::vector<Vec3> solids = solid_points(scene, filling, neighbours);
-    std::vector<std::uint8_t> moves = free_to_move(scene, filling, own, solids, support);
+    const SolidCells solids = solid_cells(scene, filling, std::move(wall_cubes), neighbours);
+    std::vector<std::uint8_t> moves = free_to_move(scene, filling, own, solids.points, support);
     Packing packing;
     add_fluid(filling, moves, packing);
     packing.moving = static_cast<Index>(packing.points.size());
@@ -397,12 +390,14 @@ void relax_packing(const Scene& scene, const FillRegion* region, Filling& fillin
     const double volume = particle_volume(scene, filling);
     const Kernel kernel =
         make_kernel(scene.fluid->smoothing_ratio, 1, scene.dimensions, scene.fluid->kernel);
+    std::vector<float> cubes = wall_cubes(scene, filling);
     std::optional<FillNeighbours> neighbours;
     if (region != nullptr) {
-        neighbours.emplace(*region, sight(kernel.support * dp, dp), filling);
+        neighbours.emplace(*region, sight(kernel.support * dp, dp), cubes, filling);
     }
     FillNeighbours* const others = neighbours ? &*neighbours : nullptr;
-    Packing packing = packing_of(scene, filling, kernel.support * dp, comm, others);
+    Packing packing =
+        packing_of(scene, filling, std::move(cubes), kernel.support * dp, comm, others);
     if (sum_of_all(comm, packing.moving) == 0) {
         return;
     }

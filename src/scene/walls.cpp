@@ -4,6 +4,7 @@
 #include "crowd.hpp"
 #include "layer_places.hpp"
 
+#include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/wall_layers.hpp"
 
 #include <algorithm>
@@ -95,27 +96,50 @@ void fill_walls(const Scene& scene, Filling& filling)
 }
 
 WallMaker wall_maker(const Scene& scene, const Filling& filling,
-                     std::span<const SolidSurface> surfaces)
+                     std::span<const SolidSurface> surfaces, real cube_mass)
 {
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
     std::vector<LayerPlaces> places;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         places.push_back(layer_places(scene.walls[w], surfaces[w], lattice));
     }
-    return
-        [walls = std::span(scene.walls), surfaces, places = std::move(places),
-         runs = filling.wall_runs, shifts = filling.wall_shifts, sticks = scene.fluid->walls.sticks,
-         dimensions = scene.dimensions](std::int32_t index) -> WallPoint {
-            const auto after = std::ranges::upper_bound(runs, index, {}, &WallRun::first);
-            const WallRun& run = *(after - 1);
-            const auto w = static_cast<std::size_t>(run.wall);
-            const auto place_in = [&](const auto& layers) {
-                return layers.place(run.place + index - run.first);
-            };
-            const Vec3 p = std::visit(place_in, places[w]).value();
-            const real depth = sticks ? depth_behind(walls[w], surfaces[w], p, dimensions) : 0;
-            return {p + shifts[static_cast<std::size_t>(run.shift)], depth, -1 - run.wall};
+    return [walls = std::span(scene.walls), surfaces, places = std::move(places),
+            runs = filling.wall_runs, shifts = filling.wall_shifts,
+            sticks = scene.fluid->walls.sticks, dimensions = scene.dimensions,
+            cube_mass](std::int32_t index) -> WallPoint {
+        const auto after = std::ranges::upper_bound(runs, index, {}, &WallRun::first);
+        const WallRun& run = *(after - 1);
+        const auto w = static_cast<std::size_t>(run.wall);
+        const auto place_in = [&](const auto& layers) {
+            return layers.place(run.place + index - run.first);
         };
+        const WallCell cell = std::visit(place_in, places[w]).value();
+        const real depth = sticks ? depth_behind(walls[w], surfaces[w], cell.place, dimensions) : 0;
+        return {cell.place + shifts[static_cast<std::size_t>(run.shift)], depth,
+                static_cast<real>(cell.cubes) * cube_mass, -1 - run.wall};
+    };
+}
+
+std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
+{
+    const LayerLattice lattice = layer_lattice(scene, filling.domain);
+    std::vector<SolidSurface> surfaces;
+    for (const Wall& wall : scene.walls) {
+        surfaces.push_back(surface_of(wall, lattice.depth(), scene.dimensions));
+    }
+    std::vector<LayerPlaces> places;
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        places.push_back(layer_places(scene.walls[w], surfaces[w], lattice));
+    }
+    std::vector<float> cubes(filling.wall.size());
+    parallel_for(0, static_cast<Index>(cubes.size()), [&](Index k) {
+        const auto index = static_cast<Index>(filling.number_of_wall(at(k)));
+        const WallRun& run =
+            *(std::ranges::upper_bound(filling.wall_runs, index, {}, &WallRun::first) - 1);
+        cubes[at(k)] =
+            static_cast<float>(cubes_at(places[at(run.wall)], run.place + index - run.first));
+    });
+    return cubes;
 }
 
 double box_thickness(const Wall& wall, int dimensions)

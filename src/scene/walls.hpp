@@ -17,6 +17,9 @@ double depth_behind(const Wall& wall, const Vec3& point, int dimensions);
 double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& point,
                     int dimensions);
 
+/// Volumes of the cells of the wall particles of a filling [cubes of the spacing].
+std::vector<float> wall_cubes(const Scene& scene, const Filling& filling);
+
 /// The least edge of a wall that is a box [m]; infinite for other walls.
 double box_thickness(const Wall& wall, int dimensions);
 

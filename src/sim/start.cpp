@@ -50,7 +50,10 @@ void fill_wall_rows(const Scene& scene, const Filling& filling, Fluid& fluid)
         store[field::position][row] = filling.wall[k];
         store[field::velocity][row] = velocity(scene.walls[at(wall)].motion, 0);
         store.owner()[row] = -1 - wall;
-        store.id()[row] = fluid.fixed_walls.first_number + filling.number_of_wall(k);
+        const Index index = filling.number_of_wall(k);
+        store.id()[row] = fluid.fixed_walls.first_number + index;
+        store[field::displaced_mass][row] =
+            fluid.fixed_walls.make(static_cast<std::int32_t>(index)).displaced_mass;
         if (store.has(field::depth)) {
             store[field::depth][row] = filling.wall_depth[k];
         }
@@ -66,8 +69,10 @@ void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
               static_cast<std::int64_t>(sim.plan.counts.fluid + sim.plan.counts.wall));
     for (std::size_t b = 0; b < filling.bodies.size(); ++b) {
         const Rows rows = sim.body_particles.of[b];
+        const real mass = fluid.parameters.eos.rho0 * filling.bodies[b].particle_volume;
         for (Index k = rows.begin; k < rows.end; ++k) {
             store.owner()[k] = static_cast<std::int32_t>(b);
+            store[field::displaced_mass][k] = mass;
             if (store.has(field::depth)) {
                 const Placed shape{.shape = &sim.scene.bodies[b].shape,
                                    .centre = middle_of_shape(sim.scene.bodies[b]),
@@ -75,8 +80,7 @@ void fill_body_rows(const Simulation& sim, const Filling& filling, Fluid& fluid)
                 store[field::depth][k] = -signed_distance(shape, sim.body_particles.points[at(k)]);
             }
         }
-        fluid.body_particle_mass.push_back(fluid.parameters.eos.rho0 *
-                                           filling.bodies[b].particle_volume);
+        fluid.body_particle_mass.push_back(mass);
     }
 }
 
@@ -108,8 +112,9 @@ Fluid empty_fluid(const Scene& scene, const Plan& plan)
 // Adds the particles of a process; `fluid`: with its walls, and its cuts if it is one of several.
 void add_fluid(Simulation& sim, Fluid fluid, const Filling& filling)
 {
-    if (fluid.fixed_walls.count > 0) {
-        fluid.fixed_walls.make = wall_maker(sim.scene, filling, sim.barrier->solids);
+    if (fluid.fixed_walls.count + fluid.fixed_walls.moving_rows > 0) {
+        fluid.fixed_walls.make =
+            wall_maker(sim.scene, filling, sim.barrier->solids, mass_of_cube(fluid.parameters));
     }
     allocate(fluid, static_cast<Index>(filling.fluid.size()), fluid.fixed_walls.moving_rows,
              static_cast<Index>(sim.body_particles.points.size()));

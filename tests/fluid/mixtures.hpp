@@ -68,7 +68,6 @@ inline Fluid make_mixture(const Choice& choice)
     }
     allocate(fluid, static_cast<Index>(places[0].size()), static_cast<Index>(places[1].size()),
              static_cast<Index>(places[2].size()));
-    fluid.body_particle_mass = {0.9, 1.1};
     Particles& particles = fluid.particles;
     const std::vector<Vec3>* place_of_kind = places;
     for (Store* store : {&particles.fluid, &particles.wall, &particles.body}) {
@@ -83,6 +82,9 @@ inline Fluid make_mixture(const Choice& choice)
     }
     std::ranges::fill(particles.wall.owner(), -1);
     std::ranges::copy(owners, particles.body.owner().begin());
+    for (Index k = 0; k < particles.body.size(); ++k) {
+        particles.body[field::displaced_mass][k] = particles.body.owner()[k] == 0 ? 0.9 : 1.1;
+    }
     return fluid;
 }
 

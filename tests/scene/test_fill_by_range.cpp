@@ -71,13 +71,14 @@ std::vector<Numbers> made_again(const Scene& scene, const Filling& filling)
         surfaces.push_back(surface_of(
             wall, wall_layers(scene.fluid->smoothing_ratio) * scene.spacing, scene.dimensions));
     }
-    const WallMaker make = wall_maker(scene, filling, surfaces);
+    const WallMaker make = wall_maker(scene, filling, surfaces, 2);
     std::vector<Numbers> all;
     for (Index k = 0; k < filling.wall_count(); ++k) {
         const WallPoint point = make(static_cast<std::int32_t>(k));
         add(all.emplace_back(), point.place);
         all.back().push_back(point.owner);
         all.back().push_back(point.depth);
+        all.back().push_back(point.displaced_mass);
     }
     return all;
 }

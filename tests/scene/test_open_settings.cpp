@@ -420,7 +420,7 @@ TEST(OpenSettings, WallsCarriedOutAreMadeAgainBitForBit)
             surfaces.push_back(
                 surface_of(wall, wall_layers(scene.fluid->smoothing_ratio) * scene.spacing, 3));
         }
-        const WallMaker make = wall_maker(scene, filling, surfaces);
+        const WallMaker make = wall_maker(scene, filling, surfaces, 1);
         int behind = 0;
         for (std::size_t k = 0; k < filling.wall.size(); ++k) {
             const WallPoint point = make(static_cast<std::int32_t>(k));

@@ -18,6 +18,7 @@ struct Cloud {
     int dimensions = 3;
     std::vector<Vec3> fluid, solids;
     std::vector<float> depth; // of the fluid
+    std::vector<float> cubes; // of the solids
     Kernel kernel;
     double volume = 1;
 };
@@ -43,6 +44,7 @@ Cloud drawn(Dice& dice, int dimensions, double extent)
             cloud.depth.push_back(static_cast<float>(dice.between(-1, 30)));
             if (dice.chance(0.3)) {
                 cloud.solids.push_back(drawn_about(dice, middle, dimensions));
+                cloud.cubes.push_back(static_cast<float>(dice.between(0.5, 1.6)));
             }
         }
     }
@@ -71,7 +73,11 @@ std::vector<Vec3> forces_by_cells(const Cloud& cloud)
         return packing_grid(places, reach);
     };
     PackingGrid fluid = sorted(cloud.fluid);
-    const PackingGrid solids = sorted(cloud.solids);
+    PackingGrid solids = sorted(cloud.solids);
+    solids.cubes.assign(solids.x.size(), 0);
+    for (std::size_t k = 0; k < cloud.solids.size(); ++k) {
+        solids.cubes[k] = cloud.cubes[static_cast<std::size_t>(solids.order[k])];
+    }
     fluid.depth.assign(fluid.x.size(), 0);
     for (std::size_t k = 0; k < cloud.fluid.size(); ++k) {
         fluid.depth[k] = cloud.depth[static_cast<std::size_t>(fluid.order[k])];
@@ -106,9 +112,9 @@ Vec3 force_by_pairs(const Cloud& cloud, std::size_t i)
     for (std::size_t j = 0; j < cloud.fluid.size(); ++j) {
         add(cloud.volume, own_place - units.rounded(cloud.fluid[j]), cloud.depth[j]);
     }
-    for (const Vec3& solid : cloud.solids) {
-        const Vec3 r = own_place - units.rounded(solid);
-        add(1, r, cloud.depth[i] + r.z());
+    for (std::size_t j = 0; j < cloud.solids.size(); ++j) {
+        const Vec3 r = own_place - units.rounded(cloud.solids[j]);
+        add(cloud.cubes[j], r, cloud.depth[i] + r.z());
     }
     return force;
 }
@@ -143,6 +149,7 @@ TEST(PackingGrid, NeitherTheOrderNorAMirrorChangesABit)
         std::ranges::reverse(turned.fluid);
         std::ranges::reverse(turned.depth);
         std::ranges::reverse(turned.solids);
+        std::ranges::reverse(turned.cubes);
         for (auto* points : {&turned.fluid, &turned.solids}) {
             for (Vec3& p : *points) {
                 p.x() = -p.x();

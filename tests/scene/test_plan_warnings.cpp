@@ -229,40 +229,5 @@ TEST(PlanWarnings, OfLightBodiesUnderWater)
     EXPECT_FALSE(warns(box_in_water(0.2, 300, "fixed = true\n"), "starts under"));
 }
 
-// A square obstacle in a tank, its lower edge at a height over the floor [m].
-std::string obstacle(double edge, double spacing, double foot, const std::string& on)
-{
-    return fmt::format(
-        "dimensions = 2\n[time]\nend = 1.0\n[particles]\nspacing = {}\n[fluid]\n"
-        "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [2, 0, 1.2]\n[[wall]]\n"
-        "name = \"tank\"\nshape = \"basin\"\nmin = [0, 0, 0]\nmax = [2, 0, 1.5]\n"
-        "open = [\"+z\"]\n[[wall]]\nname = \"pile\"\nshape = \"box\"\nsize = [{}, 0, {}]\n"
-        "position = [1, 0, {}]\n[[gauge]]\nname = \"load\"\ntype = \"force\"\non = \"{}\"\n",
-        spacing, edge, edge, foot + edge / 2, on);
-}
-
-// Particles of a wall are cubes: along an edge of e spacings there are as many as e is rounded to.
-TEST(PlanWarnings, OfTheForceOnAnObstacleWhoseParticlesHaveAnotherVolume)
-{
-    std::mt19937 dice(4);
-    const char* const words = "of its volume";
-    for (int k = 0; k < 20; ++k) {
-        const double spacing = std::uniform_real_distribution(0.03, 0.06)(dice);
-        const double edges = std::uniform_real_distribution(1.1, 5.9)(dice);
-        const double share = std::pow(std::round(edges) / edges, 2);
-        if (std::abs(edges - std::floor(edges) - 0.5) < 0.02 ||
-            std::abs(std::abs(share - 1) - 0.05) < 0.005) {
-            continue; // either way
-        }
-        const double edge = edges * spacing;
-        const bool off = std::abs(share - 1) > 0.05;
-        const std::string number = fmt::format("have {:.2f} {}", share, words);
-        EXPECT_EQ(warns(obstacle(edge, spacing, 0.4, "pile"), number), off) << edges;
-        EXPECT_EQ(warns(obstacle(edge, spacing, 0.4, "pile"), words), off) << edges;
-        EXPECT_FALSE(warns(obstacle(edge, spacing, 0.4, "tank"), words)) << edges;
-        EXPECT_FALSE(warns(obstacle(edge, spacing, 0, "pile"), words)) << "no water below it";
-    }
-}
-
 } // namespace
 } // namespace hyoryu::test_plan_warnings

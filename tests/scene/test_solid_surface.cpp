@@ -2,6 +2,8 @@
 // Distances to the surfaces of walls and bodies, and the way out of them.
 #include "hyoryu/scene/solid_surface.hpp"
 
+#include "scene/way_out.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,6 +93,40 @@ TEST(SolidSurface, TheTreeFindsTheDistanceOfAllTriangles)
             const double near = nearest_place(surface, p, 0.1).distance;
             EXPECT_EQ(near < infinity, std::abs(exact) < 0.1);
         }
+    }
+}
+
+// The way out along an axis, against the distance over all triangles: inside up to there, and
+// outside behind. A lattice of places meets edges and corners of the boxes, too.
+TEST(SolidSurface, AWayOutAlongAnAxisEndsWhereTheSolidEnds)
+{
+    std::mt19937 random(5);
+    for (const MeshShape& mesh : {ring(0.63, 0.2, 40), ring(0.5, 0.05, 7), two_boxes()}) {
+        const Shape shape = mesh;
+        const auto tree = std::get<TriangleTree>(surface_of(shape, 3).shape);
+        const auto outside = [&](const Vec3& p) { return signed_distance({.shape = &shape}, p); };
+        int ways = 0;
+        for (int k = 0; k < 3000; ++k) {
+            const Vec3 drawn = random_point(random, 0.9);
+            const Vec3 p = k % 2 == 0 ? drawn : Vec3(0.1 * (10 * drawn).array().round());
+            if (outside(p) > -1e-3) {
+                continue;
+            }
+            const int axis = k % 3;
+            const int sense = k % 4 < 2 ? 1 : -1;
+            const Vec3 step = sense * Vec3::Unit(axis);
+            const WayOut out = way_out(tree, p, {axis, sense}, 10);
+            ++ways;
+            ASSERT_LT(out.distance, 10) << p.transpose();
+            EXPECT_GT(outside(p + (out.distance + 1e-5) * step), 0) << p.transpose();
+            for (int part = 1; part < 20; ++part) {
+                const double s = (out.distance - 1e-9) * part / 20;
+                EXPECT_LT(outside(p + s * step), 0) << p.transpose();
+            }
+            EXPECT_GT(out.normal[axis] * sense, 0);
+            EXPECT_EQ(way_out(tree, p, {axis, sense}, 0.9 * out.distance).distance, infinity);
+        }
+        EXPECT_GT(ways, 10);
     }
 }
 

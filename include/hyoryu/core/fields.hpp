@@ -83,6 +83,8 @@ struct TurbulentViscosity { using type = real; static constexpr FieldInfo info{"
 struct ShepardSum      { using type = real; static constexpr FieldInfo info{"ShepardSum", "1/m3"}; };
 struct VelocitySum     { using type = Vec3; static constexpr FieldInfo info{"VelocitySum", "1/m2/s", Holders::solids}; };
 struct OffsetSum       { using type = Vec3; static constexpr FieldInfo info{"OffsetSum", "1/m2", Holders::solids}; };
+/// Mass of the water at rest that fits into the cell of a solid particle; kg/m in two dimensions.
+struct DisplacedMass   { using type = real; static constexpr FieldInfo info{"DisplacedMass", "kg", Holders::solids}; };
 /// Depth of a solid particle behind the surface of its solid.
 struct Depth           { using type = real; static constexpr FieldInfo info{"Depth", "m", Holders::solids}; };
 
@@ -111,6 +113,7 @@ inline constexpr ShiftGradient   shift_gradient{};
 inline constexpr ShepardSum      shepard_sum{};
 inline constexpr VelocitySum     velocity_sum{};
 inline constexpr OffsetSum       offset_sum{};
+inline constexpr DisplacedMass   displaced_mass{};
 inline constexpr Depth           depth{};
 inline constexpr Strain          strain{};
 inline constexpr MixedStrain     mixed_strain{};

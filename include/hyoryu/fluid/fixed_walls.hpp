@@ -17,6 +17,7 @@ namespace hyoryu {
 struct WallPoint {
     Vec3 place{0, 0, 0};     // [m]
     real depth = 0;          // behind the surface [m]; 0 where fluid slips
+    real displaced_mass = 0; // see `DisplacedMass` [kg]
     std::int32_t owner = -1; // -1 - (index of the wall)
 };
 
@@ -86,7 +87,7 @@ struct WallReach {
 
 /// Makes the particles that are within reach of waters and drops all others. Rows come in the order
 /// of tiles, cells and numbers; those that stay keep their values, new ones are zero but for
-/// position, number, owner and depth. Returns whether anything changed. `room` as in Store::gather.
+/// position, number, owner, displaced mass and depth. Returns whether anything changed. `room` as in Store::gather.
 bool update_rows(FixedWalls& walls, std::span<const Waters> waters, const WallReach& which,
                  Store& store, std::span<std::byte> room);
 

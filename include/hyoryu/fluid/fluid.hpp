@@ -99,15 +99,13 @@ struct Fluid {
 /// Whether friction acts between the fluid and solids.
 bool sticks_to_solids(const Fluid& fluid);
 
-/// Mass of the fluid that a particle of this owner stands in for [kg].
-real stand_in_mass(const Fluid& fluid, std::int32_t owner);
-
 /// Whether there are walls, with rows or without, or bodies.
 bool has_solids(const Fluid& fluid);
 
 /// Makes the columns that the active effects need, and no others, for the given numbers of
-/// particles, and the data of the pair loops in the chosen precision. Fixed walls, which get rows
-/// when fluid comes near, must be set before.
+/// particles, and the data of the pair loops in the chosen precision. Particles of solids displace
+/// a cube of the spacing until they are given another mass. Fixed walls, which get rows when fluid
+/// comes near, must be set before.
 void allocate(Fluid& fluid, Index fluid_count, Index wall_count, Index body_count);
 
 // The stages of a step of length dt, in the order of the position-Verlet split: one geometry serves

@@ -26,9 +26,15 @@ struct Plan {
         std::string name;
         std::string unit;
         std::size_t bytes_per_particle = 0;
-        bool of_fluid_alone = false; // solid particles have none
-        Index rows = 0;              // particles that have it
+        bool of_fluid_alone = false;  // solid particles have none
+        bool of_solids_alone = false; // fluid particles have none
+        Index rows = 0;               // particles that have it
         std::size_t bytes() const { return bytes_per_particle * static_cast<std::size_t>(rows); }
+        /// "" for all particles.
+        std::string_view holders() const
+        {
+            return of_fluid_alone ? "  fluid only" : of_solids_alone ? "  solids only" : "";
+        }
     };
     struct PairKind {
         std::string name; // "fluid<-fluid": who gathers from whom

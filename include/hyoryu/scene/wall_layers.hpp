@@ -15,8 +15,9 @@ namespace hyoryu {
 
 /// Makes the particles of a filling again: those of index k of `filling.wall`, bit for bit.
 /// `surfaces`: of each wall, as `surface_of` gives them. They and the walls of the scene must stay
-/// where they are in memory while the maker is used. The depth is 0 where fluid slips.
+/// where they are in memory while the maker is used. The depth is 0 where fluid slips. `cube_mass`:
+/// see `mass_of_cube` [kg].
 WallMaker wall_maker(const Scene& scene, const Filling& filling,
-                     std::span<const SolidSurface> surfaces);
+                     std::span<const SolidSurface> surfaces, real cube_mass);
 
 } // namespace hyoryu

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Walls under still water, of any thickness: the water acts on them as Archimedes says.
+#include "hyoryu/sim/gauges.hpp"
+
+#include "dice.hpp"
+#include "runs.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace hyoryu::test_submerged_walls {
+namespace {
+
+constexpr double rho = 1000, g = 9.81;
+
+// A tank with a wall in its middle; depth, width and length in spacings. 2-D if it has no width.
+std::string tank(double spacing, const Vec3& size, const std::string& wall)
+{
+    const Vec3 most = spacing * size;
+    return fmt::format("dimensions = {0}\n[time]\nend = 1\n[particles]\nspacing = {1}\n[fluid]\n"
+                       "density = {2}\n[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
+                       "max = [{3}, {4}, {5}]\n[[wall]]\nname = \"tank\"\nshape = \"basin\"\n"
+                       "min = [0, 0, 0]\nmax = [{3}, {4}, {6}]\nopen = [\"+z\"]\n[[wall]]\n"
+                       "name = \"wall\"\n{7}[[gauge]]\nname = \"f\"\ntype = \"force\"\n"
+                       "on = \"wall\"\n",
+                       size.y() > 0 ? 3 : 2, spacing, rho, most.x(), most.y(), most.z(),
+                       most.z() + 4 * spacing, wall);
+}
+
+Simulation started(const Scene& scene)
+{
+    const Filling filling = fill(scene);
+    return make_simulation(scene, make_plan(scene, filling), filling);
+}
+
+// The volume of water whose weight the water lifts the wall by, averaged over some time after its
+// first motion; `depth` of the water [m].
+double lifted_volume(Simulation sim, double depth)
+{
+    const double settled = std::sqrt(depth / g);
+    double sum = 0;
+    int steps = 0;
+    while (sim.clock.time < 3 * settled) {
+        step_on(sim);
+        if (sim.clock.time > settled) {
+            sum += read_gauges(sim).at(2);
+            ++steps;
+        }
+    }
+    return sum / steps / (rho * g);
+}
+
+// How far the surface that the water sees stands off that of the wall, all round [spacings].
+double stand_off(double lifted, double volume, double surface, double spacing)
+{
+    return (lifted - volume) / surface / spacing;
+}
+
+TEST(SubmergedWalls, BoxesOfAnyEdgesDisplaceTheirVolume)
+{
+    Dice dice(71);
+    for (int n = 0; n < 12; ++n) {
+        const double dp = n % 2 == 0 ? 0.05 : 0.02;
+        const double thick = dice.between(1.6, 4.5) * dp;
+        const double wide = dice.between(3, 8) * dp;
+        const double z = dice.between(6, 7) * dp;
+        const bool upright = dice.chance(0.5);
+        const std::string box =
+            fmt::format("shape = \"box\"\nsize = [{}, 0, {}]\nposition = [{}, 0, {}]\n",
+                        upright ? thick : wide, upright ? wide : thick, 10 * dp, z);
+        const double lifted = lifted_volume(make(tank(dp, {20, 0, 14}, box)), 14 * dp);
+        EXPECT_LT(std::abs(stand_off(lifted, thick * wide, 2 * (thick + wide), dp)), 0.1)
+            << thick / dp << " x " << wide / dp << " spacings, at " << z / dp;
+    }
+}
+
+// A deck on a rib, along y; its box has other edges than the deck, so that the lattice in it fits
+// neither of them. Turned about y.
+struct Deck {
+    double length = 0, thick = 0, rib = 0, high = 0; // in the section [m]
+    double width = 0;                                // along y [m]
+    double angle = 0;                                // [rad]
+
+    double volume() const { return width * (length * thick + rib * high); }
+    double surface() const { return 2 * volume() / width + 2 * width * (length + thick + high); }
+    MeshShape mesh() const
+    {
+        const std::array<std::array<double, 2>, 8> section{{{-length / 2, 0},
+                                                            {length / 2, 0},
+                                                            {length / 2, thick},
+                                                            {rib / 2, thick},
+                                                            {rib / 2, thick + high},
+                                                            {-rib / 2, thick + high},
+                                                            {-rib / 2, thick},
+                                                            {-length / 2, thick}}};
+        const double c = std::cos(angle);
+        const double s = std::sin(angle);
+        MeshShape mesh;
+        for (const double y : {-width / 2, width / 2}) {
+            for (const auto& [x, z] : section) {
+                mesh.corners.emplace_back(c * x - s * z, y, s * x + c * z);
+            }
+        }
+        for (const auto& [i, j, k] : std::to_array<std::array<int, 3>>(
+                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 6}, {0, 6, 7}, {3, 4, 5}, {3, 5, 6}})) {
+            mesh.triangles.push_back({i, j, k});
+            mesh.triangles.push_back({i + 8, k + 8, j + 8});
+        }
+        for (int k = 0; k < 8; ++k) {
+            const int next = (k + 1) % 8;
+            mesh.triangles.push_back({k, k + 8, next});
+            mesh.triangles.push_back({next, k + 8, next + 8});
+        }
+        return mesh;
+    }
+};
+
+// Upright and turned by up to 17 degrees.
+TEST(SubmergedWalls, MeshesWhoseSurfacesCutTheirLatticeDisplaceTheirVolume)
+{
+    Dice dice(72);
+    for (int n = 0; n < 6; ++n) {
+        const double dp = n % 2 == 0 ? 0.05 : 0.02;
+        const Deck deck{.length = dice.between(6, 8) * dp,
+                        .thick = dice.between(1.6, 4) * dp,
+                        .rib = dice.between(2, 3) * dp,
+                        .high = dice.between(1.5, 3.5) * dp,
+                        .width = dice.between(5, 7) * dp,
+                        .angle = n < 3 ? 0 : dice.between(-0.3, 0.3)};
+        const std::string box =
+            fmt::format("shape = \"box\"\nsize = [1, 1, 1]\nposition = [{}, {}, {}]\n", 8 * dp,
+                        6 * dp, dice.between(4, 5) * dp);
+        Scene scene = parse_case(tank(dp, {16, 12, 14}, box), "tank.toml");
+        std::get<SolidWall>(scene.walls[1].geometry).shape = deck.mesh();
+        const double lifted = lifted_volume(started(scene), 14 * dp);
+        EXPECT_LT(std::abs(stand_off(lifted, deck.volume(), deck.surface(), dp)), 0.1)
+            << deck.thick / dp << " spacings thick, turned by " << deck.angle << ", displaces "
+            << lifted / deck.volume() << " of its volume";
+    }
+}
+
+} // namespace
+} // namespace hyoryu::test_submerged_walls
