@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace hyoryu::test_submerged_walls {
 namespace {
@@ -74,6 +75,29 @@ TEST(SubmergedWalls, BoxesOfAnyEdgesDisplaceTheirVolume)
         const double lifted = lifted_volume(make(tank(dp, {20, 0, 14}, box)), 14 * dp);
         EXPECT_LT(std::abs(stand_off(lifted, thick * wide, 2 * (thick + wide), dp)), 0.04)
             << thick / dp << " x " << wide / dp << " spacings, at " << z / dp;
+    }
+}
+
+TEST(SubmergedWalls, BallsAndRodsOfAnyRadiusDisplaceTheirVolume)
+{
+    Dice dice(74);
+    for (int n = 0; n < 6; ++n) {
+        const double dp = n % 2 == 0 ? 0.05 : 0.02;
+        const double r = dice.between(1.3, 3.5) * dp;
+        const double length = dice.between(3, 7) * dp;
+        const bool ball = n < 3;
+        const double pi = std::numbers::pi;
+        const double volume = ball ? 4 * pi / 3 * r * r * r : pi * r * r * length;
+        const double surface = ball ? 4 * pi * r * r : 2 * pi * r * (r + length);
+        const std::string shape =
+            ball ? fmt::format("shape = \"sphere\"\nradius = {}\n", r)
+                 : fmt::format("shape = \"cylinder\"\nradius = {}\nlength = {}\n", r, length);
+        const std::string place =
+            fmt::format("position = [{}, {}, {}]\n", 7 * dp, 6 * dp, dice.between(6, 7) * dp);
+        const double lifted = lifted_volume(make(tank(dp, {14, 12, 13}, shape + place)), 13 * dp);
+        EXPECT_LT(std::abs(stand_off(lifted, volume, surface, dp)), 0.04)
+            << (ball ? "ball" : "rod") << ", radius of " << r / dp << " spacings, displaces "
+            << lifted / volume << " of its volume";
     }
 }
 
