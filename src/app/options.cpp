@@ -17,15 +17,19 @@ const CLI::Validator a_name(
     },
     "");
 
-// CLI takes "nan" and "inf" for numbers.
-const CLI::Validator finite(
-    [](std::string& text) {
-        double value = 0;
-        const bool number = CLI::detail::lexical_cast(text, value);
-        return number && std::isfinite(value) ? std::string()
-                                              : fmt::format("\"{}\" is not a finite number", text);
-    },
-    "");
+// CLI takes "nan" and "inf" for numbers, and writes the largest one in 309 digits.
+CLI::Validator number_that(bool (*fits)(double), const std::string& expected)
+{
+    return {[fits, expected](const std::string& text) {
+                double value = 0;
+                const bool good =
+                    CLI::detail::lexical_cast(text, value) && std::isfinite(value) && fits(value);
+                return good ? std::string() : fmt::format("\"{}\" is not {}", text, expected);
+            },
+            ""};
+}
+
+const CLI::Validator finite = number_that([](double) { return true; }, "a finite number");
 
 void add_results(CLI::App& command, std::filesystem::path& results)
 {
@@ -66,7 +70,7 @@ void add_run(CLI::App& app, RunOptions& options)
         ->check(CLI::Range(1, 9999));
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
         ->type_name("SECONDS")
-        ->check(finite & CLI::NonNegativeNumber);
+        ->check(number_that([](double x) { return x >= 0; }, "a finite number of at least 0"));
     run->add_flag("--resume", options.resume, "continue from the checkpoint in the results folder");
     run->add_flag("--force", options.force, "replace an existing results folder");
     run->add_flag("--quiet", options.quiet, "no progress output");
@@ -146,7 +150,7 @@ void add_report(CLI::App& app, ReportOptions& options)
                      "contact stiffness k [N/m] of all impacts, for peak forces u sqrt(k m) "
                      "(default: the values of the pairs of materials in the case)")
         ->type_name("N/m")
-        ->check(finite & CLI::PositiveNumber);
+        ->check(number_that([](double x) { return x > 0; }, "a positive finite number"));
 }
 
 void add_verify(CLI::App& app, VerifyOptions& options)

@@ -52,6 +52,9 @@ class Commands(ProgramTest):
             self.assertEqual(self.call("run", case, *arguments).returncode, 2, arguments)
         for command in ("run", "check", "study", "render", "report", "info"):
             self.assertEqual(self.call(command, "").returncode, 2, command)
+        for value in ("nan", "inf", "-1", "soon"):
+            done = self.call("run", case, "--until", value)
+            self.assertIn(f'--until: "{value}" is not a finite number of at least 0\n', done.stderr)
         for arguments in (("--azimuth", "nan"), ("--times", "0,nan"), ("--elevation", "inf")):
             self.assertEqual(self.call("render", "out", *arguments).returncode, 2, arguments)
         self.assertEqual(self.files(), [case])
