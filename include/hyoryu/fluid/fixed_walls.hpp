@@ -87,7 +87,8 @@ struct WallReach {
 
 /// Makes the particles that are within reach of waters and drops all others. Rows come in the order
 /// of tiles, cells and numbers; those that stay keep their values, new ones are zero but for
-/// position, number, owner, displaced mass and depth. Returns whether anything changed. `room` as in Store::gather.
+/// position, number, owner, displaced mass and depth. Returns whether anything changed. `room` as
+/// in Store::gather.
 bool update_rows(FixedWalls& walls, std::span<const Waters> waters, const WallReach& which,
                  Store& store, std::span<std::byte> room);
 
