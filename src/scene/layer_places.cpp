@@ -263,6 +263,7 @@ std::optional<WallCell> MeshPlaces::cell_of(const MeshPoint& point) const
         const double pitch = lattice.cell()[axis];
         cell.place[axis] += row.shift;
         cell.cubes *= row.pitch / pitch;
+        // Half a cell along the axis is nearer to an inclined surface.
         least = row.weight < 1 ? least : std::min(least, flat_cosine / 2 * row.pitch);
     }
     const NearestPlace nearest =

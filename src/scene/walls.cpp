@@ -45,6 +45,22 @@ double depth_in(const SolidWall& solid, const Vec3& p, int dimensions)
     return -signed_distance({&solid.shape, solid.centre, solid.rotation, dimensions}, p);
 }
 
+std::vector<LayerPlaces> places_of_walls(const Scene& scene, const Filling& filling,
+                                         std::span<const SolidSurface> surfaces)
+{
+    const LayerLattice lattice = layer_lattice(scene, filling.domain);
+    std::vector<LayerPlaces> places;
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        places.push_back(layer_places(scene.walls[w], surfaces[w], lattice));
+    }
+    return places;
+}
+
+const WallRun& run_with(const std::vector<WallRun>& runs, Index index)
+{
+    return *(std::ranges::upper_bound(runs, index, {}, &WallRun::first) - 1);
+}
+
 } // namespace
 
 bool in_period(const Scene& scene, const Vec3& point)
@@ -98,17 +114,12 @@ void fill_walls(const Scene& scene, Filling& filling)
 WallMaker wall_maker(const Scene& scene, const Filling& filling,
                      std::span<const SolidSurface> surfaces, real cube_mass)
 {
-    const LayerLattice lattice = layer_lattice(scene, filling.domain);
-    std::vector<LayerPlaces> places;
-    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        places.push_back(layer_places(scene.walls[w], surfaces[w], lattice));
-    }
+    std::vector<LayerPlaces> places = places_of_walls(scene, filling, surfaces);
     return [walls = std::span(scene.walls), surfaces, places = std::move(places),
             runs = filling.wall_runs, shifts = filling.wall_shifts,
             sticks = scene.fluid->walls.sticks, dimensions = scene.dimensions,
             cube_mass](std::int32_t index) -> WallPoint {
-        const auto after = std::ranges::upper_bound(runs, index, {}, &WallRun::first);
-        const WallRun& run = *(after - 1);
+        const WallRun& run = run_with(runs, index);
         const auto w = static_cast<std::size_t>(run.wall);
         const auto place_in = [&](const auto& layers) {
             return layers.place(run.place + index - run.first);
@@ -127,15 +138,11 @@ std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
     for (const Wall& wall : scene.walls) {
         surfaces.push_back(surface_of(wall, lattice.depth(), scene.dimensions));
     }
-    std::vector<LayerPlaces> places;
-    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        places.push_back(layer_places(scene.walls[w], surfaces[w], lattice));
-    }
+    const std::vector<LayerPlaces> places = places_of_walls(scene, filling, surfaces);
     std::vector<float> cubes(filling.wall.size());
     parallel_for(0, static_cast<Index>(cubes.size()), [&](Index k) {
         const auto index = static_cast<Index>(filling.number_of_wall(at(k)));
-        const WallRun& run =
-            *(std::ranges::upper_bound(filling.wall_runs, index, {}, &WallRun::first) - 1);
+        const WallRun& run = run_with(filling.wall_runs, index);
         cubes[at(k)] =
             static_cast<float>(cubes_at(places[at(run.wall)], run.place + index - run.first));
     });

@@ -84,15 +84,15 @@ void leave_out_carpets(const Simulation& sim, Cloud& cloud)
     cloud = some_points(cloud, inside);
 }
 
-// The value that a column has for a wall particle without a row, which no fluid is near.
+// The value that a column has for a wall particle without a row, which no fluid is near; the volume
+// follows from the wall.
 double dry_value(const Fluid& fluid, const std::string& column)
 {
     const real rho0 = fluid.parameters.eos.rho0;
-    return column == field::density.info.name  ? rho0
-           : column == field::volume.info.name ? mass_of_cube(fluid.parameters) / rho0
-           : column == "Kind"                  ? static_cast<double>(Kind::wall)
-           : column == "Body"                  ? -1
-                                               : 0;
+    return column == field::density.info.name ? rho0
+           : column == "Kind"                 ? static_cast<double>(Kind::wall)
+           : column == "Body"                 ? -1
+                                              : 0;
 }
 
 // Puts each row of a column at its place, and the value of dry walls at all others.
@@ -187,15 +187,23 @@ Cloud wall_cloud(const Simulation& sim, Cloud rows, const NumberRange& range)
     Column points{"", "", 3, std::move(rows.points)};
     spread(points, place, count, 0);
     rows.points = std::move(std::get<std::vector<float>>(points.values));
+    const auto volume = std::ranges::find(rows.columns, field::volume.info.name, &Column::name);
+    std::vector<float>* const volumes =
+        volume != rows.columns.end() ? &std::get<std::vector<float>>(volume->values) : nullptr;
     const auto first = static_cast<std::int32_t>(range.begin - sim.plan.counts.fluid);
     for (const IndexRun& run : fluid.fixed_walls.run) {
         const std::int32_t begin = std::max(run.first, first);
         const std::int32_t end =
             std::min(run.first + run.count, first + static_cast<std::int32_t>(count));
         for (std::int32_t index = begin; index < end; ++index) {
-            const Vec3 made = fluid.fixed_walls.make(index).place;
+            const WallPoint made = fluid.fixed_walls.make(index);
             for (Index axis = 0; axis < 3; ++axis) {
-                rows.points[3 * at(index - first) + at(axis)] = static_cast<float>(made[axis]);
+                rows.points[3 * at(index - first) + at(axis)] =
+                    static_cast<float>(made.place[axis]);
+            }
+            if (volumes != nullptr && (*volumes)[at(index - first)] == 0) { // without a row
+                (*volumes)[at(index - first)] =
+                    static_cast<float>(made.displaced_mass / fluid.parameters.eos.rho0);
             }
         }
     }

@@ -28,8 +28,8 @@ struct FileMark {
     std::string_view within;  // a text among its first 4096 bytes
 };
 
-/// Throws CaseError unless the command may write this file: nothing has that name, or it is a
-/// regular file that is empty or has the mark. A link or device is no regular file. Changes
+/// Throws CaseError unless the command may write this file: either nothing has that name, or it is
+/// a regular file that is empty or has the mark. Symbolic links and devices are refused. Changes
 /// nothing.
 void expect_own_file(const std::filesystem::path& file, const FileMark& mark);
 
