@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Walls under still water, of any thickness: the water acts on them as Archimedes says.
+#include "hyoryu/sim/frames.hpp"
 #include "hyoryu/sim/gauges.hpp"
 
 #include "dice.hpp"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -204,6 +206,30 @@ TEST(SubmergedWalls, WaterOverAMeshKeepsTheLevelItWasFilledTo)
         }
         EXPECT_LT(std::abs(mean - level), 0.1 * dp) << bed.thick / dp << " spacings, sloping by "
                                                     << bed.angle << ": " << (mean - level) / dp;
+    }
+}
+
+// Far from the water wall particles exist in frames alone.
+TEST(SubmergedWalls, FramesHoldTheVolumesOfDryOnes)
+{
+    Dice dice(75);
+    for (int n = 0; n < 6; ++n) {
+        const double dp = n % 2 == 0 ? 0.05 : 0.02;
+        const double thick = dice.between(0.6, 4.5) * dp;
+        const double wide = dice.between(0.6, 6) * dp;
+        const std::string box =
+            fmt::format("shape = \"box\"\nsize = [{}, 0, {}]\nposition = [{}, 0, {}]\n", thick,
+                        wide, 40 * dp, 5 * dp);
+        const Simulation sim =
+            make(tank(dp, {10, 0, 5}, box) + "[output]\nevery = 1\nfields = [\"volume\"]\n");
+        const Cloud cloud = wall_cloud(sim);
+        const auto& volumes = std::get<std::vector<float>>(
+            std::ranges::find(cloud.columns, "Volume", &Column::name)->values);
+        double sum = 0;
+        for (std::size_t k = 0; k < volumes.size(); ++k) {
+            sum += cloud.points[3 * k] > 25 * dp ? volumes[k] : 0;
+        }
+        EXPECT_NEAR(sum / (thick * wide), 1, 1e-5); // in single precision
     }
 }
 
