@@ -3,6 +3,7 @@
 #pragma once
 
 #include "keys_names.hpp"
+#include "mesh_parts.hpp"
 #include "number_table.hpp"
 #include "units.hpp"
 
@@ -99,6 +100,35 @@ inline void load_mesh(TableReader& table, MeshShape& shape)
     }
 }
 
+/// Parts of a mesh whose volume counts must be apart; those of a wall may overlap.
+enum class MeshParts { apart, may_overlap };
+
+inline void check_parts(TableReader& table, const MeshShape& mesh, MeshParts parts)
+{
+    if (table.mistaken()) {
+        return;
+    }
+    const auto at_place = [](const Vec3& p) {
+        return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+    };
+    const PartFaults faults = part_faults(mesh);
+    if (faults.inside_out) {
+        table.error("file",
+                    fmt::format("a part of the mesh is inside out: at {} m its triangles face into "
+                                "it",
+                                at_place(*faults.inside_out)),
+                    "turn the triangles of this part over");
+    }
+    if (faults.overlap && parts == MeshParts::apart) {
+        table.error("file",
+                    fmt::format("parts of the mesh overlap at {} m, or one is within the other: "
+                                "volume and mass would count this space twice",
+                                at_place(*faults.overlap)),
+                    "unite the parts (Boolean union); for a cavity turn the triangles of its "
+                    "surface over");
+    }
+}
+
 /// Two particles at one point, which count twice in the mass; an empty text if there are none.
 inline std::string particle_given_twice(const NumberTable& numbers)
 {
@@ -179,6 +209,7 @@ inline void check_one_rotation(TableReader& table, bool by_axis)
 /// Descriptions of the keys of a shape, for walls, bodies and fluid blocks.
 struct ShapeWords {
     std::string_view min{}, max{}, size, radius, length, file;
+    MeshParts parts = MeshParts::apart;
 };
 
 void keys_of(auto& keys, Is<AxisAngle> auto& turn, auto& rotation)
@@ -223,6 +254,7 @@ void shape_keys(auto& keys, Is<Shape> auto& shape, const ShapeWords& words)
         keys.positive("scale", mesh->scale, "",
                       "Factor that converts the numbers of a mesh file to metres.");
         keys.rule(load_mesh, *mesh);
+        keys.rule(check_parts, *mesh, words.parts);
     } else if (auto* particles = std::get_if<ParticleShape>(&shape)) {
         keys.text("file", particles->file, words.file, needed);
         keys.rule(load_particles, *particles);

@@ -304,7 +304,8 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, TerrainKeys& given)
                                "Radius of a sphere, cylinder or round basin.",
                                "Length of a cylinder, along x before rotation.",
                                "STL or OBJ file of a mesh, or ESRI ASCII grid of terrain heights, "
-                               "relative to the case file."};
+                               "relative to the case file.",
+                               MeshParts::may_overlap};
     const auto* held = std::get_if<SolidWall>(&wall.geometry);
     std::size_t kind = is_terrain(wall)  ? terrain
                        : is_prism(wall)  ? prism

@@ -8,6 +8,7 @@
 #include "plan_gauges.hpp"
 #include "plan_leaks.hpp"
 #include "plan_open.hpp"
+#include "plan_thin.hpp"
 #include "plan_warnings.hpp"
 #include "plan_waves.hpp"
 #include "walls.hpp"
@@ -356,6 +357,7 @@ void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
         throw CaseError(errors);
     }
     warn_about_slips(scene, plan);
+    warn_about_thin_walls(scene, plan);
     warn_about_bodies(scene, plan);
     warn_about_round_walls(scene, plan);
     warn_about_waves(scene, facts, plan);

@@ -2,7 +2,6 @@
 #include "hyoryu/scene/plan_slips.hpp"
 
 #include "plan_warnings.hpp"
-#include "walls.hpp"
 
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/shapes.hpp"
@@ -254,21 +253,6 @@ void look_for_coarse_bodies(const Scene& scene, PlanWarnings& slips)
     }
 }
 
-void look_for_thin_walls(const Scene& scene, PlanWarnings& slips)
-{
-    for (std::size_t w = 0; scene.fluid && w < scene.walls.size(); ++w) {
-        const Wall& wall = scene.walls[w];
-        const double thin = box_thickness(wall, scene.dimensions);
-        if (thin < scene.spacing * (1 - 1e-9)) {
-            slips.add(wall.place, fmt::format("wall[{}]", w),
-                      fmt::format("wall \"{}\" is {:.3g} m thick, less than the spacing of {:.3g} "
-                                  "m: the fluid on its two sides is not well separated",
-                                  wall.name, thin, scene.spacing),
-                      "use a thicker wall, or a smaller `particles.spacing`");
-        }
-    }
-}
-
 // Water below the underside of the ground, at `bottom` [m], has nothing to stand on.
 void look_for_water_below(const Wall& ground, double bottom, const Scene& scene,
                           PlanWarnings& slips)
@@ -381,7 +365,6 @@ void warn_about_slips(const Scene& scene, Plan& plan)
     look_at_meshes(scene, slips);
     look_for_doubled_cells(scene, slips);
     look_for_coarse_bodies(scene, slips);
-    look_for_thin_walls(scene, slips);
     look_below_terrain(scene, slips);
     const std::string cut = cut_by_domain(scene);
     if (!cut.empty()) {

@@ -267,7 +267,7 @@ double covered_part(const Corners& t, const Vec3& p)
 }
 
 // 1 inside, 0 outside; distant nodes by the first term of their expansion.
-double winding_number(const TriangleTree& tree, int node, const Vec3& p)
+double winding_below(const TriangleTree& tree, int node, const Vec3& p)
 {
     constexpr double far = 2.5; // radii: errors of a few hundredths, and half decides
     const TriangleTree::Node& n = tree.nodes[at(node)];
@@ -277,7 +277,7 @@ double winding_number(const TriangleTree& tree, int node, const Vec3& p)
         return moment.area.dot(r) / (4 * std::numbers::pi * std::pow(r.norm(), 3));
     }
     if (n.right >= 0) {
-        return winding_number(tree, node + 1, p) + winding_number(tree, n.right, p);
+        return winding_below(tree, node + 1, p) + winding_below(tree, n.right, p);
     }
     double sum = 0;
     for (int k = n.first; k < n.first + n.count; ++k) {
@@ -358,13 +358,18 @@ NearestPlace nearest_place(const TriangleTree& tree, const Vec3& point, double f
     const Vec3 outward = side_normal(tree, tree.triangles[at(best.triangle)], best.foot.feature);
     const Vec3 way = point - best.foot.place;
     const bool inside =
-        tree.is_one_piece ? way.dot(outward) < 0 : winding_number(tree, 0, point) > 0.5;
+        tree.is_one_piece ? way.dot(outward) < 0 : winding_number(tree, point) > 0.5;
     const double side = inside ? -1 : 1;
     // On the surface itself the direction is undefined.
     const double touching = 1e-12 * tree.moments[0].radius;
     const Vec3 normal =
         best.distance > touching ? Vec3(side / best.distance * way) : outward.normalized();
     return {side * best.distance, normal};
+}
+
+double winding_number(const TriangleTree& tree, const Vec3& point)
+{
+    return winding_below(tree, 0, point);
 }
 
 } // namespace hyoryu

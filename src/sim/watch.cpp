@@ -112,6 +112,21 @@ Complaint first_complaint(Comm& comm, const std::optional<Complaint>& own)
     report(sim, said[0], said[1], said[2]);
 }
 
+std::string cause_of_overlap(const Simulation& sim)
+{
+    if (sim.clock.step <= 1) {
+        return "they overlap at the start";
+    }
+    const std::string step =
+        fmt::format("the step of {:.3g} s is too long for the thinnest body, whose inner radius is "
+                    "{:.3g} m; {}",
+                    sim.clock.dt, sim.thinnest,
+                    sim.scene.time.step ? "shorten `time.step`"
+                                        : "set `time.recover = true`, or a shorter `time.step`");
+    return has_moving_walls(sim.scene) ? "probably a moving wall leaves them no space, or " + step
+                                       : "probably " + step;
+}
+
 void watch_bodies(const Simulation& sim)
 {
     for (const Body& body : sim.rigid.bodies) {
@@ -133,9 +148,7 @@ void watch_bodies(const Simulation& sim)
     if (sim.rigid.counters.worst_penetration > sim.thinnest) {
         const Overlap deepest = deepest_overlap(sim);
         report(sim, deepest.pair, fmt::format("they overlap by {:.4g} m", deepest.depth),
-               sim.clock.step <= 1 ? "they overlap at the start"
-                                   : "probably a moving wall leaves them no space, or a fixed "
-                                     "`time.step` is too long");
+               cause_of_overlap(sim));
     }
 }
 

@@ -151,7 +151,7 @@ TEST(PlanWarnings, OfGaugesThatReadTheOtherSideOfAWall)
         const double away = of_spacings(random) * dp;
         const std::string text = fmt::format(
             "[time]\nend = 1.0\n[particles]\nspacing = {}\n[fluid]\n[[fluid.block]]\n"
-            "shape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 0.5]\n[[wall]]\nshape = \"basin\"\n"
+            "shape = \"box\"\nmin = [0, 0, 0]\nmax = [0.4, 0.4, 0.2]\n[[wall]]\nshape = \"basin\"\n"
             "min = [0, 0, 0]\nmax = [3, 1, 1]\nopen = [\"+z\"]\n[[wall]]\nname = \"sheet\"\n"
             "shape = \"box\"\nmin = [1, 0, 0]\nmax = [{}, 1, 1]\n[[gauge]]\n"
             "type = \"pressure\"\nat = [{}, 0.5, 0.2]\n",

@@ -114,8 +114,10 @@ TEST(Watch, SolidsThatRunIntoEachOtherAreNamed)
     Simulation sim = make(crates);
     advance(sim, 3);
     sim.rigid.bodies[1].position.x() = 0.05; // 0.15 m into the other, whose inner radius is 0.1 m
-    expect_words(said([&] { step(sim); }),
-                 {"body \"right\" and body \"left\"", "overlap by 0.1", "space"});
+    const std::string text = said([&] { step(sim); });
+    expect_words(text, {"body \"right\" and body \"left\"", "overlap by 0.1",
+                        "whose inner radius is 0.1 m"});
+    EXPECT_EQ(text.find("moving wall"), std::string::npos) << "there is none";
 }
 
 // A wall closes on two crates in a row that stand against the side of a basin, and goes on.

@@ -52,4 +52,9 @@ TriangleTree triangle_tree(const std::vector<Vec3>& corners,
 /// 2018, with one term). Distance infinity if it is farther away than `farthest`.
 NearestPlace nearest_place(const TriangleTree& tree, const Vec3& point, double farthest);
 
+/// How often the surface winds about a point: 1 inside, 0 outside, 2 where two parts overlap,
+/// within a few hundredths (Barill et al. 2018, with one term). Only for surfaces that are not one
+/// piece.
+double winding_number(const TriangleTree& tree, const Vec3& point);
+
 } // namespace hyoryu
