@@ -12,10 +12,13 @@
 
 namespace hyoryu {
 
-/// Keeps points that are at least 0.6 spacings from every earlier one. A table of cells that edge
-/// wide, each with one point, by linear probing.
+/// Keeps points that are at least 0.6 spacings from every earlier one but those of its own group,
+/// whose distances are right already. A table of cells that edge wide, each with the first point
+/// that came into it, by linear probing.
 class Crowd {
 public:
+    /// Points of no group keep the distance from all others.
+    static constexpr std::int32_t no_group = -1;
     /// Edge of a cell, and least distance of two points [spacings].
     static constexpr double distance = 0.6;
 
@@ -25,23 +28,28 @@ public:
     }
 
     /// Whether a point has room; if it has, it must be appended to the points.
-    bool add(const Vec3& p)
+    bool add(const Vec3& p, std::int32_t group = no_group)
     {
         if (2 * (points_.size() + 1) > table_.size()) {
             grow();
         }
         const Cell c = cell_of(p);
-        if (table_[slot_of(c)] >= 0) {
+        const std::size_t own = slot_of(c);
+        if (table_[own] >= 0 && !is_of(group, table_[own])) {
             return false;
         }
         for (int way = 0; way < 27; ++way) {
             const Cell beside{c[0] + way % 3 - 1, c[1] + way / 3 % 3 - 1, c[2] + way / 9 - 1};
             const std::int32_t near = table_[slot_of(beside)];
-            if (near >= 0 && (points_[static_cast<std::size_t>(near)] - p).norm() < cell_) {
+            if (near >= 0 && !is_of(group, near) &&
+                (points_[static_cast<std::size_t>(near)] - p).norm() < cell_) {
                 return false;
             }
         }
-        table_[slot_of(c)] = static_cast<std::int32_t>(points_.size());
+        if (table_[own] < 0) {
+            table_[own] = static_cast<std::int32_t>(points_.size());
+        }
+        groups_.push_back(group);
         return true;
     }
 
@@ -70,17 +78,23 @@ private:
         }
         return slot;
     }
+    bool is_of(std::int32_t group, std::int32_t point) const
+    {
+        return group != no_group && groups_[static_cast<std::size_t>(point)] == group;
+    }
     void grow()
     {
         table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), -1);
         for (std::size_t k = 0; k < points_.size(); ++k) {
-            table_[slot_of(cell_of(points_[k]))] = static_cast<std::int32_t>(k);
+            std::int32_t& first = table_[slot_of(cell_of(points_[k]))];
+            first = first < 0 ? static_cast<std::int32_t>(k) : first;
         }
     }
 
     const std::vector<Vec3>& points_;
     double cell_;
-    std::vector<std::int32_t> table_; // a power of two; points by cell, -1: none
+    std::vector<std::int32_t> groups_; // of the points
+    std::vector<std::int32_t> table_;  // a power of two; points by cell, -1: none
 };
 
 } // namespace hyoryu

@@ -2,7 +2,6 @@
 #include "layer_places.hpp"
 
 #include "crowd.hpp"
-#include "way_out.hpp"
 
 #include "hyoryu/scene/fill.hpp"
 
@@ -114,32 +113,6 @@ LayerPlaces places_of(const SolidWall& solid, const SolidSurface& surface,
     return std::visit(of_shape, solid.shape);
 }
 
-// A surface above or below a lattice point of a mesh.
-struct RowSurface {
-    double distance = infinity; // along the axis [m]
-    Index rows = 0;             // between it and the point
-    double weight = 0;          // 1 if it is about perpendicular to the axis, 0 if it is not
-};
-
-constexpr double steep_cosine = 0.75, flat_cosine = 0.85; // cosines of 41 and 32 degrees
-constexpr double grazing = 1e-6; // depth of points that lie on the surface [spacings]
-
-RowSurface row_surface(const WayOut& out, int axis, double pitch, double spacing)
-{
-    if (!(out.distance < infinity)) {
-        return {};
-    }
-    const double rows = std::floor((out.distance - grazing * spacing) / pitch);
-    return {out.distance, std::max<Index>(0, static_cast<Index>(rows)),
-            std::clamp((std::abs(out.normal[axis]) - steep_cosine) / (flat_cosine - steep_cosine),
-                       0.0, 1.0)};
-}
-
-Vec3 in_world(const SolidWall& solid, const Vec3& own)
-{
-    return solid.centre + solid.rotation * own;
-}
-
 } // namespace
 
 LayerLattice layer_lattice(const Scene& scene, const Bounds& domain)
@@ -215,62 +188,6 @@ std::optional<WallCell> CubePlaces::place(Index k) const
     const bool is_core =
         signed_distance({.shape = &solid->shape, .dimensions = dimensions}, p) <= -depth;
     return is_core ? std::nullopt : std::optional(WallCell{in_world(*solid, p), cubes});
-}
-
-std::optional<WallCell> MeshPlaces::place(Index k) const
-{
-    const Vec3 p = lattice.place(k);
-    return cell_of({k, p, nearest_place(*tree, p, infinity)});
-}
-
-MeshPlaces::InRow MeshPlaces::in_row(int axis, const Vec3& point) const
-{
-    const double pitch = lattice.cell()[axis];
-    const auto surface = [&](int sense) {
-        return row_surface(way_out(*tree, point, {axis, sense}, 2 * depth), axis, pitch, spacing);
-    };
-    const RowSurface below = surface(-1);
-    const RowSurface above = surface(1);
-    const double thickness = below.distance + above.distance;
-    if (const double weight = std::min(below.weight, above.weight);
-        weight > 0 && thickness < 2 * depth) {
-        const auto most = static_cast<Index>(thickness / (Crowd::distance * spacing));
-        const Index count = std::clamp<Index>(most, 1, below.rows + above.rows + 1);
-        const double own = thickness / static_cast<double>(count);
-        const double place = (static_cast<double>(std::min(below.rows, count - 1)) + 0.5) * own;
-        return {weight * (place - below.distance), pitch + weight * (own - pitch), weight};
-    }
-    const bool is_below =
-        below.weight > 0 && !(above.weight > 0 && above.distance < below.distance);
-    const RowSurface& nearest = is_below ? below : above;
-    if (nearest.weight == 0) {
-        return {0, pitch, 0};
-    }
-    const double place = (static_cast<double>(nearest.rows) + 0.5) * pitch;
-    return {(is_below ? 1 : -1) * nearest.weight * (place - nearest.distance), pitch,
-            nearest.weight};
-}
-
-std::optional<WallCell> MeshPlaces::cell_of(const MeshPoint& point) const
-{
-    if (std::abs(point.nearest.distance) < grazing * spacing && point.number < lattice.number()) {
-        return std::nullopt;
-    }
-    WallCell cell{point.place, cubes};
-    double least = spacing / 2;
-    for (int axis = 0; axis < 3; ++axis) {
-        const InRow row = in_row(axis, point.place);
-        const double pitch = lattice.cell()[axis];
-        cell.place[axis] += row.shift;
-        cell.cubes *= row.pitch / pitch;
-        // Half a cell along the axis is nearer to an inclined surface.
-        least = row.weight < 1 ? least : std::min(least, flat_cosine / 2 * row.pitch);
-    }
-    const NearestPlace nearest =
-        cell.place == point.place ? point.nearest : nearest_place(*tree, cell.place, infinity);
-    const double lacking = nearest.distance + least;
-    cell.place = in_world(*solid, cell.place - std::max(lacking, 0.0) * nearest.normal);
-    return cell;
 }
 
 LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface, const LayerLattice& lattice)

@@ -25,6 +25,12 @@ struct LayerLattice {
 
 LayerLattice layer_lattice(const Scene& scene, const Bounds& domain);
 
+/// A place of an obstacle in the scene.
+inline Vec3 in_world(const SolidWall& solid, const Vec3& own)
+{
+    return solid.centre + solid.rotation * own;
+}
+
 /// Where a layer may have a particle.
 struct WallCell {
     Vec3 place{0, 0, 0}; // [m]
@@ -97,8 +103,8 @@ struct CubePlaces {
 /// Where the surface is about perpendicular to an axis of the lattice, the points below it move
 /// along this axis so that their cells begin at the surface. On the lattice itself the surface that
 /// the fluid sees would be up to half a spacing too deep. Between two surfaces less than two depths
-/// of the layers apart the cells share the thickness evenly. Elsewhere points nearer to the surface
-/// than half a spacing move to that depth; otherwise they would crowd the fluid.
+/// of the layers apart the cells share the thickness evenly. Elsewhere the surface cuts the cells:
+/// each has the volume of its part within the mesh, and its particle is in the middle of this part.
 struct MeshPlaces {
     const SolidWall* solid = nullptr;
     const TriangleTree* tree = nullptr;
@@ -107,15 +113,28 @@ struct MeshPlaces {
     double spacing = 0, depth = 0; // [m]
 
     std::optional<WallCell> place(Index k) const;
+    /// Empty if the cell has no part within the mesh.
     std::optional<WallCell> cell_of(const MeshPoint& point) const;
+    /// Of the middles of the cells that may have a particle.
+    DepthRange range() const { return {depth, lattice.cell().norm() / 2}; }
 
 private:
-    /// A point in a row along an axis.
+    /// A point in a row along an axis that begins at a surface.
     struct InRow {
         double shift = 0;  // along the axis [m]
-        double pitch = 0;  // of the row [m]
+        double ratio = 1;  // of its pitch to that of the lattice; 0 if the row has no room for it
         double weight = 0; // 1 if the row follows a surface, 0 if it does not
     };
+    /// The same along all axes: of the rows that follow a surface at all, and of those that surely
+    /// do.
+    struct InRows {
+        Vec3 shift{0, 0, 0}, sure_shift{0, 0, 0}; // [m]
+        double cubes = 1, sure_cubes = 1;         // volume [cells of the lattice]
+        double weight = 0;                        // the largest below 1
+        Vec3 free{0, 0, 0};                       // cell along the axes that surely follow none [m]
+        double least = infinity;                  // depth that a point keeps [m]
+    };
+    InRows in_rows(const Vec3& point) const;
     InRow in_row(int axis, const Vec3& point) const;
 };
 
@@ -135,7 +154,7 @@ void for_each_place(const LayerPlaces& places, Comm* comm, const auto& put)
 {
     if (const auto* mesh = std::get_if<MeshPlaces>(&places)) {
         for (const MeshPoint& point :
-             points_within(mesh->lattice, *mesh->tree, mesh->depth, comm)) {
+             points_within(mesh->lattice, *mesh->tree, mesh->range(), comm)) {
             if (const std::optional<WallCell> cell = mesh->cell_of(point)) {
                 put(point.number, cell->place);
             }

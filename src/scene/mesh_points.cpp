@@ -16,8 +16,9 @@ constexpr Index block = 8; // cells along an edge of the coarsest blocks; a powe
 // A row of blocks along x: the cells of it that may be within the layers.
 class BlockRow {
 public:
-    BlockRow(const MeshLattice& lattice, const TriangleTree& tree, double depth, Index j, Index k)
-        : lattice_(lattice), tree_(tree), depth_(depth), first_{0, j, k},
+    BlockRow(const MeshLattice& lattice, const TriangleTree& tree, const DepthRange& range, Index j,
+             Index k)
+        : lattice_(lattice), tree_(tree), range_(range), first_{0, j, k},
           wanted_(at(lattice.count[0] * block * block), 0)
     {
         for (Index i = 0; i < lattice.count[0]; i += block) {
@@ -36,8 +37,8 @@ public:
                     continue;
                 }
                 const Vec3 p = lattice_.place(i, j, k);
-                const NearestPlace nearest = nearest_place(tree_, p, depth_);
-                if (nearest.distance < 0) {
+                const NearestPlace nearest = nearest_place(tree_, p, range_.below);
+                if (nearest.distance < 0 || nearest.distance < range_.above) {
                     points.push_back({i + nx * (j + ny * k), p, nearest});
                 }
             }
@@ -66,8 +67,9 @@ private:
         const Vec3 half = 0.5 * static_cast<double>(edge - 1) * lattice_.cell();
         const double reach = 1.001 * half.norm(); // to the farthest of its points, with rounding
         const Vec3 centre = lattice_.place(low[0], low[1], low[2]) + half;
-        const double distance = nearest_place(tree_, centre, depth_ + reach).distance;
-        if (distance > reach) { // all outside, or the surface is farther than the layers
+        const double distance = nearest_place(tree_, centre, range_.below + reach).distance;
+        if (distance >
+            reach + range_.above) { // all outside, or the surface is farther than the layers
             return;
         }
         const Index half_edge = edge / 2;
@@ -80,7 +82,7 @@ private:
 
     const MeshLattice& lattice_;
     const TriangleTree& tree_;
-    double depth_;
+    DepthRange range_;
     std::array<Index, 3> first_;
     std::vector<std::uint8_t> wanted_;
 };
@@ -100,7 +102,7 @@ MeshLattice mesh_lattice(const MeshShape& mesh, double spacing)
 }
 
 std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
-                                     double depth, Comm* comm)
+                                     const DepthRange& range, Comm* comm)
 {
     const Index rows = (lattice.count[1] + block - 1) / block;
     const Index levels = (lattice.count[2] + block - 1) / block;
@@ -113,7 +115,7 @@ std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleT
         [&](Index k) {
             const Index level = k / rows;
             const Index row = k % rows;
-            const BlockRow cells_of(lattice, tree, depth, row * block, level * block);
+            const BlockRow cells_of(lattice, tree, range, row * block, level * block);
             for (Index plane = 0; plane < block; ++plane) {
                 cells_of.append_plane(level * block + plane,
                                       parts[at((level * block + plane) * rows + row)]);
@@ -128,7 +130,7 @@ std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleT
     const bool none = sum_of_all(comm, static_cast<Index>(points.size())) == 0;
     if (none && (comm == nullptr || comm->rank() == 0)) {
         const NearestPlace nearest = nearest_place(tree, lattice.centre, infinity);
-        if (std::abs(nearest.distance) <= depth) {
+        if (std::abs(nearest.distance) <= range.below) {
             points.push_back({lattice.number(), lattice.centre, nearest});
         }
     }

@@ -51,18 +51,24 @@ struct MeshLattice {
 
 MeshLattice mesh_lattice(const MeshShape& mesh, double spacing);
 
-/// A lattice point inside a mesh.
+/// How far points may be from the surface of a mesh [m].
+struct DepthRange {
+    double below = infinity;
+    double above = 0;
+};
+
+/// A lattice point inside a mesh or near its surface.
 struct MeshPoint {
     Index number = 0;    // of its cell
     Vec3 place{0, 0, 0}; // [m]
     NearestPlace nearest;
 };
 
-/// The lattice points inside a mesh that are at most `depth` below its surface [m], by number; the
+/// The lattice points below the surface of a mesh, or above it, within that range, by number; the
 /// centre if there is none and it is as near. The cost is that of the cells near the surface where
-/// `depth` is finite, O(log n) a cell for n triangles. Of several processes, which call it
+/// the range is finite, O(log n) a cell for n triangles. Of several processes, which call it
 /// together, each gets a part.
 std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
-                                     double depth, Comm* comm = nullptr);
+                                     const DepthRange& range, Comm* comm = nullptr);
 
 } // namespace hyoryu

@@ -84,6 +84,13 @@ double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& p
     return depth_behind(wall, p, dimensions);
 }
 
+std::int32_t crowd_group(const Scene& scene, std::size_t wall)
+{
+    const auto* solid = std::get_if<SolidWall>(&scene.walls[wall].geometry);
+    const bool is_mesh = solid != nullptr && std::holds_alternative<MeshShape>(solid->shape);
+    return is_mesh ? static_cast<std::int32_t>(wall) : Crowd::no_group;
+}
+
 void fill_walls(const Scene& scene, Filling& filling)
 {
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
@@ -94,7 +101,7 @@ void fill_walls(const Scene& scene, Filling& filling)
         Index expected = -1; // the place that a run would go on with
         for_each_place(
             layer_places(wall, surface, lattice), nullptr, [&](Index number, const Vec3& p) {
-                if (!in_period(scene, p) || !crowd.add(p)) {
+                if (!in_period(scene, p) || !crowd.add(p, crowd_group(scene, w))) {
                     return;
                 }
                 if (number != expected) {

@@ -11,6 +11,10 @@ namespace hyoryu {
 /// particles.
 void fill_walls(const Scene& scene, Filling& filling);
 
+/// The group in `Crowd` of the particles of a wall: those of a mesh are cells of one lattice, which
+/// the surface may cut.
+std::int32_t crowd_group(const Scene& scene, std::size_t wall);
+
 /// Depth of a point behind the surface of a wall, negative in the free space [m].
 double depth_behind(const Wall& wall, const Vec3& point, int dimensions);
 /// The same by the tree of a mesh, which looks at few of its triangles.

@@ -9,6 +9,7 @@
 #include "hyoryu/scene/solid_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -90,21 +91,25 @@ std::vector<LayerPlace> send(Comm& comm, const std::vector<LayerPlace>& places, 
 }
 
 // The selection among the places of this process, given that of other processes near it.
-std::vector<LayerPlace> with_room(const std::vector<LayerPlace>& own,
-                                  const std::vector<LayerPlace>& others, double spacing)
+std::vector<LayerPlace> with_room(const Scene& scene, const std::vector<LayerPlace>& own,
+                                  const std::vector<LayerPlace>& others)
 {
     std::vector<Vec3> points;
-    Crowd crowd(spacing, points);
+    Crowd crowd(scene.spacing, points);
+    const auto add = [&](const LayerPlace& place) {
+        const bool has_room = crowd.add(place.home, crowd_group(scene, at(place.wall)));
+        if (has_room) {
+            points.push_back(place.home);
+        }
+        return has_room;
+    };
     std::vector<LayerPlace> taken;
     auto other = others.begin();
     for (const LayerPlace& place : own) {
         for (; other != others.end() && other->key() < place.key(); ++other) {
-            if (crowd.add(other->home)) {
-                points.push_back(other->home);
-            }
+            add(*other);
         }
-        if (crowd.add(place.home)) {
-            points.push_back(place.home);
+        if (add(place)) {
             taken.push_back(place);
         }
     }
@@ -112,15 +117,17 @@ std::vector<LayerPlace> with_room(const std::vector<LayerPlace>& own,
 }
 
 // The places with a particle in the region of this process.
-std::vector<LayerPlace> take_places(const FillRegion& region, const std::vector<LayerPlace>& own,
-                                    double spacing)
+std::vector<LayerPlace> take_places(const Scene& scene, const FillRegion& region,
+                                    const std::vector<LayerPlace>& own)
 {
     Comm& comm = region.comm();
-    const double reach = 1.01 * Crowd::distance * spacing;
+    // A place is compared with the first one in a cell that is as near: the diagonal of a cell
+    // more.
+    const double reach = 1.01 * (1 + std::sqrt(3.0)) * Crowd::distance * scene.spacing;
     std::vector<LayerPlace> taken;
     std::vector<LayerPlace> others;
     for (bool news = true; news;) {
-        taken = with_room(own, others, spacing);
+        taken = with_room(scene, own, others);
         std::vector<LayerPlace> now = send(comm, taken, [&](const LayerPlace& p, const auto& to) {
             std::ranges::for_each(region.others_about(p.home, reach), to);
         });
@@ -255,7 +262,7 @@ FillRegion fill_walls_by_range(const Scene& scene, Comm& comm, Filling& filling)
         to(region.owner(p.home + filling.wall_shifts[at(p.copy)]));
     };
     places = send(comm, places, to_owner);
-    places = take_places(region, places, scene.spacing);
+    places = take_places(scene, region, places);
     for (const OpenSettings& open : scene.open) {
         places = carry_out(comm, CarriedWalls(scene, open), places, filling.wall_shifts);
     }
