@@ -14,7 +14,8 @@ namespace hyoryu {
 
 /// Keeps points that are at least 0.6 spacings from every earlier one but those of its own group,
 /// whose distances are right already. A table of cells that edge wide, each with the first point
-/// that came into it, by linear probing.
+/// that came into it, by linear probing. Several crowds may have their members among the same
+/// points.
 class Crowd {
 public:
     /// Points of no group keep the distance from all others.
@@ -27,10 +28,10 @@ public:
     {
     }
 
-    /// Whether a point has room; if it has, it must be appended to the points.
+    /// Whether a point has room; if it has, it must be appended to the points at once.
     bool add(const Vec3& p, std::int32_t group = no_group)
     {
-        if (2 * (points_.size() + 1) > table_.size()) {
+        if (2 * (members_.size() + 1) > table_.size()) {
             grow();
         }
         const Cell c = cell_of(p);
@@ -41,20 +42,23 @@ public:
         for (int way = 0; way < 27; ++way) {
             const Cell beside{c[0] + way % 3 - 1, c[1] + way / 3 % 3 - 1, c[2] + way / 9 - 1};
             const std::int32_t near = table_[slot_of(beside)];
-            if (near >= 0 && !is_of(group, near) &&
-                (points_[static_cast<std::size_t>(near)] - p).norm() < cell_) {
+            if (near >= 0 && !is_of(group, near) && (place_of(near) - p).norm() < cell_) {
                 return false;
             }
         }
         if (table_[own] < 0) {
-            table_[own] = static_cast<std::int32_t>(points_.size());
+            table_[own] = static_cast<std::int32_t>(members_.size());
         }
-        groups_.push_back(group);
+        members_.push_back({static_cast<std::int32_t>(points_.size()), group});
         return true;
     }
 
 private:
     using Cell = std::array<Index, 3>;
+    struct Member {
+        std::int32_t point = 0;
+        std::int32_t group = no_group;
+    };
 
     Cell cell_of(const Vec3& p) const
     {
@@ -73,28 +77,32 @@ private:
             hash ^= hash >> 32;
         }
         std::size_t slot = hash & (table_.size() - 1);
-        while (table_[slot] >= 0 && cell_of(points_[static_cast<std::size_t>(table_[slot])]) != c) {
+        while (table_[slot] >= 0 && cell_of(place_of(table_[slot])) != c) {
             slot = (slot + 1) & (table_.size() - 1);
         }
         return slot;
     }
-    bool is_of(std::int32_t group, std::int32_t point) const
+    const Vec3& place_of(std::int32_t member) const
     {
-        return group != no_group && groups_[static_cast<std::size_t>(point)] == group;
+        return points_[static_cast<std::size_t>(members_[static_cast<std::size_t>(member)].point)];
+    }
+    bool is_of(std::int32_t group, std::int32_t member) const
+    {
+        return group != no_group && members_[static_cast<std::size_t>(member)].group == group;
     }
     void grow()
     {
         table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), -1);
-        for (std::size_t k = 0; k < points_.size(); ++k) {
-            std::int32_t& first = table_[slot_of(cell_of(points_[k]))];
-            first = first < 0 ? static_cast<std::int32_t>(k) : first;
+        for (std::int32_t k = 0; k < std::ssize(members_); ++k) {
+            std::int32_t& first = table_[slot_of(cell_of(place_of(k)))];
+            first = first < 0 ? k : first;
         }
     }
 
     const std::vector<Vec3>& points_;
     double cell_;
-    std::vector<std::int32_t> groups_; // of the points
-    std::vector<std::int32_t> table_;  // a power of two; points by cell, -1: none
+    std::vector<Member> members_;
+    std::vector<std::int32_t> table_; // a power of two; members by cell, -1: none
 };
 
 } // namespace hyoryu

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "walls.hpp"
 
-#include "crowd.hpp"
 #include "layer_places.hpp"
 
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/scene/covered_share.hpp"
 #include "hyoryu/scene/wall_layers.hpp"
 
 #include <algorithm>
@@ -56,6 +56,12 @@ std::vector<LayerPlaces> places_of_walls(const Scene& scene, const Filling& fill
     return places;
 }
 
+bool move_alike(const Motion& a, const Motion& b)
+{
+    return !a.absorption && !b.absorption && a.velocity == b.velocity && a.times == b.times &&
+           a.places == b.places;
+}
+
 const WallRun& run_with(const std::vector<WallRun>& runs, Index index)
 {
     return *(std::ranges::upper_bound(runs, index, {}, &WallRun::first) - 1);
@@ -84,24 +90,37 @@ double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& p
     return depth_behind(wall, p, dimensions);
 }
 
-std::int32_t crowd_group(const Scene& scene, std::size_t wall)
+WallCrowd::WallCrowd(const Scene& scene, const std::vector<Vec3>& points) : scene_(scene)
 {
-    const auto* solid = std::get_if<SolidWall>(&scene.walls[wall].geometry);
+    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+        std::size_t first = 0;
+        while (first < w && !move_alike(scene.walls[first].motion, scene.walls[w].motion)) {
+            ++first;
+        }
+        first_.push_back(first);
+        crowds_.emplace_back(scene.spacing, points);
+    }
+}
+
+bool WallCrowd::add(const Vec3& point, std::size_t wall)
+{
+    const auto* solid = std::get_if<SolidWall>(&scene_.walls[wall].geometry);
     const bool is_mesh = solid != nullptr && std::holds_alternative<MeshShape>(solid->shape);
-    return is_mesh ? static_cast<std::int32_t>(wall) : Crowd::no_group;
+    return crowds_[first_[wall]].add(point,
+                                     is_mesh ? static_cast<std::int32_t>(wall) : Crowd::no_group);
 }
 
 void fill_walls(const Scene& scene, Filling& filling)
 {
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
-    Crowd crowd(scene.spacing, filling.wall);
+    WallCrowd crowd(scene, filling.wall);
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
         const SolidSurface surface = surface_of(wall, lattice.depth(), scene.dimensions);
         Index expected = -1; // the place that a run would go on with
         for_each_place(
             layer_places(wall, surface, lattice), nullptr, [&](Index number, const Vec3& p) {
-                if (!in_period(scene, p) || !crowd.add(p, crowd_group(scene, w))) {
+                if (!in_period(scene, p) || !crowd.add(p, w)) {
                     return;
                 }
                 if (number != expected) {
@@ -146,12 +165,17 @@ std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
         surfaces.push_back(surface_of(wall, lattice.depth(), scene.dimensions));
     }
     const std::vector<LayerPlaces> places = places_of_walls(scene, filling, surfaces);
+    const std::vector<int> fixed = fixed_walls_of(scene);
     std::vector<float> cubes(filling.wall.size());
     parallel_for(0, static_cast<Index>(cubes.size()), [&](Index k) {
         const auto index = static_cast<Index>(filling.number_of_wall(at(k)));
         const WallRun& run = run_with(filling.wall_runs, index);
-        cubes[at(k)] =
-            static_cast<float>(cubes_at(places[at(run.wall)], run.place + index - run.first));
+        const double share =
+            moves(scene.walls[at(run.wall)].motion)
+                ? uncovered_share(surfaces, fixed, filling.wall[at(k)], scene.spacing)
+                : 1;
+        cubes[at(k)] = static_cast<float>(
+            share * cubes_at(places[at(run.wall)], run.place + index - run.first));
     });
     return cubes;
 }

@@ -2,6 +2,8 @@
 // Walls as layers of particles behind their surface.
 #pragma once
 
+#include "crowd.hpp"
+
 #include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/solid_surface.hpp"
 
@@ -11,9 +13,22 @@ namespace hyoryu {
 /// particles.
 void fill_walls(const Scene& scene, Filling& filling);
 
-/// The group in `Crowd` of the particles of a wall: those of a mesh are cells of one lattice, which
-/// the surface may cut.
-std::int32_t crowd_group(const Scene& scene, std::size_t wall);
+/// Selects the particles of walls that have room. Walls that move in the same way keep 0.6 spacings
+/// from each other, those of earlier ones first. Those of a wall that moves in another way do not
+/// count: the two will part. Nor do those of the same mesh, cells of a lattice that its surface may
+/// cut.
+class WallCrowd {
+public:
+    WallCrowd(const Scene& scene, const std::vector<Vec3>& points);
+
+    /// Whether a point of a wall has room; if it has, it must be appended to the points at once.
+    bool add(const Vec3& point, std::size_t wall);
+
+private:
+    const Scene& scene_;
+    std::vector<std::size_t> first_; // of each wall: the first wall that moves as it does
+    std::vector<Crowd> crowds_;      // by first wall
+};
 
 /// Depth of a point behind the surface of a wall, negative in the free space [m].
 double depth_behind(const Wall& wall, const Vec3& point, int dimensions);

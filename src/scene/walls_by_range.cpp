@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "walls_by_range.hpp"
 
-#include "crowd.hpp"
 #include "layer_places.hpp"
 #include "open_side.hpp"
 #include "walls.hpp"
@@ -95,9 +94,9 @@ std::vector<LayerPlace> with_room(const Scene& scene, const std::vector<LayerPla
                                   const std::vector<LayerPlace>& others)
 {
     std::vector<Vec3> points;
-    Crowd crowd(scene.spacing, points);
+    WallCrowd crowd(scene, points);
     const auto add = [&](const LayerPlace& place) {
-        const bool has_room = crowd.add(place.home, crowd_group(scene, at(place.wall)));
+        const bool has_room = crowd.add(place.home, at(place.wall));
         if (has_room) {
             points.push_back(place.home);
         }

@@ -124,6 +124,8 @@ void add_fluid(Simulation& sim, Fluid fluid, const Filling& filling)
     const auto of_walls = fluid.particles.wall[field::position];
     sim.wall_start.assign(of_walls.begin(), of_walls.end());
     sim.fluid = std::move(fluid);
+    sim.covered = covered_walls(sim);
+    cover_walls(sim);
 }
 
 void add_body_points(Simulation& sim, const std::vector<Aggregate>& bodies)

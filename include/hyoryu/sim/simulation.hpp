@@ -11,6 +11,7 @@
 #include "hyoryu/sim/bed_friction.hpp"
 #include "hyoryu/sim/clock.hpp"
 #include "hyoryu/sim/conservation.hpp"
+#include "hyoryu/sim/covered_walls.hpp"
 #include "hyoryu/sim/gauges.hpp"
 #include "hyoryu/sim/loads.hpp"
 #include "hyoryu/sim/open_flow.hpp"
@@ -31,6 +32,7 @@ struct Simulation {
     Rigid rigid;
     BodyParticles body_particles;
     std::vector<Vec3> wall_start; // of the particles of walls that move at time 0 [m]
+    CoveredWalls covered;         // parts of them within fixed walls
     std::vector<Pose> poses;      // of the bodies when the loads were taken
     Loads loads;
     Seepage seepage; // of the joints of standing bodies

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/covered_walls.hpp"
+
+#include "hyoryu/core/parallel.hpp"
+#include "hyoryu/scene/covered_share.hpp"
+#include "hyoryu/sim/simulation.hpp"
+
+#include <span>
+
+namespace hyoryu {
+
+namespace {
+
+// For each wall that moves, the fixed ones that are near it now.
+std::vector<std::vector<int>> near_walls(const Simulation& sim)
+{
+    const std::vector<SolidSurface>& surfaces = sim.barrier->solids;
+    std::vector<std::vector<int>> near(sim.scene.walls.size());
+    for (std::size_t w = 0; w < near.size(); ++w) {
+        const Motion& motion = sim.scene.walls[w].motion;
+        if (!moves(motion)) {
+            continue;
+        }
+        const Vec3 centre = surfaces[w].centre + displacement(motion, sim.clock.time);
+        const double reach = surfaces[w].reach + sim.scene.spacing;
+        for (const int k : sim.covered.fixed) {
+            const SolidSurface& solid = surfaces[at(k)];
+            const Vec3 own = solid.rotation.conjugate() * (centre - solid.centre);
+            if (!(reach < infinity) || nearest_place(solid, own).distance < reach) {
+                near[w].push_back(k);
+            }
+        }
+    }
+    return near;
+}
+
+} // namespace
+
+CoveredWalls covered_walls(const Simulation& sim)
+{
+    CoveredWalls covered;
+    std::vector<int> fixed = fixed_walls_of(sim.scene);
+    if (sim.fluid->moving_walls && !fixed.empty()) {
+        covered.fixed = std::move(fixed);
+        const auto mass = sim.fluid->particles.wall[field::displaced_mass];
+        covered.mass.assign(mass.begin(), mass.begin() + sim.fluid->fixed_walls.moving_rows);
+    }
+    return covered;
+}
+
+void cover_walls(Simulation& sim)
+{
+    if (sim.covered.mass.empty()) {
+        return;
+    }
+    const std::vector<std::vector<int>> near = near_walls(sim);
+    Store& store = sim.fluid->particles.wall;
+    const auto x = store[field::position];
+    const auto rho = store[field::density];
+    const auto mass = store[field::displaced_mass];
+    const auto V = store[field::volume];
+    const auto owner = store.owner();
+    const std::span<const SolidSurface> surfaces = sim.barrier->solids;
+    parallel_for(0, static_cast<Index>(sim.covered.mass.size()), [&](Index i) {
+        const std::vector<int>& fixed = near[at(-1 - owner[i])];
+        mass[i] = sim.covered.mass[at(i)] *
+                  static_cast<real>(uncovered_share(surfaces, fixed, x[i], sim.scene.spacing));
+        V[i] = mass[i] / rho[i];
+    });
+}
+
+} // namespace hyoryu
