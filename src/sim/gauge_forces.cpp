@@ -33,6 +33,13 @@ Vec3 viscous_force(const Simulation& sim, int target)
                        : vector_sum_over_ranks(*sim.fluid, rows.size(), unit, term);
 }
 
+// With its part of the forces on particles of walls that it meets.
+Vec3 force_on_wall(const Loads& loads, std::size_t wall)
+{
+    return loads.at_junctions.empty() ? loads.walls[wall]
+                                      : Vec3(loads.walls[wall] + loads.at_junctions[wall]);
+}
+
 Vec3 contact_impulse(const std::vector<Contact>& contacts, int target)
 {
     Vec3 total = Vec3::Zero();
@@ -54,7 +61,7 @@ void book_forces(Simulation& sim, double dt)
     for (GaugedForce& force : sim.gauges.forces) {
         if (sim.fluid) {
             const Vec3 both = force.target >= 0 ? sim.loads.bodies[at(force.target)].force
-                                                : sim.loads.walls[at(-1 - force.target)];
+                                                : force_on_wall(sim.loads, at(-1 - force.target));
             force.viscous = viscous_force(sim, force.target);
             force.pressure = both - force.viscous;
             force.fluid_impulse += dt * both;

@@ -20,6 +20,7 @@ void begin_loads(Simulation& sim)
         loads.of_bodies.begin(0, {f, f, f, t, t, t});
     }
     collect_wall_forces(*sim.fluid, sim.scene.walls.size(), loads.of_walls);
+    collect_junctions(sim);
     loads.of_hits.begin(sim.barrier ? sim.rigid.bodies.size() : 0,
                         {f, f, f, t, t, t, fixed_unit(1)});
     if (has_seepage(sim)) {
@@ -36,6 +37,9 @@ void end_loads(Loads& loads, Reduction& all)
     };
     add(loads.of_bodies);
     add(loads.of_walls);
+    if (loads.of_junctions.owners() > 0) {
+        add(loads.of_junctions);
+    }
     add(loads.of_hits);
 }
 
@@ -51,6 +55,11 @@ void complete_loads(Simulation& sim)
     for (std::size_t wall = 0; wall < loads.walls.size(); ++wall) {
         const auto [x, y, z] = loads.of_walls.of(wall);
         loads.walls[wall] = Vec3(x, y, z);
+    }
+    loads.at_junctions.resize(loads.of_junctions.owners());
+    for (std::size_t wall = 0; wall < loads.at_junctions.size(); ++wall) {
+        const auto [x, y, z] = loads.of_junctions.of(wall);
+        loads.at_junctions[wall] = Vec3(x, y, z);
     }
     if (is_built<SurfaceBarrier> && sim.barrier) {
         share_hits(sim);

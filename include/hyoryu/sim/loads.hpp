@@ -7,6 +7,7 @@
 #include "hyoryu/core/owner_sums.hpp"
 #include "hyoryu/ranks/reduction.hpp"
 #include "hyoryu/rigid/rigid.hpp"
+#include "hyoryu/sim/junctions.hpp"
 
 #include <vector>
 
@@ -16,12 +17,17 @@ struct Simulation;
 
 struct Loads {
     std::vector<Wrench> bodies; // of the last step for which the loads are complete
-    std::vector<Vec3> walls;    // the same [N]
-    bool complete = true;       // whether they are those of this step, if one has begun
+    std::vector<Vec3> walls;    // the same, on the particles of each wall [N]
+    /// What each has besides, see junctions.hpp; empty without gauges of forces on walls [N].
+    std::vector<Vec3> at_junctions;
+    bool complete = true; // whether they are those of this step, if one has begun
+
+    Junctions junctions;
 
     // The sums of this step.
-    OwnerSums<6> of_bodies; // force [N] and torque [N m]
-    OwnerSums<3> of_walls;  // force [N]
+    OwnerSums<6> of_bodies;    // force [N] and torque [N m]
+    OwnerSums<3> of_walls;     // force [N]
+    OwnerSums<3> of_junctions; // what walls have of the forces on particles of others [N]
     OwnerSums<7> of_hits; // of bodies: force, torque, and how far they yield, see wall_barrier.hpp
 };
 

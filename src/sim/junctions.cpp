@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "hyoryu/sim/junctions.hpp"
+
+#include "hyoryu/fluid/sum_units.hpp"
+#include "hyoryu/scene/solid_surface.hpp"
+#include "hyoryu/sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr double parallel = 0.9; // cosine of normals that divide no force
+
+bool is_obstacle(const Wall& wall)
+{
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
+    return solid != nullptr && !(mesh != nullptr && mesh->terrain);
+}
+
+// Finds the particles in the ground near obstacles, if one of the two has a gauge.
+class JunctionSearch {
+public:
+    explicit JunctionSearch(const Simulation& sim)
+        : sim_(sim), reach_(sim.fluid->kernel.support), gauged_(sim.scene.walls.size(), false)
+    {
+        for (const GaugedForce& force : sim.gauges.forces) {
+            if (force.target < 0) {
+                gauged_[at(-1 - force.target)] = true;
+            }
+        }
+        for (std::size_t w = 0; w < sim.scene.walls.size(); ++w) {
+            ways_.push_back(displacement(sim.scene.walls[w].motion, sim.clock.time));
+            (is_obstacle(sim.scene.walls[w]) ? obstacles_ : grounds_)
+                .push_back(static_cast<int>(w));
+        }
+    }
+
+    bool any() const
+    {
+        return !obstacles_.empty() && std::ranges::find(gauged_, true) != gauged_.end();
+    }
+
+    std::optional<JunctionRow> look_at(std::int32_t row) const
+    {
+        const Store& store = sim_.fluid->particles.wall;
+        const Vec3 place = store[field::position][row];
+        const int owner = -1 - store.owner()[row];
+        JunctionRow found{.row = row, .owner = owner, .ground = ground_at(place, owner)};
+        found.obstacle = owner != found.ground ? owner : nearest_obstacle(found.ground, place);
+        return found.obstacle >= 0 && divide(place, found) ? std::optional(found) : std::nullopt;
+    }
+
+private:
+    NearestPlace nearest(int wall, const Vec3& place, double farthest) const
+    {
+        const SolidSurface& solid = sim_.barrier->solids[at(wall)];
+        const Vec3 own = solid.rotation.conjugate() * (place - solid.centre - ways_[at(wall)]);
+        NearestPlace found = nearest_place(solid, own, farthest);
+        found.normal = solid.rotation * found.normal;
+        return found;
+    }
+
+    // The wall that a particle is in: of an obstacle that reaches into the ground, the ground.
+    int ground_at(const Vec3& place, int owner) const
+    {
+        if (is_obstacle(sim_.scene.walls[at(owner)])) {
+            for (const int ground : grounds_) {
+                if ((gauged_[at(owner)] || gauged_[at(ground)]) &&
+                    nearest(ground, place, infinity).distance < 0) {
+                    return ground;
+                }
+            }
+        }
+        return owner;
+    }
+
+    // That whose surface is nearest to a place of the ground; -1 if none is within reach.
+    int nearest_obstacle(int ground, const Vec3& place) const
+    {
+        int best = -1;
+        double least = reach_;
+        for (const int wall : obstacles_) {
+            const SolidSurface& solid = sim_.barrier->solids[at(wall)];
+            const Vec3 from_centre = place - solid.centre - ways_[at(wall)];
+            if (wall == ground || !(gauged_[at(wall)] || gauged_[at(ground)]) ||
+                from_centre.norm() > solid.reach + reach_) {
+                continue;
+            }
+            const double distance = std::abs(nearest(wall, place, reach_).distance);
+            if (distance < least) {
+                best = wall;
+                least = distance;
+            }
+        }
+        return best;
+    }
+
+    // False if the two do not meet in a corner. An obstacle that another one stands on is ground
+    // where it faces up. The normal of the obstacle that water beside it sees is looked for above
+    // the ground, where the side that it stands on is not the nearest.
+    bool divide(const Vec3& place, JunctionRow& found) const
+    {
+        constexpr double upright = 0.7;
+        const NearestPlace ground = nearest(found.ground, place, infinity);
+        const Vec3& n = ground.normal;
+        if (is_obstacle(sim_.scene.walls[at(found.ground)]) &&
+            n.dot(sim_.scene.gravity) > -upright * sim_.scene.gravity.norm()) {
+            return false;
+        }
+        const Vec3 on_ground = place - ground.distance * n;
+        const Vec3 m = nearest(found.obstacle, on_ground + reach_ * n, infinity).normal;
+        const double cosine = n.dot(m);
+        found.normal = n;
+        if (std::abs(cosine) < parallel) {
+            found.share = (n - cosine * m) / (1 - sq(cosine));
+            return true;
+        }
+        found.part = 1; // covered: no share of the ground
+        return cosine > 0 && nearest(found.obstacle, on_ground, infinity).distance < 0;
+    }
+
+    const Simulation& sim_;
+    double reach_; // [m]
+    std::vector<bool> gauged_;
+    std::vector<Vec3> ways_; // of the walls since time 0 [m]
+    std::vector<int> grounds_, obstacles_;
+};
+
+void find_junctions(Simulation& sim)
+{
+    const FluidNeighbours& n = sim.fluid->neighbours;
+    sim.loads.junctions.rows.clear();
+    sim.loads.junctions.builds = n.builds;
+    const JunctionSearch search(sim);
+    if (!search.any()) {
+        return;
+    }
+    for (const std::int32_t tile : n.wet_walls) {
+        for (std::int32_t slot = n.wall.start[at(tile)]; slot < n.wall.start[at(tile + 1)];
+             ++slot) {
+            if (const auto found = search.look_at(n.wall.row[at(slot)])) {
+                sim.loads.junctions.rows.push_back(*found);
+            }
+        }
+    }
+}
+
+} // namespace
+
+void collect_junctions(Simulation& sim)
+{
+    Junctions& junctions = sim.loads.junctions;
+    OwnerSums<3>& sums = sim.loads.of_junctions;
+    const bool wanted = std::ranges::any_of(
+        sim.gauges.forces, [](const GaugedForce& force) { return force.target < 0; });
+    const FixedUnit unit = sum_units(sim.fluid->parameters).force;
+    sums.begin(wanted && sim.barrier ? sim.scene.walls.size() : 0, {unit, unit, unit});
+    if (sums.owners() == 0) {
+        return;
+    }
+    if (sim.fluid->moving_walls || junctions.builds != sim.fluid->neighbours.builds) {
+        find_junctions(sim);
+    }
+    const auto F = sim.fluid->particles.wall[field::force];
+    for (const JunctionRow& foot : junctions.rows) {
+        const Vec3 force = F[foot.row];
+        const Vec3 of_obstacle = foot.part * (force - force.dot(foot.share) * foot.normal);
+        const Vec3 moved = foot.owner == foot.ground ? of_obstacle : Vec3(of_obstacle - force);
+        sums.add(at(foot.obstacle), {moved.x(), moved.y(), moved.z()});
+        sums.add(at(foot.ground), {-moved.x(), -moved.y(), -moved.z()});
+    }
+}
+
+} // namespace hyoryu
