@@ -11,17 +11,16 @@ namespace hyoryu {
 
 namespace {
 
-// For each wall that moves, the fixed ones that are near it now.
-std::vector<std::vector<int>> near_walls(const Simulation& sim)
+// For each wall that moves, the fixed ones that are near it; `ways`: of the walls since time 0 [m].
+std::vector<std::vector<int>> near_walls(const Simulation& sim, const std::vector<Vec3>& ways)
 {
     const std::vector<SolidSurface>& surfaces = sim.barrier->solids;
     std::vector<std::vector<int>> near(sim.scene.walls.size());
     for (std::size_t w = 0; w < near.size(); ++w) {
-        const Motion& motion = sim.scene.walls[w].motion;
-        if (!moves(motion)) {
+        if (!moves(sim.scene.walls[w].motion)) {
             continue;
         }
-        const Vec3 centre = surfaces[w].centre + displacement(motion, sim.clock.time);
+        const Vec3 centre = surfaces[w].centre + ways[w];
         const double reach = surfaces[w].reach + sim.scene.spacing;
         for (const int k : sim.covered.fixed) {
             const SolidSurface& solid = surfaces[at(k)];
@@ -48,23 +47,28 @@ CoveredWalls covered_walls(const Simulation& sim)
     return covered;
 }
 
-void cover_walls(Simulation& sim)
+void cover_walls(Simulation& sim, double time)
 {
     if (sim.covered.mass.empty()) {
         return;
     }
-    const std::vector<std::vector<int>> near = near_walls(sim);
+    std::vector<Vec3> ways;
+    for (const Wall& wall : sim.scene.walls) {
+        ways.push_back(displacement(wall.motion, time));
+    }
+    const std::vector<std::vector<int>> near = near_walls(sim, ways);
     Store& store = sim.fluid->particles.wall;
-    const auto x = store[field::position];
     const auto rho = store[field::density];
     const auto mass = store[field::displaced_mass];
     const auto V = store[field::volume];
     const auto owner = store.owner();
     const std::span<const SolidSurface> surfaces = sim.barrier->solids;
     parallel_for(0, static_cast<Index>(sim.covered.mass.size()), [&](Index i) {
-        const std::vector<int>& fixed = near[at(-1 - owner[i])];
-        mass[i] = sim.covered.mass[at(i)] *
-                  static_cast<real>(uncovered_share(surfaces, fixed, x[i], sim.scene.spacing));
+        const std::size_t wall = at(-1 - owner[i]);
+        const Vec3 place = sim.wall_start[at(i)] + ways[wall]; // not an image in a periodic domain
+        mass[i] =
+            sim.covered.mass[at(i)] *
+            static_cast<real>(uncovered_share(surfaces, near[wall], place, sim.scene.spacing));
         V[i] = mass[i] / rho[i];
     });
 }

@@ -20,7 +20,7 @@ struct CoveredWalls {
 /// The moving walls at time 0, as their rows are.
 CoveredWalls covered_walls(const Simulation& sim);
 
-/// Sets displaced mass and volume of the rows of moving walls for the places that they have now.
-void cover_walls(Simulation& sim);
+/// Sets displaced mass and volume of the rows of moving walls for their places at that time [s].
+void cover_walls(Simulation& sim, double time);
 
 } // namespace hyoryu
