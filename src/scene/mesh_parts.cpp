@@ -126,7 +126,8 @@ private:
             return;
         }
         for (int k = 0; k < steps * steps * steps && !faults_.overlap; ++k) {
-            const Vec3 cell(k % steps, k / steps % steps, k / (steps * steps));
+            const int layer = k / (steps * steps);
+            const Vec3 cell(k % steps, k / steps % steps, layer);
             const Vec3 place = low + edge.cwiseProduct((cell.array() + 0.5).matrix() / steps);
             if (winding_number(tree_, place) > twice) {
                 faults_.overlap = place;

@@ -66,16 +66,16 @@ struct Inside {
 // across this plane were the same everywhere, sum |n_a| e_a of its edges e_a. The parts of all
 // boxes of a lattice that a plane cuts then have exactly the volume below it, since this width is a
 // whole multiple of the distance of the layers of the lattice that are parallel to the plane.
-// `grazing`: depth below which a place without extent across the surface is within it [m].
-Inside part_inside(const TriangleTree& tree, const Vec3& centre, const Vec3& extent, double grazing)
+// `least`: depth below which a place without extent across the surface is within it [m].
+Inside part_inside(const TriangleTree& tree, const Vec3& centre, const Vec3& extent, double least)
 {
     Inside inside;
     double all = 0;
     for_parts(centre, extent, [&](const Vec3& place, int) {
         const NearestPlace surface = nearest_place(tree, place, infinity);
         const double width = surface.normal.cwiseAbs().dot(extent) / parts;
-        const double share = width > grazing ? std::clamp(0.5 - surface.distance / width, 0.0, 1.0)
-                                             : (surface.distance < -grazing ? 1.0 : 0.0);
+        const double share = width > least ? std::clamp(0.5 - surface.distance / width, 0.0, 1.0)
+                                           : (surface.distance < -least ? 1.0 : 0.0);
         const double sunk = share < 1 ? surface.distance + share * width / 2 : 0;
         all += 1;
         inside.share += share;
@@ -89,19 +89,19 @@ Inside part_inside(const TriangleTree& tree, const Vec3& centre, const Vec3& ext
 // A place within the mesh in a cell whose middle lies outside, beside the middle along as few axes
 // as possible, and of those the deepest.
 std::optional<Vec3> place_within(const TriangleTree& tree, const Vec3& centre, const Vec3& cell,
-                                 double grazing)
+                                 double least)
 {
     std::optional<Vec3> best;
-    int least = 4;
-    double deepest = -grazing;
+    int fewest = 4;
+    double deepest = -least;
     for_parts(centre, cell, [&](const Vec3& place, int axes) {
-        if (axes > least) {
+        if (axes > fewest) {
             return;
         }
         const double distance = nearest_place(tree, place, infinity).distance;
-        if (distance < (axes < least ? -grazing : deepest)) {
+        if (distance < (axes < fewest ? -least : deepest)) {
             best = place;
-            least = axes;
+            fewest = axes;
             deepest = distance;
         }
     });

@@ -168,7 +168,7 @@ void collect_junctions(Simulation& sim)
     }
     const auto F = sim.fluid->particles.wall[field::force];
     for (const JunctionRow& foot : junctions.rows) {
-        const Vec3 force = F[foot.row];
+        const Vec3& force = F[foot.row];
         const Vec3 of_obstacle = foot.part * (force - force.dot(foot.share) * foot.normal);
         const Vec3 moved = foot.owner == foot.ground ? of_obstacle : Vec3(of_obstacle - force);
         sums.add(at(foot.obstacle), {moved.x(), moved.y(), moved.z()});
