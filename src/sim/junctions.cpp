@@ -108,8 +108,8 @@ private:
         constexpr double upright = 0.7;
         const NearestPlace ground = nearest(found.ground, place, infinity);
         const Vec3& n = ground.normal;
-        if (is_obstacle(sim_.scene.walls[at(found.ground)]) &&
-            n.dot(sim_.scene.gravity) > -upright * sim_.scene.gravity.norm()) {
+        const bool faces_up = n.dot(sim_.scene.gravity) <= -upright * sim_.scene.gravity.norm();
+        if (is_obstacle(sim_.scene.walls[at(found.ground)]) && !faces_up) {
             return false;
         }
         const Vec3 on_ground = place - ground.distance * n;
@@ -120,8 +120,8 @@ private:
             found.share = (n - cosine * m) / (1 - sq(cosine));
             return true;
         }
-        found.part = 1; // covered: no share of the ground
-        return cosine > 0 && nearest(found.obstacle, on_ground, infinity).distance < 0;
+        found.part = 1; // a piston covers a side, which has no share
+        return cosine > 0 && !faces_up && nearest(found.obstacle, on_ground, infinity).distance < 0;
     }
 
     const Simulation& sim_;

@@ -8,9 +8,8 @@
 // begins 0.27 spacings above the ground, 5 % too small at a depth of ten spacings. The pressure
 // force F on a particle of the ground near an obstacle is therefore divided along the normals of
 // the two surfaces, n of the ground and m of the obstacle: F = a n + b m + c n x m. The obstacle
-// has half of what is not a n. Where it covers the ground with a face parallel to it, it has all of
-// F. No motion depends on this: the sum over all walls is the same. Ours; the lines are those of
-// Irving and Kirkwood (1950).
+// has half of what is not a n. A piston that covers a side has all of F. No motion depends on this:
+// the sum over all walls is the same. Ours; the lines are those of Irving and Kirkwood (1950).
 #pragma once
 
 #include "hyoryu/core/types.hpp"
