@@ -102,8 +102,8 @@ struct CubePlaces {
 ///
 /// Where the surface is about perpendicular to an axis of the lattice, the points below it move
 /// along this axis so that their cells begin at the surface. On the lattice itself the surface that
-/// the fluid sees would be up to half a spacing too deep. Between two surfaces less than two depths
-/// of the layers apart the cells share the thickness evenly. Elsewhere the surface cuts the cells:
+/// the fluid sees would be up to half a spacing too deep. Between two surfaces up to 24
+/// spacings apart the cells share the thickness evenly. Elsewhere the surface cuts the cells:
 /// each has the volume of its part within the mesh, and its particle is in the middle of this part.
 struct MeshPlaces {
     const SolidWall* solid = nullptr;

@@ -176,7 +176,7 @@ std::optional<WallCell> MeshPlaces::cell_of(const MeshPoint& point) const
     const bool is_inside = !in_lattice || surface.distance <= -on_surface;
     std::optional<Vec3> within = point.place;
     if (!is_inside) {
-        // Rows reach through the ground.
+        // Below terrain there is room for whole rows, which begin at its surface.
         const bool is_ground = std::get<MeshShape>(solid->shape).terrain.has_value();
         within = is_near && !(is_flat && is_ground)
                      ? place_within(*tree, point.place, pitch, on_surface)

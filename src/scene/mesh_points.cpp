@@ -38,7 +38,7 @@ public:
                 }
                 const Vec3 p = lattice_.place(i, j, k);
                 const NearestPlace nearest = nearest_place(tree_, p, range_.below);
-                if (nearest.distance < 0 || nearest.distance < range_.above) {
+                if (nearest.distance < range_.above) {
                     points.push_back({i + nx * (j + ny * k), p, nearest});
                 }
             }

@@ -36,8 +36,8 @@ double width_at(const TriangleTree& tree, const Vec3& place, int axis, double fa
            way_out(tree, place, {axis, -1}, farthest).distance;
 }
 
-// The thickness of a plate below the middle of a triangle; infinite where the mesh is no plate
-// thinner than `farthest` [m].
+// The thickness of a plate below the middle of a triangle; infinite if the mesh there is thicker
+// than `farthest`, or not a plate [m].
 double thickness_below(const TriangleTree& tree, const TriangleTree::Triangle& triangle,
                        double farthest)
 {
