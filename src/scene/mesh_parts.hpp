@@ -18,8 +18,11 @@ struct PartFaults {
     std::optional<Vec3> overlap;
 };
 
+/// Overlaps cost a search between the parts.
+enum class PartsAsked { all, inside_out };
+
 /// Judges by the winding number (Jacobson et al. 2013): 1 just behind each triangle, and at most 1
 /// in the common bounding boxes of two parts. Nothing is looked for in a connected mesh.
-PartFaults part_faults(const MeshShape& mesh);
+PartFaults part_faults(const MeshShape& mesh, PartsAsked asked = PartsAsked::all);
 
 } // namespace hyoryu

@@ -96,29 +96,6 @@ void set_edge_normals(const Numbers& numbers, TriangleTree& tree)
     }
 }
 
-// Whether every corner is joined with every other one.
-bool is_connected(const Numbers& numbers, std::size_t corner_count)
-{
-    std::vector<int> root(corner_count);
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int k) {
-        while (root[at(k)] != k) {
-            k = root[at(k)] = root[at(root[at(k)])];
-        }
-        return k;
-    };
-    std::size_t joins = 0;
-    for (const auto& t : numbers) {
-        for (const int other : {t[1], t[2]}) {
-            const int a = find(t[0]);
-            const int b = find(other);
-            joins += a != b ? 1 : 0;
-            root[at(b)] = a;
-        }
-    }
-    return joins + 1 == corner_count;
-}
-
 class TreeBuilder {
 public:
     explicit TreeBuilder(TriangleTree& tree) : tree_(tree)
@@ -339,11 +316,37 @@ TriangleTree triangle_tree(const std::vector<Vec3>& corners, const Numbers& tria
     }
     set_corner_normals(tree);
     set_edge_normals(triangles, tree);
-    tree.is_one_piece = is_connected(triangles, corners.size());
+    const std::vector<int> pieces = pieces_of(tree);
+    tree.is_one_piece = std::ranges::all_of(pieces, [](int piece) { return piece == 0; });
     if (!triangles.empty()) {
         TreeBuilder(tree).build();
     }
     return tree;
+}
+
+std::vector<int> pieces_of(const TriangleTree& tree)
+{
+    std::vector<int> root(tree.triangles.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](int k) {
+        while (root[at(k)] != k) {
+            k = root[at(k)] = root[at(root[at(k)])];
+        }
+        return k;
+    };
+    std::vector<int> first(tree.edge_normals.size(), -1); // triangle at each edge
+    for (std::size_t k = 0; k < tree.triangles.size(); ++k) {
+        for (const int edge : tree.triangles[k].edge) {
+            int& other = first[at(edge)];
+            other = other < 0 ? static_cast<int>(k) : other;
+            const auto [low, high] = std::minmax(find(other), find(static_cast<int>(k)));
+            root[at(high)] = low;
+        }
+    }
+    for (std::size_t k = 0; k < root.size(); ++k) {
+        root[k] = find(static_cast<int>(k));
+    }
+    return root;
 }
 
 NearestPlace nearest_place(const TriangleTree& tree, const Vec3& point, double farthest)

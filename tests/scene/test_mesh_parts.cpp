@@ -2,6 +2,7 @@
 // Meshes of several parts and plates of meshes, against boxes whose insides are known.
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
+#include "hyoryu/scene/triangle_tree.hpp"
 #include "scene/mesh_parts.hpp"
 
 #include "dice.hpp"
@@ -98,6 +99,41 @@ TEST(MeshParts, OverlapsAreFoundAndPartsThatAreApartAreNone)
     }
     EXPECT_GT(overlaps, 40);
     EXPECT_GT(apart, 40);
+}
+
+// A tower on the corner of its slab: a reader of STL makes one corner of the two.
+TEST(MeshParts, BricksThatShareACornerAreTwoParts)
+{
+    Dice dice(13);
+    for (int n = 0; n < 40; ++n) {
+        const Brick a = drawn(dice, 0.7);
+        Brick b = drawn(dice, 0.7);
+        b.turn = a.turn; // and the same lowest corner
+        b.centre = a.centre + a.turn * (b.half - a.half);
+        MeshShape mesh;
+        add(a, Faces::outwards, mesh);
+        add(b, Faces::outwards, mesh);
+        for (auto& triangle : mesh.triangles) {
+            std::ranges::replace(triangle, 8, 0);
+        }
+        mesh.corners.erase(mesh.corners.begin() + 8);
+        for (auto& triangle : mesh.triangles) {
+            for (int& corner : triangle) {
+                corner -= corner > 8 ? 1 : 0;
+            }
+        }
+        EXPECT_TRUE(part_faults(mesh).overlap) << n;
+        const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
+        for (int k = 0; k < 50; ++k) {
+            const double x = dice.between(-1.5, 1.5);
+            const double y = dice.between(-1.5, 1.5);
+            const Vec3 p = a.centre + Vec3(x, y, dice.between(-1.5, 1.5));
+            const double place = std::min(a.place(p), b.place(p));
+            if (std::abs(place - 1) > 0.05) { // the winding number is off by some hundredths
+                EXPECT_EQ(nearest_place(tree, p, infinity).distance < 0, place < 1) << n;
+            }
+        }
+    }
 }
 
 TEST(MeshParts, ACavityIsNoFaultAndAPartThatFacesInwardsIsOne)

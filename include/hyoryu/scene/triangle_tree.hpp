@@ -39,13 +39,17 @@ struct TriangleTree {
     /// Any length: of corners, weighted by angles, and of edges; with those of the faces, on which
     /// side a point is, is the sign of the one of the nearest feature.
     std::vector<Vec3> corner_normals, edge_normals;
-    /// The surface is connected, so that none of it can lie inside another part of it.
+    /// The surface is joined by edges, so that none of it can lie inside another part of it.
     bool is_one_piece = false;
 };
 
 /// The tree of a closed surface whose triangles wind outwards.
 TriangleTree triangle_tree(const std::vector<Vec3>& corners,
                            const std::vector<std::array<int, 3>>& triangles);
+
+/// The piece of each triangle of the tree, by the lowest number of its triangles. Pieces that share
+/// corners alone are apart: either may lie inside the other.
+std::vector<int> pieces_of(const TriangleTree& tree);
 
 /// The nearest place of the surface. The sign is that of the pseudonormal of the nearest feature
 /// (Baerentzen and Aanaes 2005); where parts may overlap, of the winding number (Barill et al.
