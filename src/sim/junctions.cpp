@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/sim/junctions.hpp"
 
+#include "hyoryu/core/parallel.hpp"
 #include "hyoryu/fluid/sum_units.hpp"
 #include "hyoryu/scene/solid_surface.hpp"
 #include "hyoryu/sim/simulation.hpp"
@@ -25,18 +26,25 @@ bool is_obstacle(const Wall& wall)
 // Finds the particles in the ground near obstacles, if one of the two has a gauge.
 class JunctionSearch {
 public:
-    explicit JunctionSearch(const Simulation& sim)
-        : sim_(sim), reach_(sim.fluid->kernel.support), gauged_(sim.scene.walls.size(), false)
+    JunctionSearch(const Simulation& sim, const std::vector<Vec3>& ways)
+        : sim_(sim), ways_(ways), reach_(sim.fluid->kernel.support),
+          gauged_(sim.scene.walls.size(), false)
     {
         for (const GaugedForce& force : sim.gauges.forces) {
             if (force.target < 0) {
                 gauged_[at(-1 - force.target)] = true;
             }
         }
+        bool by_ground = false;
         for (std::size_t w = 0; w < sim.scene.walls.size(); ++w) {
-            ways_.push_back(displacement(sim.scene.walls[w].motion, sim.clock.time));
-            (is_obstacle(sim.scene.walls[w]) ? obstacles_ : grounds_)
-                .push_back(static_cast<int>(w));
+            const bool obstacle = is_obstacle(sim.scene.walls[w]);
+            by_ground = by_ground || (gauged_[w] && !obstacle);
+            (obstacle ? obstacles_ : grounds_).push_back(static_cast<int>(w));
+        }
+        const bool periodic = sim.fluid->period != Vec3(0, 0, 0); // where images are near
+        if (!by_ground && !periodic) {
+            const std::vector<int> all = obstacles_;
+            std::erase_if(obstacles_, [&](int wall) { return !is_near_gauged(wall, all); });
         }
     }
 
@@ -52,17 +60,48 @@ public:
         const int owner = -1 - store.owner()[row];
         JunctionRow found{.row = row, .owner = owner, .ground = ground_at(place, owner)};
         found.obstacle = owner != found.ground ? owner : nearest_obstacle(found.ground, place);
-        return found.obstacle >= 0 && divide(place, found) ? std::optional(found) : std::nullopt;
+        // Which wall has a gauge does not change what belongs to which.
+        const bool asked =
+            found.obstacle >= 0 &&
+            (gauged_[at(owner)] || gauged_[at(found.ground)] || gauged_[at(found.obstacle)]);
+        return asked && divide(place, found) ? std::optional(found) : std::nullopt;
     }
 
 private:
+    // Whether one with a gauge may compete with it for a particle, or is itself.
+    bool is_near_gauged(int wall, const std::vector<int>& all) const
+    {
+        const auto middle = [&](int k) {
+            return Vec3(sim_.barrier->solids[at(k)].centre + ways_[at(k)]);
+        };
+        const auto reach = [&](int k) { return sim_.barrier->solids[at(k)].reach; };
+        return std::ranges::any_of(all, [&](int other) {
+            if (!gauged_[at(other)]) {
+                return false;
+            }
+            const double apart = (middle(wall) - middle(other)).norm();
+            return !(apart > reach(wall) + reach(other) + 2 * reach_);
+        });
+    }
+
     NearestPlace nearest(int wall, const Vec3& place, double farthest) const
     {
         const SolidSurface& solid = sim_.barrier->solids[at(wall)];
-        const Vec3 own = solid.rotation.conjugate() * (place - solid.centre - ways_[at(wall)]);
-        NearestPlace found = nearest_place(solid, own, farthest);
+        NearestPlace found =
+            nearest_place(solid, solid.rotation.conjugate() * from_centre(wall, place), farthest);
         found.normal = solid.rotation * found.normal;
         return found;
+    }
+
+    // From the centre of a wall to a place, or to its image that is nearest to it.
+    Vec3 from_centre(int wall, const Vec3& place) const
+    {
+        Vec3 way = place - sim_.barrier->solids[at(wall)].centre - ways_[at(wall)];
+        const Vec3& period = sim_.fluid->period;
+        for (int a = 0; a < 3; ++a) {
+            way[a] -= period[a] > 0 ? std::round(way[a] / period[a]) * period[a] : 0;
+        }
+        return way;
     }
 
     // The wall that a particle is in: of an obstacle that reaches into the ground, the ground.
@@ -70,8 +109,7 @@ private:
     {
         if (is_obstacle(sim_.scene.walls[at(owner)])) {
             for (const int ground : grounds_) {
-                if ((gauged_[at(owner)] || gauged_[at(ground)]) &&
-                    nearest(ground, place, infinity).distance < 0) {
+                if (nearest(ground, place, infinity).distance < 0) {
                     return ground;
                 }
             }
@@ -85,10 +123,8 @@ private:
         int best = -1;
         double least = reach_;
         for (const int wall : obstacles_) {
-            const SolidSurface& solid = sim_.barrier->solids[at(wall)];
-            const Vec3 from_centre = place - solid.centre - ways_[at(wall)];
-            if (wall == ground || !(gauged_[at(wall)] || gauged_[at(ground)]) ||
-                from_centre.norm() > solid.reach + reach_) {
+            const double reach = sim_.barrier->solids[at(wall)].reach + reach_;
+            if (wall == ground || from_centre(wall, place).norm() > reach) {
                 continue;
             }
             const double distance = std::abs(nearest(wall, place, reach_).distance);
@@ -125,28 +161,34 @@ private:
     }
 
     const Simulation& sim_;
-    double reach_; // [m]
+    const std::vector<Vec3>& ways_; // of the walls since time 0 [m]
+    double reach_;                  // [m]
     std::vector<bool> gauged_;
-    std::vector<Vec3> ways_; // of the walls since time 0 [m]
     std::vector<int> grounds_, obstacles_;
 };
 
-void find_junctions(Simulation& sim)
+void find_junctions(Simulation& sim, const std::vector<Vec3>& ways)
 {
     const FluidNeighbours& n = sim.fluid->neighbours;
     sim.loads.junctions.rows.clear();
     sim.loads.junctions.builds = n.builds;
-    const JunctionSearch search(sim);
+    sim.loads.junctions.ways = ways;
+    const JunctionSearch search(sim, ways);
     if (!search.any()) {
         return;
     }
-    for (const std::int32_t tile : n.wet_walls) {
+    std::vector<std::vector<JunctionRow>> of_tile(n.wet_walls.size());
+    parallel_for(0, static_cast<Index>(n.wet_walls.size()), [&](Index k) {
+        const std::int32_t tile = n.wet_walls[at(k)];
         for (std::int32_t slot = n.wall.start[at(tile)]; slot < n.wall.start[at(tile + 1)];
              ++slot) {
             if (const auto found = search.look_at(n.wall.row[at(slot)])) {
-                sim.loads.junctions.rows.push_back(*found);
+                of_tile[at(k)].push_back(*found);
             }
         }
+    });
+    for (const std::vector<JunctionRow>& rows : of_tile) {
+        sim.loads.junctions.rows.insert(sim.loads.junctions.rows.end(), rows.begin(), rows.end());
     }
 }
 
@@ -163,8 +205,12 @@ void collect_junctions(Simulation& sim)
     if (sums.owners() == 0) {
         return;
     }
-    if (sim.fluid->moving_walls || junctions.builds != sim.fluid->neighbours.builds) {
-        find_junctions(sim);
+    std::vector<Vec3> ways;
+    for (const Wall& wall : sim.scene.walls) {
+        ways.push_back(displacement(wall.motion, sim.clock.time));
+    }
+    if (ways != junctions.ways || junctions.builds != sim.fluid->neighbours.builds) {
+        find_junctions(sim, ways);
     }
     const auto F = sim.fluid->particles.wall[field::force];
     for (const JunctionRow& foot : junctions.rows) {

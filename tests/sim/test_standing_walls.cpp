@@ -104,5 +104,31 @@ TEST(StandingWalls, HaveTheForceOfThePressureDownToTheGround)
     }
 }
 
+// A thin wall before the dam has what pushes the ground before them, with a gauge or without.
+TEST(StandingWalls, AGaugeReadsTheSameWhateverOtherGaugesThereAre)
+{
+    Dice dice(92);
+    for (int n = 0; n < 4; ++n) {
+        Dam dam{.high = 8.0 + dice.below(4), .thick = 8};
+        dam.ground = std::array{Ground::basin, Ground::plane, Ground::box}[at(dice.below(3))];
+        dam.foot = dice.chance(0.5) ? 0 : dice.between(0, 3);
+        Dam before = dam;
+        before.place -= dice.between(1.1, 2.4);
+        const std::string skin = before.box("skin", before.place, dam.place, 0, 16);
+        std::string text = dam.text() + skin;
+        const std::string water = fmt::format("max = [{}", dam.place * dam.dp);
+        text.replace(text.find(water), water.size(),
+                     fmt::format("max = [{}", before.place * dam.dp));
+        Simulation alone = make(text);
+        Simulation all = make(text + "[[gauge]]\nname = \"s\"\ntype = \"force\"\non = \"skin\"\n"
+                                     "[[gauge]]\nname = \"t\"\ntype = \"force\"\non = \"tank\"\n");
+        advance(alone, 40);
+        advance(all, 40);
+        for (const std::size_t k : {0u, 1u, 2u}) {
+            EXPECT_EQ(read_gauges(alone).at(k), read_gauges(all).at(k)) << "draw " << n;
+        }
+    }
+}
+
 } // namespace
 } // namespace hyoryu::test_standing_walls

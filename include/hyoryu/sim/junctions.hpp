@@ -30,10 +30,11 @@ struct JunctionRow {
     double part = 0.5;                       // of the rest that the obstacle has
 };
 
-/// Those of this process, for one set of lists, or for one step if a wall moves.
+/// Those of this process, for one set of lists and places of the walls.
 struct Junctions {
     std::vector<JunctionRow> rows;
-    long long builds = -1; // of the lists
+    long long builds = -1;  // of the lists
+    std::vector<Vec3> ways; // of the walls since time 0 [m]
 };
 
 /// Begins the sums of a step: what each wall has in addition to the forces on its own particles.
