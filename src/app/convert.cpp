@@ -6,6 +6,7 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/convert.hpp"
+#include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
@@ -182,11 +183,7 @@ void convert_to_file(const ConvertOptions& options, const std::vector<FrameSet>&
 int convert_results(const ConvertOptions& options)
 {
     const ExportFormat format = format_named(options.format);
-    if (!fs::exists(options.folder / "plan.json")) {
-        throw CaseError(
-            fmt::format("{} is not a results folder: it has no plan.json", options.folder.string()),
-            "give a folder written by `hyoryu run`");
-    }
+    expect_results(options.folder);
     std::vector<FrameSet> sets = chosen_sets(options, format);
     for (FrameSet& set : sets) {
         keep_nearest(set, options.times);

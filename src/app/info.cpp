@@ -7,6 +7,7 @@
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/convert.hpp"
+#include "hyoryu/io/results.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -201,11 +202,7 @@ std::string info_text(const json& info)
 
 int show_info(const InfoOptions& options)
 {
-    if (!fs::exists(options.folder / "plan.json")) {
-        throw CaseError(
-            fmt::format("{} is not a results folder: it has no plan.json", options.folder.string()),
-            "give a folder written by `hyoryu run`");
-    }
+    expect_results(options.folder);
     const json info = info_of(options.folder);
     if (options.json) {
         constexpr int indent = 2;

@@ -18,6 +18,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 namespace hyoryu {
 
 namespace {
@@ -77,6 +79,7 @@ int check_case(const CheckOptions& options)
     if (options.accuracy) {
         fmt::print("\n{}", expected_errors_text(expected_errors(scene, filling, plan)));
     }
+    std::fflush(stdout); // before what goes to the same terminal or file by another way
     for (const Diagnostic& warning : plan.warnings) {
         fmt::print(stderr, "{}\n", to_string(warning));
     }

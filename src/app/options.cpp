@@ -119,20 +119,29 @@ void add_render(CLI::App& app, RenderOptions& options)
         ->type_name("T,T...")
         ->delimiter(',')
         ->check(finite);
-    render_->add_option("--width", options.settings.width, "width of the pictures in pixels")
+    render_
+        ->add_option("--width", options.settings.width,
+                     "width of the pictures in pixels (default: 1280)")
         ->type_name("N")
         ->check(CLI::Range(64, 7680));
-    render_->add_option("--height", options.settings.height, "height of the pictures in pixels")
+    render_
+        ->add_option("--height", options.settings.height,
+                     "height of the pictures in pixels (default: 720)")
         ->type_name("N")
         ->check(CLI::Range(64, 4320));
-    render_->add_option("--azimuth", options.settings.azimuth_deg, "azimuth of the camera [deg]")
+    render_
+        ->add_option("--azimuth", options.settings.azimuth_deg,
+                     "from the scene to the camera, counter-clockwise from +x [deg]")
         ->type_name("DEGREES")
         ->check(finite);
     render_
-        ->add_option("--elevation", options.settings.elevation_deg, "elevation of the camera [deg]")
+        ->add_option("--elevation", options.settings.elevation_deg,
+                     "height of the camera above the horizon [deg]")
         ->type_name("DEGREES")
         ->check(finite);
-    render_->add_option("--fps", options.settings.fps, "frames per second of the animation")
+    render_
+        ->add_option("--fps", options.settings.fps,
+                     "frames per second of the animation (default: 25)")
         ->type_name("N")
         ->check(CLI::Range(1, 120));
 }

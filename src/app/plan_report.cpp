@@ -65,8 +65,8 @@ std::string open_lines(const Plan& plan)
     if (plan.open.empty()) {
         return {};
     }
-    std::string text = fmt::format("  open sides, at most about {} fluid particles with their "
-                                   "carpets\n",
+    std::string text = fmt::format("  open sides, at most about {} fluid particles, with "
+                                   "those outside the windows\n",
                                    plan.most_fluid);
     for (const auto& open : plan.open) {
         text += fmt::format("    {:<22} {}\n", open.name, open.what);
@@ -272,7 +272,7 @@ std::string time_lines(const Scene& scene, const Plan& plan, const std::optional
         fmt::format("    first step             {:.3e} s, {}\n", plan.first_step,
                     scene.time.step ? "fixed by `time.step`"
                                     : fmt::format("limited by: {}", shortest(plan.limits).name));
-    text += fmt::format("    steps                  about {:.0f} to {} s\n",
+    text += fmt::format("    steps                  about {:.0f} until t = {} s\n",
                         expected_steps(plan, timed), scene.time.end);
     if (plan.fluid || plan.counts.bodies > 0) {
         text += run_time_lines(plan, timed);

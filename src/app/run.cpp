@@ -40,6 +40,8 @@ fs::path results_folder(const RunOptions& options)
                                   : options.folder;
 }
 
+constexpr double rows_enough = 10'000; // of a history
+
 // Throws CaseError if the memory does not suffice; the hint names the cause: particles, or the
 // histories of very many steps. `part`: of the particles that are on this machine.
 void check_memory(const Scene& scene, const Plan& plan, double part)
@@ -52,9 +54,9 @@ void check_memory(const Scene& scene, const Plan& plan, double part)
             fmt::format(
                 "the run needs about {} of memory, but only {} are available to this process",
                 readable_bytes(needed), readable_bytes(memory)),
-            by_steps ? fmt::format("the time histories of {:.2g} steps of {:.2g} s each need this "
-                                   "memory: `hyoryu check` shows the limit of the time step",
-                                   plan.expected_steps, plan.first_step)
+            by_steps ? fmt::format("the histories have a row for each of {:.2g} steps: set "
+                                   "`output.history_every`, for instance to {:.2g} s",
+                                   plan.expected_steps, scene.time.end / rows_enough)
                      : "increase `particles.spacing`");
     }
 }
@@ -211,8 +213,8 @@ void tell_doubts(Job& job, const Closing& now)
     constexpr double noteworthy = 0.1; // ten times the variation that the sound speed aims at
     const double compression = job.sim.conservation.worst_density_error;
     if (compression > noteworthy) {
-        job.progress.line(fmt::format("note: the density error reached {:.0f} %, which is typical "
-                                      "of fluid squeezed between solids",
+        job.progress.line(fmt::format("note: the density error reached {:.0f} %, about 1 % is "
+                                      "expected: pressures and forces were inaccurate then",
                                       100 * compression));
     }
     if (job.sim.fluid && job.sim.fluid->lost.count > 0) {

@@ -28,17 +28,17 @@ std::string scale_lines(const Plan& plan)
         text += fmt::format("    thinnest body          {:.3g} m, {:.3g} spacings\n",
                             scale.thinnest, scale.thinnest * scale.layers / scale.depth);
     }
-    text +=
-        fmt::format("    shortest load          {:.3g} s: pressures that last less than 4 dp/c0 "
-                    "are not resolved\n",
-                    scale.shortest_load);
+    text += fmt::format(
+        "    shortest load          {:.3g} s: pressures that last less than 4 spacings / "
+        "c0 are not resolved\n",
+        scale.shortest_load);
     text += scale.viscosity > 0
                 ? fmt::format("    viscosity              {:.3g} m2/s; effective Reynolds number u "
-                              "h/nu {:.3g}\n",
+                              "d/nu {:.3g}\n",
                               scale.viscosity, scale.reynolds)
                 : "    viscosity              none\n";
     for (const std::string& absent : scale.absent) {
-        text += fmt::format("    absent                 {}\n", absent);
+        text += fmt::format("    not modelled           {}\n", absent);
     }
     return text;
 }

@@ -33,12 +33,8 @@ int stop_run(const StopOptions& options)
     std::error_code fault;
     const bool running =
         std::filesystem::is_directory(options.folder, fault) && is_running(options.folder);
-    if (!running && !std::filesystem::exists(options.folder / "plan.json", fault)) {
-        throw CaseError(
-            fmt::format("{} is not a results folder: it has no plan.json", options.folder.string()),
-            "name the folder that the run writes to");
-    }
     if (!running) {
+        expect_results(options.folder);
         throw CaseError(fmt::format("no run is writing to `{}`", options.folder.string()),
                         "only a run that is in progress can be stopped");
     }

@@ -198,6 +198,20 @@ void remove_results_except(const fs::path& folder,
     }
 }
 
+void expect_results(const fs::path& folder)
+{
+    std::error_code fault;
+    if (!fs::exists(folder, fault)) {
+        throw CaseError(fmt::format("the folder `{}` does not exist", folder.string()),
+                        "give a folder written by `hyoryu run`");
+    }
+    if (!fs::exists(folder / "plan.json", fault)) {
+        throw CaseError(
+            fmt::format("`{}` is not a results folder: it has no plan.json", folder.string()),
+            "give a folder written by `hyoryu run`");
+    }
+}
+
 FolderLock prepare_results(const fs::path& folder, Existing existing)
 {
     try {

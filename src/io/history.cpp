@@ -49,7 +49,7 @@ void expect_rows(const std::filesystem::path& file, std::int64_t rows, std::int6
 {
     if (expected != History::all_rows && rows < expected) {
         throw IoError(fmt::format("cannot continue `{}`: it has {} rows up to the checkpoint, "
-                                  "expected {}: it was truncated",
+                                  "expected {}: rows are missing",
                                   file.string(), rows, expected));
     }
 }

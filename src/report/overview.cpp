@@ -70,9 +70,9 @@ std::string scale_table(const RunResults& run)
     }
     return facts({{"depth of the water at the start [m]", number("depth")},
                   {"the same in spacings", number("depth_in_spacings")},
-                  {"shortest load resolved, 4 dp/c0 [s]", number("shortest_load")},
+                  {"shortest load resolved, 4 spacings / c0 [s]", number("shortest_load")},
                   {"viscosity of the scheme [m2/s]", number("viscosity")},
-                  {"effective Reynolds number u h/nu", number("reynolds")},
+                  {"effective Reynolds number u d/nu", number("reynolds")},
                   {"absent", absent}});
 }
 

@@ -28,11 +28,7 @@ ordered_json read_json(const fs::path& file)
 
 void expect_ended_run(const fs::path& folder)
 {
-    if (!fs::exists(folder / "plan.json")) {
-        throw CaseError(
-            fmt::format("`{}` is not a results folder: it has no plan.json", folder.string()),
-            "give a folder written by `hyoryu run`");
-    }
+    expect_results(folder);
     if (!fs::exists(folder / "summary.json")) {
         throw CaseError(
             fmt::format("`{}` has no summary.json: the run is not finished, or was killed",

@@ -143,8 +143,12 @@ void show_places(const Scene& scene, std::vector<Diagnostic>& diagnostics)
         const TomlNode* value = nullptr;
         if (place.line == 0 && !key.empty()) {
             value = find_value(&document, key);
-        } else if (table != tables.end()) {
-            value = find_value(table->second, key.substr(key.rfind('.') + 1));
+        }
+        // Of "wall[1].motion.piston.height" the most that the table of the wall has.
+        for (std::size_t dot = key.find('.');
+             table != tables.end() && value == nullptr && dot != std::string::npos;
+             dot = key.find('.', dot + 1)) {
+            value = find_value(table->second, key.substr(dot + 1));
         }
         if (value != nullptr) {
             reading.error(*value, key, diagnostic.what, diagnostic.hint);

@@ -134,7 +134,7 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
 {
     Diagnostic note = diagnostic_without_line(
         scene, scene.fluid->blocks[block].place, fmt::format("fluid.block[{}]", block),
-        fmt::format("{} of its {} particles are behind a wall and are omitted", particles.in_walls,
+        fmt::format("{} of its {} particles are inside walls and are omitted", particles.in_walls,
                     particles.all),
         "ignore this warning if the walls are meant to cut the block; otherwise make the block "
         "smaller");
@@ -151,7 +151,7 @@ struct Start {
     double pressure = 0;
 
     bool speed_fits() const { return velocity.norm() <= largest_value("m/s"); } // false for NaN
-    bool fits() const { return speed_fits() && std::isfinite(pressure); }
+    bool fits() const { return speed_fits() && std::abs(pressure) <= largest_value("Pa"); }
 };
 
 // Fields are the user's formulas: a division by zero must not reach the first step. `faults`: those
@@ -170,13 +170,14 @@ void check_starts(const Scene& scene, Comm* comm, std::vector<Start> faults)
     const bool speed_fits = first->speed_fits();
     const std::string value = speed_fits ? fmt::format("{} Pa", first->pressure)
                                          : fmt::format("({}, {}, {}) m/s", v.x(), v.y(), v.z());
-    throw CaseError(
-        {diagnostic_at(scene, scene.fluid->blocks[static_cast<std::size_t>(first->block)].place,
-                       fmt::format("fluid.block[{}].{}", first->block,
-                                   speed_fits ? "pressure_field" : "velocity_field"),
-                       fmt::format("is {} at ({:.6g}, {:.6g}, {:.6g}) m, where there is fluid",
-                                   value, p.x(), p.y(), p.z()),
-                       "the formula must give a finite number at every particle of the block")});
+    throw CaseError({diagnostic_at(
+        scene, scene.fluid->blocks[static_cast<std::size_t>(first->block)].place,
+        fmt::format("fluid.block[{}].{}", first->block,
+                    speed_fits ? "pressure_field" : "velocity_field"),
+        fmt::format("is {} at ({:.6g}, {:.6g}, {:.6g}) m, where there is fluid", value, p.x(),
+                    p.y(), p.z()),
+        fmt::format("the formula must give at most {:.0e} {} at every particle of the block",
+                    largest_value(speed_fits ? "Pa" : "m/s"), speed_fits ? "Pa" : "m/s"))});
 }
 
 // Appends points, without a copy if they are the first.

@@ -157,8 +157,10 @@ inline void append_copies(TableReader& table, const BodyCopies& copies, BodySett
     }
     const auto& count = copies.count;
     if (table.reading().dimensions == 2 && count[1] > 1) {
-        table.error("count", fmt::format("{} along y, where two dimensions have one", count[1]),
-                    "write 1 there; copies along z lie above each other");
+        table.error(
+            "count",
+            fmt::format("{} along y, which a case of two dimensions does not have", count[1]),
+            "write 1 there; copies along z lie above each other");
         return;
     }
     const std::int64_t total = count[0] * count[1] * count[2];

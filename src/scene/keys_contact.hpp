@@ -63,7 +63,9 @@ inline void check_pair(TableReader& table, const MaterialPair& pair, const Conta
             table.error_at(
                 "materials", k,
                 fmt::format("no wall or body has the material \"{}\"", pair.materials[k]),
-                near.empty() && !known.empty() ? "known: " + quoted_list(known) : near);
+                known.empty()  ? "give `material` in [[wall]] and [[body]]"
+                : near.empty() ? "known: " + quoted_list(known)
+                               : near);
         }
     }
     const bool again = std::ranges::any_of(

@@ -107,8 +107,8 @@ void gauge_face_keys(auto& keys, Is<Gauge> auto& gauge)
     const bool pressure = gauge.type == GaugeType::pressure;
     if (keys.applies(pressure) && keys.shows(face)) {
         keys.positive(
-            "area", gauge.area, "",
-            "Area of the face of a pressure sensor [m2], over which the pressure is averaged; in "
+            "area", gauge.area, "m2",
+            "Area of the face of a pressure sensor, over which the pressure is averaged; in "
             "2-D its length [m]. Without this key the pressure is measured at a point.",
             face ? needed : no_default);
     }

@@ -56,7 +56,7 @@ inline void check_name(TableReader& table, std::string_view key, const std::stri
     const std::string fault = name_fault(name);
     if (!fault.empty()) {
         table.error(key, "is not a valid name: " + fault,
-                    "use letters, digits, blanks within, `_`, `-` and `.`");
+                    "use letters, digits, `_`, `-`, `.`, and spaces within the name");
     }
 }
 

@@ -401,8 +401,9 @@ void keys_of(auto& keys, Is<OpenSettings> auto& open, const Scene& scene)
     keys.number("velocity", open.velocity, "m/s",
                 "Velocity into the domain, used with `level`. An inflow with a level but no "
                 "velocity is a wave into water that is initially at rest.");
-    keys.number("discharge", open.discharge, "",
-                "Discharge into the domain [m3/s]; [m2/s] in 2-D. A discharge reflects waves; it "
+    keys.number("discharge", open.discharge, "m3/s",
+                "Discharge into the domain, per metre of width [m2/s] in 2-D. A discharge reflects "
+                "waves; it "
                 "is intended for channels and basins.");
     if (keys.shows(false)) {
         series_keys(keys, source);

@@ -28,15 +28,14 @@ inline void check_period(TableReader& table, const Scene& scene, const DomainSet
     if (!(length > 0 && scene.spacing > 0)) {
         return; // already an error
     }
-    if (std::abs(cells - std::round(cells)) > 1e-6 * cells) {
-        table.error("periodic",
-                    fmt::format("along {} the domain is {:.6g} spacings long", name, cells),
-                    "a period must be a whole number of `particles.spacing`");
-    }
-    if (cells < least_period) {
-        table.error("periodic",
-                    fmt::format("along {} the domain is {:.6g} spacings long", name, cells),
-                    fmt::format("a period must be at least {} spacings", least_period));
+    if (std::abs(cells - std::round(cells)) > 1e-6 * cells || cells < least_period) {
+        const double whole = std::max(std::round(cells), static_cast<double>(least_period));
+        table.error(
+            "periodic",
+            fmt::format("along {} the domain is {:.6g} spacings long, expected a whole "
+                        "number of at least {}",
+                        name, cells, least_period),
+            fmt::format("for instance {:.6g} m, {:.6g} spacings", whole * scene.spacing, whole));
     }
     if (scene.gravity[axis] != 0) {
         table.error("periodic", fmt::format("`gravity` points along {}", name),

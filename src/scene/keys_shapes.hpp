@@ -42,7 +42,11 @@ inline void check_corners(TableReader& table, const Vec3& low, const Vec3& high)
 {
     const bool given = table.sound("min") && table.sound("max") && table.reading().dimensions_known;
     if (given && !(box_size(table, high - low).minCoeff() > 0)) {
-        table.error("max", "must lie above `min` in every direction",
+        const Vec3 size = box_size(table, high - low);
+        const int axis = size.x() > 0 ? (size.y() > 0 ? 2 : 1) : 0;
+        table.error("max",
+                    fmt::format("{} = {:.6g} m is not above {:.6g} m, that of `min`", "xyz"[axis],
+                                high[axis], low[axis]),
                     "`min` is the corner of the smallest x, y and z");
     }
 }
@@ -111,7 +115,8 @@ inline void check_parts(TableReader& table, const MeshShape& mesh, MeshParts par
     const auto at_place = [](const Vec3& p) {
         return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
     };
-    const PartFaults faults = part_faults(mesh);
+    const PartFaults faults =
+        part_faults(mesh, parts == MeshParts::apart ? PartsAsked::all : PartsAsked::inside_out);
     if (faults.inside_out) {
         table.error("file",
                     fmt::format("a part of the mesh is inside out: at {} m its triangles face into "
@@ -193,6 +198,15 @@ inline void turn_by_axis(TableReader& table, const AxisAngle& turn, Quat& rotati
     }
     if (table.reading().dimensions == 2 && (direction.x() != 0 || direction.z() != 0)) {
         table.error("axis", "in two dimensions rotations are about y", "write axis = [0, 1, 0]");
+    }
+    // Angles such as 0.785 or 1.571 are parts of a half turn in radians.
+    for (const int part : {1, 2, 3, 4, 6}) {
+        if (std::abs(std::abs(turn.degrees) - std::numbers::pi / part) < 1e-3) {
+            table.warn(
+                "angle",
+                fmt::format("{} degrees look like {} degrees in radians", turn.degrees, 180 / part),
+                fmt::format("write {} if that is meant", std::copysign(180 / part, turn.degrees)));
+        }
     }
     const double radians = turn.degrees * std::numbers::pi / 180;
     rotation = Quat(Eigen::AngleAxisd(radians, direction.normalized()));

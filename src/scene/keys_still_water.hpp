@@ -3,6 +3,7 @@
 #pragma once
 
 #include "keys_walls.hpp"
+#include "place_buildings.hpp"
 #include "seeded_water.hpp"
 
 #include "hyoryu/scene/fill.hpp"
@@ -15,9 +16,12 @@ inline void find_box(Reading& reading, const std::string& key, const SeededCells
 {
     if (!cells.fault.empty()) {
         reading.error(block.place, -1, key + ".seed", cells.fault,
-                      "move the seed to ground that lies deeper below the level; both are in the "
-                      "axes of the scene, which `origin`, `azimuth_deg` and `datum` of the ground "
-                      "set");
+                      terrain_of(scene) != nullptr
+                          ? "move the seed to ground below the level, or raise the level; both are "
+                            "in the axes of the scene, which `origin`, `azimuth_deg` and `datum` "
+                            "of the terrain set"
+                          : "move the seed to a place of the scene at which the water is more than "
+                            "half a spacing deep, or raise the level");
         return;
     }
     const Bounds box = box_about(cells);

@@ -220,7 +220,10 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given,
             mesh = terrain_mesh(patch, heights);
         }
     } catch (const IoError& error) {
-        table.error("file", error.what(), "expected an ESRI ASCII grid of heights in m");
+        table.error(
+            "file", error.what(),
+            "expected heights in m as an ESRI ASCII grid, as points x y z on a grid, or as a "
+            "GeoTIFF");
     }
 }
 

@@ -303,8 +303,8 @@ void geometry_keys(auto& keys, Is<Wall> auto& wall, TerrainKeys& given)
                                "Edge lengths of a box, instead of min and max.",
                                "Radius of a sphere, cylinder or round basin.",
                                "Length of a cylinder, along x before rotation.",
-                               "STL or OBJ file of a mesh, or ESRI ASCII grid of terrain heights, "
-                               "relative to the case file.",
+                               "STL or OBJ file of a mesh; of a terrain an ESRI ASCII grid, points "
+                               "x y z on a grid or a GeoTIFF; relative to the case file.",
                                MeshParts::may_overlap};
     const auto* held = std::get_if<SolidWall>(&wall.geometry);
     std::size_t kind = is_terrain(wall)  ? terrain

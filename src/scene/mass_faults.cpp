@@ -87,7 +87,7 @@ std::string inertia_fault(const BodySettings& body, int dimensions)
         }
         const char name = "xyz"[axis];
         if (!(I[axis] > 0)) {
-            return fmt::format("I{0}{0} is {1}, expected a number above 0", name, I[axis]);
+            return fmt::format("I{0}{0} is {1:.6g} kg m2, expected > 0 kg m2", name, I[axis]);
         }
         const double others = I.sum() - I[axis];
         if (dimensions == 3 && I[axis] > others * (1 + rounding)) {
@@ -100,15 +100,16 @@ std::string inertia_fault(const BodySettings& body, int dimensions)
         constexpr double least_share = 1e-4;
         const double most = body.mass * sq(farthest(body, dimensions));
         if (I[axis] < least_share * most) {
-            return fmt::format(
-                "I{0}{0} = {1:.6g} kg m2 is below {2:.6g} kg m2 = 1e-4 m r^2, r being the "
-                "distance to the farthest point of the shape",
-                name, I[axis], least_share * most);
+            return fmt::format("I{0}{0} = {1:.6g} kg m2 is below {2:.6g} kg m2 = 1e-4 M r^2, with "
+                               "the mass M and the "
+                               "distance r to the farthest point of the shape",
+                               name, I[axis], least_share * most);
         }
         if (most > 0 && I[axis] > most * (1 + rounding)) {
-            return fmt::format("I{0}{0} = {1:.6g} kg m2 exceeds {2:.6g} kg m2 = m r^2, r being the "
-                               "distance to the farthest point of the shape",
-                               name, I[axis], most);
+            return fmt::format(
+                "I{0}{0} = {1:.6g} kg m2 exceeds {2:.6g} kg m2 = M r^2, with the mass M and "
+                "the distance r to the farthest point of the shape",
+                name, I[axis], most);
         }
     }
     return {};

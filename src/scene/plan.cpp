@@ -18,9 +18,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <string_view>
 
 namespace hyoryu {
 
@@ -32,6 +34,11 @@ constexpr double bodies_only_step = 1e-3; // [s]
 constexpr double sound_over_speed = 10;
 // Skin of the neighbour lists in spacings that flows come to, for the estimate of memory.
 constexpr double usual_skin = 0.2;
+
+std::string counted(std::integral auto number, std::string_view one, std::string_view many)
+{
+    return fmt::format("{} {}", number, number == 1 ? one : many);
+}
 
 // Lowest height that anything in the scene has, along -g.
 double lowest(const Scene& scene, const PlanFacts& facts)
@@ -161,7 +168,7 @@ void list_walls_and_drive(const Scene& scene, const Plan& plan, Census& census)
                     "`fluid.walls` is \"no_slip\": friction at walls and bodies"),
                !fluid   ? none
                : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
-                        : "the fluid touches no wall and no body");
+                        : "the scene has no wall and no body");
     census.add("drive",
                when(fluid && scene.fluid->acceleration.norm() > 0,
                     "`fluid.acceleration` drives the fluid"),
@@ -187,19 +194,19 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                     "bodies"),
                !fluid   ? none
                : solids ? "`fluid.wall_continuity` is \"plain\""
-                        : "the fluid touches no wall and no body");
+                        : "the scene has no wall and no body");
     census.add("isotropic_kernel",
                when(fluid && plan.fluid->kernel == KernelShape::isotropic,
                     "`fluid.kernel` is \"isotropic\": pressure stays isotropic among strained "
                     "particles"),
                fluid ? "`fluid.kernel` is \"wendland\"" : none);
-    census.add("wall_extrapolation", when(solids, "the fluid touches walls or bodies"),
-               fluid ? "the fluid touches no wall and no body" : none);
-    census.add("solid_backstop", when(solids, "the fluid touches walls or bodies"),
-               fluid ? "the fluid touches no wall and no body" : none);
+    census.add("wall_extrapolation", when(solids, "the scene has walls or bodies"),
+               fluid ? "the scene has no wall and no body" : none);
+    census.add("solid_backstop", when(solids, "the scene has walls or bodies"),
+               fluid ? "the scene has no wall and no body" : none);
     const bool surfaces = fluid && (plan.counts.walls > 0 || plan.counts.bodies > 0);
     census.add("wall_barrier",
-               when(surfaces, "the fluid touches walls or bodies: particles that would pass their "
+               when(surfaces, "the scene has walls or bodies: particles that would pass their "
                               "exact surfaces are stopped, and their momentum acts on the solid"),
                fluid ? "the scene has no wall and no body" : none);
     const FluidChoices choices = fluid ? scene.fluid->effects : FluidChoices{};
@@ -221,9 +228,11 @@ void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
                fluid ? "the scene has no bodies" : none);
     const auto sealed = std::ranges::count(scene.bodies, true, &BodySettings::sealed);
     census.add("seepage",
-               when(coupled, fmt::format("water seeps under {} bodies where they stand; {} with "
-                                         "`body.stands` \"sealed\" prevent seepage",
-                                         plan.counts.bodies - sealed, sealed)),
+               when(coupled, "water seeps under bodies where they stand" +
+                                 (sealed == 0 ? std::string()
+                                              : fmt::format(", but under {} with `body.stands` "
+                                                            "\"sealed\"",
+                                                            sealed))),
                fluid ? "the scene has no bodies" : none);
 }
 
@@ -234,7 +243,7 @@ void list_effects(const Scene& scene, Plan& plan)
     census.add("gravity", when(gravity, fmt::format("|g| = {} m/s2", scene.gravity.norm())),
                "`gravity` is zero");
     list_fluid_effects(scene, plan, census);
-    census.add("rigid_motion", when(plan.rigid, fmt::format("{} bodies", plan.counts.bodies)),
+    census.add("rigid_motion", when(plan.rigid, counted(plan.counts.bodies, "body", "bodies")),
                plan.counts.bodies > 0 ? "every body is fixed" : "the scene has no bodies");
     census.add("contact",
                when(plan.contact, plan.counts.bodies > 1 ? "bodies may touch each other or a wall"
@@ -244,14 +253,15 @@ void list_effects(const Scene& scene, Plan& plan)
     census.add("moving_walls", when(moving, "a wall has `motion`"), "all walls are fixed");
     const bool fluid = plan.fluid.has_value();
     const std::string dry = "the scene has no fluid";
-    census.add("sponge",
-               when(fluid && !scene.sponges.empty(),
-                    fmt::format("{} sponges damp the fluid", scene.sponges.size())),
-               fluid ? "the scene has no sponge" : dry);
+    census.add(
+        "sponge",
+        when(fluid && !scene.sponges.empty(),
+             "damping of the fluid in " + counted(scene.sponges.size(), "sponge", "sponges")),
+        fluid ? "the scene has no sponge" : dry);
     const auto rough =
         std::ranges::count_if(scene.walls, [](const Wall& wall) { return wall.manning > 0; });
     census.add("bed_friction",
-               when(fluid && rough > 0, fmt::format("{} walls have `manning`", rough)),
+               when(fluid && rough > 0, "`manning` of " + counted(rough, "wall", "walls")),
                fluid ? "no wall has `manning`" : dry);
     const bool absorbs = std::ranges::any_of(
         scene.walls, [](const Wall& wall) { return wall.motion.absorption.has_value(); });
@@ -259,9 +269,10 @@ void list_effects(const Scene& scene, Plan& plan)
                when(fluid && absorbs, "a paddle absorbs waves: `wall.motion.absorb`"),
                fluid ? "no wall has `motion.absorb`" : dry);
     census.add("open_boundary",
-               when(!scene.open.empty(), fmt::format("{} open sides", scene.open.size())),
+               when(!scene.open.empty(), counted(scene.open.size(), "open side", "open sides")),
                "no side is open: the scene has no [[open]]");
-    census.add("gauges", when(!scene.gauges.empty(), fmt::format("{} gauges", scene.gauges.size())),
+    census.add("gauges",
+               when(!scene.gauges.empty(), counted(scene.gauges.size(), "gauge", "gauges")),
                "the scene has no gauges");
 }
 

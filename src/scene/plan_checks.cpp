@@ -4,11 +4,13 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan_slips.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
+#include "plan_covered.hpp"
 #include "plan_gaps.hpp"
 #include "plan_gauges.hpp"
 #include "plan_leaks.hpp"
 #include "plan_open.hpp"
 #include "plan_thin.hpp"
+#include "plan_units.hpp"
 #include "plan_warnings.hpp"
 #include "plan_waves.hpp"
 #include "walls.hpp"
@@ -271,7 +273,7 @@ void warn_about_narrow_basins(const Scene& scene, Plan& plan)
                      fmt::format("the basin \"{}\" is {:.3g} m wide along {}, {:.2g} spacings: the "
                                  "water in it is not resolved",
                                  scene.walls[w].name, across, "xy"[axis], across / scene.spacing),
-                     fmt::format("use a `particles.spacing` of at most {:.3g}", across / least),
+                     fmt::format("use a `particles.spacing` of at most {:.3g} m", across / least),
                      plan);
             }
         }
@@ -328,6 +330,29 @@ void check_periods(const Scene& scene, std::vector<Diagnostic>& errors)
     }
 }
 
+// A block in which a cell fits lost its particles to walls.
+void check_fluid(const Scene& scene, const PlanFacts& facts, std::vector<Diagnostic>& errors)
+{
+    if (!scene.fluid || facts.fluid > 0 || !scene.open.empty()) {
+        return;
+    }
+    const bool fits = std::ranges::any_of(scene.fluid->blocks, [&](const FluidBlock& block) {
+        const Bounds box = bounds({&block.shape, block.centre, block.rotation, scene.dimensions});
+        const Vec3 size = box.max - box.min;
+        return size.x() >= scene.spacing && size.z() >= scene.spacing &&
+               (scene.dimensions == 2 || size.y() >= scene.spacing);
+    });
+    errors.push_back(
+        fits ? diagnostic_without_line(
+                   scene, {}, "fluid", "all particles of the blocks lie inside walls",
+                   "move the blocks in front of the walls; `normal` of a plane points to the fluid")
+             : diagnostic_without_line(
+                   scene, {}, "fluid",
+                   fmt::format("no particle fits into the blocks at a spacing of {:.3g} m",
+                               scene.spacing),
+                   "decrease `particles.spacing`, or enlarge the blocks; lengths are in metres"));
+}
+
 } // namespace
 
 void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
@@ -339,11 +364,7 @@ void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
     check_outputs(scene, plan, errors);
     check_gauges(scene, facts, plan, errors);
     check_open(scene, facts, plan, errors);
-    if (scene.fluid && facts.fluid == 0 && scene.open.empty()) {
-        errors.push_back(diagnostic_without_line(
-            scene, {}, "fluid", "the blocks contain no fluid particle",
-            "add a `[[fluid.block]]` larger than `particles.spacing`, in front of the walls"));
-    }
+    check_fluid(scene, facts, errors);
     if (scene.most_fluid > 0 && plan.counts.fluid > scene.most_fluid) {
         errors.push_back(
             diagnostic_without_line(scene, {}, "particles.most",
@@ -356,12 +377,14 @@ void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
         show_places(scene, errors);
         throw CaseError(errors);
     }
+    warn_about_units(scene, plan);
     warn_about_slips(scene, plan);
     warn_about_thin_walls(scene, plan);
     warn_about_bodies(scene, plan);
     warn_about_round_walls(scene, plan);
     warn_about_waves(scene, facts, plan);
     if (scene.fluid) {
+        warn_about_covered_walls(scene, facts, plan);
         warn_about_sound(scene, plan);
         warn_about_cfl(scene, plan);
         warn_about_narrow_basins(scene, plan);

@@ -181,9 +181,10 @@ void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
         if (outside(scene, gauge, facts.domain)) {
             errors.push_back(diagnostic_without_line(
                 scene, gauge.place, key,
-                fmt::format("the gauge \"{}\" is outside the domain, {} to {}", gauge.name,
-                            text_of(facts.domain.min), text_of(facts.domain.max)),
-                "no fluid can reach it"));
+                fmt::format("the gauge \"{}\" is outside the domain, {} to {} m, where no fluid "
+                            "can reach it",
+                            gauge.name, text_of(facts.domain.min), text_of(facts.domain.max)),
+                "move it into the domain; positions are in metres"));
             continue;
         }
         if (gauge.type == GaugeType::flux) {

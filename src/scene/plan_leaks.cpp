@@ -204,11 +204,14 @@ void warn_about_drops(const Scene& scene, const Place& place, const std::string&
         if (drops.columns[way] > 0) {
             warn(scene, place, "wall",
                  fmt::format(
-                     "{}water can reach the edge of the ground: in direction {} of {} columns one "
-                     "spacing wide, the first at ({:.4g}, {:.4g}) m, the ground ends; water that "
-                     "passes there leaves the scene",
-                     when, directions[way], drops.columns[way], drops.first[way].x(),
-                     drops.first[way].y()),
+                     "{}water can reach the edge of the ground in direction {} and leave "
+                     "the scene, first at x = {:.4g} m{}",
+                     when, directions[way], drops.first[way].x(),
+                     scene.dimensions == 2
+                         ? ""
+                         : fmt::format(", y = {:.4g} m, over a width of {:.3g} m",
+                                       drops.first[way].y(),
+                                       static_cast<double>(drops.columns[way]) * scene.spacing)),
                  "close that side, or add a floor beyond it; an `[[open]]` side lets water out and "
                  "records the outflow",
                  plan);

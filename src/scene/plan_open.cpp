@@ -123,14 +123,25 @@ void check_side(const Scene& scene, const PlanFacts& facts, const OpenSettings& 
 {
     const double side =
         open.sign() > 0 ? facts.domain.min[open.axis()] : facts.domain.max[open.axis()];
-    if (std::abs(open.plane() - side) > 1e-6 * scene.spacing) {
+    const double other =
+        open.sign() > 0 ? facts.domain.max[open.axis()] : facts.domain.min[open.axis()];
+    const auto differs = [&](double a, double b) { return std::abs(a - b) > 1e-6 * scene.spacing; };
+    const char axis = "xyz"[open.axis()];
+    if (differs(open.plane(), side) && !differs(open.plane(), other)) {
+        errors.push_back(
+            note_at(scene, open, "into",
+                    fmt::format("points out of the domain, which {} at the window, at "
+                                "{} = {:.6g} m",
+                                open.sign() > 0 ? "ends" : "begins", axis, other),
+                    fmt::format("write into = \"{}{}\"", open.sign() > 0 ? '-' : '+', axis)));
+    } else if (differs(open.plane(), side)) {
         errors.push_back(note_at(
             scene, open, "min",
             fmt::format("the window is at {} = {:.6g} m, but the domain {} at {:.6g} m there: it "
                         "must lie on that side",
-                        "xyz"[open.axis()], open.plane(), open.sign() > 0 ? "begins" : "ends",
-                        side),
-            "move the window, or set [domain] so that it ends there"));
+                        axis, open.plane(), open.sign() > 0 ? "begins" : "ends", side),
+            fmt::format("move the window to {} = {:.6g}, or set [domain] so that it ends there",
+                        axis, side)));
     }
 }
 
@@ -143,9 +154,9 @@ void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& 
         return;
     }
     if (is_walled(scene, side)) {
-        errors.push_back(note_at(scene, open, "min", "a wall stands behind the window",
-                                 fmt::format("name that side in `open` of the basin, or end the "
-                                             "wall at the window")));
+        errors.push_back(note_at(scene, open, "min", "a wall closes the window from outside",
+                                 "add that side to `open` of the basin, or end the wall at the "
+                                 "window"));
     }
     if (!stands_on_ground(scene, side)) {
         errors.push_back(
@@ -153,7 +164,9 @@ void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& 
                     fmt::format("the lower edge of the window, z = {:.4g} m, is above the "
                                 "ground",
                                 open.min.z()),
-                    "extend it down to the ground or below; `datum` moves the ground"));
+                    terrain_of(scene) != nullptr
+                        ? "extend it down to the ground or below; `datum` moves the ground"
+                        : "extend it down to the ground or below"));
     }
 }
 
@@ -183,7 +196,7 @@ void check_water(const Scene& scene, const OpenSettings& open, const WaterAtStar
                                  fmt::format("the level rises to {:.6g} m, above the window, which "
                                              "ends at {:.6g} m",
                                              highest, open.max.z()),
-                                 "make the window higher"));
+                                 fmt::format("set z of `max` to {:.6g} or more", highest)));
     }
 }
 

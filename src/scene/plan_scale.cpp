@@ -92,7 +92,8 @@ void list_body(const Scene& scene, std::size_t b, Plan& plan)
              fmt::format("body \"{}\" will not float upright: its metacentric height is {:.3g} m; "
                          "it {}",
                          body.name, floating->as_placed.metacentre, way_of(*floating)),
-             "this is not an error; the body will tip", plan);
+             "lower the centre of mass, or start the body as it floats, unless it is meant to tip",
+             plan);
     }
 }
 
@@ -162,12 +163,13 @@ void check_gate(const Scene& scene, const Wall& wall, double top, Plan& plan)
         bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}).min.z();
     const double depth = top + scene.spacing / 2 - bottom;
     const double opens = depth > 0 ? opening_time(wall.motion, depth) : 0;
+    const bool leaves = !wall.motion.places.empty() && wall.motion.places.back().z() >= depth;
     const double limit = depth > 0 ? sudden * std::sqrt(depth / g) : 0;
     if (opens > limit) {
         warn(scene, wall.place, "wall.motion",
-             fmt::format("the gate \"{}\" takes {:.3g} s to rise out of {:.3g} m of water: a dam "
+             fmt::format("the gate \"{}\" takes {:.3g} s to rise {} {:.3g} m of water: a dam "
                          "break is sudden within 1.25 sqrt(d/g) = {:.3g} s",
-                         wall.name, opens, depth, limit),
+                         wall.name, opens, leaves ? "out of" : "within", depth, limit),
              "use a faster gate, unless a slow one is intended", plan);
     }
 }
@@ -237,10 +239,10 @@ void list_scale(const Scene& scene, const PlanFacts& facts, double viscosity, Pl
         scale.absent.emplace_back("ingress: no water enters bodies, so none fills and sinks");
         scale.absent.emplace_back("breaking: bodies and walls are rigid");
     }
-    scale.absent.emplace_back("morphology: the ground does not move");
+    scale.absent.emplace_back("erosion: the ground does not change");
     if (scale.reynolds < least_reynolds && scene.gravity.norm() > 0) {
         warn(scene, {}, "fluid.viscosity",
-             fmt::format("the effective Reynolds number u h/nu is {:.3g}: {:.3g} m/s x {:.3g} m / "
+             fmt::format("the effective Reynolds number u d/nu is {:.3g}: {:.3g} m/s x {:.3g} m / "
                          "{:.3g} m2/s, the viscosity of the scheme; eddies are damped",
                          scale.reynolds, scale.speed, scale.depth, viscosity),
              "use a smaller `particles.spacing` or `fluid.viscosity.alpha`", plan);

@@ -16,8 +16,6 @@ namespace hyoryu {
 
 namespace {
 
-// Foam has 10 kg/m3; less than half of that is a ratio.
-constexpr double least_density = 5;
 // Distances, in sizes of the scene, beyond which a body is probably misplaced, and size ratios that
 // suggest other units.
 constexpr double far_away = 3;
@@ -80,29 +78,6 @@ Bounds rest_of(const Scene& scene, const Wall* wall, const BodySettings* body)
         add(box_of(scene, scene.bodies.front()));
     }
     return rest;
-}
-
-void look_at_density(const Scene& scene, PlanWarnings& slips)
-{
-    const auto judge = [&](double density, const Place& place, const std::string& key) {
-        if (density < least_density) {
-            slips.add(
-                place, key,
-                fmt::format("{} kg/m3 is lower than the density of any solid or liquid", density),
-                density * 1000 >= least_density
-                    ? fmt::format("if it is a ratio to water, write {:.6g}", density * 1000)
-                    : "densities are in kg/m3; water has 1000");
-        }
-    };
-    if (scene.fluid) {
-        judge(scene.fluid->density, {}, "fluid.density");
-    }
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-        const BodySettings& body = scene.bodies[b];
-        if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
-            judge(body.density, body.place, fmt::format("body[{}].density", b));
-        }
-    }
 }
 
 void look_at_gravity(const Scene& scene, PlanWarnings& slips)
@@ -339,7 +314,7 @@ std::string cut_by_domain(const Scene& scene)
     }
     for (std::size_t b = 0; b < scene.fluid->blocks.size(); ++b) {
         if (!lies_inside(box_of(scene, scene.fluid->blocks[b]), scene, slack)) {
-            return fmt::format("fluid block {}", b + 1);
+            return fmt::format("`fluid.block[{}]`", b);
         }
     }
     for (const Wall& wall : scene.walls) {
@@ -359,7 +334,6 @@ std::string cut_by_domain(const Scene& scene)
 void warn_about_slips(const Scene& scene, Plan& plan)
 {
     PlanWarnings slips(scene, plan);
-    look_at_density(scene, slips);
     look_at_gravity(scene, slips);
     look_for_bodies_far_away(scene, slips);
     look_at_meshes(scene, slips);

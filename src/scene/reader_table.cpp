@@ -38,6 +38,36 @@ std::string joined(std::string_view path, std::string_view key)
                                        : fmt::format("{}.{}", path, key);
 }
 
+// A table as it is written: "body[].copies" as "body.copies".
+std::string as_written(std::string_view schema)
+{
+    std::string name(schema);
+    std::erase_if(name, [](char c) { return c == '[' || c == ']'; });
+    return name;
+}
+
+std::string header_of(std::string_view schema)
+{
+    const std::string name = as_written(schema);
+    return schema.ends_with(']') ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
+}
+
+// Of a key that belongs to a table around this one, as those do which follow the header of a table
+// within it; empty if none of them has the key.
+std::string of_table_around(std::string_view schema, std::string_view key)
+{
+    for (std::string_view around = schema; !around.empty();) {
+        const std::size_t dot = around.rfind('.');
+        around = around.substr(0, dot == std::string_view::npos ? 0 : dot);
+        if (find_parameter(joined(around, key)) != nullptr) {
+            return fmt::format("it is a key of {}: write it above {}",
+                               around.empty() ? "the case itself" : header_of(around),
+                               header_of(schema));
+        }
+    }
+    return "";
+}
+
 } // namespace
 
 TableReader::TableReader(Reading& reading, const TomlNode* node, std::string path,
@@ -142,7 +172,10 @@ void TableReader::direction(std::string_view name, Vec3& member, std::string_vie
     planar(name, member, "", meaning, fallback);
     const double norm = member.norm();
     if (!(norm > 0) || !std::isfinite(norm)) {
-        error(name, "has no direction");
+        error(name,
+              reading_.dimensions == 2
+                  ? "has no direction in the x-z plane, in which a case of two dimensions lies"
+                  : "has no direction");
         return;
     }
     // One that this program wrote is a unit up to rounding and is taken bit by bit.
@@ -158,8 +191,9 @@ TableReader TableReader::inside(std::string_view key)
     const TomlNode* node = find(key);
     if (node != nullptr && node->table() == nullptr) {
         const bool list = node->array() != nullptr;
-        reading_.error(*node, path, fmt::format("expected a table, found {}", found(*node)),
-                       fmt::format("{}write [{}]", list ? "only one is allowed: " : "", schema));
+        reading_.error(
+            *node, path, fmt::format("expected a table, found {}", found(*node)),
+            fmt::format("{}write {}", list ? "only one is allowed: " : "", header_of(schema)));
         mistaken_.emplace_back(key);
         TableReader none(reading_, nullptr, path, schema);
         none.abandon();
@@ -177,11 +211,11 @@ std::vector<TableReader> TableReader::each_inside(std::string_view key)
         return readers;
     }
     const std::string schema = joined(schema_, key) + "[]";
+    const std::string write = fmt::format("write {} once for each table", header_of(schema));
     const TomlArray* items = node->array();
     if (items == nullptr) {
         reading_.error(*node, full(key),
-                       fmt::format("expected a list of tables, found {}", found(*node)),
-                       fmt::format("write [[{}]] once for each table", joined(schema_, key)));
+                       fmt::format("expected a list of tables, found {}", found(*node)), write);
         mistaken_.emplace_back(key);
         return readers;
     }
@@ -190,7 +224,7 @@ std::vector<TableReader> TableReader::each_inside(std::string_view key)
         const TomlNode& item = (*items)[k];
         if (item.table() == nullptr) {
             reading_.error(item, path, fmt::format("expected a table, found {}", found(item)),
-                           fmt::format("write [[{}]] once for each table", joined(schema_, key)));
+                           write);
             mistaken_.emplace_back(key);
         } else {
             readers.emplace_back(reading_, &item, path, schema, k + 1);
@@ -230,7 +264,10 @@ void TableReader::flatten(std::string_view name, std::string_view unit, Vec3& ve
         return;
     }
     if (vector.y() != 0 && unit.starts_with("m/s")) {
-        warn(name, "y has no effect: with `dimensions = 2` the case lies in the x-z plane",
+        const bool alone = vector.x() == 0 && vector.z() == 0;
+        warn(name,
+             fmt::format("{}: with `dimensions = 2` the case lies in the x-z plane",
+                         alone ? "points along y and has no effect" : "y has no effect"),
              "the numbers are x, y and z; z points up");
     }
     vector.y() = 0;
@@ -242,7 +279,8 @@ void TableReader::report_unknown(const TomlEntry& entry)
     for (std::string_view& name : names) {
         name = name.substr(0, name.find('['));
     }
-    const std::string hint = did_you_mean(entry.key, names);
+    std::string hint = of_table_around(schema_, entry.key);
+    hint = hint.empty() ? did_you_mean(entry.key, names) : hint;
     reading_.error(entry.place, entry.node.override_number, full(entry.key), "unknown key",
                    hint.empty() ? fmt::format("known keys: {}", quoted_list(names)) : hint);
 }

@@ -37,13 +37,24 @@ struct PlannedShape {
 };
 constexpr std::array planned{PlannedShape{"fluid.block[", "particles"}};
 
+// In two dimensions areas are lengths, and discharges those per metre of width.
+std::string_view unit_of(const Asked& asked)
+{
+    const std::string_view unit = asked.rule.unit;
+    if (asked.reading.dimensions == 2 && (unit == "m2" || unit == "m3/s")) {
+        return unit == "m2" ? "m" : "m2/s";
+    }
+    return unit;
+}
+
 /// The number of a text with a unit.
 std::optional<double> quantity_of(const Asked& asked, const std::string& text)
 {
-    const std::string_view unit = asked.rule.unit;
+    const std::string_view unit = unit_of(asked);
     ParsedQuantity quantity = parse_quantity(text, unit);
     if (!quantity.fault.empty() && unit == "kg" && asked.reading.dimensions == 2) {
-        quantity = parse_quantity(text, "kg/m");
+        ParsedQuantity per_width = parse_quantity(text, "kg/m");
+        quantity = per_width.fault.empty() ? std::move(per_width) : std::move(quantity);
     }
     if (!quantity.fault.empty()) {
         asked.refuse(quantity.fault, quantity.hint);
@@ -72,9 +83,15 @@ bool is_choice(const Asked& asked, const std::string& value)
 
 std::string lengths(const Parameter& rule, std::string_view what)
 {
-    return rule.shortest == rule.longest
-               ? fmt::format("{} {}", rule.longest, what)
-               : fmt::format("{} to {} {}", rule.shortest, rule.longest, what);
+    constexpr int practically_any = 100; // the bound is not worth a word
+    if (rule.shortest == rule.longest) {
+        return fmt::format("{} {}", rule.longest, what);
+    }
+    if (rule.longest < practically_any) {
+        return fmt::format("{} to {} {}", rule.shortest, rule.longest, what);
+    }
+    return rule.shortest == 0 ? fmt::format("{}", what)
+                              : fmt::format("at least {} {}", rule.shortest, what);
 }
 
 // The meaning of a key, as the hint of an error that has none of its own: of "wall[2].min[0]" the

@@ -200,9 +200,8 @@ SeededCells seeded_cells(const Scene& scene, std::size_t block, const Bounds& wi
     }
     if (!(space.clearance(middle_of(cells, seed)) > 0)) {
         cells.fault =
-            fmt::format("half a spacing below the level there is a wall, such as dry ground, or "
-                        "another block at the seed ({:.6g}, {:.6g}) m: the water must be at least "
-                        "{:.6g} m deep there",
+            fmt::format("the place at the seed, x = {:.6g} m and y = {:.6g} m, {:.3g} m below the "
+                        "level is inside a wall, such as dry ground, or another block",
                         water.seed.x(), water.seed.y(), cells.edge / 2);
         return cells;
     }

@@ -152,7 +152,7 @@ Words meaning_of(const std::string& description, bool at_end)
         return {"the key has no value", "write key = value"};
     }
     if (says("leading zeroes")) {
-        return {"a number does not begin with a zero", ""};
+        return {"a number has leading zeros", "write 5, not 05"};
     }
     if (says("floating-point") || says("integer")) {
         return {"the number is invalid", "for instance 12, 0.25 or 1e-3"};

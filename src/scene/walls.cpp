@@ -166,13 +166,14 @@ std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
     }
     const std::vector<LayerPlaces> places = places_of_walls(scene, filling, surfaces);
     const std::vector<int> fixed = fixed_walls_of(scene);
+    const Periods periods = periods_of(scene);
     std::vector<float> cubes(filling.wall.size());
     parallel_for(0, static_cast<Index>(cubes.size()), [&](Index k) {
         const auto index = static_cast<Index>(filling.number_of_wall(at(k)));
         const WallRun& run = run_with(filling.wall_runs, index);
         const double share =
             moves(scene.walls[at(run.wall)].motion)
-                ? uncovered_share(surfaces, fixed, filling.wall[at(k)], scene.spacing)
+                ? uncovered_share(surfaces, fixed, filling.wall[at(k)], scene.spacing, periods)
                 : 1;
         cubes[at(k)] = static_cast<float>(
             share * cubes_at(places[at(run.wall)], run.place + index - run.first));

@@ -15,6 +15,7 @@ namespace {
 std::vector<std::vector<int>> near_walls(const Simulation& sim, const std::vector<Vec3>& ways)
 {
     const std::vector<SolidSurface>& surfaces = sim.barrier->solids;
+    const bool periodic = periods_of(sim.scene).length != Vec3(0, 0, 0);
     std::vector<std::vector<int>> near(sim.scene.walls.size());
     for (std::size_t w = 0; w < near.size(); ++w) {
         if (!moves(sim.scene.walls[w].motion)) {
@@ -25,7 +26,8 @@ std::vector<std::vector<int>> near_walls(const Simulation& sim, const std::vecto
         for (const int k : sim.covered.fixed) {
             const SolidSurface& solid = surfaces[at(k)];
             const Vec3 own = solid.rotation.conjugate() * (centre - solid.centre);
-            if (!(reach < infinity) || nearest_place(solid, own).distance < reach) {
+            // An image of a wall may be near fixed ones that the wall itself is far from.
+            if (!(reach < infinity) || periodic || nearest_place(solid, own).distance < reach) {
                 near[w].push_back(k);
             }
         }
@@ -63,12 +65,13 @@ void cover_walls(Simulation& sim, double time)
     const auto V = store[field::volume];
     const auto owner = store.owner();
     const std::span<const SolidSurface> surfaces = sim.barrier->solids;
+    const Periods periods = periods_of(sim.scene);
     parallel_for(0, static_cast<Index>(sim.covered.mass.size()), [&](Index i) {
         const std::size_t wall = at(-1 - owner[i]);
         const Vec3 place = sim.wall_start[at(i)] + ways[wall]; // not an image in a periodic domain
-        mass[i] =
-            sim.covered.mass[at(i)] *
-            static_cast<real>(uncovered_share(surfaces, near[wall], place, sim.scene.spacing));
+        mass[i] = sim.covered.mass[at(i)] *
+                  static_cast<real>(
+                      uncovered_share(surfaces, near[wall], place, sim.scene.spacing, periods));
         V[i] = mass[i] / rho[i];
     });
 }

@@ -34,9 +34,7 @@ std::string probable_cause(const Simulation& sim)
                            sim.scene.time.cfl);
     }
     if (const std::string cut = cut_by_domain(sim.scene); !cut.empty()) {
-        return fmt::format("probably [domain], which ends within the scene: {} reaches beyond it, "
-                           "so that water has no wall there",
-                           cut);
+        return fmt::format("probably [domain] is too small: {} reaches beyond it", cut);
     }
     if (sim.scene.fluid && std::holds_alternative<Off>(sim.scene.fluid->effects[slot::viscosity])) {
         return "probably the fluid has no damping: `fluid.viscosity.model` is \"none\"";

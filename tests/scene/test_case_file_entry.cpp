@@ -257,7 +257,7 @@ TEST(CaseFileEntry, E11SyntaxIsToldInPlainWordsAtItsLine)
         {"end = 'abc", "text is not closed", "quote"},
         {"end = \"a\\q\"", "backslash", "two"},
         {"end = 1.2.3", "number is invalid", "0.25"},
-        {"end = 01", "begin with a zero", ""},
+        {"end = 01", "leading zeros", "write 5"},
         {"end = {a = 1", "in braces", "{ key = value"},
         {"[tim", "header of a table", "[name]"},
         {"[time]", "\"time\" is defined twice", "one of them"},

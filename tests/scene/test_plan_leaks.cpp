@@ -76,8 +76,8 @@ TEST(PlanLeaks, WaterAtAnOpenSideIsToldWithItsDirection)
         const int side = dice.below(dimensions == 2 ? 2 : 4);
         EXPECT_FALSE(warns(tank.text(), drop)) << "closed\n" << tank.text();
         tank.open = fmt::format(", \"{}\"", sides[static_cast<std::size_t>(side)]);
-        EXPECT_TRUE(warns(tank.text(),
-                          fmt::format("in direction {} of", sides[static_cast<std::size_t>(side)])))
+        EXPECT_TRUE(warns(
+            tank.text(), fmt::format("in direction {} and", sides[static_cast<std::size_t>(side)])))
             << tank.text();
         EXPECT_EQ(std::ranges::count_if(
                       warnings_of(tank.text()),

@@ -96,7 +96,7 @@ TEST(PlanWarnings, OfWhatIsProbablyASlip)
         {"[domain]\nmin = [-0.3, -0.3, -0.3]\nmax = [2.3, 1.3, 2.3]\n", "", ""},
         {"[1.0, 0, 0]\nmax = [1.2", "[1.1, 0, 0]\nmax = [1.15", "\"gate\" is 0.05 m thick"},
         {"max = [2.3, 1.3, 2.3]", "max = [1.5, 1.3, 2.3]", "a closed side of wall \"tank\""},
-        {"max = [2.3, 1.3, 2.3]", "max = [0.6, 1.3, 2.3]", "fluid block 1 reaches beyond"},
+        {"max = [2.3, 1.3, 2.3]", "max = [0.6, 1.3, 2.3]", "`fluid.block[0]` reaches beyond"},
         {"max = [2.3, 1.3, 2.3]", "max = [2.3, 1.3, 0.2]", "the domain ends within"},
         {"position = [1.6, 0.5, 0.2]", "position = [1.6, 0.5, 220]", "from the rest of the scene"}};
     const auto count = [](const std::string& text) {

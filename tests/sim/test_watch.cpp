@@ -259,7 +259,7 @@ TEST(Watch, E5NamesTheRightCause)
         {{"time.step=1e-4"}, "the fixed `time.step` is too long"},
         {{"time.cfl=0.9"}, "`time.cfl` = 0.9 is too large"},
         {{"domain.min=[-0.2, 0.0, -0.2]", "domain.max=[0.6, 0.0, 1.2]"},
-         "[domain], which ends within the scene"},
+         "[domain] is too small: `fluid.block[0]` reaches beyond it"},
         {{"fluid.viscosity.model=none"}, "`fluid.viscosity.model` is \"none\""},
         {{"fluid.viscosity.alpha=0"}, "its coefficient in [fluid.viscosity] is 0"},
         {{"fluid.sound_speed=12"}, "`fluid.sound_speed` is too low"},

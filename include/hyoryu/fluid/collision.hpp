@@ -45,7 +45,7 @@ struct DynamicCollision {
         keys.fraction("restitution", chosen.restitution,
                       "Coefficient of restitution of the collisions.");
     }
-    std::string why() const { return "`fluid.collision.model` is \"dynamic\": calms splashes"; }
+    std::string why() const { return "`fluid.collision.model` is \"dynamic\": damps splashes"; }
     void fill(auto& slot, const FluidParameters& /*fluid*/) const
     {
         slot = ParticleCollision{restitution};

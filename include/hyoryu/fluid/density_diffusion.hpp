@@ -90,7 +90,8 @@ struct DiffusionSettings {
     }
     std::string why() const
     {
-        return "`fluid.density_diffusion` asks for it: smooths acoustic pressure noise";
+        return "`fluid.density_diffusion.model` is not \"none\": reduces acoustic noise in the "
+               "pressure";
     }
     void fill_with(auto& slot, const FluidParameters& f, const Vec3& hydrostatic) const
     {

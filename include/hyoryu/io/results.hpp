@@ -31,6 +31,9 @@ private:
     int descriptor_ = -1;
 };
 
+/// Throws CaseError if a folder does not exist or has no plan of a run.
+void expect_results(const std::filesystem::path& folder);
+
 enum class Existing { refuse, replace, extend };
 
 /// Makes the folder ready. refuse: throws CaseError if it exists and is not empty; replace: removes

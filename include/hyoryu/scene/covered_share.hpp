@@ -15,12 +15,20 @@
 
 namespace hyoryu {
 
+/// The periodic directions of a scene; length 0 along the others [m].
+struct Periods {
+    Vec3 first{0, 0, 0}, length{0, 0, 0};
+};
+
+Periods periods_of(const Scene& scene);
+
 /// The numbers of the walls that do not move.
 std::vector<int> fixed_walls_of(const Scene& scene);
 
-/// The share of a cell about a place that lies outside of the walls `fixed`; each cuts it by the
-/// plane nearest to its middle. `edge`: of the cell [m]. `surfaces`: of all walls.
+/// The share of a cell about a place, or about its image in the domain, that lies outside of the
+/// walls `fixed`, by 27 parts of it, of which each wall cuts one by a plane. `edge`: of the cell [m].
+/// `surfaces`: of all walls.
 double uncovered_share(std::span<const SolidSurface> surfaces, std::span<const int> fixed,
-                       const Vec3& place, double edge);
+                       const Vec3& place, double edge, const Periods& periods);
 
 } // namespace hyoryu

@@ -6,8 +6,8 @@
 
 namespace hyoryu {
 
-/// Warns of densities that look like ratios, gravity that points upward, bodies far from all else,
-/// meshes in other units, walls thinner than a spacing, and domains that cut the scene.
+/// Warns of gravity that points upward, bodies far from all else, meshes in other units, walls
+/// thinner than a spacing, and domains that cut the scene.
 void warn_about_slips(const Scene& scene, Plan& plan);
 
 /// The fluid block, wall or body that `domain` cuts, as messages name it; empty if it cuts none.

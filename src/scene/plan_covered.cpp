@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "plan_covered.hpp"
+
+#include "plan_warnings.hpp"
+
+#include "hyoryu/scene/covered_share.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hyoryu {
+
+namespace {
+
+constexpr std::size_t most_looks = 2000; // places of a wall
+constexpr double noteworthy = 0.03;      // of the places that are looked at
+
+// The nearest place of a surface, both where they are at time 0.
+NearestPlace place_of(const SolidSurface& solid, const Vec3& place)
+{
+    NearestPlace found = nearest_place(solid, solid.rotation.conjugate() * (place - solid.centre));
+    found.normal = solid.rotation * found.normal;
+    return found;
+}
+
+// Whether a particle of a moving wall is as deep in a fixed wall as in its own, along the same
+// normal: the two surfaces coincide there.
+bool coincides(const NearestPlace& own, const SolidSurface& fixed, const Vec3& place,
+               double spacing)
+{
+    constexpr double close = 0.1;    // spacings
+    constexpr double parallel = 0.9; // cosine
+    const NearestPlace other = place_of(fixed, place);
+    return std::abs(other.distance - own.distance) < close * spacing &&
+           other.normal.dot(own.normal) > parallel;
+}
+
+// Of the particles of a wall in the first row behind its surface those whose surface is that of a
+// fixed wall at several times of the run.
+double share_covered(const Scene& scene, const Wall& wall, const SolidSurface& own,
+                     const SolidSurface& fixed, const std::vector<Vec3>& places)
+{
+    constexpr std::array parts{0.0, 0.25, 0.5, 0.75, 1.0}; // of the run
+    const std::size_t stride = 1 + places.size() / most_looks;
+    double looks = 0;
+    double covered = 0;
+    for (std::size_t k = 0; k < places.size(); k += stride) {
+        const NearestPlace at_own = place_of(own, places[k]);
+        if (at_own.distance < -scene.spacing) {
+            continue;
+        }
+        const bool always = std::ranges::all_of(parts, [&](double part) {
+            const Vec3 way = displacement(wall.motion, part * scene.time.end);
+            return coincides(at_own, fixed, places[k] + way, scene.spacing);
+        });
+        covered += always ? 1 : 0;
+        ++looks;
+    }
+    return looks > 0 ? covered / looks : 0;
+}
+
+} // namespace
+
+void warn_about_covered_walls(const Scene& scene, const PlanFacts& facts, Plan& plan)
+{
+    if (std::ranges::all_of(facts.moving, &std::vector<Vec3>::empty)) {
+        return;
+    }
+    const double thickness = 4 * scene.spacing; // of the sides of basins: more than is looked at
+    std::vector<SolidSurface> surfaces;
+    for (const Wall& wall : scene.walls) {
+        surfaces.push_back(surface_of(wall, thickness, scene.dimensions));
+    }
+    const std::vector<int> all_fixed = fixed_walls_of(scene);
+    for (std::size_t w = 0; w < facts.moving.size(); ++w) {
+        const Wall& wall = scene.walls[w];
+        for (const int f : all_fixed) {
+            const auto k = static_cast<std::size_t>(f);
+            if (share_covered(scene, wall, surfaces[w], surfaces[k], facts.moving[w]) >
+                noteworthy) {
+                warn(scene, wall.place, fmt::format("wall[{}]", w),
+                     fmt::format("the surface of the moving wall \"{}\" lies in that of the fixed "
+                                 "wall \"{}\", which alone acts on the water there",
+                                 wall.name, scene.walls[k].name),
+                     "open that side of the basin, or let the moving wall stand in front of it",
+                     plan);
+            }
+        }
+    }
+}
+
+} // namespace hyoryu

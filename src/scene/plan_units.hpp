@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Warnings of numbers that look as if they were given in another unit.
+#pragma once
+
+#include "hyoryu/scene/plan.hpp"
+
+namespace hyoryu {
+
+/// Warns of densities that look like ratios or like g/m3, friction coefficients that look like
+/// angles, sound speeds of real water and spacings larger than the water.
+void warn_about_units(const Scene& scene, Plan& plan);
+
+} // namespace hyoryu
