@@ -35,6 +35,24 @@ std::vector<std::vector<int>> near_walls(const Simulation& sim, const std::vecto
     return near;
 }
 
+// Displaced masses of the rows of moving walls with the walls at `ways`.
+void set_masses(Simulation& sim, const std::vector<Vec3>& ways)
+{
+    const std::vector<std::vector<int>> near = near_walls(sim, ways);
+    Store& store = sim.fluid->particles.wall;
+    const auto mass = store[field::displaced_mass];
+    const auto owner = store.owner();
+    const std::span<const SolidSurface> surfaces = sim.barrier->solids;
+    const Periods periods = periods_of(sim.scene);
+    parallel_for(0, static_cast<Index>(sim.covered.mass.size()), [&](Index i) {
+        const std::size_t wall = at(-1 - owner[i]);
+        const Vec3 place = sim.wall_start[at(i)] + ways[wall]; // not an image in a periodic domain
+        mass[i] = sim.covered.mass[at(i)] *
+                  static_cast<real>(
+                      uncovered_share(surfaces, near[wall], place, sim.scene.spacing, periods));
+    });
+}
+
 } // namespace
 
 CoveredWalls covered_walls(const Simulation& sim)
@@ -58,22 +76,16 @@ void cover_walls(Simulation& sim, double time)
     for (const Wall& wall : sim.scene.walls) {
         ways.push_back(displacement(wall.motion, time));
     }
-    const std::vector<std::vector<int>> near = near_walls(sim, ways);
+    if (ways != sim.covered.ways) {
+        set_masses(sim, ways);
+        sim.covered.ways = std::move(ways);
+    }
     Store& store = sim.fluid->particles.wall;
     const auto rho = store[field::density];
     const auto mass = store[field::displaced_mass];
     const auto V = store[field::volume];
-    const auto owner = store.owner();
-    const std::span<const SolidSurface> surfaces = sim.barrier->solids;
-    const Periods periods = periods_of(sim.scene);
-    parallel_for(0, static_cast<Index>(sim.covered.mass.size()), [&](Index i) {
-        const std::size_t wall = at(-1 - owner[i]);
-        const Vec3 place = sim.wall_start[at(i)] + ways[wall]; // not an image in a periodic domain
-        mass[i] = sim.covered.mass[at(i)] *
-                  static_cast<real>(
-                      uncovered_share(surfaces, near[wall], place, sim.scene.spacing, periods));
-        V[i] = mass[i] / rho[i];
-    });
+    parallel_for(0, static_cast<Index>(sim.covered.mass.size()),
+                 [&](Index i) { V[i] = mass[i] / rho[i]; });
 }
 
 } // namespace hyoryu

@@ -230,7 +230,7 @@ class Convert(Results):
                                     (("out", "--to", "vtu"), 'did you mean "vtp"?'),
                                     (("out", "--to", "xyz"), '"vtp", "csv", "vtkhdf"'),
                                     (("empty", "--to", "vtp"), "no plan.json"),
-                                    (("none", "--to", "vtp"), "no plan.json")):
+                                    (("none", "--to", "vtp"), "does not exist")):
             done = self.call("convert", *arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn(expected, done.stderr)

@@ -302,6 +302,8 @@ history_every = 0.02
         self.assertFalse((self.dir / "out" / "report.html").exists())
 
     def test_what_is_no_ended_run_is_refused(self):
+        self.refused(2, "the folder `out` does not exist", "`hyoryu run`")
+        (self.dir / "out").mkdir()
         self.refused(2, "not a results folder", "`hyoryu run`")
         self.run_case(self.DROP)
         (self.dir / "out" / "summary.json").unlink()

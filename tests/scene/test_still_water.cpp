@@ -214,7 +214,7 @@ TEST(StillWater, MistakesAreTold)
     EXPECT_NE(told(3, still(1, "[1, 1]"),
                    "[[wall]]\nshape = \"box\"\nmin = [0.5, 0.5, 0]\nmax = [1.5, "
                    "1.5, 2]\n")
-                  .find("there is a wall"),
+                  .find("is inside a wall"),
               std::string::npos);
     EXPECT_NE(told(3, still(1, "[1, 1]") + "[[fluid.block]]\n" + still(0.8, "[3, 1]"))
                   .find("is connected with still water"),

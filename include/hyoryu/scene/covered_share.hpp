@@ -26,8 +26,8 @@ Periods periods_of(const Scene& scene);
 std::vector<int> fixed_walls_of(const Scene& scene);
 
 /// The share of a cell about a place, or about its image in the domain, that lies outside of the
-/// walls `fixed`, by 27 parts of it, of which each wall cuts one by a plane. `edge`: of the cell [m].
-/// `surfaces`: of all walls.
+/// walls `fixed`, by 27 parts of it, of which each wall cuts one by a plane. `edge`: of the cell
+/// [m]. `surfaces`: of all walls.
 double uncovered_share(std::span<const SolidSurface> surfaces, std::span<const int> fixed,
                        const Vec3& place, double edge, const Periods& periods);
 

@@ -15,6 +15,7 @@ struct CoveredWalls {
     /// unless the scene has both.
     std::vector<real> mass;
     std::vector<int> fixed; // numbers of the fixed walls
+    std::vector<Vec3> ways; // of the walls since time 0, for which the rows are set [m]
 };
 
 /// The moving walls at time 0, as their rows are.
