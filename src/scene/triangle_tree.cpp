@@ -339,8 +339,9 @@ std::vector<int> pieces_of(const TriangleTree& tree)
         for (const int edge : tree.triangles[k].edge) {
             int& other = first[at(edge)];
             other = other < 0 ? static_cast<int>(k) : other;
-            const auto [low, high] = std::minmax(find(other), find(static_cast<int>(k)));
-            root[at(high)] = low;
+            const int one = find(other);
+            const int two = find(static_cast<int>(k));
+            root[at(std::max(one, two))] = std::min(one, two);
         }
     }
     for (std::size_t k = 0; k < root.size(); ++k) {

@@ -101,6 +101,20 @@ TEST(MeshParts, OverlapsAreFoundAndPartsThatAreApartAreNone)
     EXPECT_GT(apart, 40);
 }
 
+TEST(MeshParts, PiecesAreJoinedByEdges)
+{
+    Dice dice(14);
+    MeshShape mesh;
+    for (int bricks = 1; bricks < 6; ++bricks) {
+        add(drawn(dice, 2), Faces::outwards, mesh);
+        const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
+        std::vector<int> pieces = pieces_of(tree);
+        std::ranges::sort(pieces);
+        EXPECT_EQ(std::ranges::unique(pieces).begin() - pieces.begin(), bricks);
+        EXPECT_EQ(tree.is_one_piece, bricks == 1);
+    }
+}
+
 // A tower on the corner of its slab: a reader of STL makes one corner of the two.
 TEST(MeshParts, BricksThatShareACornerAreTwoParts)
 {
@@ -124,6 +138,7 @@ TEST(MeshParts, BricksThatShareACornerAreTwoParts)
         }
         EXPECT_TRUE(part_faults(mesh).overlap) << n;
         const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
+        EXPECT_FALSE(tree.is_one_piece);
         for (int k = 0; k < 50; ++k) {
             const double x = dice.between(-1.5, 1.5);
             const double y = dice.between(-1.5, 1.5);
