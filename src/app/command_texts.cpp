@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <map>
 #include <sstream>
 
 namespace hyoryu {
@@ -25,43 +26,27 @@ ValueCandidates words_between_bars(const std::string& text)
     return candidates;
 }
 
-ValueCandidates keys_of_the_case()
+// One of the texts of each thing.
+ValueCandidates words_of(const auto& things, auto text)
 {
     ValueCandidates candidates{Kind::words, {}};
-    for (const Parameter& parameter : parameters()) {
-        candidates.words.emplace_back(parameter.key);
-    }
-    return candidates;
-}
-
-ValueCandidates names_of_templates()
-{
-    ValueCandidates candidates{Kind::words, {}};
-    for (const Template& one : templates()) {
-        candidates.words.emplace_back(one.name);
+    for (const auto& thing : things) {
+        candidates.words.emplace_back(thing.*text);
     }
     return candidates;
 }
 
 ValueCandidates candidates_for(const CLI::App& program, const std::string& value)
 {
-    if (value == "FILE") {
-        return {Kind::files, {}};
-    }
-    if (value == "FILE.toml") {
-        return {Kind::toml_files, {}};
-    }
-    if (value == "FOLDER") {
-        return {Kind::folders, {}};
-    }
-    if (value == "COMMAND") {
-        return {Kind::words, command_names(program)};
-    }
-    if (value == "KEY") {
-        return keys_of_the_case();
-    }
-    if (value == "TEMPLATE") {
-        return names_of_templates();
+    const std::map<std::string, ValueCandidates> known{
+        {"FILE", {Kind::files, {}}},
+        {"FILE.toml", {Kind::toml_files, {}}},
+        {"FOLDER", {Kind::folders, {}}},
+        {"COMMAND", {Kind::words, command_names(program)}},
+        {"KEY", words_of(parameters(), &Parameter::key)},
+        {"TEMPLATE", words_of(templates(), &Template::name)}};
+    if (const auto found = known.find(value); found != known.end()) {
+        return found->second;
     }
     return value.find('|') != std::string::npos ? words_between_bars(value) : ValueCandidates{};
 }

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
+
 namespace hyoryu {
 
 namespace {
@@ -14,19 +16,12 @@ using Kind = ValueCandidates::Kind;
 // The line of the script that offers the candidates.
 std::string bash_action(const ValueCandidates& candidates)
 {
-    switch (candidates.kind) {
-    case Kind::words:
+    if (candidates.kind == Kind::words) {
         return fmt::format("_hyoryu_words '{}'", fmt::join(candidates.words, " "));
-    case Kind::files:
-        return "_hyoryu_files";
-    case Kind::toml_files:
-        return "_hyoryu_files '!*.toml'";
-    case Kind::folders:
-        return "_hyoryu_folders";
-    case Kind::none:
-        break;
     }
-    return ":";
+    constexpr std::array actions{":", "", "_hyoryu_files", "_hyoryu_files '!*.toml'",
+                                 "_hyoryu_folders"}; // in the order of `Kind`
+    return actions[static_cast<std::size_t>(candidates.kind)];
 }
 
 std::vector<std::string> dashed_names(const CommandText& command)

@@ -2,8 +2,12 @@
 // The completion script for fish: one `complete` a command, option and place.
 #include "command_texts.hpp"
 
+#include "hyoryu/core/name.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <array>
 
 namespace hyoryu {
 
@@ -14,31 +18,17 @@ using Kind = ValueCandidates::Kind;
 // Within single quotes of fish.
 std::string in_quotes(std::string_view text)
 {
-    std::string result = "'";
-    for (const char letter : text) {
-        if (letter == '\'' || letter == '\\') {
-            result += '\\';
-        }
-        result += letter;
-    }
-    return result + "'";
+    return "'" + replaced(text, {{'\'', "\\'"}, {'\\', "\\\\"}}) + "'";
 }
 
 std::string candidates_of(const ValueCandidates& candidates)
 {
-    switch (candidates.kind) {
-    case Kind::words:
+    if (candidates.kind == Kind::words) {
         return " -a " + in_quotes(fmt::format("{}", fmt::join(candidates.words, " ")));
-    case Kind::files:
-        return " -F";
-    case Kind::toml_files:
-        return " -a '(__fish_complete_suffix .toml)'";
-    case Kind::folders:
-        return " -a '(__fish_complete_directories)'";
-    case Kind::none:
-        break;
     }
-    return "";
+    constexpr std::array actions{"", "", " -F", " -a '(__fish_complete_suffix .toml)'",
+                                 " -a '(__fish_complete_directories)'"}; // in the order of `Kind`
+    return actions[static_cast<std::size_t>(candidates.kind)];
 }
 
 // "-s o -l output"

@@ -2,8 +2,12 @@
 // The completion script for zsh: specifications for its `_arguments`, one command after the other.
 #include "command_texts.hpp"
 
+#include "hyoryu/core/name.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <array>
 
 namespace hyoryu {
 
@@ -14,35 +18,18 @@ using Kind = ValueCandidates::Kind;
 // A text within a specification within single quotes.
 std::string spec(std::string_view text)
 {
-    std::string result;
-    for (const char letter : text) {
-        if (letter == '\'') {
-            result += "'\\''";
-            continue;
-        }
-        if (std::string_view("[]:\\").find(letter) != std::string_view::npos) {
-            result += '\\';
-        }
-        result += letter;
-    }
-    return result;
+    return replaced(text,
+                    {{'\'', "'\\''"}, {'[', "\\["}, {']', "\\]"}, {':', "\\:"}, {'\\', "\\\\"}});
 }
 
 std::string zsh_action(const ValueCandidates& candidates)
 {
-    switch (candidates.kind) {
-    case Kind::words:
+    if (candidates.kind == Kind::words) {
         return fmt::format("({})", spec(fmt::format("{}", fmt::join(candidates.words, " "))));
-    case Kind::files:
-        return "_files";
-    case Kind::toml_files:
-        return "_files -g \"*.toml\"";
-    case Kind::folders:
-        return "_files -/";
-    case Kind::none:
-        break;
     }
-    return " ";
+    constexpr std::array actions{" ", "", "_files", "_files -g \"*.toml\"",
+                                 "_files -/"}; // in the order of `Kind`
+    return actions[static_cast<std::size_t>(candidates.kind)];
 }
 
 // '(-o --output)'{-o,--output}'[results folder]:FOLDER:_files -/'

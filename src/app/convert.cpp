@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 
 namespace hyoryu {
@@ -87,11 +86,7 @@ void keep_nearest(FrameSet& set, const std::vector<double>& times)
     }
     std::set<std::size_t> kept;
     for (const double time : times) {
-        const auto nearest =
-            std::ranges::min_element(set.frames, {}, [time](const SeriesEntry& entry) {
-                return std::abs(entry.time - time);
-            });
-        kept.insert(static_cast<std::size_t>(nearest - set.frames.begin()));
+        kept.insert(nearest_in_time(set.frames, time));
     }
     std::vector<SeriesEntry> frames;
     for (const std::size_t k : kept) {
@@ -112,17 +107,14 @@ void prepare_folder(const fs::path& folder, ExportFormat format, const ConvertOp
     const auto is_ours = [format](const std::string& name) { return is_export_name(format, name); };
     claim_folder(folder, {.command = "convert", .owns = is_ours});
     try {
-        std::vector<fs::path> old;
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            if (is_ours(entry.path().filename().string()) && entry.is_regular_file()) {
-                old.push_back(entry.path());
-            }
-        }
+        std::vector<std::string> old = owned_names(folder, is_ours);
+        std::erase_if(old,
+                      [&](const std::string& name) { return !fs::is_regular_file(folder / name); });
         if (!old.empty() && !options.force) {
             refuse_conversion(folder);
         }
-        for (const fs::path& file : old) {
-            fs::remove(file);
+        for (const std::string& name : old) {
+            fs::remove(folder / name);
         }
     } catch (const fs::filesystem_error& error) {
         throw IoError(

@@ -11,14 +11,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 namespace hyoryu {
 
 namespace {
-
-using SteadyClock = std::chrono::steady_clock;
 
 // Seconds of a thread for a step of one fluid particle in two and in three dimensions, of one wall
 // particle, of which most are dry, and of a step besides: fitted to the measured runs of 2-D and
@@ -59,9 +56,26 @@ constexpr double frame_work = 1e-3;
 // histories, walls, structures, results.h5, the summary.
 constexpr double files_of_a_run = 22;
 
-double seconds_since(SteadyClock::time_point start)
+// Particles of fluid in the middle between the start and the most that open sides may bring.
+double mean_fluid(const Plan& plan)
 {
-    return std::chrono::duration<double>(SteadyClock::now() - start).count();
+    const auto start = static_cast<double>(plan.counts.fluid);
+    return std::max(start, (start + static_cast<double>(plan.most_fluid)) / 2);
+}
+
+// Wall time of a step where nothing was timed, from fixed rates [s]: an order of magnitude. Each of
+// several processes has the threads of this one; what they send is not counted.
+double untimed_step(const Plan& plan, int processes)
+{
+    const double bodies = static_cast<double>(plan.counts.bodies) * body_seconds;
+    if (!plan.fluid) {
+        return bodies;
+    }
+    const double of_fluid = plan.fluid->dimensions == 2 ? fluid_seconds_2d : fluid_seconds_3d;
+    const double particles =
+        of_fluid * mean_fluid(plan) + wall_seconds * static_cast<double>(plan.counts.wall);
+    const double set = widest_instruction_set() == InstructionSet::avx512 ? 1.0 : without_avx512;
+    return step_seconds + set * particles / (thread_count() * processes) + bodies;
 }
 
 double frame_files(const Scene& scene, const Plan& plan)
@@ -101,9 +115,9 @@ std::optional<StepCost> time_bodies(const Scene& scene, const Plan& plan, const 
     Simulation sim = make_simulation(scene, plan, filling);
     const double limit = limit_of(budget, wall_forecast(plan, {}));
     const double row = measure_row(sim);
-    const SteadyClock::time_point start = SteadyClock::now();
+    const double start = steady_seconds();
     std::optional<StepCost> cost =
-        measure_bodies(sim, [&] { return seconds_since(start) < limit && !stop_requested(); });
+        measure_bodies(sim, [&] { return steady_seconds() - start < limit && !stop_requested(); });
     if (cost) {
         cost->row = row;
     }
@@ -135,9 +149,9 @@ double seconds_to_write(const std::filesystem::path& file, const std::string& te
 {
     std::array<double, 3> seconds{};
     for (double& once : seconds) {
-        const SteadyClock::time_point start = SteadyClock::now();
+        const double start = steady_seconds();
         write_text(file, text);
-        once = seconds_since(start);
+        once = steady_seconds() - start;
     }
     std::ranges::sort(seconds);
     return seconds[1];
@@ -189,25 +203,6 @@ Course expected_course(const Plan& plan, const std::optional<StepCost>& timed)
 double gauge_seconds(const Plan& plan)
 {
     return plan.gauge_rows * plan.gauge_looks / gauge_rate;
-}
-
-double mean_fluid(const Plan& plan)
-{
-    const auto start = static_cast<double>(plan.counts.fluid);
-    return std::max(start, (start + static_cast<double>(plan.most_fluid)) / 2);
-}
-
-double untimed_step(const Plan& plan, int processes)
-{
-    const double bodies = static_cast<double>(plan.counts.bodies) * body_seconds;
-    if (!plan.fluid) {
-        return bodies;
-    }
-    const double of_fluid = plan.fluid->dimensions == 2 ? fluid_seconds_2d : fluid_seconds_3d;
-    const double particles =
-        of_fluid * mean_fluid(plan) + wall_seconds * static_cast<double>(plan.counts.wall);
-    const double set = widest_instruction_set() == InstructionSet::avx512 ? 1.0 : without_avx512;
-    return step_seconds + set * particles / (thread_count() * processes) + bodies;
 }
 
 double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed, int processes)

@@ -39,13 +39,6 @@ Course expected_course(const Plan& plan, const std::optional<StepCost>& timed);
 /// Wall time of gauges, over the whole run [s].
 double gauge_seconds(const Plan& plan);
 
-/// Particles of fluid in the middle between the start and the most that open sides may bring.
-double mean_fluid(const Plan& plan);
-
-/// Wall time of a step where nothing was timed, from fixed rates [s]: an order of magnitude. Each
-/// of several processes has the threads of this one; what they send is not counted.
-double untimed_step(const Plan& plan, int processes = 1);
-
 /// Wall time of the run [s]; from fixed rates, an order of magnitude, if nothing was timed, as with
 /// several processes.
 double wall_forecast(const Plan& plan, const std::optional<StepCost>& timed, int processes = 1);

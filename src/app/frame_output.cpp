@@ -58,17 +58,17 @@ FrameOutput::FrameOutput(const std::filesystem::path& folder, Comm* comm, const 
 void FrameOutput::write_static(const Simulation& sim, const Bounds& domain)
 {
     if (sim.fluid && sim.plan.counts.wall > 0) {
-        write_walls(sim, Life::run);
+        write_walls(sim, FramePlace::alone);
     }
     if (!sim.scene.walls.empty() && is_first()) {
-        files_->write_static(wall_surface(sim.scene, domain, {}));
+        files_->write(wall_surface(sim.scene, domain, {}), FramePlace::alone);
     }
 }
 
 void FrameOutput::write(const Simulation& sim)
 {
     if (sim.fluid) {
-        write_cloud(fluid_cloud(sim), Life::moment);
+        write_cloud(fluid_cloud(sim), FramePlace::series);
     }
     if (!sim.scene.bodies.empty()) {
         std::optional<Store> particles;
@@ -82,7 +82,7 @@ void FrameOutput::write(const Simulation& sim)
     }
     if (has_moving_walls(sim.scene)) {
         if (sim.fluid) {
-            write_walls(sim, Life::moment);
+            write_walls(sim, FramePlace::series);
         }
         if (is_first()) {
             files_->write(wall_surface(sim.scene, domain_of(sim.scene), sim.clock));
@@ -90,9 +90,9 @@ void FrameOutput::write(const Simulation& sim)
     }
 }
 
-void FrameOutput::write_walls(const Simulation& sim, Life life)
+void FrameOutput::write_walls(const Simulation& sim, FramePlace place)
 {
-    write_cloud(comm_ == nullptr ? wall_cloud(sim) : share_of_walls(sim), life);
+    write_cloud(comm_ == nullptr ? wall_cloud(sim) : share_of_walls(sim), place);
 }
 
 // A wall particle belongs to the process of its tile, but a file contains a range of particle
@@ -128,14 +128,12 @@ Cloud FrameOutput::share_of_walls(const Simulation& sim) const
                       share_of(all, groups_.of(comm_->rank()), groups_.count));
 }
 
-void FrameOutput::write_cloud(Cloud own, Life life)
+void FrameOutput::write_cloud(Cloud own, FramePlace place)
 {
     if (comm_ != nullptr) {
-        write_shared(std::move(own), life);
-    } else if (life == Life::moment) {
-        files_->write(std::move(own));
+        write_shared(std::move(own), place);
     } else {
-        files_->write_static(std::move(own));
+        files_->write(std::move(own), place);
     }
 }
 
@@ -156,7 +154,7 @@ Cloud FrameOutput::gathered(Cloud own, const Cloud& head) const
     return all;
 }
 
-void FrameOutput::write_shared(Cloud own, Life life)
+void FrameOutput::write_shared(Cloud own, FramePlace place)
 {
     const Cloud head = some_points(own, {});
     Cloud all = gathered(std::move(own), head);
@@ -167,19 +165,16 @@ void FrameOutput::write_shared(Cloud own, Life life)
         return;
     }
     if (groups_.count == 1) {
-        life == Life::moment ? files_->write(std::move(all)) : files_->write_static(std::move(all));
+        files_->write(std::move(all), place);
         return;
     }
-    const int part = groups_.of(comm_->rank());
-    life == Life::moment ? files_->write_part(std::move(all), part)
-                         : files_->write_static_part(std::move(all), part);
+    files_->write(std::move(all), place, groups_.of(comm_->rank()));
     if (is_first()) {
         CloudOfParts whole{head.name, head.time, head.index, {}, head.columns};
         for (int group = 0; group < groups_.count; ++group) {
             whole.points.push_back(counts[at(groups_.leader(group))]);
         }
-        life == Life::moment ? files_->write(std::move(whole))
-                             : files_->write_static(std::move(whole));
+        files_->write(std::move(whole), place);
     }
 }
 

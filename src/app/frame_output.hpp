@@ -30,13 +30,11 @@ public:
     FrameWriter::Cost cost() const;
 
 private:
-    enum class Life { moment, run };
-
     bool is_first() const { return comm_ == nullptr || comm_->rank() == 0; }
-    void write_cloud(Cloud own, Life life);
-    void write_shared(Cloud own, Life life);
+    void write_cloud(Cloud own, FramePlace place);
+    void write_shared(Cloud own, FramePlace place);
     Cloud gathered(Cloud own, const Cloud& head) const;
-    void write_walls(const Simulation& sim, Life life);
+    void write_walls(const Simulation& sim, FramePlace place);
     Cloud share_of_walls(const Simulation& sim) const;
 
     Comm* comm_;

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <limits>
+#include <utility>
 
 namespace hyoryu {
 
@@ -26,40 +27,35 @@ struct Record {
     std::string file;
     json values = json::object();
 
-    IoError damage(const std::string& key, const char* expected) const
-    {
-        return IoError(fmt::format("`{}` is damaged: `{}` is not a {}", file, key, expected));
-    }
     std::string text(const std::string& key) const
     {
-        if (values.contains(key) && !values[key].is_string()) {
-            throw damage(key, "text");
-        }
-        return values.value(key, std::string());
+        return value(key, &json::is_string, "text", std::string());
     }
     double number(const std::string& key) const
     {
         if (values.contains(key) && values[key].is_null()) {
             return std::numeric_limits<double>::quiet_NaN(); // which JSON cannot write
         }
-        if (values.contains(key) && !values[key].is_number()) {
-            throw damage(key, "number");
-        }
-        return values.value(key, 0.0);
+        return value(key, &json::is_number, "number", 0.0);
     }
     std::int64_t count(const std::string& key) const
     {
-        if (values.contains(key) && !values[key].is_number_integer()) {
-            throw damage(key, "whole number");
-        }
-        return values.value(key, std::int64_t{0});
+        return value(key, &json::is_number_integer, "whole number", std::int64_t{0});
     }
     Record part(const std::string& key) const
     {
-        if (values.contains(key) && !values[key].is_object()) {
-            throw damage(key, "JSON object");
+        return {file, value(key, &json::is_object, "JSON object", json::object())};
+    }
+
+private:
+    template <class T>
+    T value(const std::string& key, bool (json::*is)() const noexcept, const char* expected,
+            T missing) const
+    {
+        if (values.contains(key) && !(values[key].*is)()) {
+            throw IoError(fmt::format("`{}` is damaged: `{}` is not a {}", file, key, expected));
         }
-        return {file, values.value(key, json::object())};
+        return values.value(key, std::move(missing));
     }
 };
 

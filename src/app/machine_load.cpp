@@ -5,17 +5,18 @@
 #include "hyoryu/sim/cost.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 namespace hyoryu {
 
-double seconds_without_core(const std::filesystem::path& threads)
+double seconds_without_core()
 {
     constexpr double nanosecond = 1e-9;
     double total = 0;
     std::error_code fault; // threads may end while they are looked at
     const std::filesystem::directory_iterator end;
-    for (std::filesystem::directory_iterator at(threads, fault); !fault && at != end;
+    for (std::filesystem::directory_iterator at("/proc/self/task", fault); !fault && at != end;
          at.increment(fault)) {
         // Time on a core, time without one, turns on a core: Documentation/scheduler/sched-stats.
         std::ifstream file(at->path() / "schedstat");

@@ -2,13 +2,11 @@
 // Whether other work holds the cores while something is timed.
 #pragma once
 
-#include <filesystem>
-
 namespace hyoryu {
 
 /// Seconds that the threads of this process have waited for a core so far, although they had work,
 /// by the kernel's own count (`schedstat`); 0 where it keeps none [s].
-double seconds_without_core(const std::filesystem::path& threads = "/proc/self/task");
+double seconds_without_core();
 
 /// Measures from its construction on.
 class CoreWatch {

@@ -4,6 +4,7 @@
 #include "command_texts.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
 
 #include <fmt/format.h>
@@ -21,23 +22,8 @@ namespace {
 // a plain hyphen would not come out as the one that is typed.
 std::string roff(std::string_view text)
 {
-    std::string result;
-    if (text.starts_with('.') || text.starts_with('\'')) {
-        result = "\\&";
-    }
-    for (const char letter : text) {
-        switch (letter) {
-        case '-':
-            result += "\\-";
-            break;
-        case '\\':
-            result += "\\e";
-            break;
-        default:
-            result += letter;
-        }
-    }
-    return result;
+    const bool is_request = text.starts_with('.') || text.starts_with('\'');
+    return (is_request ? "\\&" : "") + replaced(text, {{'-', "\\-"}, {'\\', "\\e"}});
 }
 
 std::string upper_case(std::string text)

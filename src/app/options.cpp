@@ -31,43 +31,57 @@ CLI::Validator number_that(bool (*fits)(double), const std::string& expected)
 
 const CLI::Validator finite = number_that([](double) { return true; }, "a finite number");
 
+// A name of a file, folder or template; `value`: as help calls it.
+CLI::Option* add_name(CLI::App& command, const char* option, auto& member, const char* value,
+                      const char* text)
+{
+    return command.add_option(option, member, text)->type_name(value)->check(a_name);
+}
+
+// A whole number from `lowest` to `highest`.
+void add_count(CLI::App& command, const char* option, auto& member, const std::string& text,
+               int lowest, int highest, const char* value = "N")
+{
+    command.add_option(option, member, text)->type_name(value)->check(CLI::Range(lowest, highest));
+}
+
 void add_results(CLI::App& command, std::filesystem::path& results)
 {
-    command.add_option("RESULTS", results, "results folder")
-        ->type_name("FOLDER")
-        ->required()
-        ->check(a_name);
+    add_name(command, "RESULTS", results, "FOLDER", "results folder")->required();
+}
+
+void add_case(CLI::App& command, std::filesystem::path& file, std::vector<std::string>& overrides)
+{
+    add_name(command, "CASE", file, "FILE.toml", "case file (TOML)")->required();
+    command.add_option("--set", overrides, "change a key of the case: key.path=VALUE; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+void add_times(CLI::App& command, std::vector<double>& times)
+{
+    command.add_option("--times", times, "only the frames nearest to these times [s]")
+        ->type_name("T,T...")
+        ->delimiter(',')
+        ->check(finite);
 }
 
 void add_run(CLI::App& app, RunOptions& options)
 {
     auto* run = app.add_subcommand("run", "run a case");
-    run->add_option("CASE", options.case_file, "case file (TOML)")
-        ->type_name("FILE.toml")
-        ->required()
-        ->check(a_name);
-    run->add_option("-o,--output", options.folder,
-                    "results folder (default: name of the case + -results, in the current folder)")
-        ->type_name("FOLDER")
-        ->check(a_name);
-    run->add_option("--set", options.overrides,
-                    "change a key of the case: key.path=VALUE; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
-    run->add_option("--threads", options.threads,
-                    "number of threads (default: OMP_NUM_THREADS, else all)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    run->add_option("--rebalance", options.rebalance,
-                    "with several processes: number of steps between checks of the load balance; "
-                    "0: never (default: 50)")
-        ->type_name("STEPS")
-        ->check(CLI::Range(0, 1000000));
-    run->add_option("--parts", options.parts,
-                    "with several processes: maximum number of files for the particles of a frame "
-                    "or a checkpoint (default: one per process, at most 64)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 9999));
+    add_name(*run, "-o,--output", options.folder, "FOLDER",
+             "results folder (default: name of the case + -results, in the current folder)");
+    add_case(*run, options.case_file, options.overrides);
+    add_count(*run, "--threads", options.threads,
+              "number of threads (default: OMP_NUM_THREADS, else all)", 1, 4096);
+    add_count(*run, "--rebalance", options.rebalance,
+              "with several processes: number of steps between checks of the load balance; "
+              "0: never (default: 50)",
+              0, 1000000, "STEPS");
+    add_count(*run, "--parts", options.parts,
+              "with several processes: maximum number of files for the particles of a frame "
+              "or a checkpoint (default: one per process, at most 64)",
+              1, 9999);
     run->add_option("--until", options.until, "stop at this time [s] and write a checkpoint")
         ->type_name("SECONDS")
         ->check(number_that([](double x) { return x >= 0; }, "a finite number of at least 0"));
@@ -79,23 +93,14 @@ void add_run(CLI::App& app, RunOptions& options)
 void add_check(CLI::App& app, CheckOptions& options)
 {
     auto* check = app.add_subcommand("check", "report all errors of a case and show its plan");
-    check->add_option("CASE", options.case_file, "case file (TOML)")
-        ->type_name("FILE.toml")
-        ->required()
-        ->check(a_name);
-    check
-        ->add_option("--set", options.overrides,
-                     "change a key of the case: key.path=VALUE; repeatable")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+    add_case(*check, options.case_file, options.overrides);
     auto* json = check->add_flag("--json", options.json, "print the plan as JSON");
     check
         ->add_flag("--accuracy", options.accuracy,
                    "also print the expected error, from the accuracy studies")
         ->excludes(json);
-    check->add_option("--plan", options.plan, "also draw the scene in plan view, as a picture")
-        ->type_name("FILE.png")
-        ->check(a_name);
+    add_name(*check, "--plan", options.plan, "FILE.png",
+             "also draw the scene in plan view, as a picture");
     check->add_flag(
         "--time", options.time,
         "measure some time steps of the case for the forecast, and the cost of each effect");
@@ -113,22 +118,14 @@ void add_render(CLI::App& app, RenderOptions& options)
     auto* render_ =
         app.add_subcommand("render", "render pictures and an animation of a run, off-screen");
     add_results(*render_, options.folder);
-    render_
-        ->add_option("--times", options.settings.times,
-                     "only the frames nearest to these times [s]")
-        ->type_name("T,T...")
-        ->delimiter(',')
-        ->check(finite);
-    render_
-        ->add_option("--width", options.settings.width,
-                     "width of the pictures in pixels (default: 1280)")
-        ->type_name("N")
-        ->check(CLI::Range(64, 7680));
-    render_
-        ->add_option("--height", options.settings.height,
-                     "height of the pictures in pixels (default: 720)")
-        ->type_name("N")
-        ->check(CLI::Range(64, 4320));
+    add_times(*render_, options.settings.times);
+    add_count(*render_, "--width", options.settings.width,
+              fmt::format("width of the pictures in pixels (default: {})", options.settings.width),
+              64, 7680);
+    add_count(
+        *render_, "--height", options.settings.height,
+        fmt::format("height of the pictures in pixels (default: {})", options.settings.height), 64,
+        4320);
     render_
         ->add_option("--azimuth", options.settings.azimuth_deg,
                      "from the scene to the camera, counter-clockwise from +x [deg]")
@@ -139,21 +136,17 @@ void add_render(CLI::App& app, RenderOptions& options)
                      "height of the camera above the horizon [deg]")
         ->type_name("DEGREES")
         ->check(finite);
-    render_
-        ->add_option("--fps", options.settings.fps,
-                     "frames per second of the animation (default: 25)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 120));
+    add_count(*render_, "--fps", options.settings.fps,
+              fmt::format("frames per second of the animation (default: {})", options.settings.fps),
+              1, 120);
 }
 
 void add_report(CLI::App& app, ReportOptions& options)
 {
     auto* report = app.add_subcommand("report", "write one self-contained HTML page about a run");
     add_results(*report, options.folder);
-    report
-        ->add_option("-o,--output", options.file, "file of the page (default: RESULTS/report.html)")
-        ->type_name("FILE")
-        ->check(a_name);
+    add_name(*report, "-o,--output", options.file, "FILE",
+             "file of the page (default: RESULTS/report.html)");
     report
         ->add_option("--stiffness", options.stiffness,
                      "contact stiffness k [N/m] of all impacts, for peak forces u sqrt(k m) "
@@ -170,31 +163,18 @@ void add_verify(CLI::App& app, VerifyOptions& options)
         ->type_name("NAME");
     verify_->add_option("--tier", options.tier, "quick (default), nightly or release")
         ->type_name("quick|nightly|release");
-    verify_
-        ->add_option("--cases", options.cases, "folder that contains the folders of the benchmarks")
-        ->type_name("FOLDER")
-        ->check(a_name);
-    verify_
-        ->add_option("-o,--output", options.folder,
-                     "folder for results, tables and figures (default: verify-results)")
-        ->type_name("FOLDER")
-        ->check(a_name);
-    verify_->add_option("--json", options.json, "write verify.json to this file as well")
-        ->type_name("FILE")
-        ->check(a_name);
-    verify_
-        ->add_option(
-            "--threads", options.threads,
-            "number of threads of each run (default: OMP_NUM_THREADS, else all, divided by "
-            "the number of parallel runs)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    verify_
-        ->add_option(
-            "--jobs", options.jobs,
-            "number of parallel runs, limited by the memory; affects wall times (default: 1)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
+    add_name(*verify_, "--cases", options.cases, "FOLDER",
+             "folder that contains the folders of the benchmarks");
+    add_name(*verify_, "-o,--output", options.folder, "FOLDER",
+             "folder for results, tables and figures (default: verify-results)");
+    add_name(*verify_, "--json", options.json, "FILE", "write verify.json to this file as well");
+    add_count(*verify_, "--threads", options.threads,
+              "number of threads of each run (default: OMP_NUM_THREADS, else all, divided by "
+              "the number of parallel runs)",
+              1, 4096);
+    add_count(*verify_, "--jobs", options.jobs,
+              "number of parallel runs, limited by the memory; affects wall times (default: 1)", 1,
+              4096);
     verify_->add_flag("--list", options.list, "only list the benchmarks");
     verify_->add_flag("--force", options.force, "replace the results of an earlier verify");
 }
@@ -203,25 +183,14 @@ void add_study(CLI::App& app, StudyOptions& options)
 {
     auto* study =
         app.add_subcommand("study", "measure accuracy against cost over values of case keys");
-    study->add_option("STUDY", options.file, "study file (TOML)")
-        ->type_name("FILE.toml")
-        ->required()
-        ->check(a_name);
-    study
-        ->add_option(
-            "-o,--output", options.folder,
-            "results folder (default: name of the study + -results, in the current folder)")
-        ->type_name("FOLDER")
-        ->check(a_name);
-    study->add_option("--threads", options.threads, "number of threads of each run (default: 1)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    study
-        ->add_option(
-            "--jobs", options.jobs,
-            "number of parallel runs, limited by the memory; affects wall times (default: 1)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
+    add_name(*study, "STUDY", options.file, "FILE.toml", "study file (TOML)")->required();
+    add_name(*study, "-o,--output", options.folder, "FOLDER",
+             "results folder (default: name of the study + -results, in the current folder)");
+    add_count(*study, "--threads", options.threads, "number of threads of each run (default: 1)", 1,
+              4096);
+    add_count(*study, "--jobs", options.jobs,
+              "number of parallel runs, limited by the memory; affects wall times (default: 1)", 1,
+              4096);
     study->add_flag("--force", options.force, "repeat finished runs");
 }
 
@@ -238,19 +207,11 @@ void add_bench(CLI::App& app, BenchOptions& options)
         ->type_name("N,N...")
         ->delimiter(',')
         ->check(CLI::Range(1e2, 1e8));
-    bench
-        ->add_option("--threads", options.threads,
-                     "number of threads (default: OMP_NUM_THREADS, else all)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    bench->add_option("--json", options.json, "write the results to this file as well")
-        ->type_name("FILE")
-        ->check(a_name);
-    bench
-        ->add_option("--state", options.state,
-                     "folder in which the developed flow is kept for later calls")
-        ->type_name("FOLDER")
-        ->check(a_name);
+    add_count(*bench, "--threads", options.threads,
+              "number of threads (default: OMP_NUM_THREADS, else all)", 1, 4096);
+    add_name(*bench, "--json", options.json, "FILE", "write the results to this file as well");
+    add_name(*bench, "--state", options.state, "FOLDER",
+             "folder in which the developed flow is kept for later calls");
 }
 
 void add_info(CLI::App& app, InfoOptions& options)
@@ -269,15 +230,11 @@ void add_stop(CLI::App& app, StopOptions& options)
 void add_new(CLI::App& app, NewOptions& options)
 {
     auto* new_ = app.add_subcommand("new", "write a commented case to start from");
-    new_->add_option("TEMPLATE", options.name, "name of the template, see below")
-        ->type_name("TEMPLATE")
-        ->required()
-        ->check(a_name);
-    new_->add_option("FILE", options.file,
-                     "the case file, or the folder for a case.toml (default: TEMPLATE.toml, in the "
-                     "current folder)")
-        ->type_name("FILE")
-        ->check(a_name);
+    add_name(*new_, "TEMPLATE", options.name, "TEMPLATE", "name of the template, see below")
+        ->required();
+    add_name(*new_, "FILE", options.file, "FILE",
+             "the case file, or the folder for a case.toml (default: TEMPLATE.toml, in the "
+             "current folder)");
     new_->footer("Templates:\n"
                  "  tank                   still water: hydrostatic pressure\n"
                  "  dam_break              a column of water collapses and hits a wall\n"
@@ -296,20 +253,14 @@ void add_convert(CLI::App& app, ConvertOptions& options)
     convert->add_option("--to", options.format, "the format, see below")
         ->type_name("vtp|csv|vtkhdf")
         ->required();
-    convert
-        ->add_option("-o,--output", options.output,
-                     "folder of the files, or the file of vtkhdf (default: within RESULTS)")
-        ->type_name("FILE")
-        ->check(a_name);
+    add_name(*convert, "-o,--output", options.output, "FILE",
+             "folder of the files, or the file of vtkhdf (default: within RESULTS)");
     convert
         ->add_option("--only", options.only,
                      "only these series: fluid, bodies, walls, surfaces, structures")
         ->type_name("NAME,NAME...")
         ->delimiter(',');
-    convert->add_option("--times", options.times, "only the frames nearest to these times [s]")
-        ->type_name("T,T...")
-        ->delimiter(',')
-        ->check(finite);
+    add_times(*convert, options.times);
     convert->add_flag("--force", options.force, "replace an earlier conversion");
     convert->footer(
         "Formats:\n"

@@ -7,6 +7,7 @@
 #include "tables.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 namespace hyoryu {
@@ -53,18 +54,11 @@ void describe_outputs(State& state, Output& output)
     state.each("resting/located", "", resting, sum(&Contact::located));
 }
 
-std::vector<std::string> cells(std::initializer_list<double> values)
+// The numbers of a vector, or of a list in braces.
+template <class Values = std::initializer_list<double>>
+void append(std::vector<std::string>& row, const Values& values)
 {
-    std::vector<std::string> row;
     for (const double value : values) {
-        row.push_back(cell(value));
-    }
-    return row;
-}
-
-void append(std::vector<std::string>& row, const Vec3& v)
-{
-    for (const double value : v) {
         row.push_back(cell(value));
     }
 }
@@ -79,45 +73,35 @@ bool is_of(const Simulation& sim, const Contact& contact)
 
 } // namespace
 
-Outputs::Outputs(std::filesystem::path folder, const Simulation& sim) : folder_(std::move(folder))
-{
-    const int d = sim.scene.dimensions;
-    if (!sim.scene.bodies.empty()) {
-        bodies_.emplace(folder_, bodies_table(d));
-    }
-    if (sim.plan.contact) {
-        contacts_.emplace(folder_, contacts_table(d));
-    }
-    energy_.emplace(folder_, energy_table(sim.scene));
-    if (!sim.scene.gauges.empty()) {
-        gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)));
-    }
-    if (!sim.scene.open.empty()) {
-        open_.emplace(folder_, open_table(sim.scene));
-    }
-}
-
-Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot& resumed)
+Outputs::Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot* resumed)
     : folder_(std::move(folder))
 {
     const int d = sim.scene.dimensions;
-    const double now = sim.clock.time;
     OutputState state;
     state.has_open = !sim.scene.open.empty();
-    StateReader reader(resumed);
-    describe_outputs(reader, state);
+    if (resumed != nullptr) {
+        StateReader reader(*resumed);
+        describe_outputs(reader, state);
+    }
+    const auto open = [&](std::optional<History>& history, const Table& table, std::int64_t rows) {
+        if (resumed != nullptr) {
+            history.emplace(folder_, table, sim.clock.time, rows);
+        } else {
+            history.emplace(folder_, table);
+        }
+    };
     if (!sim.scene.bodies.empty()) {
-        bodies_.emplace(folder_, bodies_table(d), now, state.bodies);
+        open(bodies_, bodies_table(d), state.bodies);
     }
     if (sim.plan.contact) {
-        contacts_.emplace(folder_, contacts_table(d), now, state.contacts);
+        open(contacts_, contacts_table(d), state.contacts);
     }
-    energy_.emplace(folder_, energy_table(sim.scene), now, state.energy);
+    open(energy_, energy_table(sim.scene), state.energy);
     if (!sim.scene.gauges.empty()) {
-        gauges_.emplace(folder_, gauges_table(gauge_heads(sim.scene)), now, state.gauges);
+        open(gauges_, gauges_table(gauge_heads(sim.scene)), state.gauges);
     }
     if (!sim.scene.open.empty()) {
-        open_.emplace(folder_, open_table(sim.scene), now, state.open);
+        open(open_, open_table(sim.scene), state.open);
     }
     for (RestingPair& rest : state.resting) {
         if (!is_of(sim, rest.sum)) {
@@ -140,10 +124,8 @@ void Outputs::write_histories(const Simulation& sim, const Totals& now)
 
 void Outputs::write_gauges(const Simulation& sim, const std::vector<double>& readings)
 {
-    std::vector<std::string> row = cells({sim.clock.time});
-    for (const double reading : readings) {
-        row.push_back(cell(reading));
-    }
+    std::vector<std::string> row{cell(sim.clock.time)};
+    append(row, readings);
     gauges_->append(row);
 }
 
@@ -157,9 +139,7 @@ void Outputs::write_bodies(const Simulation& sim)
         const Quat& q = body.orientation;
         std::vector<std::string> row{cell(sim.clock.time), cell(std::string_view(body.name))};
         append(row, body.position);
-        for (const double value : {q.w(), q.x(), q.y(), q.z()}) {
-            row.push_back(cell(value));
-        }
+        append(row, {q.w(), q.x(), q.y(), q.z()});
         append(row, body.velocity);
         append(row, angular_velocity(body));
         append(row, sim.loads.bodies[b].force);
@@ -170,9 +150,9 @@ void Outputs::write_bodies(const Simulation& sim)
 
 void Outputs::write_energy(const Simulation& sim, const Totals& t)
 {
-    std::vector<std::string> row =
-        cells({sim.clock.time, t.fluid_kinetic, t.fluid_potential, t.fluid_internal, t.body_kinetic,
-               t.body_potential, sim.conservation.contact_loss});
+    std::vector<std::string> row;
+    append(row, {sim.clock.time, t.fluid_kinetic, t.fluid_potential, t.fluid_internal,
+                 t.body_kinetic, t.body_potential, sim.conservation.contact_loss});
     append(row, t.momentum);
     append(row, sim.conservation.wall_impulse);
     append(row, sim.conservation.gravity_impulse);
@@ -191,13 +171,10 @@ void Outputs::write_open(const Simulation& sim)
     if (!open_) {
         return;
     }
-    std::vector<std::string> row = cells({sim.clock.time});
+    std::vector<std::string> row{cell(sim.clock.time)};
     for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
         const OpenReading r = reading_of(sim, k);
-        for (const double value :
-             {r.level, r.velocity, r.discharge, r.volume_in, r.volume_out, r.volume_asked}) {
-            row.push_back(cell(value));
-        }
+        append(row, {r.level, r.velocity, r.discharge, r.volume_in, r.volume_out, r.volume_asked});
     }
     open_->append(row);
 }
@@ -212,11 +189,9 @@ void Outputs::write_contact(const Simulation& sim, const Contact& c)
         cell(std::string_view(other))};
     append(row, c.point);
     append(row, c.normal);
-    row.push_back(cell(c.approach_speed));
-    row.push_back(cell(c.normal_impulse));
+    append(row, {c.approach_speed, c.normal_impulse});
     append(row, c.tangential_impulse);
-    row.push_back(cell(c.energy_lost));
-    row.push_back(cell(c.effective_mass));
+    append(row, {c.energy_lost, c.effective_mass});
     row.push_back(c.kind == Contact::Kind::impact ? "impact" : "resting");
     row.push_back(c.located ? "1" : "0");
     contacts_->append(row);

@@ -19,9 +19,9 @@ struct RestingPair {
 
 class Outputs {
 public:
-    /// Opens all files; a resumed run keeps the rows up to the present time of `sim`.
-    Outputs(std::filesystem::path folder, const Simulation& sim);
-    Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot& resumed);
+    /// Opens all files. `resumed`: the state of a run that goes on, which keeps the rows up to the
+    /// present time of `sim`; null: a new one.
+    Outputs(std::filesystem::path folder, const Simulation& sim, const Snapshot* resumed = nullptr);
 
     // Output that is due, in this order; called after each step and once before the first.
     /// The contacts of the step.

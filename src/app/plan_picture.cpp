@@ -207,15 +207,6 @@ Colour colour_of(const Map& map, int i, int j, const Extremes& ground, const Ext
     return map.depth(k) > 0 ? mixed(colour, water, shallow + (deep - shallow) * part) : colour;
 }
 
-void fill_box(Pixels& pixels, std::array<int, 2> from, std::array<int, 2> to, const Colour& colour)
-{
-    for (int j = std::max(from[1], 0); j < std::min(to[1], pixels.height); ++j) {
-        for (int i = std::max(from[0], 0); i < std::min(to[0], pixels.width); ++i) {
-            pixels.colour[static_cast<std::size_t>(j * pixels.width + i)] = colour;
-        }
-    }
-}
-
 // 1, 2 or 5 times a power of ten, about a sixth of a length.
 double step_of(double length)
 {
@@ -275,15 +266,12 @@ void draw_legend(Pixels& pixels, const Extremes& ground, const Extremes& depth)
 // Direction of north in the picture, whose rows go down; none without terrain.
 std::optional<std::array<double, 2>> north_of(const Scene& scene)
 {
-    for (const Wall& wall : scene.walls) {
-        const auto* solid = std::get_if<SolidWall>(&wall.geometry);
-        const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
-        if (mesh != nullptr && mesh->terrain) {
-            const double x_axis = mesh->terrain->azimuth_deg * std::numbers::pi / 180;
-            return std::array{std::cos(x_axis), -std::sin(x_axis)};
-        }
+    const TerrainPatch* terrain = terrain_patch_of(scene);
+    if (terrain == nullptr) {
+        return std::nullopt;
     }
-    return std::nullopt;
+    const double x_axis = terrain->azimuth_deg * std::numbers::pi / 180;
+    return std::array{std::cos(x_axis), -std::sin(x_axis)};
 }
 
 // An arrow with its letter on a disc, in the upper right corner of the map.

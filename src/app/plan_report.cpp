@@ -19,9 +19,10 @@ namespace hyoryu {
 
 namespace {
 
-nlohmann::ordered_json cost_json(const StepCost& cost)
+using nlohmann::ordered_json;
+
+ordered_json cost_json(const StepCost& cost)
 {
-    using nlohmann::ordered_json;
     ordered_json json{{"seconds_per_step", seconds_of_run(cost)},
                       {"seconds_per_first_step", cost.seconds},
                       {"waiting_for_a_core", cost.waiting},
@@ -108,9 +109,8 @@ std::string material_lines(const Scene& scene, const Plan& plan)
     return text;
 }
 
-nlohmann::ordered_json material_json(const Scene& scene, const Plan& plan)
+ordered_json material_json(const Scene& scene, const Plan& plan)
 {
-    using nlohmann::ordered_json;
     const auto named = [](const std::string& name) {
         return name.empty() ? ordered_json() : ordered_json(name);
     };
@@ -280,60 +280,6 @@ std::string time_lines(const Scene& scene, const Plan& plan, const std::optional
     return text;
 }
 
-} // namespace
-
-std::string readable_bytes(double bytes)
-{
-    constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
-    int unit = 0;
-    while (bytes >= 1000 && unit < 4) {
-        bytes /= 1000;
-        ++unit;
-    }
-    return fmt::format("{:.3g} {}", bytes, units[unit]);
-}
-
-std::string readable_seconds(double seconds)
-{
-    if (seconds < 60) {
-        return fmt::format("{:.0f} s", seconds);
-    }
-    const auto whole = std::llround(seconds);
-    return whole < 3600 ? fmt::format("{} min {:02} s", whole / 60, whole % 60)
-                        : fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-}
-
-std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
-{
-    std::string text = fmt::format("plan of \"{}\"\n  on\n{}  off\n{}", scene.title,
-                                   join_effects(plan.on), join_effects(plan.off));
-    if (!plan.pair_kinds.empty()) {
-        text += "  pair kinds\n";
-        for (const auto& kind : plan.pair_kinds) {
-            text += fmt::format("    {:<22} {}\n", kind.name, kind.why);
-        }
-    }
-    if (!plan.fields.empty()) {
-        text += "  fields\n";
-        std::size_t of_fluid = 0, of_solids = 0;
-        for (const auto& field : plan.fields) {
-            text += fmt::format("    {:<22} {:<8} {:>3} B{}\n", field.name, field.unit,
-                                field.bytes_per_particle, field.holders());
-            of_fluid += field.of_solids_alone ? 0 : field.bytes_per_particle;
-            of_solids += field.of_fluid_alone ? 0 : field.bytes_per_particle;
-        }
-        text +=
-            fmt::format("    {:<22} {:<8} {:>3} B per fluid particle, {} B per solid particle\n",
-                        "together", "", of_fluid, of_solids);
-    }
-    return text + material_lines(scene, plan) + gauge_lines(scene, plan) + open_lines(plan) +
-           scale_lines(plan) + size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
-}
-
-namespace {
-
-using nlohmann::ordered_json;
-
 // Effects, or kinds of pairs.
 ordered_json reasons_json(const auto& things)
 {
@@ -398,6 +344,54 @@ ordered_json forecast_json(const Scene& scene, const Plan& plan,
 }
 
 } // namespace
+
+std::string readable_bytes(double bytes)
+{
+    constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
+    int unit = 0;
+    while (bytes >= 1000 && unit < 4) {
+        bytes /= 1000;
+        ++unit;
+    }
+    return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+std::string readable_seconds(double seconds)
+{
+    if (seconds < 60) {
+        return fmt::format("{:.0f} s", seconds);
+    }
+    const auto whole = std::llround(seconds);
+    return whole < 3600 ? fmt::format("{} min {:02} s", whole / 60, whole % 60)
+                        : fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string plan_text(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed)
+{
+    std::string text = fmt::format("plan of \"{}\"\n  on\n{}  off\n{}", scene.title,
+                                   join_effects(plan.on), join_effects(plan.off));
+    if (!plan.pair_kinds.empty()) {
+        text += "  pair kinds\n";
+        for (const auto& kind : plan.pair_kinds) {
+            text += fmt::format("    {:<22} {}\n", kind.name, kind.why);
+        }
+    }
+    if (!plan.fields.empty()) {
+        text += "  fields\n";
+        std::size_t of_fluid = 0, of_solids = 0;
+        for (const auto& field : plan.fields) {
+            text += fmt::format("    {:<22} {:<8} {:>3} B{}\n", field.name, field.unit,
+                                field.bytes_per_particle, field.holders());
+            of_fluid += field.of_solids_alone ? 0 : field.bytes_per_particle;
+            of_solids += field.of_fluid_alone ? 0 : field.bytes_per_particle;
+        }
+        text +=
+            fmt::format("    {:<22} {:<8} {:>3} B per fluid particle, {} B per solid particle\n",
+                        "together", "", of_fluid, of_solids);
+    }
+    return text + material_lines(scene, plan) + gauge_lines(scene, plan) + open_lines(plan) +
+           scale_lines(plan) + size_lines(scene, plan, timed) + time_lines(scene, plan, timed);
+}
 
 std::string plan_json(const Scene& scene, const Plan& plan, const std::optional<StepCost>& timed,
                       int processes)

@@ -16,8 +16,8 @@ namespace hyoryu {
 
 namespace {
 
-constexpr auto terminal_interval = std::chrono::milliseconds(200);
-constexpr auto line_interval = std::chrono::seconds(10);
+constexpr double terminal_interval = 0.2; // [s]
+constexpr double line_interval = 10;      // [s]
 constexpr int bar_width = 24;
 
 // A terminal that is gone must not end a run: fmt::print would throw.
@@ -44,11 +44,6 @@ Progress::Progress(const std::filesystem::path& folder, Verbosity verbosity, dou
     : log_(log_file(folder), std::ios::app), verbosity_(verbosity),
       terminal_(isatty(STDERR_FILENO) == 1), from_(from)
 {
-}
-
-double Progress::wall_seconds() const
-{
-    return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
 std::string Progress::status(const Simulation& sim) const
@@ -87,9 +82,8 @@ void Progress::update(const Simulation& sim)
     if (first_step_ < 0) {
         first_step_ = sim.clock.step;
     }
-    const auto now = Clock::now();
-    const auto interval =
-        terminal_ ? Clock::duration(terminal_interval) : Clock::duration(line_interval);
+    const double now = steady_seconds();
+    const double interval = terminal_ ? terminal_interval : line_interval;
     if (verbosity_ == Verbosity::normal && now - shown_ >= interval) {
         shown_ = now;
         show(sim);

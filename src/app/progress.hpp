@@ -3,9 +3,9 @@
 // log.
 #pragma once
 
+#include "hyoryu/sim/cost.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -28,10 +28,9 @@ public:
     void abandon(const std::string& error);
     /// Ends the bar.
     void end(const Simulation& sim);
-    double wall_seconds() const;
+    double wall_seconds() const { return steady_seconds() - start_; }
 
 private:
-    using Clock = std::chrono::steady_clock;
     std::string status(const Simulation& sim) const;
     void show(const Simulation& sim);
 
@@ -40,8 +39,8 @@ private:
     bool terminal_ = false;
     double from_ = 0;
     std::int64_t first_step_ = -1;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point shown_ = start_;
+    double start_ = steady_seconds();
+    double shown_ = start_;
 };
 
 } // namespace hyoryu

@@ -34,8 +34,7 @@ void RankLog::open(const std::filesystem::path& folder)
 
 double RankLog::busy() const
 {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun_;
-    return passed.count() - (comm_.traffic().seconds - waited_before_);
+    return steady_seconds() - begun_ - (comm_.traffic().seconds - waited_before_);
 }
 
 void RankLog::balance_work(Simulation& sim)

@@ -5,8 +5,8 @@
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/ranks/counted.hpp"
 #include "hyoryu/sim/balance.hpp"
+#include "hyoryu/sim/cost.hpp"
 
-#include <chrono>
 #include <optional>
 
 namespace hyoryu {
@@ -39,7 +39,7 @@ private:
     CountedComm& comm_;
     Balance balance_;
     std::optional<History> table_;
-    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+    double begun_ = steady_seconds();
     double waited_before_;
     double step_begun_ = 0; // [s] of work
     double in_steps_ = 0;   // work so far, without output

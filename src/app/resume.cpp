@@ -6,6 +6,7 @@
 
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/input_file.hpp"
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_difference.hpp"
 #include "hyoryu/scene/case_file.hpp"
@@ -144,33 +145,7 @@ std::string quoted(const std::string& word)
     if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) {
         return word;
     }
-    std::string text = "'";
-    for (const char c : word) {
-        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return text + "'";
-}
-
-} // namespace
-
-std::map<std::string, std::string> texts_of_given_case(const RunOptions& options,
-                                                       const Scene& scene)
-{
-    std::map<std::string, std::string> texts;
-    if (std::string files = hashes_of_files(scene); !files.empty()) {
-        texts.emplace("files", std::move(files));
-    }
-    const GivenCase given = given_case(options);
-    if (piece_prefixes(given).empty()) {
-        return texts;
-    }
-    std::string overrides;
-    for (const std::string& text : given.overrides) {
-        overrides += text + separator;
-    }
-    texts.emplace("given", given.text);
-    texts.emplace("overrides", overrides);
-    return texts;
+    return "'" + replaced(word, {{'\'', "'\\''"}}) + "'";
 }
 
 Resumption resumption_of(const RunOptions& options, const fs::path& folder, const Scene& scene)
@@ -205,6 +180,28 @@ Resumption resumption_of(const RunOptions& options, const fs::path& folder, cons
     }
     found.state = std::move(state);
     return found;
+}
+
+} // namespace
+
+std::map<std::string, std::string> texts_of_given_case(const RunOptions& options,
+                                                       const Scene& scene)
+{
+    std::map<std::string, std::string> texts;
+    if (std::string files = hashes_of_files(scene); !files.empty()) {
+        texts.emplace("files", std::move(files));
+    }
+    const GivenCase given = given_case(options);
+    if (piece_prefixes(given).empty()) {
+        return texts;
+    }
+    std::string overrides;
+    for (const std::string& text : given.overrides) {
+        overrides += text + separator;
+    }
+    texts.emplace("given", given.text);
+    texts.emplace("overrides", overrides);
+    return texts;
 }
 
 Resumption resumption_for_all(const RunOptions& options, const fs::path& folder, const Scene& scene,

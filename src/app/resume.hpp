@@ -32,12 +32,8 @@ std::map<std::string, std::string> texts_of_given_case(const RunOptions& options
 /// Reads the newest checkpoint of the folder and fits it to the case. Where `output.every` is left
 /// to its default, end / 100, in both cases, it stays as it was: a later end moves no frame. Throws
 /// CaseError that names every key that may not change, with both values, and IoError if there is no
-/// checkpoint that can be read.
-Resumption resumption_of(const RunOptions& options, const std::filesystem::path& folder,
-                         const Scene& scene);
-
-/// The same for all processes that share a run, of which the one that writes reads the checkpoint:
-/// the others get no state. `comm`: null for one process.
+/// checkpoint that can be read. Called by all processes that share a run, of which the one that
+/// writes reads the checkpoint: the others get no state. `comm`: null for one process.
 Resumption resumption_for_all(const RunOptions& options, const std::filesystem::path& folder,
                               const Scene& scene, Comm* comm);
 

@@ -126,7 +126,8 @@ void recover(Job& job, const NumericalError& error)
         sim.clock.time, sim.clock.share));
     if (job.outputs) {
         job.outputs.reset(); // all that it holds back is on disk before it is read again
-        job.outputs.emplace(job.folder, sim, job.last_good->snapshot());
+        const Snapshot last = job.last_good->snapshot();
+        job.outputs.emplace(job.folder, sim, &last);
     }
     job.frames->forget_after(sim.clock.time);
     job.sim = std::move(sim);

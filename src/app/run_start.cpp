@@ -220,7 +220,7 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
             job.progress.line(
                 fmt::format("note: {}; using the previous checkpoint", state.passed_over));
         }
-        job.outputs.emplace(from.folder, job.sim, common);
+        job.outputs.emplace(from.folder, job.sim, &common);
         if (job.ranks != nullptr) {
             job.ranks->open(from.folder);
         }

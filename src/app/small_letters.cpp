@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "small_letters.hpp"
 
-#include <array>
+#include <algorithm>
 
 namespace hyoryu {
 
@@ -55,18 +55,16 @@ constexpr std::array<Letter, 38> letters{{
 
 constexpr int point = 2; // pixels
 
-void set_point(Pixels& pixels, int left, int top, const Colour& colour)
+} // namespace
+
+void fill_box(Pixels& pixels, std::array<int, 2> from, std::array<int, 2> to, const Colour& colour)
 {
-    for (int k = 0; k < point * point; ++k) {
-        const int i = left + k % point;
-        const int j = top + k / point;
-        if (i >= 0 && j >= 0 && i < pixels.width && j < pixels.height) {
+    for (int j = std::max(from[1], 0); j < std::min(to[1], pixels.height); ++j) {
+        for (int i = std::max(from[0], 0); i < std::min(to[0], pixels.width); ++i) {
             pixels.colour[static_cast<std::size_t>(j * pixels.width + i)] = colour;
         }
     }
 }
-
-} // namespace
 
 void write_letters(Pixels& pixels, int left, int top, std::string_view text, const Colour& colour)
 {
@@ -75,8 +73,9 @@ void write_letters(Pixels& pixels, int left, int top, std::string_view text, con
             for (std::size_t row = 0; letter.name == c && row < letter.rows.size(); ++row) {
                 for (std::size_t k = 0; k < letter.rows[row].size(); ++k) {
                     if (letter.rows[row][k] == '#') {
-                        set_point(pixels, left + point * static_cast<int>(k),
-                                  top + point * static_cast<int>(row), colour);
+                        const int i = left + point * static_cast<int>(k);
+                        const int j = top + point * static_cast<int>(row);
+                        fill_box(pixels, {i, j}, {i + point, j + point}, colour);
                     }
                 }
             }

@@ -15,12 +15,12 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
+#include "hyoryu/sim/cost.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <string_view>
@@ -31,23 +31,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if a folder of `cases` is a benchmark.
-bool holds_benchmarks(const fs::path& cases)
-{
-    std::error_code fault;
-    for (const auto& entry : fs::directory_iterator(cases, fault)) {
-        if (fs::exists(entry.path() / "verify.toml")) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /// The folder asked for; else `cases` here, of the source tree, or of the installation.
 fs::path cases_folder(const VerifyOptions& options)
 {
     if (!options.cases.empty()) {
-        if (!holds_benchmarks(options.cases)) {
+        if (benchmark_folders(options.cases).empty()) {
             throw CaseError(
                 fmt::format("no folder in `{}` contains a verify.toml", options.cases.string()),
                 "--cases expects the folder that contains the benchmark folders");
@@ -57,7 +45,8 @@ fs::path cases_folder(const VerifyOptions& options)
     const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
     const std::array places{fs::path("cases"), fs::path(build_info::source_folder) / "cases",
                             program.parent_path() / "share" / "hyoryu" / "cases"};
-    const auto* found = std::find_if(places.begin(), places.end(), holds_benchmarks);
+    const auto* found = std::ranges::find_if(
+        places, [](const fs::path& place) { return !benchmark_folders(place).empty(); });
     if (found == places.end()) {
         throw CaseError("no benchmarks found", "give their folder with --cases");
     }
@@ -306,7 +295,7 @@ int verify(const VerifyOptions& options)
     }
     const std::vector<Benchmark> benchmarks = select(all, options.names, tier);
     prepare(options, benchmarks);
-    const auto start = std::chrono::steady_clock::now();
+    const double start = steady_seconds();
     const std::vector<VerifyJob> jobs = jobs_of(options, benchmarks);
     Judge judge(benchmarks, jobs);
     if (options.jobs > 1) {
@@ -318,7 +307,7 @@ int verify(const VerifyOptions& options)
         return exit_code::interrupted;
     }
     const std::vector<BenchmarkResult>& results = judge.results();
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    const double wall = steady_seconds() - start;
     write_reports(options, results,
                   {.version = std::string(build_info::version),
                    .commit = std::string(build_info::commit),
@@ -326,10 +315,10 @@ int verify(const VerifyOptions& options)
                    .tier = tier,
                    .threads = options.jobs > 1 ? threads_of_each(options) : thread_count(),
                    .jobs = options.jobs,
-                   .wall_seconds = wall.count()});
+                   .wall_seconds = wall});
     const Tally count = tally(results);
     fmt::print("{}\n", against_line(count));
-    fmt::print("{} in {:.3g} s; details in {}\n", summary_line(count), wall.count(),
+    fmt::print("{} in {:.3g} s; details in {}\n", summary_line(count), wall,
                (options.folder / "verify.md").string());
     return count.failed() > 0 ? exit_code::failed : exit_code::done;
 }

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <set>
 
 namespace hyoryu {
 
@@ -142,7 +141,7 @@ Benchmark read_benchmark(const fs::path& folder)
     return benchmark;
 }
 
-std::vector<Benchmark> read_benchmarks(const fs::path& cases)
+std::set<fs::path> benchmark_folders(const fs::path& cases)
 {
     std::set<fs::path> folders;
     std::error_code fault;
@@ -151,9 +150,14 @@ std::vector<Benchmark> read_benchmarks(const fs::path& cases)
             folders.insert(entry.path());
         }
     }
+    return folders;
+}
+
+std::vector<Benchmark> read_benchmarks(const fs::path& cases)
+{
     std::vector<Benchmark> benchmarks;
     std::vector<Diagnostic> mistakes;
-    for (const fs::path& folder : folders) {
+    for (const fs::path& folder : benchmark_folders(cases)) {
         try {
             benchmarks.push_back(read_benchmark(folder));
         } catch (const CaseError& error) { // mistakes of all files are reported together

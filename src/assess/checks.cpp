@@ -195,6 +195,24 @@ WaveGauges read_waves(Section& section)
     return waves;
 }
 
+// Notes an unreadable CSV file before hours of runs begin. A name that contains "${" depends on the
+// run and is looked for later.
+void check_file(Section& section, const std::string& name)
+{
+    const bool bad = has_control_characters(name);
+    if (name.empty() || bad) {
+        section.error("file", name.empty() ? "is empty" : "contains control characters",
+                      "a history of the run, or a CSV file beside this one");
+    } else if (name.ends_with(".csv") && name.find("${") == std::string::npos) {
+        const auto path = section.file().file.parent_path() / name;
+        const std::string why = why_unreadable(path);
+        if (!why.empty()) {
+            section.error("file", fmt::format("the file {} {}", path.string(), why),
+                          "the path is relative to this file");
+        }
+    }
+}
+
 } // namespace
 
 Quantity read_quantity(Section& check)
@@ -246,28 +264,6 @@ std::string to_string(Against against)
 {
     return std::string(against_names[static_cast<std::size_t>(against)]);
 }
-
-namespace {
-
-// Notes an unreadable CSV file before hours of runs begin. A name that contains "${" depends on the
-// run and is looked for later.
-void check_file(Section& section, const std::string& name)
-{
-    const bool bad = has_control_characters(name);
-    if (name.empty() || bad) {
-        section.error("file", name.empty() ? "is empty" : "contains control characters",
-                      "a history of the run, or a CSV file beside this one");
-    } else if (name.ends_with(".csv") && name.find("${") == std::string::npos) {
-        const auto path = section.file().file.parent_path() / name;
-        const std::string why = why_unreadable(path);
-        if (!why.empty()) {
-            section.error("file", fmt::format("the file {} {}", path.string(), why),
-                          "the path is relative to this file");
-        }
-    }
-}
-
-} // namespace
 
 Series read_series(Section& section, std::string_view key)
 {

@@ -119,19 +119,16 @@ const CsvTable& RunFiles::table(const std::string& file)
 const CsvTable& RunFiles::frame(double time)
 {
     const std::vector<SeriesEntry> series = read_series(results_ / "fluid.hdf.series");
-    const auto nearer = [time](const SeriesEntry& a, const SeriesEntry& b) {
-        return std::abs(a.time - time) < std::abs(b.time - time);
-    };
     if (series.empty()) {
         throw IoError("the run wrote no frame of the fluid");
     }
-    const auto found = std::isnan(time) ? std::prev(series.end())
-                                        : std::min_element(series.begin(), series.end(), nearer);
-    if (!std::isnan(time) && std::abs(found->time - time) > 1e-6 * std::max(1.0, time)) {
-        throw IoError(fmt::format("there is no frame at t = {} s; the nearest is at {} s", time,
-                                  found->time));
+    const SeriesEntry& found =
+        std::isnan(time) ? series.back() : series[nearest_in_time(series, time)];
+    if (!std::isnan(time) && std::abs(found.time - time) > 1e-6 * std::max(1.0, time)) {
+        throw IoError(
+            fmt::format("there is no frame at t = {} s; the nearest is at {} s", time, found.time));
     }
-    const fs::path file = results_ / found->file;
+    const fs::path file = results_ / found.file;
     const auto at = frames_.find(file.string());
     return at != frames_.end()
                ? at->second

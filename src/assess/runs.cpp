@@ -286,8 +286,7 @@ bool are_draws(const Check& check, const BenchmarkRun& a, const BenchmarkRun& b)
 
 const BenchmarkRun* find_run(const Benchmark& benchmark, const std::string& name)
 {
-    const auto at = std::find_if(benchmark.runs.begin(), benchmark.runs.end(),
-                                 [&](const BenchmarkRun& run) { return run.name == name; });
+    const auto at = std::ranges::find(benchmark.runs, name, &BenchmarkRun::name);
     return at == benchmark.runs.end() ? nullptr : &*at;
 }
 

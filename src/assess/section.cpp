@@ -199,15 +199,12 @@ std::vector<const TomlNode*> Section::items(std::string_view key, std::string_vi
 {
     const TomlEntry* entry = ask(key);
     std::vector<const TomlNode*> result;
-    if (entry == nullptr) {
-        return result;
-    }
-    if (entry->node.array() == nullptr) {
+    if (entry != nullptr && entry->node.array() == nullptr) {
         mistyped(*entry, expected);
-        return result;
-    }
-    for (const TomlNode& item : *entry->node.array()) {
-        result.push_back(&item);
+    } else if (entry != nullptr) {
+        for (const TomlNode& item : *entry->node.array()) {
+            result.push_back(&item);
+        }
     }
     return result;
 }
@@ -216,15 +213,12 @@ std::vector<const TomlEntry*> Section::entries(std::string_view key)
 {
     const TomlEntry* entry = ask(key);
     std::vector<const TomlEntry*> result;
-    if (entry == nullptr) {
-        return result;
-    }
-    if (entry->node.table() == nullptr) {
+    if (entry != nullptr && entry->node.table() == nullptr) {
         mistyped(*entry, "a table");
-        return result;
-    }
-    for (const TomlEntry& inner : *entry->node.table()) {
-        result.push_back(&inner);
+    } else if (entry != nullptr) {
+        for (const TomlEntry& inner : *entry->node.table()) {
+            result.push_back(&inner);
+        }
     }
     // The parser sorts keys by name; they are read in the order of the file.
     std::sort(result.begin(), result.end(), [](const TomlEntry* a, const TomlEntry* b) {

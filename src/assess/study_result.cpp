@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace hyoryu {
 
@@ -262,9 +263,8 @@ std::vector<std::size_t> frontier(const StudyResult& result, std::size_t quantit
         }
     }
     const auto error = [&](std::size_t k) { return result.runs[k].values[quantity].error; };
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-        return std::pair(result.runs[a].work, error(a)) < std::pair(result.runs[b].work, error(b));
-    });
+    std::ranges::sort(order, {},
+                      [&](std::size_t k) { return std::tuple(result.runs[k].work, error(k), k); });
     std::vector<std::size_t> best;
     for (const std::size_t k : order) {
         if (best.empty() || error(k) < error(best.back())) {

@@ -39,8 +39,7 @@ std::vector<Group> groups_of(const BenchmarkResult& result, const SummaryTable& 
         if (key.empty()) {
             continue;
         }
-        auto at = std::find_if(groups.begin(), groups.end(),
-                               [&](const Group& group) { return group.key == key; });
+        auto at = std::ranges::find(groups, key, &Group::key);
         if (at == groups.end()) {
             groups.push_back({key, {}});
             at = groups.end() - 1;
@@ -52,8 +51,7 @@ std::vector<Group> groups_of(const BenchmarkResult& result, const SummaryTable& 
 
 const CheckResult* find_check(const RunResult& run, const std::string& name)
 {
-    const auto at = std::find_if(run.checks.begin(), run.checks.end(),
-                                 [&](const CheckResult& check) { return check.check == name; });
+    const auto at = std::ranges::find(run.checks, name, &CheckResult::check);
     return at == run.checks.end() ? nullptr : &*at;
 }
 

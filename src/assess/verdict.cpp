@@ -83,33 +83,6 @@ CheckResult verdict_on(const Check& check, const MadeRun& made, const MadeRun* o
     return result;
 }
 
-} // namespace
-
-RunCost read_cost(RunFiles& files)
-{
-    const CsvTable& summary = files.table("summary");
-    const auto number = [&](const char* name) {
-        const auto* column = summary.find(name);
-        return column != nullptr ? column->numbers.front() : 0;
-    };
-    double solver_seconds = 0;
-    for (const CsvTable::Column& column : summary.columns) {
-        solver_seconds += column.name.starts_with("stages.") ? column.numbers.front() : 0;
-    }
-    return {.wall_seconds = number("wall_seconds"),
-            .solver_seconds = solver_seconds,
-            .steps = number("steps"),
-            .simulated_seconds = number("simulated_seconds")};
-}
-
-std::string to_string(Verdict verdict)
-{
-    constexpr std::array names{"PASS", "FAIL", "XFAIL", "XPASS", "measured"};
-    return names[static_cast<std::size_t>(verdict)];
-}
-
-namespace {
-
 /// The mean of a quantity over the draws before a run and that run, with their standard deviation
 /// in words; the expected value is that of the run.
 Compared compare_mean(const Check& check, MadeRun& made, std::vector<MadeRun>& before,
@@ -133,35 +106,6 @@ Compared compare_mean(const Check& check, MadeRun& made, std::vector<MadeRun>& b
                            std::sqrt(squares / (n - 1)));
     return found;
 }
-
-} // namespace
-
-CheckResult judge(const Check& check, MadeRun& made, MadeRun* other, std::vector<MadeRun>* draws)
-{
-    CheckResult result{.check = check.name,
-                       .comparison = check.comparison,
-                       .because = check.because,
-                       .against = check.against};
-    // A check that cannot be evaluated as written does not count as a known failure.
-    try {
-        const Compared found = draws != nullptr
-                                   ? compare_mean(check, made, *draws, result.because)
-                                   : compare(check.quantity, check.expected, made, other);
-        result.got = found.got;
-        result.expected = found.expected;
-        result.note = found.why;
-        result.allowed = check.tolerance.empty() ? check.relative * std::abs(result.expected)
-                                                 : evaluate(check.tolerance, made.scope);
-        return verdict_on(check, made, other, result);
-    } catch (const FormulaError& fault) {
-        result.note = fault.what();
-    } catch (const IoError& fault) { // the run did not write the file that the check asks for
-        result.note = fault.what();
-    }
-    return result;
-}
-
-namespace {
 
 // The text for a check of a run that failed.
 CheckResult unmade(const Check& check, const std::string& error)
@@ -243,6 +187,54 @@ CheckResult stop_as_asked(const BenchmarkRun& run, const std::string& error)
 }
 
 } // namespace
+
+RunCost read_cost(RunFiles& files)
+{
+    const CsvTable& summary = files.table("summary");
+    const auto number = [&](const char* name) {
+        const auto* column = summary.find(name);
+        return column != nullptr ? column->numbers.front() : 0;
+    };
+    double solver_seconds = 0;
+    for (const CsvTable::Column& column : summary.columns) {
+        solver_seconds += column.name.starts_with("stages.") ? column.numbers.front() : 0;
+    }
+    return {.wall_seconds = number("wall_seconds"),
+            .solver_seconds = solver_seconds,
+            .steps = number("steps"),
+            .simulated_seconds = number("simulated_seconds")};
+}
+
+std::string to_string(Verdict verdict)
+{
+    constexpr std::array names{"PASS", "FAIL", "XFAIL", "XPASS", "measured"};
+    return names[static_cast<std::size_t>(verdict)];
+}
+
+CheckResult judge(const Check& check, MadeRun& made, MadeRun* other, std::vector<MadeRun>* draws)
+{
+    CheckResult result{.check = check.name,
+                       .comparison = check.comparison,
+                       .because = check.because,
+                       .against = check.against};
+    // A check that cannot be evaluated as written does not count as a known failure.
+    try {
+        const Compared found = draws != nullptr
+                                   ? compare_mean(check, made, *draws, result.because)
+                                   : compare(check.quantity, check.expected, made, other);
+        result.got = found.got;
+        result.expected = found.expected;
+        result.note = found.why;
+        result.allowed = check.tolerance.empty() ? check.relative * std::abs(result.expected)
+                                                 : evaluate(check.tolerance, made.scope);
+        return verdict_on(check, made, other, result);
+    } catch (const FormulaError& fault) {
+        result.note = fault.what();
+    } catch (const IoError& fault) { // the run did not write the file that the check asks for
+        result.note = fault.what();
+    }
+    return result;
+}
 
 RunResult judge_run(const Benchmark& benchmark, const BenchmarkRun& run,
                     const std::filesystem::path& results, const std::string& error)

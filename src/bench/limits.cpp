@@ -23,8 +23,7 @@ double chain_rate(InstructionSet set, int threads, double seconds)
         parallel_blocks(
             0, threads,
             [&](Index k) {
-                results[static_cast<std::size_t>(k)] =
-                    loops.chains(rounds, 0.999, 1e-3 * static_cast<double>(k + 1));
+                results[k] = loops.chains(rounds, 0.999, 1e-3 * static_cast<double>(k + 1));
             },
             2);
     };

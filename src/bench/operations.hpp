@@ -24,14 +24,14 @@ public:
     {
         std::vector<bool> needed(nodes_.size(), false);
         for (const int result : results) {
-            needed[static_cast<std::size_t>(result)] = true;
+            needed[result] = true;
         }
         int count = 0;
         for (std::size_t k = nodes_.size(); k-- > 0;) { // operands come before their result
             const auto [operation, a, b] = nodes_[k];
             if (needed[k] && operation != 'i') {
-                needed[static_cast<std::size_t>(a)] = true;
-                needed[static_cast<std::size_t>(b)] = true;
+                needed[a] = true;
+                needed[b] = true;
                 count += 1;
             }
         }

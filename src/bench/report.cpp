@@ -12,26 +12,16 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double peak(const MachineLimits& limits, Precision precision)
-{
-    return precision == Precision::single_precision ? limits.fma_single : limits.fma_double;
-}
-
 /// The share of the rate of fused multiply-adds that the loop over all terms reaches.
 double share_of_limit(const LoopRates& loop, const MachineLimits& limits)
 {
-    return loop.flops * loop.all_terms / peak(limits, loop.setting.precision);
+    const bool single = loop.setting.precision == Precision::single_precision;
+    return loop.flops * loop.all_terms / (single ? limits.fma_single : limits.fma_double);
 }
 
 double bytes_a_particle(const StepRates& rates)
 {
     return static_cast<double>(total(rates.memory)) / static_cast<double>(rates.particles());
-}
-
-double stage_sum(const StepRates& rates, double StageTime::*which)
-{
-    return std::accumulate(rates.stages.begin(), rates.stages.end(), 0.0,
-                           [&](double sum, const StageTime& stage) { return sum + stage.*which; });
 }
 
 /// Serial share of a step by Amdahl's law, from the times with one thread and with all threads.
@@ -134,7 +124,9 @@ std::string stages_table(const StepRates& r)
     std::string text =
         fmt::format("\nstages of a step, {}   share  1 thread [ms]  {} threads [ms]  speed-up\n",
                     r.scene, r.threads);
-    const double all = stage_sum(r, &StageTime::one);
+    const double all =
+        std::accumulate(r.stages.begin(), r.stages.end(), 0.0,
+                        [](double sum, const StageTime& stage) { return sum + stage.one; });
     for (const StageTime& stage : r.stages) {
         text += fmt::format("  {:<24}{:>8.1f} %{:>14.2f}{:>15.2f}{:>11.2f}\n", stage.name,
                             100 * stage.one / all, 1e3 * stage.one, 1e3 * stage.all,

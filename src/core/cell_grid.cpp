@@ -36,10 +36,9 @@ Bounds bounds_of(std::span<const Vec3> points)
 void lay_out(CellGrid& grid, const Bounds& box, real cell)
 {
     const Vec3 extent = box.max - box.min;
-    // Three roundings of half a unit in the last place of the largest coordinate, doubled. The
-    // cells grow by as much, so that a search of the radius they were made for reaches no further.
-    grid.slack = static_cast<float>(extent.maxCoeff() * 4e-7);
-    grid.cell = cell + grid.slack;
+    // The cells grow by the rounding of positions in single precision, so that a search of the
+    // radius they were made for reaches no further.
+    grid.cell = cell + static_cast<float>(extent.maxCoeff() * 4e-7);
     const Vec3 wanted = extent / grid.cell + Vec3::Ones();
     if (wanted.prod() > most_cells) {
         grid.cell *= std::cbrt(wanted.prod() / most_cells);
@@ -67,9 +66,6 @@ void build(CellGrid& grid, std::span<const Vec3> points, Index first, real cell)
 {
     const auto n = static_cast<Index>(points.size());
     grid.order.resize(points.size());
-    grid.x.resize(points.size());
-    grid.y.resize(points.size());
-    grid.z.resize(points.size());
     if (n == 0) {
         grid.count = {0, 0, 0};
         grid.start.assign(1, 0);
@@ -96,13 +92,6 @@ void build(CellGrid& grid, std::span<const Vec3> points, Index first, real cell)
         grid.order[static_cast<std::size_t>(slot)] =
             static_cast<std::int32_t>(first + static_cast<Index>(k));
     }
-    parallel_for(0, n, [&](Index slot) {
-        const auto at = static_cast<std::size_t>(slot);
-        const Vec3 p = points[static_cast<std::size_t>(grid.order[at] - first)] - grid.origin;
-        grid.x[at] = static_cast<float>(p.x());
-        grid.y[at] = static_cast<float>(p.y());
-        grid.z[at] = static_cast<float>(p.z());
-    });
 }
 
 } // namespace hyoryu

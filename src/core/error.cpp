@@ -38,18 +38,11 @@ std::string joined(const std::vector<Diagnostic>& diagnostics)
 {
     std::string text;
     for (const Diagnostic& diagnostic : diagnostics) {
+        text += text.empty() ? "" : "\n";
         text += to_string(diagnostic);
-        text += '\n';
-    }
-    if (!text.empty()) {
-        text.pop_back();
     }
     return text;
 }
-
-} // namespace
-
-namespace {
 
 std::string unguarded_text(const Diagnostic& d)
 {

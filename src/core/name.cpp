@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace hyoryu {
 
 namespace {
@@ -84,6 +86,18 @@ std::string printable(std::string_view text)
         }
     }
     return safe;
+}
+
+std::string replaced(std::string_view text,
+                     std::initializer_list<std::pair<char, std::string_view>> by)
+{
+    std::string result;
+    for (const char letter : text) {
+        const auto* const found =
+            std::ranges::find(by, letter, &std::pair<char, std::string_view>::first);
+        result += found == by.end() ? std::string_view(&letter, 1) : found->second;
+    }
+    return result;
 }
 
 } // namespace hyoryu

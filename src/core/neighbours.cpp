@@ -3,10 +3,10 @@
 // tile are collected as candidates, then each point is tested against these candidates.
 #include "hyoryu/core/neighbours.hpp"
 
+#include "chunk_boxes.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "list_loops.hpp"
 #include "list_steps.hpp"
-#include "rounding.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -26,25 +26,6 @@ const ListLoops* loops_of(InstructionSet set)
 constexpr std::size_t most_chunks_of_a_block = 65536 / chunk_slots;
 // Coordinate of padding points: their squared distances are finite and exceed every radius.
 constexpr float far = 1e15F;
-
-ChunkBox shifted(ChunkBox box, const std::array<float, 3>& step)
-{
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] += step[axis];
-        box.high[axis] += step[axis];
-    }
-    return box;
-}
-
-bool nearer(const ChunkBox& a, const ChunkBox& b, float radius)
-{
-    float squared = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float gap = std::max({b.low[axis] - a.high[axis], a.low[axis] - b.high[axis], 0.0F});
-        squared += gap * gap;
-    }
-    return squared <= radius * radius;
-}
 
 // Makes the lists of the points of one tile.
 class TileLister {
@@ -113,25 +94,17 @@ private:
         const Index start = destination_.start[at(tile_)];
         ChunkBox bounds = box_of((first - start) / chunk_slots);
         for (Index k = first; k < last; k += chunk_slots) {
-            const ChunkBox box = box_of((k - start) / chunk_slots);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                bounds.low[axis] = std::min(bounds.low[axis], box.low[axis]);
-                bounds.high[axis] = std::max(bounds.high[axis], box.high[axis]);
-            }
+            bounds = joined(bounds, box_of((k - start) / chunk_slots));
         }
-        const auto place = TileLattice::place_of(destination_.tile[at(tile_)]);
         for (const ListSource& source : sources_) {
-            for (int z = -1; z <= 1; ++z) {
-                for (int y = -1; y <= 1; ++y) {
-                    for (int x = -1; x <= 1; ++x) {
-                        const std::uint64_t number = destination_.lattice.beside(place, {x, y, z});
-                        collect_number(*source.own, number, {x, y, z}, bounds);
-                        if (source.ghosts != nullptr) {
-                            collect_number(*source.ghosts, number, {x, y, z}, bounds);
-                        }
+            destination_.lattice.for_beside(
+                destination_.tile[at(tile_)],
+                [&](std::uint64_t number, const std::array<int, 3>& way) {
+                    collect_number(*source.own, number, way, bounds);
+                    if (source.ghosts != nullptr) {
+                        collect_number(*source.ghosts, number, way, bounds);
                     }
-                }
-            }
+                });
         }
         add_padding();
     }
@@ -148,16 +121,13 @@ private:
     void collect_tile(const Tiles& source, Index tile, const std::array<int, 3>& way,
                       const ChunkBox& bounds)
     {
-        const Vec3& edge = source.lattice.edge;
-        const std::array<float, 3> step{static_cast<float>(edge.x()) * static_cast<float>(way[0]),
-                                        static_cast<float>(edge.y()) * static_cast<float>(way[1]),
-                                        static_cast<float>(edge.z()) * static_cast<float>(way[2])};
+        const std::array<float, 3> step = step_to(source.lattice.edge, way);
         const Index end = source.start[at(tile + 1)];
         Index slot = source.start[at(tile)];
         const std::array columns{&source.x, &source.y, &source.z};
         for (Index chunk = source.chunk_start[at(tile)]; slot < end; ++chunk, slot += chunk_slots) {
             const ChunkBox box = shifted(source.box[at(chunk)], step);
-            if (!nearer(box, bounds, radius_)) {
+            if (!is_near(box, bounds, radius_ * radius_)) {
                 continue;
             }
             const Index count = std::min<Index>(chunk_slots, end - slot);

@@ -21,7 +21,7 @@ void gather_column(ColumnValues<T>& column, std::span<const std::int32_t> from,
         if (from[to] < 0) {
             std::memset(place, 0, sizeof(T));
         } else {
-            const void* const row = &column[static_cast<std::size_t>(from[to])];
+            const void* const row = &column[from[to]];
             std::memcpy(place, row, sizeof(T));
         }
     });
@@ -55,11 +55,7 @@ void Store::reset_like(const Store& other, Index rows)
         columns_ = other.columns_;
     }
     for_each_column([&]<class T>(const FieldInfo&, ColumnValues<T>& values) {
-        if constexpr (std::is_same_v<T, Vec3>) {
-            values.assign(count, Vec3::Zero());
-        } else {
-            values.assign(count, T(0));
-        }
+        values.assign(count, uniform<T>(0));
     });
 }
 

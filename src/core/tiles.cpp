@@ -162,7 +162,7 @@ private:
 void order_cells(SortSpace& space, Index count, std::span<const std::int64_t> id)
 {
     constexpr Index block = 1024;
-    const auto number = [&](std::int32_t row) { return id[static_cast<std::size_t>(row)]; };
+    const auto number = [&](std::int32_t row) { return id[row]; };
     parallel_blocks(
         0, (count + block - 1) / block,
         [&](Index b) {
@@ -196,6 +196,22 @@ void find_tiles(Tiles& tiles, const SortSpace& space, Index count)
     tiles.start.push_back(static_cast<std::int32_t>(count));
 }
 
+// A point less a number of periods along each axis, which `whole` makes of its way from another in
+// periods: the image is as exact as the point.
+Vec3 less_periods(const TileLattice& lattice, const Vec3& point, const Vec3& other,
+                  const auto& whole)
+{
+    Vec3 image = point;
+    for (Index axis = 0; axis < 3; ++axis) {
+        const auto tiles = lattice.period[axis];
+        if (tiles > 0) {
+            const real length = static_cast<real>(tiles) * lattice.edge[axis];
+            image[axis] -= length * whole((point[axis] - other[axis]) / length);
+        }
+    }
+    return image;
+}
+
 } // namespace
 
 std::uint64_t TileLattice::cell_of(const Vec3& point) const
@@ -212,7 +228,7 @@ std::uint64_t TileLattice::cell_of(const Vec3& point) const
         tile[axis] = place / cells;
         cell += (place % cells) << (2 * axis);
     }
-    return interleave(tile) << cell_bits | place_along_curve[static_cast<std::size_t>(cell)];
+    return interleave(tile) << cell_bits | place_along_curve[cell];
 }
 
 std::uint64_t TileLattice::tile_of(const Vec3& point) const
@@ -263,42 +279,17 @@ std::uint64_t TileLattice::beside(const std::array<std::int64_t, 3>& place,
 
 Vec3 TileLattice::wrapped(const Vec3& point) const
 {
-    Vec3 image = point;
-    for (Index axis = 0; axis < 3; ++axis) {
-        const auto tiles = period[static_cast<std::size_t>(axis)];
-        if (tiles > 0) {
-            const real length = static_cast<real>(tiles) * edge[axis];
-            image[axis] -= length * std::floor((point[axis] - origin[axis]) / length);
-        }
-    }
-    return image;
+    return less_periods(*this, point, origin, [](real periods) { return std::floor(periods); });
 }
 
-// Subtracts whole periods, so that the image is as exact as the point.
 Vec3 TileLattice::image_near(const Vec3& point, const Vec3& other) const
 {
-    Vec3 image = point;
-    for (Index axis = 0; axis < 3; ++axis) {
-        const auto tiles = period[static_cast<std::size_t>(axis)];
-        if (tiles > 0) {
-            const real length = static_cast<real>(tiles) * edge[axis];
-            image[axis] -= length * std::round((point[axis] - other[axis]) / length);
-        }
-    }
-    return image;
+    return less_periods(*this, point, other, [](real periods) { return std::round(periods); });
 }
 
 Vec3 TileLattice::shortest(const Vec3& r) const
 {
-    Vec3 image = r;
-    for (Index axis = 0; axis < 3; ++axis) {
-        const auto tiles = period[static_cast<std::size_t>(axis)];
-        if (tiles > 0) {
-            const real length = static_cast<real>(tiles) * edge[axis];
-            image[axis] -= length * std::round(r[axis] / length);
-        }
-    }
-    return image;
+    return image_near(r, Vec3::Zero());
 }
 
 real TileLattice::unit(int digits) const
@@ -315,7 +306,7 @@ TileLattice make_lattice(const Vec3& origin, real edge, const Vec3& period)
         if (period[axis] > 0) {
             const real tiles = std::floor(period[axis] / edge);
             expects(tiles >= 1);
-            lattice.period[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(tiles);
+            lattice.period[axis] = static_cast<std::int64_t>(tiles);
             lattice.edge[axis] = period[axis] / tiles;
         }
     }

@@ -2,8 +2,16 @@
 #include "hyoryu/core/timer.hpp"
 
 #include <algorithm>
+#include <ctime>
 
 namespace hyoryu {
+
+double thread_seconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 void StageTimer::begin(std::string_view name)
 {

@@ -5,21 +5,17 @@
 // point is tried first by the next.
 #include "hyoryu/core/vicinity.hpp"
 
+#include "chunk_boxes.hpp"
 #include "hyoryu/core/parallel.hpp"
-#include "rounding.hpp"
-
-#include <algorithm>
 
 namespace hyoryu {
 
 namespace {
 
-using Step = std::array<float, 3>;
-
 // A chunk of the other set as the tile sees it.
 struct OtherChunk {
     ChunkBox box;
-    Step step{}; // from its tile to the one that looks [m]
+    std::array<float, 3> step{}; // from its tile to the one that looks [m]
     Index first = 0, last = 0;
 };
 
@@ -28,25 +24,6 @@ struct Batch {
     std::array<OtherChunk, 256> chunk;
     std::size_t count = 0;
 };
-
-bool is_near(const ChunkBox& a, const ChunkBox& b, float squared_radius)
-{
-    float squared = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float gap = std::max({b.low[axis] - a.high[axis], a.low[axis] - b.high[axis], 0.0F});
-        squared += gap * gap;
-    }
-    return squared <= squared_radius;
-}
-
-ChunkBox joined(ChunkBox a, const ChunkBox& b)
-{
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        a.low[axis] = std::min(a.low[axis], b.low[axis]);
-        a.high[axis] = std::max(a.high[axis], b.high[axis]);
-    }
-    return a;
-}
 
 class TileMarker {
 public:
@@ -67,34 +44,25 @@ public:
             bounds = joined(bounds, points_.box[at(chunk)]);
         }
         Batch batch;
-        const auto place = TileLattice::place_of(points_.tile[at(tile)]);
-        const Vec3& edge = points_.lattice.edge;
-        for (int number = 0; number < 27; ++number) {
-            const std::array<int, 3> way{number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1};
-            const Index other = others_.find(points_.lattice.beside(place, way));
-            if (other >= 0) {
-                const Step step{static_cast<float>(edge.x()) * static_cast<float>(way[0]),
-                                static_cast<float>(edge.y()) * static_cast<float>(way[1]),
-                                static_cast<float>(edge.z()) * static_cast<float>(way[2])};
-                look_at_tile(tile, other, step, bounds, batch);
-            }
-        }
+        points_.lattice.for_beside(
+            points_.tile[at(tile)], [&](std::uint64_t number, const std::array<int, 3>& way) {
+                const Index other = others_.find(number);
+                if (other >= 0) {
+                    look_at_tile(tile, other, step_to(points_.lattice.edge, way), bounds, batch);
+                }
+            });
         look_at_batch(tile, batch);
     }
 
 private:
-    void look_at_tile(Index tile, Index other, const Step& step, const ChunkBox& bounds,
-                      Batch& batch) const
+    void look_at_tile(Index tile, Index other, const std::array<float, 3>& step,
+                      const ChunkBox& bounds, Batch& batch) const
     {
         const Index end = others_.start[at(other + 1)];
         Index first = others_.start[at(other)];
         for (Index chunk = others_.chunk_start[at(other)]; first < end;
              ++chunk, first += chunk_slots) {
-            ChunkBox box = others_.box[at(chunk)];
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box.low[axis] += step[axis];
-                box.high[axis] += step[axis];
-            }
+            const ChunkBox box = shifted(others_.box[at(chunk)], step);
             if (!is_near(box, bounds, squared_radius_)) {
                 continue;
             }

@@ -2,7 +2,6 @@
 #include "joint_line.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 namespace hyoryu {
@@ -20,7 +19,7 @@ struct LineRow {
 // the rims.
 LineRow row_of(const JointWays& ways, std::span<const double> pressure, int cell)
 {
-    const double own = pressure[static_cast<std::size_t>(cell)];
+    const double own = pressure[cell];
     LineRow row{0, 0, 0, 0};
     for (int edge = 0; edge < 2; ++edge) {
         const JointWay& way = ways(cell, edge);
@@ -61,20 +60,19 @@ double open_conductance(const JointWay& way, double own, std::span<const double>
     if (way.next < 0) {
         return way.conductance * (way.pressure > own ? way.enters : 1);
     }
-    const double its = pressure[static_cast<std::size_t>(way.next)];
+    const double its = pressure[way.next];
     return its > 0 || its + way.rise < own ? way.conductance : 0; // none out of air
 }
 
 double balanced(const JointWays& ways, std::span<const double> pressure, int cell)
 {
-    const double own = pressure[static_cast<std::size_t>(cell)];
+    const double own = pressure[cell];
     double total = 0;
     double weight = 0;
     for (int edge = 0; edge < ways.edges; ++edge) {
         const JointWay& way = ways(cell, edge);
         const double g = open_conductance(way, own, pressure);
-        total += g * (way.next >= 0 ? pressure[static_cast<std::size_t>(way.next)] + way.rise
-                                    : way.pressure);
+        total += g * (way.next >= 0 ? pressure[way.next] + way.rise : way.pressure);
         weight += g;
     }
     return weight > 0 ? total / weight : own;
@@ -87,13 +85,13 @@ bool solve_line(const JointWays& ways, std::span<double> pressure)
     std::vector<double> now(pressure.begin(), pressure.end());
     for (int round = 0; round < most_rounds; ++round) {
         for (int c = 0; c < cells; ++c) {
-            rows[static_cast<std::size_t>(c)] = row_of(ways, now, c);
+            rows[c] = row_of(ways, now, c);
         }
         std::vector<double> next = eliminate(now, rows);
         for (int c = 0; c < cells; ++c) {
             const bool joined = ways(c, 0).next >= 0 || ways(c, 1).next >= 0 ||
                                 ways(c, 0).conductance + ways(c, 1).conductance > 0;
-            if (joined && !(next[static_cast<std::size_t>(c)] > 0)) {
+            if (joined && !(next[c] > 0)) {
                 return false; // air
             }
         }

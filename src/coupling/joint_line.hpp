@@ -20,10 +20,7 @@ struct JointWays {
     std::span<const JointWay> of;
     int edges = 4;
 
-    const JointWay& operator()(int cell, int edge) const
-    {
-        return of[static_cast<std::size_t>(4 * cell + edge)];
-    }
+    const JointWay& operator()(int cell, int edge) const { return of[4 * cell + edge]; }
 };
 
 /// The conductance of a flow path at the pressures of its cell and of all cells [Pa]. No water

@@ -9,15 +9,6 @@ namespace hyoryu {
 
 namespace {
 
-Vec3 mean_of(const std::vector<Vec3>& points)
-{
-    Vec3 total = Vec3::Zero();
-    for (const Vec3& p : points) {
-        total += p;
-    }
-    return total / static_cast<double>(points.size());
-}
-
 ConvexPiece piece_of(const Polytope& shape, int dimensions)
 {
     ConvexPiece piece;
@@ -143,8 +134,7 @@ RayWall walls_of(const MeshSurface& mesh)
         std::array<Vec3, 3> triangle;
         AlignedBox box;
         for (std::size_t k = 0; k < 3; ++k) {
-            triangle[k] = mesh.position +
-                          mesh.orientation * mesh.corners[static_cast<std::size_t>(corners[k])];
+            triangle[k] = mesh.position + mesh.orientation * mesh.corners[corners[k]];
             box.add(triangle[k]);
         }
         boxes.push_back(box);
@@ -175,31 +165,12 @@ std::optional<RayHit> meets(const std::array<Vec3, 3>& t, const Ray& ray)
     return RayHit{normal.dot(from) / slope, infinity, normal.normalized()};
 }
 
-// Calls f for every triangle whose leaf meets the box, below a node; true as soon as f is.
-bool any_of_near(const BoxTree& tree, std::size_t at, const AlignedBox& box, const auto& f)
-{
-    const BoxTree::Node& node = tree.nodes[at];
-    if (!node.box.meets(box)) {
-        return false;
-    }
-    if (node.right >= 0) {
-        return any_of_near(tree, at + 1, box, f) ||
-               any_of_near(tree, static_cast<std::size_t>(node.right), box, f);
-    }
-    const std::span leaf =
-        std::span(tree.order)
-            .subspan(static_cast<std::size_t>(node.first), static_cast<std::size_t>(node.count));
-    return std::ranges::any_of(leaf, f);
-}
-
 } // namespace
 
 std::optional<HalfSpaceOf> side_through(const Polytope& shape, const std::vector<int>& face,
                                         const Vec3& inside)
 {
-    const auto corner = [&](std::size_t k) {
-        return shape.corners[static_cast<std::size_t>(face[k % face.size()])];
-    };
+    const auto corner = [&](std::size_t k) { return shape.corners[face[k % face.size()]]; };
     Vec3 normal = Vec3::Zero();
     if (face.size() == 2) {
         normal = Vec3::UnitY().cross(corner(1) - corner(0));
@@ -213,20 +184,6 @@ std::optional<HalfSpaceOf> side_through(const Polytope& shape, const std::vector
     normal.normalize();
     normal *= normal.dot(corner(0) - inside) < 0 ? -1 : 1;
     return HalfSpaceOf{normal, normal.dot(corner(0))};
-}
-
-std::vector<std::vector<int>> faces_of(const Polytope& shape, int dimensions)
-{
-    if (dimensions == 3) {
-        return shape.faces;
-    }
-    std::vector<std::vector<int>> edges;
-    for (const auto& face : shape.faces) {
-        for (std::size_t k = 0; k < (face.size() == 2 ? 1 : face.size()); ++k) {
-            edges.push_back({face[k], face[(k + 1) % face.size()]});
-        }
-    }
-    return edges;
 }
 
 RaySolid ray_solid(const ContactShape& shape, int dimensions)
@@ -324,7 +281,7 @@ bool near_wall(const RayWall& wall, const Vec3& point, double reach)
         return (point - wall.position).norm() <= reach + wall.solid.reach;
     }
     const AlignedBox box{point - Vec3::Constant(reach), point + Vec3::Constant(reach)};
-    return !wall.triangles.empty() && any_of_near(wall.tree, 0, box, [](int) { return true; });
+    return any_of_near(wall.tree, box, [](int) { return true; });
 }
 
 std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const RayPart& part)
@@ -359,8 +316,8 @@ std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const RayPart&
         AlignedBox along;
         along.add(ray.origin + part.from * ray.direction);
         along.add(ray.origin + part.to * ray.direction);
-        any_of_near(wall.tree, 0, along, [&](int k) {
-            const auto hit = meets(wall.triangles[static_cast<std::size_t>(k)], ray);
+        any_of_near(wall.tree, along, [&](int k) {
+            const auto hit = meets(wall.triangles[k], ray);
             if (hit && hit->enter >= part.from && hit->enter <= part.to) {
                 keep(hit);
             }

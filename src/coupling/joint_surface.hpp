@@ -57,9 +57,6 @@ RaySolid ray_solid(const ContactShape& shape, int dimensions);
 /// axes of the solid [m]; of a ball its reach.
 double reach_across(const RaySolid& solid, const Vec3& along);
 
-/// The faces of a polytope by their corners; in two dimensions the edges of the polygon.
-std::vector<std::vector<int>> faces_of(const Polytope& shape, int dimensions);
-
 /// The plane of a face with its outward normal, as seen from a point inside; none of a face without
 /// an area.
 std::optional<HalfSpaceOf> side_through(const Polytope& shape, const std::vector<int>& face,

@@ -27,14 +27,12 @@ void touch(FixedWalls& walls, const Tiles& tiles, const auto& counts)
         if (!counts(t)) {
             return;
         }
-        const auto place = TileLattice::place_of(tiles.tile[at(t)]);
-        for (int way = 0; way < 27; ++way) {
-            const std::array<int, 3> to{way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};
-            const Index found = index_of(walls.tile, tiles.lattice.beside(place, to));
+        tiles.lattice.for_beside(tiles.tile[at(t)], [&](std::uint64_t number, const auto&) {
+            const Index found = index_of(walls.tile, number);
             if (found >= 0) {
                 std::atomic_ref(walls.touched[at(found)]).store(1, std::memory_order_relaxed);
             }
-        }
+        });
     });
 }
 
@@ -192,21 +190,6 @@ void gather_rows(FixedWalls& walls, Store& store, std::span<std::byte> room)
 }
 
 } // namespace
-
-std::size_t FixedWalls::bytes() const
-{
-    const auto held = [](const auto&... values) {
-        return (0 + ... + (values.capacity() * sizeof(values[0])));
-    };
-    const auto held_by = [&](const Tiles& c) {
-        return held(c.tile, c.start, c.row, c.x, c.y, c.z, c.chunk_start, c.box);
-    };
-    std::size_t sum = held(tile, start, run, near, exists, touched, marks, row_of, old_row);
-    for (const std::vector<WallCandidate>& of_worker : made) {
-        sum += held(of_worker);
-    }
-    return sum + held_by(candidates) + held_by(last_candidates);
-}
 
 void append_run(FixedWalls& walls, std::uint64_t tile, const IndexRun& run)
 {

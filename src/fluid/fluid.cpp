@@ -42,32 +42,29 @@ void expect_built(const FluidEffects& effects)
     });
 }
 
-template <class Effect>
-struct ColumnsOf {
-    using type = typename Effect::Writes;
-};
-template <class Effect>
-requires requires
-{
-    typename Effect::Columns;
-}
-struct ColumnsOf<Effect> {
-    using type = typename Effect::Columns;
-};
-
 // Adds the columns that an effect needs, to solids only if the effect acts on them.
 template <class Effect>
 void add_columns_of(Fluid& fluid, const Effect&)
 {
-    const typename ColumnsOf<Effect>::type columns{};
     constexpr bool needs_solids = requires
     {
         Effect::needs_solids;
     };
-    if constexpr (!needs_solids) {
-        fluid.particles.fluid.add(columns);
-    } else if (has_solids(fluid)) {
-        add_columns(fluid.particles, columns);
+    constexpr bool has_columns = requires
+    {
+        typename Effect::Columns;
+    };
+    const auto add = [&](auto columns) {
+        if constexpr (!needs_solids) {
+            fluid.particles.fluid.add(columns);
+        } else if (has_solids(fluid)) {
+            add_columns(fluid.particles, columns);
+        }
+    };
+    if constexpr (has_columns) {
+        add(typename Effect::Columns{});
+    } else {
+        add(typename Effect::Writes{});
     }
 }
 
@@ -114,21 +111,6 @@ void part_from_solids(Fluid& fluid, real dt)
     });
 }
 
-// Integrates the density due to the correction of the divergence.
-void keep_corrections(Store& store, real dt)
-{
-    const auto made = store[field::correction];
-    const auto rate = store[field::correction_rate];
-    parallel_for(0, store.size(), [&](Index i) { made[i] += dt * rate[i]; });
-}
-
-void open_cavities(Store& store, const Cavitation& cavitation)
-{
-    const auto rho = store[field::density];
-    const auto cavity = store[field::cavity];
-    parallel_for(0, store.size(), [&](Index i) { cavitation.divide(rho[i], cavity[i]); });
-}
-
 } // namespace
 
 void drift(Fluid& fluid, real dt)
@@ -142,14 +124,17 @@ void drift(Fluid& fluid, real dt)
         rho[i] += dt * rate[i];
         x[i] += dt * v[i];
     });
-    if (store.has(field::correction)) {
-        keep_corrections(store, dt);
+    if (store.has(field::correction)) { // the density due to the correction of the divergence
+        const auto made = store[field::correction];
+        const auto correction_rate = store[field::correction_rate];
+        parallel_for(0, store.size(), [&](Index i) { made[i] += dt * correction_rate[i]; });
     }
     if (store.has(field::gap)) {
         part_from_solids(fluid, dt);
     }
     if (const auto* cavitation = held<Cavitation>(fluid.effects)) {
-        open_cavities(store, *cavitation);
+        const auto cavity = store[field::cavity];
+        parallel_for(0, store.size(), [&](Index i) { cavitation->divide(rho[i], cavity[i]); });
     }
 }
 

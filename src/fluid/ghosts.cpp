@@ -49,13 +49,8 @@ void poison(Store& store)
 {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     store.for_each_column([&]<class T>(const FieldInfo& of, ColumnValues<T>& values) {
-        if (&of == &Velocity::info) {
-            return;
-        }
-        if constexpr (std::is_same_v<T, Vec3>) {
-            std::ranges::fill(values, Vec3::Constant(nan));
-        } else {
-            std::ranges::fill(values, nan);
+        if (&of != &Velocity::info) {
+            std::ranges::fill(values, uniform<T>(nan));
         }
     });
 }

@@ -33,10 +33,10 @@ real motion_beside_fixed_walls(const Fluid& fluid)
     const auto look = [&](const Tiles& tiles, const std::vector<DisplacementBox>& boxes) {
         for (std::size_t t = 0; t < tiles.tile.size(); ++t) {
             const real way = boxes[t].low.cwiseAbs().cwiseMax(boxes[t].high.cwiseAbs()).norm();
-            const auto place = TileLattice::place_of(tiles.tile[t]);
-            for (int k = 0; k < 27 && way > most; ++k) {
-                const std::array<int, 3> to{k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
-                most = walls.find(tiles.lattice.beside(place, to)) >= 0 ? way : most;
+            if (way > most) {
+                tiles.lattice.for_beside(tiles.tile[t], [&](std::uint64_t number, const auto&) {
+                    most = walls.find(number) >= 0 ? way : most;
+                });
             }
         }
     };

@@ -27,16 +27,10 @@ void find_touching(const Tiles& tiles, const Tiles& others, std::vector<TileTouc
 {
     touch.resize(tiles.tile.size());
     parallel_blocks(0, tiles.tiles(), [&](Index t) {
-        const auto place = TileLattice::place_of(tiles.tile[at(t)]);
         std::size_t k = 0;
-        for (int z = -1; z <= 1; ++z) {
-            for (int y = -1; y <= 1; ++y) {
-                for (int x = -1; x <= 1; ++x) {
-                    touch[at(t)][k++] = static_cast<std::int32_t>(
-                        others.find(tiles.lattice.beside(place, {x, y, z})));
-                }
-            }
-        }
+        tiles.lattice.for_beside(tiles.tile[at(t)], [&](std::uint64_t number, const auto&) {
+            touch[at(t)][k++] = static_cast<std::int32_t>(others.find(number));
+        });
     });
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Builds the neighbour lists of all pair kinds from sorted tiles.
 #include "lists.hpp"
 
 #include "sharing.hpp"

@@ -23,6 +23,16 @@ std::size_t held(const DisplacementSpace& space)
     return held(space.box, space.fluid, space.wall, space.body);
 }
 
+std::size_t held(const FixedWalls& w)
+{
+    std::size_t bytes = held(w.candidates) + held(w.last_candidates);
+    for (const std::vector<WallCandidate>& of_worker : w.made) {
+        bytes += held(of_worker);
+    }
+    return bytes +
+           held(w.tile, w.start, w.run, w.near, w.exists, w.touched, w.marks, w.row_of, w.old_row);
+}
+
 template <class Real>
 std::size_t held(const PairData<Real>& data)
 {
@@ -45,7 +55,7 @@ std::vector<MemoryUse> memory_of(const Fluid& fluid)
         lists += list->bytes();
     }
     return {{"columns", bytes_of(fluid.particles)},
-            {"fixed walls", fluid.fixed_walls.bytes()},
+            {"fixed walls", held(fluid.fixed_walls)},
             {"records", std::visit([](const auto& data) { return held(data); }, fluid.pair_data)},
             {"lists", lists},
             {"tiles", held(n.fluid) + held(n.wall) + held(n.body)},

@@ -264,11 +264,6 @@ const StationFlow& station_of(const Carpet& carpet, int lane)
 
 namespace {
 
-real bed_of(const Carpet& carpet, int lane)
-{
-    return carpet.side.bed[at(std::clamp(lane, 0, carpet.side.lanes() - 1))];
-}
-
 // Calls f(k, row, lane) for the rows behind the plane, each the k-th of those near it.
 void for_carpet(const Fluid& fluid, const Carpet& carpet, const auto& f)
 {
@@ -291,15 +286,11 @@ void set_densities(Fluid& fluid, const OpenBoundary& open)
     for (const Carpet& carpet : open.carpets) {
         for_carpet(fluid, carpet, [&](std::size_t, std::size_t row, int lane) {
             rho[row] = density_at(fluid.parameters, station_of(carpet, lane).level, x[row].z());
-            if (store.has(field::gap)) {
-                store[field::gap][row] = 0;
-            }
-            if (store.has(field::cavity)) {
-                store[field::cavity][row] = 0;
-            }
-            if (store.has(field::correction)) {
-                store[field::correction][row] = 0;
-            }
+            for_each(Fields<Gap, Cavity, Correction>{}, [&](auto field) {
+                if (store.has(field)) {
+                    store[field][row] = 0;
+                }
+            });
         });
     }
 }
@@ -330,7 +321,8 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
         for_carpet(fluid, carpet, [&](std::size_t k, std::size_t row, int lane) {
             const StationFlow& flow = station_of(carpet, lane);
             const Vec3& before = carpet.kept[next++];
-            const real u = speed_at(carpet, flow, bed_of(carpet, lane), x[row].z());
+            const real bed = side.bed[at(std::clamp(lane, 0, side.lanes() - 1))];
+            const real u = speed_at(carpet, flow, bed, x[row].z());
             Vec3 set = flow.passes ? Vec3(before.x(), before.y(), 0) : Vec3(u * side.normal());
             if (carpet.is_beside_body(k)) {
                 const real wave = std::sqrt(gravity * std::max(flow.depth, dp));

@@ -11,11 +11,6 @@ namespace hyoryu {
 
 namespace {
 
-real gravity_of(const Fluid& fluid)
-{
-    return fluid.parameters.gravity.norm();
-}
-
 // Hat function of the strip: the sum over a lattice gives the depth independent of its phase.
 real strip_weight(real s, real spacing)
 {
@@ -141,8 +136,8 @@ void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt)
         add_displaced(fluid, carpet, sums);
         for (int c = 0; c < carpet.side.stations(); ++c) {
             StationFlow& flow = carpet.stations[at(c)];
-            const real tau =
-                strip_half * dp / std::sqrt(gravity_of(fluid) * std::max(flow.depth, dp));
+            const real tau = strip_half * dp /
+                             std::sqrt(fluid.parameters.gravity.norm() * std::max(flow.depth, dp));
             const real share = -std::expm1(-dt / tau);
             const real depth = depth_of(sums[at(c)], strip_area(fluid, carpet.side, c));
             flow.depth += share * (depth - flow.depth);

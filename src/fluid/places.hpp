@@ -38,7 +38,7 @@ private:
     {
         std::array<Index, 3> c{};
         for (int a = 0; a < 3; ++a) {
-            c[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(x[a] / distance_));
+            c[a] = static_cast<Index>(std::floor(x[a] / distance_));
         }
         return c;
     }

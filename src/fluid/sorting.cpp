@@ -31,7 +31,7 @@ void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
     const SumUnits units = sum_units(fluid.parameters);
     const FixedUnit of_v = units.velocity;
     const auto [vx, vy, vz, energy] =
-        sum_over_ranks<4>(fluid, count, {of_v, of_v, of_v, units.energy}, [&](Index k) {
+        sum_over_ranks<4>(comm_of(fluid), count, {of_v, of_v, of_v, units.energy}, [&](Index k) {
             const Vec3& vi = v[rows[at(k)]];
             const real e = 0.5 * vi.squaredNorm() - fluid.parameters.gravity.dot(x[rows[at(k)]]);
             return std::array{vi.x(), vi.y(), vi.z(), e};
@@ -41,8 +41,9 @@ void count_lost(Fluid& fluid, std::span<const std::int32_t> rows)
     fluid.lost.energy += m * energy;
     if (store.has(field::viscous_force)) {
         const auto F = store[field::viscous_force];
-        fluid.lost.force += vector_sum_over_ranks(
-            fluid, count, units.force, [&](Index k) -> const Vec3& { return F[rows[at(k)]]; });
+        fluid.lost.force +=
+            vector_sum_over_ranks(comm_of(fluid), count, units.force,
+                                  [&](Index k) -> const Vec3& { return F[rows[at(k)]]; });
     }
 }
 
@@ -169,7 +170,6 @@ void mark_wet_bodies(Fluid& fluid, real reach)
 
 } // namespace
 
-// Makes the fixed walls that lists may know, and drops the others.
 void update_fixed_walls(Fluid& fluid)
 {
     // Friction acts half a step after lists are built. With this extra reach a wall particle that

@@ -32,7 +32,7 @@ void load_own_solids(Fluid& fluid, const auto& fields)
     const FluidNeighbours& n = fluid.neighbours;
     std::visit(
         [&](auto& data) {
-            data.records().load(fluid.particles.wall, n.wall, n.wet_walls, fields);
+            data.records().load(fluid.particles.wall, n.wall, fields, n.wet_walls);
             data.records().load(fluid.particles.body, n.body, fields);
         },
         fluid.pair_data);
@@ -126,11 +126,7 @@ void clear_wet_solids(Fluid& fluid, List fields)
     for_each(fields, [&](auto field) {
         for_wet_solids(fluid, [&](Store& solids) {
             return [column = solids[field]](Index i) {
-                if constexpr (width<decltype(field)> == 3) {
-                    column[i].setZero();
-                } else {
-                    column[i] = 0;
-                }
+                column[i] = uniform<typename decltype(field)::type>(0);
             };
         });
     });

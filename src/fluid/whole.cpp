@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Functions that compare or assemble the fluid of one rank with the fluid of the whole case.
 #include "hyoryu/fluid/whole.hpp"
 
 #include "hyoryu/ranks/rows.hpp"

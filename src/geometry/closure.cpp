@@ -1,38 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Whether a mesh is closed, and the solid that a closed mesh encloses.
+#include "hyoryu/core/triangle_sides.hpp"
 #include "hyoryu/geometry/mesh.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace hyoryu {
 
 namespace {
-
-/// A side of a triangle, as its two corners in rising order and whether it runs from low to high.
-struct Side {
-    int low = 0;
-    int high = 0;
-    bool rising = true;
-};
-
-std::vector<Side> sorted_sides(const Mesh& mesh)
-{
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
-    for (const auto& triangle : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const int a = triangle[k];
-            const int b = triangle[(k + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), a < b});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.rising) < std::tie(b.low, b.high, b.rising);
-    });
-    return sides;
-}
 
 /// How many edges do not have exactly two triangles that run along them in opposite directions.
 struct EdgeFaults {
@@ -44,13 +18,15 @@ struct EdgeFaults {
 EdgeFaults edge_faults(const Mesh& mesh)
 {
     EdgeFaults faults;
-    const std::vector<Side> sides = sorted_sides(mesh);
+    const std::vector<TriangleSide> sides = sorted_sides(mesh.triangles);
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
         std::size_t rising = 0;
         for (last = first; last < sides.size() && sides[last].low == sides[first].low &&
                            sides[last].high == sides[first].high;
              ++last) {
-            rising += sides[last].rising ? 1 : 0;
+            const TriangleSide& s = sides[last];
+            const std::array<int, 3>& corner = mesh.triangles[at(s.triangle)];
+            rising += corner[at(s.side)] < corner[at(s.side + 1) % 3] ? 1 : 0;
         }
         const std::size_t count = last - first;
         faults.open += count == 1 ? 1 : 0;
@@ -110,9 +86,9 @@ SolidProperties solid_properties(const Mesh& mesh)
     Vec3 first = Vec3::Zero();
     Mat3 second = Mat3::Zero();
     for (const auto& [i, j, k] : mesh.triangles) {
-        const Vec3 a = mesh.corners[static_cast<std::size_t>(i)] - origin;
-        const Vec3 b = mesh.corners[static_cast<std::size_t>(j)] - origin;
-        const Vec3 c = mesh.corners[static_cast<std::size_t>(k)] - origin;
+        const Vec3 a = mesh.corners[i] - origin;
+        const Vec3 b = mesh.corners[j] - origin;
+        const Vec3 c = mesh.corners[k] - origin;
         const Vec3 s = a + b + c;
         const double volume = a.dot(b.cross(c)) / 6;
         solid.volume += volume;

@@ -130,9 +130,7 @@ bool join(Ring& ring, const std::vector<Ring>& holes, std::size_t hole)
 bool is_ear(const Ring& ring, const std::vector<int>& left, std::size_t k)
 {
     const std::size_t n = left.size();
-    const auto corner = [&](std::size_t m) -> const Plan2& {
-        return ring[static_cast<std::size_t>(left[m % n])];
-    };
+    const auto corner = [&](std::size_t m) -> const Plan2& { return ring[left[m % n]]; };
     const Plan2& a = corner(k + n - 1);
     const Plan2& b = corner(k);
     const Plan2& c = corner(k + 1);
@@ -162,7 +160,7 @@ std::vector<Triangle2> triangles_in(const Ring& ring)
 {
     std::vector<Triangle2> found;
     for (const auto& [i, j, k] : ear_triangles(ring)) {
-        const auto corner = [&](int n) { return ring[static_cast<std::size_t>(n)]; };
+        const auto corner = [&](int n) { return ring[n]; };
         found.push_back({corner(i), corner(j), corner(k)});
     }
     return found;
@@ -299,7 +297,7 @@ std::vector<std::array<int, 3>> ear_triangles(const Ring& ring)
         }
         const std::size_t n = left.size();
         const std::array<int, 3> ear{left[(k + n - 1) % n], left[k], left[(k + 1) % n]};
-        const auto corner = [&](std::size_t m) { return ring[static_cast<std::size_t>(ear[m])]; };
+        const auto corner = [&](std::size_t m) { return ring[ear[m]]; };
         sum += cross(corner(0), corner(1), corner(2)) / 2;
         triangles.push_back(ear);
         left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));

@@ -30,9 +30,9 @@ Mesh prism_mesh(const PrismOutline& outline)
         of_corner.push_back(at->second);
     }
     for (const auto& [i, j, k] : roof) {
-        const int a = of_corner[static_cast<std::size_t>(i)];
-        const int b = of_corner[static_cast<std::size_t>(j)];
-        const int c = of_corner[static_cast<std::size_t>(k)];
+        const int a = of_corner[i];
+        const int b = of_corner[j];
+        const int c = of_corner[k];
         mesh.triangles.push_back({a + 1, b + 1, c + 1});
         mesh.triangles.push_back({a, c, b});
     }

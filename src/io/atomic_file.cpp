@@ -106,20 +106,6 @@ void AtomicFile::reserve(std::uintmax_t bytes) const
     }
 }
 
-void AtomicFile::write_at_start(std::string_view text) const
-{
-    std::size_t done = 0;
-    while (done < text.size()) {
-        const ssize_t written =
-            ::pwrite(descriptor_, text.data() + done, text.size() - done, static_cast<off_t>(done));
-        if (written >= 0) {
-            done += static_cast<std::size_t>(written);
-        } else if (errno != EINTR) {
-            throw_system_error("write", file_);
-        }
-    }
-}
-
 void AtomicFile::read_from(std::uintmax_t place,
                            const std::function<void(std::span<const std::byte>)>& f) const
 {

@@ -30,8 +30,6 @@ public:
     void reserve(std::uintmax_t bytes) const;
     /// The temporary file, for a library that writes to a path.
     const std::filesystem::path& temporary() const { return temporary_; }
-    /// Overwrites the first bytes of the file.
-    void write_at_start(std::string_view text) const;
     /// Reads the file from an offset [B] to its end and calls f(block) for each block.
     void read_from(std::uintmax_t place,
                    const std::function<void(std::span<const std::byte>)>& f) const;

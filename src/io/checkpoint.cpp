@@ -56,9 +56,8 @@ void put_state(hid_t file, const StateOnDemand& state)
     for (const auto& [name, bytes] : state.bytes) {
         expects(!name.empty());
         const Column column = state.array(name);
-        put_array(arrays, link_name(name), raw(view_of(column)), column.unit);
-        const hdf5::Handle dataset(H5Dopen2(arrays, link_name(name).c_str(), H5P_DEFAULT), H5Dclose,
-                                   "write a checkpoint");
+        const hdf5::Handle dataset =
+            put_array(arrays, link_name(name), raw(view_of(column)), column.unit);
         hdf5::put_attribute(dataset, "name", column.name);
         const std::array<std::int64_t, 1> components{column.components};
         hdf5::put_attribute(dataset, "components", components);
@@ -262,7 +261,8 @@ CheckpointPart write_file(const std::filesystem::path& file, int format, const S
         checksum = libdeflate_crc32(checksum, block.data(), block.size());
         bytes += block.size();
     });
-    atomic.write_at_start(header(format, bytes, checksum));
+    // Over the space that HDF5 left: nothing was written through `atomic` before.
+    atomic.write(header(format, bytes, checksum));
     before();
     atomic.commit();
     return {file.filename().string(), bytes, checksum};
@@ -337,12 +337,6 @@ CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::i
 {
     return write_file(folder / fmt::format("checkpoint.{:06}.{:04}.h5", set, part), format_version,
                       state, [] {});
-}
-
-CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
-                                     int part, Snapshot snapshot)
-{
-    return write_checkpoint_part(folder, set, part, on_demand(std::move(snapshot)));
 }
 
 void write_checkpoint(const std::filesystem::path& folder, StateOnDemand state,

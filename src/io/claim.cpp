@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <vector>
 
 namespace hyoryu {
 
@@ -17,31 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> names_owned(const fs::path& folder, const Claim& claim)
-{
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (claim.owns(name)) {
-            names.push_back(name);
-        }
-    }
-    std::ranges::sort(names);
-    return names;
-}
-
 void claim_unguarded(const fs::path& folder, const Claim& claim)
 {
-    if (fs::exists(folder) && !fs::is_directory(folder)) {
-        throw CaseError(fmt::format("`{}` is a file, not a folder", folder.string()),
-                        "choose another folder with -o");
-    }
+    expect_no_file(folder);
     const fs::path mark = folder / fmt::format(".hyoryu-{}", claim.command);
     if (fs::exists(mark)) {
         return;
     }
     if (fs::exists(folder)) {
-        const std::vector<std::string> names = names_owned(folder, claim);
+        const std::vector<std::string> names = owned_names(folder, claim.owns);
         if (!names.empty()) {
             throw CaseError(
                 fmt::format("`{}` contains files that were not written by {} and would be "
@@ -56,6 +39,20 @@ void claim_unguarded(const fs::path& folder, const Claim& claim)
 }
 
 } // namespace
+
+std::vector<std::string> owned_names(const fs::path& folder,
+                                     const std::function<bool(const std::string&)>& owns)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (owns(name)) {
+            names.push_back(name);
+        }
+    }
+    std::ranges::sort(names);
+    return names;
+}
 
 void expect_own_file(const fs::path& file, const FileMark& mark)
 {

@@ -4,7 +4,7 @@
 
 #include "atomic_file.hpp"
 #include "hyoryu/core/error.hpp"
-#include "hyoryu/core/input_file.hpp"
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/io/results.hpp"
 
 #include <array>
@@ -26,15 +26,7 @@ std::string cell(std::string_view text)
     if (text.find_first_of(",\"#\r\n") == std::string_view::npos) {
         return std::string(text);
     }
-    std::string quoted = "\"";
-    for (const char letter : text) {
-        const bool line_break = letter == '\n' || letter == '\r';
-        quoted += line_break ? ' ' : letter;
-        if (letter == '"') {
-            quoted += '"';
-        }
-    }
-    return quoted + '"';
+    return '"' + replaced(text, {{'"', "\"\""}, {'\n', " "}, {'\r', " "}}) + '"';
 }
 
 std::vector<std::string> csv_cells(std::string_view line)
@@ -74,11 +66,6 @@ std::optional<double> csv_number(std::string_view text)
     const auto [stop, error] = std::from_chars(text.data(), end, value);
     const bool whole = error == std::errc{} && stop == end;
     return whole ? std::optional(value) : std::nullopt;
-}
-
-std::string file_text(const std::filesystem::path& file)
-{
-    return bytes_of_file(file);
 }
 
 std::vector<std::string_view> whole_lines(std::string_view text)

@@ -39,8 +39,6 @@ std::string csv_line(std::span<const std::string> cells);
 /// The number a whole cell holds; "nan" and "inf" are numbers.
 std::optional<double> csv_number(std::string_view cell);
 
-/// The whole file; throws IoError.
-std::string file_text(const std::filesystem::path& file);
 /// The lines that end in a line break: a torn last line is none.
 std::vector<std::string_view> whole_lines(std::string_view text);
 

@@ -3,6 +3,7 @@
 
 #include "csv.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
 
 #include <fmt/format.h>
@@ -56,8 +57,7 @@ const CsvTable::Column& column_of(const CsvTable& table, std::string_view column
 
 const CsvTable::Column* CsvTable::find(std::string_view name) const
 {
-    const auto at = std::find_if(columns.begin(), columns.end(),
-                                 [name](const Column& column) { return column.name == name; });
+    const auto at = std::ranges::find(columns, name, &Column::name);
     return at == columns.end() ? nullptr : &*at;
 }
 
@@ -85,7 +85,7 @@ std::vector<std::string> texts_of(const CsvTable& table, std::string_view column
 
 CsvTable read_csv(const std::filesystem::path& file)
 {
-    const std::string text = file_text(file);
+    const std::string text = bytes_of_file(file);
     CsvTable table{.file = file};
     std::string_view before;
     for (const std::string_view line : whole_lines(text)) {

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace hyoryu {
@@ -39,13 +40,6 @@ struct Step {
     double time = 0;
     std::vector<Part> parts;
 };
-
-void expect(bool holds, const char* what)
-{
-    if (!holds) {
-        throw IoError(what);
-    }
-}
 
 /// The shapes of a frame whose arrays have the lengths that belong together.
 Part part_of(const fs::path& source, std::string name_in_index)
@@ -171,21 +165,17 @@ void put_column(hid_t group, const std::string& name, const std::vector<std::int
     put_array(group, name, raw(view), "");
 }
 
-std::vector<std::string> names_of_point_data(const std::vector<Step>& steps)
+std::set<std::string> names_of_point_data(const std::vector<Step>& steps)
 {
-    std::map<std::string, int> names;
+    std::set<std::string> names;
     for (const Step& step : steps) {
         for (const Part& part : step.parts) {
             for (const auto& [name, shape] : part.point_data) {
-                names[name] += 1;
+                names.insert(name);
             }
         }
     }
-    std::vector<std::string> in_order;
-    for (const auto& [name, count] : names) {
-        in_order.push_back(name);
-    }
-    return in_order;
+    return names;
 }
 
 /// Counts of each part, and the virtual arrays of the grid.
@@ -210,7 +200,7 @@ void put_grid(hid_t root, const std::vector<Step>& steps)
 }
 
 /// Where each step begins in the arrays, and its time.
-void put_steps(hid_t root, const std::vector<Step>& steps, const std::vector<std::string>& data)
+void put_steps(hid_t root, const std::vector<Step>& steps, const std::set<std::string>& data)
 {
     std::vector<double> times;
     std::vector<std::int64_t> parts;
@@ -255,7 +245,7 @@ std::size_t export_vtkhdf(const fs::path& results, const std::vector<FrameSet>& 
     AtomicFile atomic(file);
     const hdf5::Session session;
     const std::vector<Step> steps = steps_of(results, sets, file);
-    const std::vector<std::string> data = names_of_point_data(steps);
+    const std::set<std::string> data = names_of_point_data(steps);
     constexpr std::size_t bytes_of_a_reference = 256;
     hdf5::FileImage image(steps.size() * sets.size() * (data.size() + 4) * bytes_of_a_reference);
     {

@@ -2,7 +2,7 @@
 // Frames as VTK's XML PolyData. The bytes are inline base64: the form that every reader of
 // VTK 6 and later takes, also with the XML parsers that fail on appended data (VTK issue 19258).
 #include "atomic_file.hpp"
-#include "hyoryu/core/error.hpp"
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/io/convert.hpp"
 #include "packed_array.hpp"
 
@@ -56,23 +56,7 @@ std::string inline_binary(std::span<const std::byte> bytes)
 
 std::string xml_text(std::string_view text)
 {
-    std::string result;
-    for (const char letter : text) {
-        switch (letter) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += letter;
-        }
-    }
-    return result;
+    return replaced(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'"', "&quot;"}});
 }
 
 const char* vtk_type(ElementType type)

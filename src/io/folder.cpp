@@ -122,15 +122,6 @@ void remove_temporary_files(const fs::path& folder)
     }
 }
 
-void make_folder(const fs::path& folder)
-{
-    if (fs::exists(folder) && !fs::is_directory(folder)) {
-        throw CaseError(fmt::format("`{}` is a file, not a folder", folder.string()),
-                        "choose another folder with -o");
-    }
-    fs::create_directories(folder);
-}
-
 void clear_as_asked(const fs::path& folder, Existing existing)
 {
     if (fs::is_empty(folder)) {
@@ -175,13 +166,19 @@ FolderLock::FolderLock(FolderLock&& other) noexcept
 {
 }
 
-void expect_replaceable(const fs::path& folder)
+void expect_no_file(const fs::path& folder)
 {
     std::error_code fault;
     if (fs::exists(folder, fault) && !fs::is_directory(folder, fault)) {
         throw CaseError(fmt::format("`{}` is a file, not a folder", folder.string()),
                         "choose another folder with -o");
     }
+}
+
+void expect_replaceable(const fs::path& folder)
+{
+    expect_no_file(folder);
+    std::error_code fault;
     if (fs::is_directory(folder, fault) && !fs::is_empty(folder, fault)) {
         inventory_of_results(folder);
     }
@@ -215,7 +212,8 @@ void expect_results(const fs::path& folder)
 FolderLock prepare_results(const fs::path& folder, Existing existing)
 {
     try {
-        make_folder(folder);
+        expect_no_file(folder);
+        fs::create_directories(folder);
         FolderLock lock(folder);
         clear_as_asked(folder, existing);
         fs::create_directories(folder / "frames");

@@ -2,6 +2,7 @@
 // The writer thread: takes frames from a short queue, writes them, then names them in their series.
 #include "atomic_file.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/timer.hpp"
 #include "hyoryu/io/results.hpp"
 #include "series.hpp"
 #include "vtkhdf.hpp"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <ctime>
 #include <deque>
 #include <exception>
 #include <map>
@@ -20,14 +20,11 @@
 #include <set>
 #include <thread>
 #include <utility>
-#include <variant>
 
 namespace hyoryu {
 
-enum class FramePlace { series, alone };
-
 struct FrameJob {
-    std::variant<Cloud, Surface, CloudOfParts> content;
+    FrameContent content;
     FramePlace place = FramePlace::series;
     int part = -1; // none: the frame itself
 
@@ -75,13 +72,6 @@ bool is_part(const std::filesystem::path& file)
     return std::regex_match(file.filename().string(), pattern);
 }
 
-double thread_seconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 } // namespace
 
 struct FrameWriter::State {
@@ -107,7 +97,6 @@ struct FrameWriter::State {
     void write(const FrameJob& job);
     void wait_for_parts(const std::filesystem::path& file, const FrameJob& job);
     void put(FrameJob job);
-    void wait_until_idle(std::unique_lock<std::mutex>& lock);
     void remove_frame(const std::filesystem::path& file) const;
     void remove_parts_of_no_frame() const;
     std::size_t waiting_frames() const;
@@ -138,11 +127,6 @@ void FrameWriter::State::put(FrameJob job)
     }
     queue.push_back(std::move(job));
     changed.notify_all();
-}
-
-void FrameWriter::State::wait_until_idle(std::unique_lock<std::mutex>& lock)
-{
-    changed.wait(lock, [&] { return error || (queue.empty() && !working); });
 }
 
 /// The main function of the thread. No exception may leave it: the first one is kept for the
@@ -247,44 +231,9 @@ FrameWriter::~FrameWriter()
     state_->thread.join();
 }
 
-void FrameWriter::write(Cloud cloud)
+void FrameWriter::write(FrameContent content, FramePlace place, int part)
 {
-    state_->put({std::move(cloud), FramePlace::series});
-}
-
-void FrameWriter::write(Surface surface)
-{
-    state_->put({std::move(surface), FramePlace::series});
-}
-
-void FrameWriter::write_static(Cloud cloud)
-{
-    state_->put({std::move(cloud), FramePlace::alone});
-}
-
-void FrameWriter::write_static(Surface surface)
-{
-    state_->put({std::move(surface), FramePlace::alone});
-}
-
-void FrameWriter::write_part(Cloud cloud, int part)
-{
-    state_->put({std::move(cloud), FramePlace::series, part});
-}
-
-void FrameWriter::write_static_part(Cloud cloud, int part)
-{
-    state_->put({std::move(cloud), FramePlace::alone, part});
-}
-
-void FrameWriter::write(CloudOfParts cloud)
-{
-    state_->put({std::move(cloud), FramePlace::series});
-}
-
-void FrameWriter::write_static(CloudOfParts cloud)
-{
-    state_->put({std::move(cloud), FramePlace::alone});
+    state_->put({std::move(content), place, part});
 }
 
 void FrameWriter::State::remove_frame(const std::filesystem::path& file) const
@@ -334,7 +283,8 @@ void FrameWriter::forget_after(double time)
 void FrameWriter::finish()
 {
     std::unique_lock lock(state_->mutex);
-    state_->wait_until_idle(lock);
+    state_->changed.wait(
+        lock, [&] { return state_->error || (state_->queue.empty() && !state_->working); });
     if (state_->error) {
         std::rethrow_exception(state_->error);
     }

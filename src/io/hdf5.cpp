@@ -58,6 +58,16 @@ Handle in_memory_access(std::size_t content)
     return access;
 }
 
+Handle created(const std::filesystem::path& file, std::size_t skip)
+{
+    const std::string action = fmt::format("write `{}`", file.string());
+    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, action);
+    check(H5Pset_userblock(creation, skip), action);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, action);
+    check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), action);
+    return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, action};
+}
+
 Handle string_type(std::size_t length)
 {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a string type");
@@ -71,6 +81,15 @@ Handle string_type(std::size_t length)
 Handle scalar_space()
 {
     return {H5Screate(H5S_SCALAR), H5Sclose, "make a scalar"};
+}
+
+void write_attribute(hid_t object, const std::string& name, hid_t type, hid_t space,
+                     const void* data)
+{
+    const std::string action = fmt::format("write the attribute `{}`", name);
+    const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose, action);
+    check(H5Awrite(attribute, type, data), action);
 }
 
 herr_t keep_name(hid_t, const char* name, const H5L_info_t*, void* names)
@@ -165,20 +184,6 @@ std::span<const std::byte> FileImage::bytes()
     return {*static_cast<const std::byte* const*>(buffer), static_cast<std::size_t>(size)};
 }
 
-namespace {
-
-Handle created(const std::filesystem::path& file, std::size_t skip)
-{
-    const std::string action = fmt::format("write `{}`", file.string());
-    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, action);
-    check(H5Pset_userblock(creation, skip), action);
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, action);
-    check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), action);
-    return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, action};
-}
-
-} // namespace
-
 DiskFile::DiskFile(const std::filesystem::path& file, std::size_t skip)
     : file_((expect_memory(0), created(file, skip)))
 {
@@ -226,54 +231,32 @@ std::vector<std::string> link_names(hid_t group)
 
 void put_attribute(hid_t object, const std::string& name, const std::string& text)
 {
-    const std::string action = fmt::format("write the attribute `{}`", name);
-    const Handle type = string_type(H5T_VARIABLE);
-    const Handle space = scalar_space();
-    const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose, action);
     const char* const letters = text.c_str();
-    check(H5Awrite(attribute, type, static_cast<const void*>(&letters)), action);
+    write_attribute(object, name, string_type(H5T_VARIABLE), scalar_space(),
+                    static_cast<const void*>(&letters));
 }
 
 void put_fixed_attribute(hid_t object, const std::string& name, const std::string& text)
 {
-    const std::string action = fmt::format("write the attribute `{}`", name);
-    const Handle type = string_type(text.size());
-    const Handle space = scalar_space();
-    const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose, action);
-    check(H5Awrite(attribute, type, text.c_str()), action);
+    write_attribute(object, name, string_type(text.size()), scalar_space(), text.c_str());
 }
 
 void put_attribute(hid_t object, const std::string& name, double value)
 {
-    const std::string action = fmt::format("write the attribute `{}`", name);
-    const Handle space = scalar_space();
-    const Handle attribute(
-        H5Acreate2(object, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose, action);
-    check(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), action);
+    write_attribute(object, name, H5T_NATIVE_DOUBLE, scalar_space(), &value);
 }
 
 void put_attribute(hid_t object, const std::string& name, std::span<const std::int64_t> values)
 {
-    const std::string action = fmt::format("write the attribute `{}`", name);
     const hsize_t size = values.size();
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, action);
-    const Handle attribute(
-        H5Acreate2(object, name.c_str(), H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose, action);
-    check(H5Awrite(attribute, H5T_NATIVE_INT64, values.data()), action);
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose,
+                       fmt::format("write the attribute `{}`", name));
+    write_attribute(object, name, H5T_NATIVE_INT64, space, values.data());
 }
 
 void put_count_attribute(hid_t object, const std::string& name, std::int64_t count)
 {
-    const std::string action = fmt::format("write the attribute `{}`", name);
-    const Handle space = scalar_space();
-    const Handle attribute(
-        H5Acreate2(object, name.c_str(), H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose, action);
-    check(H5Awrite(attribute, H5T_NATIVE_INT64, &count), action);
+    write_attribute(object, name, H5T_NATIVE_INT64, scalar_space(), &count);
 }
 
 std::string text_attribute(hid_t object, const std::string& name)

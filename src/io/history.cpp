@@ -3,6 +3,7 @@
 #include "atomic_file.hpp"
 #include "csv.hpp"
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/input_file.hpp"
 #include "hyoryu/io/results.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ Kept kept_of(const std::filesystem::path& file, const Table& table, double keep_
         expect_rows(file, rows, keep_rows);
         return {kept};
     }
-    const std::string text = file_text(file);
+    const std::string text = bytes_of_file(file);
     if (!text.starts_with(kept) && !kept.starts_with(text)) { // the latter: torn within the header
         throw IoError(fmt::format("cannot continue `{}`: its columns differ from those of this run",
                                   file.string()));
@@ -128,7 +129,7 @@ void change_columns(const std::filesystem::path& folder, const Table& table)
     if (!std::filesystem::exists(file)) {
         return;
     }
-    const std::string text = file_text(file);
+    const std::string text = bytes_of_file(file);
     const std::vector<std::string_view> lines = whole_lines(text);
     if (text.starts_with(header) || lines.size() < 2) {
         return;

@@ -2,6 +2,7 @@
 #include "link_names.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/name.hpp"
 
 #include <fmt/format.h>
 
@@ -11,18 +12,7 @@ namespace hyoryu {
 
 std::string link_name(std::string_view name)
 {
-    if (name == ".") {
-        return "%2E";
-    }
-    std::string link;
-    for (const char letter : name) {
-        if (letter == '/' || letter == '%') {
-            link += letter == '/' ? "%2F" : "%25";
-        } else {
-            link += letter;
-        }
-    }
-    return link;
+    return name == "." ? "%2E" : replaced(name, {{'/', "%2F"}, {'%', "%25"}});
 }
 
 std::string name_of(std::string_view link)

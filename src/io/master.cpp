@@ -3,7 +3,8 @@
 #include "atomic_file.hpp"
 #include "csv.hpp"
 #include "hdf5.hpp"
-#include "hyoryu/io/results.hpp"
+#include "hyoryu/core/input_file.hpp"
+#include "hyoryu/io/convert.hpp"
 #include "packed_array.hpp"
 #include "series.hpp"
 
@@ -31,13 +32,6 @@ std::string title_of(std::string_view case_text)
     return {};
 }
 
-/// `fluid_000012.hdf` -> `000012`
-std::string frame_number(const fs::path& file)
-{
-    const std::string stem = file.stem().string();
-    return stem.substr(stem.rfind('_') + 1);
-}
-
 void link_to_grid(hid_t parent, const std::string& name, const fs::path& file)
 {
     hdf5::check(H5Lcreate_external(file.generic_string().c_str(), "/VTKHDF", parent, name.c_str(),
@@ -56,7 +50,7 @@ std::map<std::string, Frame> frames_in(const fs::path& folder)
     std::map<std::string, Frame> frames;
     for (const std::string& name : series_names(folder)) {
         for (const SeriesEntry& entry : read_series(series_file(folder, name))) {
-            Frame& frame = frames[frame_number(entry.file)];
+            Frame& frame = frames[frame_number(entry)];
             frame.time = entry.time;
             frame.files[name] = entry.file;
         }
@@ -207,7 +201,7 @@ void put_histories(hid_t file, const fs::path& folder)
 {
     const hdf5::Handle group = hdf5::create_group(file, "histories");
     for (const fs::path& table : tables_in(folder)) {
-        put_history(group, table.stem().string(), file_text(table));
+        put_history(group, table.stem().string(), bytes_of_file(table));
     }
 }
 
@@ -225,7 +219,7 @@ void write_master(const std::filesystem::path& folder, const std::string& case_t
     hdf5::put_text(image, "case", case_text);
     for (const std::string name : {"plan", "summary"}) {
         if (const fs::path file = folder / (name + ".json"); fs::exists(file)) {
-            hdf5::put_text(image, name, file_text(file));
+            hdf5::put_text(image, name, bytes_of_file(file));
         }
     }
     put_frames(image, folder);

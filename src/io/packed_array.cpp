@@ -2,7 +2,6 @@
 // Shuffle and deflate by libdeflate, and the HDF5 datasets around the chunks.
 #include "packed_array.hpp"
 
-#include "hdf5.hpp"
 #include "hyoryu/core/error.hpp"
 
 #include <fmt/format.h>
@@ -17,19 +16,9 @@ namespace hyoryu {
 
 hid_t hdf5_type(ElementType type)
 {
-    switch (type) {
-    case ElementType::float32:
-        return H5T_NATIVE_FLOAT;
-    case ElementType::float64:
-        return H5T_NATIVE_DOUBLE;
-    case ElementType::int32:
-        return H5T_NATIVE_INT32;
-    case ElementType::int64:
-        return H5T_NATIVE_INT64;
-    case ElementType::uint8:
-        break;
-    }
-    return H5T_NATIVE_UINT8;
+    const std::array types{H5T_NATIVE_FLOAT, H5T_NATIVE_DOUBLE, H5T_NATIVE_INT32, H5T_NATIVE_INT64,
+                           H5T_NATIVE_UINT8};
+    return types[static_cast<std::size_t>(type)];
 }
 
 ElementType stored_type(hid_t dataset, const std::string& name)
@@ -67,21 +56,12 @@ std::size_t size_of(ElementType type)
     return sizes[static_cast<std::size_t>(type)];
 }
 
+/// The types stand in the order of the alternatives.
+static_assert(std::variant_size_v<Values> == 5);
 template <class T>
-constexpr ElementType element_type()
+ElementType element_type()
 {
-    if constexpr (std::is_same_v<T, float>) {
-        return ElementType::float32;
-    } else if constexpr (std::is_same_v<T, double>) {
-        return ElementType::float64;
-    } else if constexpr (std::is_same_v<T, std::int32_t>) {
-        return ElementType::int32;
-    } else if constexpr (std::is_same_v<T, std::int64_t>) {
-        return ElementType::int64;
-    } else {
-        static_assert(std::is_same_v<T, std::uint8_t>);
-        return ElementType::uint8;
-    }
+    return static_cast<ElementType>(Values(std::vector<T>{}).index());
 }
 
 /// HDF5's shuffle: first bytes of all elements, then second bytes... Neighbouring particles agree
@@ -150,31 +130,21 @@ void write_chunks(hid_t dataset, const PackedArray& array, const std::string& ac
     }
 }
 
-template <class T>
-Values read_values(hid_t dataset, std::size_t count, const std::string& action)
-{
-    std::vector<T> values(count);
-    hdf5::check(H5Dread(dataset, hdf5_type(element_type<T>()), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                        values.data()),
-                action);
-    return values;
-}
-
 Values read_values(hid_t dataset, ElementType type, std::size_t count, const std::string& action)
 {
-    switch (type) {
-    case ElementType::float32:
-        return read_values<float>(dataset, count, action);
-    case ElementType::float64:
-        return read_values<double>(dataset, count, action);
-    case ElementType::int32:
-        return read_values<std::int32_t>(dataset, count, action);
-    case ElementType::int64:
-        return read_values<std::int64_t>(dataset, count, action);
-    case ElementType::uint8:
-        break;
-    }
-    return read_values<std::uint8_t>(dataset, count, action);
+    const std::array<Values, 5> of_each_type{
+        std::vector<float>{}, std::vector<double>{}, std::vector<std::int32_t>{},
+        std::vector<std::int64_t>{}, std::vector<std::uint8_t>{}};
+    Values values = of_each_type[static_cast<std::size_t>(type)];
+    std::visit(
+        [&](auto& numbers) {
+            numbers.resize(count);
+            hdf5::check(
+                H5Dread(dataset, hdf5_type(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
+                action);
+        },
+        values);
+    return values;
 }
 
 /// Throws IoError if the file does not hold as much as the dataset claims: memory would be taken
@@ -259,8 +229,8 @@ std::size_t stored_bytes(const PackedArray& array)
     return total;
 }
 
-void put_array(hid_t parent, const std::string& name, const PackedArray& array,
-               const std::string& unit)
+hdf5::Handle put_array(hid_t parent, const std::string& name, const PackedArray& array,
+                       const std::string& unit)
 {
     const std::string action = fmt::format("write the array `{}`", name);
     const ArrayView& view = array.view;
@@ -268,9 +238,9 @@ void put_array(hid_t parent, const std::string& name, const PackedArray& array,
         H5Screate_simple(static_cast<int>(view.dims.size()), view.dims.data(), nullptr), H5Sclose,
         action);
     const hdf5::Handle creation = creation_of(array, action);
-    const hdf5::Handle dataset(H5Dcreate2(parent, name.c_str(), hdf5_type(view.type), space,
-                                          H5P_DEFAULT, creation, H5P_DEFAULT),
-                               H5Dclose, action);
+    hdf5::Handle dataset(H5Dcreate2(parent, name.c_str(), hdf5_type(view.type), space, H5P_DEFAULT,
+                                    creation, H5P_DEFAULT),
+                         H5Dclose, action);
     if (array.rows_per_chunk > 0) {
         write_chunks(dataset, array, action);
     } else if (!view.bytes.empty()) {
@@ -281,33 +251,47 @@ void put_array(hid_t parent, const std::string& name, const PackedArray& array,
     if (!unit.empty()) {
         hdf5::put_attribute(dataset, "unit", unit);
     }
+    return dataset;
 }
 
-Column get_column(hid_t parent, const std::string& name)
+ArrayShape shape_of(hid_t group, const std::string& name)
 {
     const std::string action = fmt::format("read the array `{}`", name);
-    const hdf5::Handle dataset(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, action);
+    const hdf5::Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, action);
     const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, action);
-    std::array<hsize_t, 2> dims{0, 1};
     const int rank = H5Sget_simple_extent_ndims(space);
     if (rank < 1 || rank > 2) {
         throw IoError(fmt::format("cannot {}: it has {} dimensions", action, rank));
     }
+    std::array<hsize_t, 2> dims{0, 0};
     H5Sget_simple_extent_dims(space, dims.data(), nullptr);
-    Column column{.name = name, .unit = {}, .components = static_cast<int>(dims[1]), .values = {}};
-    const ElementType type = stored_type(dataset, name);
+    if (rank == 2 && dims[1] == 0) {
+        throw IoError(fmt::format("cannot {}: it declares {} x 0 numbers", action, dims[0]));
+    }
+    ArrayShape shape{dims[0], dims[1], stored_type(dataset, name), {}};
+    if (H5Aexists(dataset, "unit") > 0) {
+        shape.unit = hdf5::text_attribute(dataset, "unit");
+    }
+    return shape;
+}
+
+Column get_column(hid_t parent, const std::string& name)
+{
+    const ArrayShape shape = shape_of(parent, name);
+    const std::string action = fmt::format("read the array `{}`", name);
+    const hsize_t components = std::max<hsize_t>(1, shape.components);
     constexpr hsize_t most_rows = hsize_t{1} << 40;
     constexpr hsize_t most_components = 1 << 10;
-    if (dims[0] > most_rows || dims[1] > most_components) {
+    if (shape.rows > most_rows || components > most_components) {
         throw IoError(
-            fmt::format("cannot {}: it declares {} x {} numbers", action, dims[0], dims[1]));
+            fmt::format("cannot {}: it declares {} x {} numbers", action, shape.rows, components));
     }
-    expect_stored(dataset, size_of(type) * dims[0] * dims[1], action);
-    column.values = read_values(dataset, type, dims[0] * dims[1], action);
-    if (H5Aexists(dataset, "unit") > 0) {
-        column.unit = hdf5::text_attribute(dataset, "unit");
-    }
-    return column;
+    const hdf5::Handle dataset(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, action);
+    expect_stored(dataset, size_of(shape.type) * shape.rows * components, action);
+    return {.name = name,
+            .unit = shape.unit,
+            .components = static_cast<int>(components),
+            .values = read_values(dataset, shape.type, shape.rows * components, action)};
 }
 
 } // namespace hyoryu

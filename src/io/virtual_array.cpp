@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "virtual_array.hpp"
 
-#include "hyoryu/core/error.hpp"
+#include "hyoryu/core/name.hpp"
 
 #include <fmt/format.h>
 
@@ -30,38 +30,7 @@ void set_fill_value(hid_t creation, ElementType type)
     hdf5::check(status, "prepare a virtual dataset");
 }
 
-/// In the names of sources HDF5 takes % for the begin of a pattern.
-std::string as_source_name(const std::string& file)
-{
-    std::string escaped;
-    for (const char letter : file) {
-        escaped += letter;
-        if (letter == '%') {
-            escaped += '%';
-        }
-    }
-    return escaped;
-}
-
 } // namespace
-
-ArrayShape shape_of(hid_t group, const std::string& name)
-{
-    const std::string action = fmt::format("read the array `{}`", name);
-    const hdf5::Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, action);
-    const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, action);
-    const int rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 1 || rank > 2) {
-        throw IoError(fmt::format("cannot {}: it has {} dimensions", action, rank));
-    }
-    std::array<hsize_t, 2> dims{0, 0};
-    H5Sget_simple_extent_dims(space, dims.data(), nullptr);
-    ArrayShape shape{dims[0], dims[1], stored_type(dataset, name), {}};
-    if (H5Aexists(dataset, "unit") > 0) {
-        shape.unit = hdf5::text_attribute(dataset, "unit");
-    }
-    return shape;
-}
 
 VirtualArray::VirtualArray(ArrayShape shape, hsize_t rows)
     : shape_(std::move(shape)), rows_(rows),
@@ -82,9 +51,10 @@ void VirtualArray::append(const std::string& file, const std::string& dataset, h
         hdf5::check(
             H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
             "refer to a frame");
-        hdf5::check(
-            H5Pset_virtual(creation_, all, as_source_name(file).c_str(), dataset.c_str(), source),
-            "refer to a frame");
+        // In the names of sources HDF5 takes % for the begin of a pattern.
+        const std::string name = replaced(file, {{'%', "%%"}});
+        hdf5::check(H5Pset_virtual(creation_, all, name.c_str(), dataset.c_str(), source),
+                    "refer to a frame");
     }
     filled_ += rows;
 }

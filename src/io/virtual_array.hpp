@@ -10,16 +10,6 @@
 
 namespace hyoryu {
 
-/// The properties of an array of a file that a reference to it needs.
-struct ArrayShape {
-    hsize_t rows = 0;
-    hsize_t components = 0; // 0: the array has one dimension
-    ElementType type = ElementType::float32;
-    std::string unit;
-};
-
-ArrayShape shape_of(hid_t group, const std::string& name);
-
 /// One virtual dataset in the making. Rows that no file holds are NaN, -1, or 255 in bytes.
 class VirtualArray {
 public:

@@ -140,21 +140,6 @@ std::size_t stored_bytes(const Parts& parts)
     return total;
 }
 
-template <class Frame>
-void write_frame(const std::filesystem::path& file, const Frame& frame)
-{
-    expects(frame.points.size() % 3 == 0);
-    AtomicFile atomic(file); // first: a folder that cannot be written is known before the work
-    const Cells cells = cells_of(frame);
-    const Parts parts = parts_of(frame, cells);
-    const hdf5::Session session;
-    hdf5::FileImage image(stored_bytes(parts));
-    put_grid(image, cells, parts);
-    put_data(image, frame, parts);
-    atomic.write(image.bytes());
-    atomic.commit();
-}
-
 /// The parts of a cloud as the file names them: "NAME BYTES" on a line each.
 std::string text_of_parts(const std::filesystem::path& file, std::size_t parts)
 {
@@ -210,15 +195,22 @@ void put_virtual_grid(hid_t image, const std::filesystem::path& file, const Clou
 
 } // namespace
 
-void write_vtkhdf(const std::filesystem::path& file, const Cloud& cloud)
+template <class Frame>
+void write_vtkhdf(const std::filesystem::path& file, const Frame& frame)
 {
-    write_frame(file, cloud);
+    expects(frame.points.size() % 3 == 0);
+    AtomicFile atomic(file); // first: a folder that cannot be written is known before the work
+    const Cells cells = cells_of(frame);
+    const Parts parts = parts_of(frame, cells);
+    const hdf5::Session session;
+    hdf5::FileImage image(stored_bytes(parts));
+    put_grid(image, cells, parts);
+    put_data(image, frame, parts);
+    atomic.write(image.bytes());
+    atomic.commit();
 }
-
-void write_vtkhdf(const std::filesystem::path& file, const Surface& surface)
-{
-    write_frame(file, surface);
-}
+template void write_vtkhdf(const std::filesystem::path&, const Cloud&);
+template void write_vtkhdf(const std::filesystem::path&, const Surface&);
 
 void write_vtkhdf(const std::filesystem::path& file, const CloudOfParts& cloud)
 {

@@ -2,6 +2,7 @@
 // One frame as a VTKHDF 1.0 UnstructuredGrid: the oldest form that ParaView 5.10 and later opens.
 #pragma once
 
+#include "hyoryu/core/error.hpp"
 #include "hyoryu/core/snapshot.hpp"
 
 #include <cstdint>
@@ -14,9 +15,17 @@ namespace hyoryu {
 inline constexpr std::uint8_t vertex_cell = 1;
 inline constexpr std::uint8_t triangle_cell = 5;
 
-/// Writes the file whole (temporary name, then renamed). Throws IoError.
-void write_vtkhdf(const std::filesystem::path& file, const Cloud& cloud);
-void write_vtkhdf(const std::filesystem::path& file, const Surface& surface);
+/// Throws IoError with this text, which says what is wrong with a frame, unless `holds`.
+inline void expect(bool holds, const char* what)
+{
+    if (!holds) {
+        throw IoError(what);
+    }
+}
+
+/// Writes a Cloud or a Surface whole (temporary name, then renamed). Throws IoError.
+template <class Frame>
+void write_vtkhdf(const std::filesystem::path& file, const Frame& frame);
 
 /// Writes a file whose arrays are virtual datasets over those of its parts, which are on disk. HDF5
 /// reads zeros where a part is missing: the file has the names and sizes of its parts, by which

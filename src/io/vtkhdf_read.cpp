@@ -20,9 +20,8 @@ std::vector<float> points_of(hid_t root)
 {
     Column column = get_column(root, "Points");
     auto* points = std::get_if<std::vector<float>>(&column.values);
-    if (points == nullptr || column.components != 3) {
-        throw IoError("its points are not rows of three single-precision numbers");
-    }
+    expect(points != nullptr && column.components == 3,
+           "its points are not rows of three single-precision numbers");
     return std::move(*points);
 }
 
@@ -63,22 +62,17 @@ std::vector<std::int32_t> triangles_of(hid_t root, std::size_t points)
 {
     const Column types = get_column(root, "Types");
     for (const std::uint8_t type : std::get<std::vector<std::uint8_t>>(types.values)) {
-        if (type != triangle_cell) {
-            throw IoError("it contains cells that are not triangles");
-        }
+        expect(type == triangle_cell, "it contains cells that are not triangles");
     }
     const Column connectivity = get_column(root, "Connectivity");
     const auto& corners = std::get<std::vector<std::int64_t>>(connectivity.values);
     std::vector<std::int32_t> triangles(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (corners[i] < 0 || corners[i] >= static_cast<std::int64_t>(points)) {
-            throw IoError("a triangle has a corner that is not a point");
-        }
+        expect(corners[i] >= 0 && corners[i] < static_cast<std::int64_t>(points),
+               "a triangle has a corner that is not a point");
         triangles[i] = static_cast<std::int32_t>(corners[i]);
     }
-    if (triangles.size() % 3 != 0) {
-        throw IoError("its last triangle is incomplete");
-    }
+    expect(triangles.size() % 3 == 0, "its last triangle is incomplete");
     return triangles;
 }
 
@@ -118,9 +112,7 @@ std::vector<std::int64_t> points_of_parts(hid_t file)
     const hdf5::Handle root = hdf5::open_group(file, "VTKHDF");
     const Column column = get_column(root, "NumberOfPoints");
     const auto* counts = std::get_if<std::vector<std::int64_t>>(&column.values);
-    if (counts == nullptr) {
-        throw IoError("its numbers of points are not whole numbers");
-    }
+    expect(counts != nullptr, "its numbers of points are not whole numbers");
     return *counts;
 }
 
@@ -156,14 +148,11 @@ std::vector<std::filesystem::path> checked_parts(hid_t file, const std::filesyst
     std::istringstream lines(parts_named_in(file));
     const std::vector<std::int64_t> points = points_of_parts(file);
     for (std::string line; std::getline(lines, line);) {
-        if (parts.size() == points.size()) {
-            throw IoError("it names more parts than it has");
-        }
+        expect(parts.size() != points.size(), "it names more parts than it has");
         parts.push_back(checked_part(file, frame, line, points[parts.size()]));
     }
-    if (parts.size() != points.size() && !(parts.empty() && points.size() == 1)) {
-        throw IoError("it does not name all of its parts");
-    }
+    expect(parts.size() == points.size() || (parts.empty() && points.size() == 1),
+           "it does not name all of its parts");
     return parts;
 }
 

@@ -17,10 +17,10 @@ TileRange Cuts::range(int rank) const
 {
     TileRange range;
     if (rank > 0) {
-        range.begin = first[static_cast<std::size_t>(rank - 1)];
+        range.begin = first[rank - 1];
     }
     if (static_cast<std::size_t>(rank) < first.size()) {
-        range.end = first[static_cast<std::size_t>(rank)];
+        range.end = first[rank];
     }
     return range;
 }

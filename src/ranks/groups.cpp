@@ -23,12 +23,12 @@ void gather_in_groups(Comm& comm, const Groups& groups, const std::function<Parc
     for (int member = 0; member < largest; ++member) {
         std::vector<Parcel> out(static_cast<std::size_t>(comm.size()));
         if (rank - leader == member) {
-            out[static_cast<std::size_t>(leader)] = pack();
+            out[leader] = pack();
         }
         const std::vector<Parcel> in = comm.exchange(std::move(out));
         const int sender = rank + member;
         if (rank == leader && sender < comm.size() && groups.of(sender) == groups.of(rank)) {
-            take(Unpacking(in[static_cast<std::size_t>(sender)]));
+            take(Unpacking(in[sender]));
         }
     }
 }

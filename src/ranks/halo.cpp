@@ -15,14 +15,12 @@ std::vector<int> ranks_beside(const Cuts& cuts, const TileLattice& lattice, std:
                               int self)
 {
     std::vector<int> ranks;
-    const auto place = TileLattice::place_of(tile);
-    for (int way = 0; way < 27; ++way) {
-        const std::array<int, 3> to{way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};
-        const int owner = cuts.owner(lattice.beside(place, to));
+    lattice.for_beside(tile, [&](std::uint64_t number, const auto&) {
+        const int owner = cuts.owner(number);
         if (owner != self && std::ranges::find(ranks, owner) == ranks.end()) {
             ranks.push_back(owner);
         }
-    }
+    });
     return ranks;
 }
 

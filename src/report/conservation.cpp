@@ -85,26 +85,21 @@ std::string energy_balance(const RunResults& run, const Values& time)
                 .height = 360};
     Values sum(time.size());
     double scale = 0;
-    for (const std::string name : energy_names) {
-        const Values values = change(column(run, name));
-        add(sum, values, 1);
+    const auto add_line = [&](const std::string& label, const Values& values, double factor) {
+        add(sum, values, factor);
         if (largest_magnitude(values) > 0) {
-            scale = std::max(scale, largest_magnitude(values));
-            std::string label = name;
-            std::replace(label.begin(), label.end(), '_', ' ');
             chart.lines.push_back({label, time, values});
         }
+    };
+    for (const std::string name : energy_names) {
+        const Values values = change(column(run, name));
+        scale = std::max(scale, largest_magnitude(values));
+        std::string label = name;
+        std::replace(label.begin(), label.end(), '_', ' ');
+        add_line(label, values, 1);
     }
-    const Values entered = change(optional_column(run, "open_energy"));
-    add(sum, entered, -1);
-    if (largest_magnitude(entered) > 0) {
-        chart.lines.push_back({"came in through open sides", time, entered});
-    }
-    const Values left = optional_column(run, "lost_energy");
-    add(sum, left, 1);
-    if (largest_magnitude(left) > 0) {
-        chart.lines.push_back({"left the domain", time, left});
-    }
+    add_line("came in through open sides", change(optional_column(run, "open_energy")), -1);
+    add_line("left the domain", optional_column(run, "lost_energy"), 1);
     chart.lines.push_back({"sum", time, sum});
     return "<h3>Energy</h3>\n" + svg_chart(chart) + energy_text(run, sum.back(), scale);
 }

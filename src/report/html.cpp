@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/report/html.hpp"
 
+#include "hyoryu/core/name.hpp"
+
 #include <fmt/format.h>
 
 namespace hyoryu {
 
 namespace {
-
-std::string_view entity(char letter)
-{
-    switch (letter) {
-    case '&':
-        return "&amp;";
-    case '<':
-        return "&lt;";
-    case '>':
-        return "&gt;";
-    case '"':
-        return "&quot;";
-    case '\'':
-        return "&#39;";
-    default:
-        return {};
-    }
-}
 
 bool forbidden(char letter)
 {
@@ -36,14 +20,10 @@ bool forbidden(char letter)
 std::string escaped(std::string_view text)
 {
     std::string out;
-    for (const char letter : text) {
-        if (const std::string_view found = entity(letter); !found.empty()) {
-            out += found;
-        } else if (forbidden(letter)) {
-            out += "\xEF\xBF\xBD";
-        } else {
-            out += letter;
-        }
+    for (const char letter : replaced(
+             text,
+             {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}})) {
+        out += forbidden(letter) ? std::string("\xEF\xBF\xBD") : std::string(1, letter);
     }
     return out;
 }

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -18,13 +17,6 @@ std::vector<SeriesEntry> frames_of(const RunResults& run, const char* name)
 {
     const std::filesystem::path file = run.folder / fmt::format("{}.hdf.series", name);
     return std::filesystem::exists(file) ? read_series(file) : std::vector<SeriesEntry>();
-}
-
-std::size_t nearest(const std::vector<SeriesEntry>& frames, double time)
-{
-    const auto found = std::ranges::min_element(
-        frames, {}, [&](const SeriesEntry& frame) { return std::abs(frame.time - time); });
-    return static_cast<std::size_t>(found - frames.begin());
 }
 
 /// The time of the blow with the largest impulse, or half of the run.
@@ -64,7 +56,7 @@ std::string picture_section(const RunResults& run)
     if (frames.empty()) {
         return heading + html_paragraph("The folder contains no frames.");
     }
-    std::vector<std::size_t> shown{0, nearest(frames, hardest_moment(run, frames)),
+    std::vector<std::size_t> shown{0, nearest_in_time(frames, hardest_moment(run, frames)),
                                    frames.size() - 1};
     shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
     std::array<double, 2> heights{};
@@ -86,7 +78,8 @@ std::string picture_section(const RunResults& run)
         }
         if (!bodies.empty()) {
             scene.bodies = outline(
-                read_surface(run.folder / bodies[nearest(bodies, frames[k].time)].file), view);
+                read_surface(run.folder / bodies[nearest_in_time(bodies, frames[k].time)].file),
+                view);
         }
         const std::string time = fmt::format("t = {:.4g} s", frames[k].time);
         text += fmt::format("<h3>{}</h3>\n", time) + svg_scene(scene, view, "the scene at " + time);

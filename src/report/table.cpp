@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/report/table.hpp"
 
+#include "hyoryu/core/name.hpp"
 #include "hyoryu/report/html.hpp"
 
 #include <fmt/format.h>
@@ -37,11 +38,7 @@ std::string markdown_row(const Row& cells)
 {
     std::string row = "|";
     for (const std::string& text : cells) {
-        row += ' ';
-        for (const char letter : text) {
-            row += letter == '|' ? "\\|" : std::string(1, letter == '\n' ? ' ' : letter);
-        }
-        row += " |";
+        row += ' ' + replaced(text, {{'|', "\\|"}, {'\n', " "}}) + " |";
     }
     return row + "\n";
 }

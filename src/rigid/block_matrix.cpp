@@ -20,8 +20,8 @@ std::vector<std::vector<int>> neighbours(int count, const std::vector<std::pair<
 {
     std::vector<std::vector<int>> of(static_cast<std::size_t>(count));
     for (const auto& [a, b] : pairs) {
-        insert(of[static_cast<std::size_t>(a)], b);
-        insert(of[static_cast<std::size_t>(b)], a);
+        insert(of[a], b);
+        insert(of[b], a);
     }
     return of;
 }
@@ -31,8 +31,7 @@ int next_body(const std::vector<std::vector<int>>& of, const std::vector<int>& s
 {
     int best = -1;
     for (std::size_t k = 0; k < of.size(); ++k) {
-        if (step_of[k] < 0 &&
-            (best < 0 || of[k].size() < of[static_cast<std::size_t>(best)].size())) {
+        if (step_of[k] < 0 && (best < 0 || of[k].size() < of[best].size())) {
             best = static_cast<int>(k);
         }
     }
@@ -42,9 +41,9 @@ int next_body(const std::vector<std::vector<int>>& of, const std::vector<int>& s
 // Removes the body from the graph and couples its neighbours to each other.
 void eliminate(std::vector<std::vector<int>>& of, int body)
 {
-    const std::vector<int>& left = of[static_cast<std::size_t>(body)];
+    const std::vector<int>& left = of[body];
     for (const int a : left) {
-        std::vector<int>& list = of[static_cast<std::size_t>(a)];
+        std::vector<int>& list = of[a];
         list.erase(std::ranges::lower_bound(list, body));
         for (const int b : left) {
             if (b != a) {
@@ -59,12 +58,12 @@ void eliminate(std::vector<std::vector<int>>& of, int body)
 Mat6& BlockMatrix::at(int i, int j)
 {
     if (i == j) {
-        return diagonal[static_cast<std::size_t>(i)];
+        return diagonal[i];
     }
     const auto first = static_cast<std::size_t>(std::min(i, j));
     const auto place =
         std::ranges::lower_bound(later[first], std::max(i, j)) - later[first].begin();
-    return (i < j ? right : below)[first][static_cast<std::size_t>(place)];
+    return (i < j ? right : below)[first][place];
 }
 
 void order(BlockMatrix& matrix, int count, const std::vector<std::pair<int, int>>& pairs)
@@ -75,13 +74,13 @@ void order(BlockMatrix& matrix, int count, const std::vector<std::pair<int, int>
     matrix.later.resize(n);
     for (int step = 0; step < count; ++step) {
         const int body = next_body(of, matrix.step_of);
-        matrix.step_of[static_cast<std::size_t>(body)] = step;
+        matrix.step_of[body] = step;
         eliminate(of, body);
-        matrix.later[static_cast<std::size_t>(step)] = of[static_cast<std::size_t>(body)];
+        matrix.later[step] = of[body];
     }
     for (std::vector<int>& list : matrix.later) { // by step instead of by body
         for (int& body : list) {
-            body = matrix.step_of[static_cast<std::size_t>(body)];
+            body = matrix.step_of[body];
         }
         std::ranges::sort(list);
     }
@@ -122,12 +121,12 @@ void solve(const BlockMatrix& matrix, std::vector<Vec6>& x)
     for (std::size_t k = 0; k < n; ++k) {
         x[k] = matrix.pivots[k].solve(x[k]).eval();
         for (std::size_t i = 0; i < matrix.later[k].size(); ++i) {
-            x[static_cast<std::size_t>(matrix.later[k][i])] -= matrix.below[k][i] * x[k];
+            x[matrix.later[k][i]] -= matrix.below[k][i] * x[k];
         }
     }
     for (std::size_t k = n; k-- > 0;) {
         for (std::size_t j = 0; j < matrix.later[k].size(); ++j) {
-            x[k] -= matrix.right[k][j] * x[static_cast<std::size_t>(matrix.later[k][j])];
+            x[k] -= matrix.right[k][j] * x[matrix.later[k][j]];
         }
     }
 }

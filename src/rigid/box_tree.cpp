@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/rigid/box_tree.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 namespace hyoryu {
@@ -24,7 +23,7 @@ public:
         AlignedBox centres;
         for (int k = first; k < first + count; ++k) {
             all.add(boxes_[item(k)]);
-            centres.add(centre(tree_.order[static_cast<std::size_t>(k)]));
+            centres.add(centre(tree_.order[k]));
         }
         tree_.nodes[at].box = all;
         if (count <= leaf_size) {
@@ -44,44 +43,16 @@ public:
     }
 
 private:
-    std::size_t item(int k) const
-    {
-        return static_cast<std::size_t>(tree_.order[static_cast<std::size_t>(k)]);
-    }
+    std::size_t item(int k) const { return static_cast<std::size_t>(tree_.order[k]); }
     Vec3 centre(int box) const
     {
-        const AlignedBox& b = boxes_[static_cast<std::size_t>(box)];
+        const AlignedBox& b = boxes_[box];
         return 0.5 * (b.low + b.high);
     }
 
     const std::vector<AlignedBox>& boxes_;
     BoxTree& tree_;
 };
-
-// Calls visit(leaf) for every leaf whose box is met, until it returns false.
-void walk(const BoxTree& tree, const AlignedBox& box, const auto& visit)
-{
-    std::vector<int> open;
-    if (!tree.nodes.empty()) {
-        open.push_back(0);
-    }
-    while (!open.empty()) {
-        const int at = open.back();
-        open.pop_back();
-        const BoxTree::Node& node = tree.nodes[static_cast<std::size_t>(at)];
-        if (!node.box.meets(box)) {
-            continue;
-        }
-        if (node.right < 0) {
-            if (!visit(node)) {
-                return;
-            }
-        } else {
-            open.push_back(node.right);
-            open.push_back(at + 1);
-        }
-    }
-}
 
 } // namespace
 
@@ -99,22 +70,11 @@ BoxTree tree_over(const std::vector<AlignedBox>& boxes)
 void find_near(const BoxTree& tree, const AlignedBox& box, std::vector<int>& found)
 {
     found.clear();
-    walk(tree, box, [&](const BoxTree::Node& leaf) {
-        const auto begin = tree.order.begin() + leaf.first;
-        found.insert(found.end(), begin, begin + leaf.count);
-        return true;
-    });
-    std::sort(found.begin(), found.end());
-}
-
-bool any_near(const BoxTree& tree, const AlignedBox& box)
-{
-    bool any = false;
-    walk(tree, box, [&](const BoxTree::Node&) {
-        any = true;
+    any_of_near(tree, box, [&](int k) {
+        found.push_back(k);
         return false;
     });
-    return any;
+    std::sort(found.begin(), found.end());
 }
 
 } // namespace hyoryu

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Broad phase: sweeps bounding boxes through a box tree and joins bodies that may meet by
-// union-find.
 #include "broad_phase.hpp"
 
 #include "compound.hpp"
@@ -10,7 +8,6 @@
 #include "hyoryu/core/parallel.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace hyoryu {
@@ -85,7 +82,7 @@ std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<d
         std::vector<int> near;
         const int first = static_cast<int>(block) * bodies_per_block;
         for (int a = first; a < std::min(n, first + bodies_per_block); ++a) {
-            add_pairs_of(context, a, boxes, tree, near, of_block[static_cast<std::size_t>(block)]);
+            add_pairs_of(context, a, boxes, tree, near, of_block[block]);
         }
     });
     std::vector<BodyPair> pairs;
@@ -93,24 +90,6 @@ std::vector<BodyPair> body_pairs(const StepContext& context, const std::vector<d
         pairs.insert(pairs.end(), some.begin(), some.end());
     }
     return pairs;
-}
-
-// How far the solid reaches from the origin of its axes against the direction n.
-double reach_against(const Solid& solid, const SolidPose& pose, const Vec3& n)
-{
-    const Vec3 local = pose.R.transpose() * n;
-    if (solid.form == Form::ball) {
-        return solid.radius;
-    }
-    if (solid.form == Form::rod) {
-        return solid.half_length * std::abs(local.x()) +
-               solid.radius * std::hypot(local.y(), local.z());
-    }
-    double reach = -infinity;
-    for (const int corner : solid.extremes) {
-        reach = std::max(reach, -local.dot(solid.corners[corner]));
-    }
-    return reach;
 }
 
 bool may_touch(const StepContext& context, int body, const ContactWall& wall, double margin)
@@ -124,12 +103,14 @@ bool may_touch(const StepContext& context, int body, const ContactWall& wall, do
     const Vec3 shift = displacement(wall.motion, context.start);
     if (wall.plane) {
         const Vec3 origin = pose_of_shape(solid, pose).x;
+        const Vec3 against = -(pose.R.transpose() * wall.plane->normal);
         return wall.plane->normal.dot(origin - wall.plane->point - shift) <
-               reach_against(solid, pose, wall.plane->normal) + room;
+               support(solid, against) + room;
     }
     if (!wall.mesh.triangles.empty()) {
         const AlignedBox box = box_of(solid, pose, room + thick);
-        return any_near(wall.mesh.tree, {box.low - shift, box.high - shift});
+        return any_of_near(wall.mesh.tree, {box.low - shift, box.high - shift},
+                           [](int) { return true; });
     }
     const SolidPose there{wall.pose.x + shift, wall.pose.q, wall.pose.R};
     const AlignedBox box = box_of(solid, pose, room + thick);

@@ -27,7 +27,7 @@ constexpr double updates_of_product = 0.5;
 
 int place_of(const BlockWork& work, int body)
 {
-    return body >= 0 ? work.place[static_cast<std::size_t>(body)] : -1;
+    return body >= 0 ? work.place[body] : -1;
 }
 
 // Numbers the movable bodies.
@@ -35,13 +35,13 @@ void number_bodies(std::span<const Row> rows, const std::vector<Response>& bodie
 {
     work.place.resize(bodies.size(), -1);
     for (const int body : work.members) {
-        work.place[static_cast<std::size_t>(body)] = -1;
+        work.place[body] = -1;
     }
     work.members.clear();
     for (const Row& row : rows) {
         for (const int body : {row.a, row.b}) {
             if (body >= 0 && bodies[body].movable && place_of(work, body) < 0) {
-                work.place[static_cast<std::size_t>(body)] = static_cast<int>(work.members.size());
+                work.place[body] = static_cast<int>(work.members.size());
                 work.members.push_back(body);
             }
         }
@@ -99,10 +99,10 @@ void answer(const SolverWork& work, const Eigen::VectorXd& x, std::vector<Vec6>&
         const auto [a, b] = work.blocks.ends[m];
         const double p = x[static_cast<Index>(m)];
         if (a >= 0) {
-            velocities[static_cast<std::size_t>(a)] += p * work.unknowns[m].response_a;
+            velocities[a] += p * work.unknowns[m].response_a;
         }
         if (b >= 0) {
-            velocities[static_cast<std::size_t>(b)] += p * work.unknowns[m].response_b;
+            velocities[b] += p * work.unknowns[m].response_b;
         }
     }
 }
@@ -112,8 +112,8 @@ double seen(const SolverWork& work, std::size_t m, const std::vector<Vec6>& velo
 {
     const auto [a, b] = work.blocks.ends[m];
     double u = 0;
-    u += a >= 0 ? work.unknowns[m].jacobian_a.dot(velocities[static_cast<std::size_t>(a)]) : 0;
-    u += b >= 0 ? work.unknowns[m].jacobian_b.dot(velocities[static_cast<std::size_t>(b)]) : 0;
+    u += a >= 0 ? work.unknowns[m].jacobian_a.dot(velocities[a]) : 0;
+    u += b >= 0 ? work.unknowns[m].jacobian_b.dot(velocities[b]) : 0;
     return u;
 }
 
@@ -166,8 +166,8 @@ void order_bodies(std::span<const Row> rows, const std::vector<Response>& bodies
     blocks.pairs.erase(same.begin(), same.end());
     order(blocks.matrix, static_cast<int>(blocks.members.size()), blocks.pairs);
     for (const int body : blocks.members) {
-        int& place = blocks.place[static_cast<std::size_t>(body)];
-        place = blocks.matrix.step_of[static_cast<std::size_t>(place)];
+        int& place = blocks.place[body];
+        place = blocks.matrix.step_of[place];
     }
 }
 

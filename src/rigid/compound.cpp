@@ -110,25 +110,21 @@ bool face_is_open(const Solid& whole, const Solid& part, int f, const Vec3& poin
     if (whole.form != Form::compound) {
         return true;
     }
-    const Face& face = part.faces[static_cast<std::size_t>(f)];
+    const Face& face = part.faces[f];
     const double aside = look_aside * whole.reach;
     const Vec3 foot = point - (face.normal.dot(point) - face.offset) * face.normal;
     const Vec3 u = face.sides.front().normal;
     const Vec3 w = face.normal.cross(u);
     Vec3 centre = Vec3::Zero();
     for (const int corner : face.corners) {
-        centre += part.corners[static_cast<std::size_t>(corner)];
+        centre += part.corners[corner];
     }
     centre /= static_cast<double>(face.corners.size());
     // four points around the foot, and one towards the centre of the face for acute corners
     for (const Vec3& d : {Vec3(u + 0.9 * w), Vec3(w - 0.9 * u), Vec3(-u - 0.9 * w),
                           Vec3(0.9 * u - w), Vec3((centre - foot).normalized())}) {
         const Vec3 p = foot + aside * d;
-        const bool on_face =
-            std::all_of(face.sides.begin(), face.sides.end(), [&](const Side& side) {
-                return side.normal.dot(p) - side.offset < aside / 2;
-            });
-        if (on_face && !covered(whole, part, face, p)) {
+        if (past_sides(face, p) < aside / 2 && !covered(whole, part, face, p)) {
             return true;
         }
     }

@@ -222,25 +222,6 @@ void invert(Cone& cone)
     }
 }
 
-Vec3 onto_cone(Vec3 p, double mu, int size)
-{
-    if (size == 1) {
-        return {std::max(p[0], 0.0), 0, 0};
-    }
-    p[2] = size == 3 ? p[2] : 0;
-    const double t = p.tail<2>().norm();
-    if (t <= mu * p[0]) {
-        return p;
-    }
-    if (mu * t <= -p[0]) {
-        return Vec3::Zero();
-    }
-    const double n = (p[0] + mu * t) / (1 + mu * mu);
-    p.tail<2>() *= mu * n / t;
-    p[0] = n;
-    return p;
-}
-
 namespace {
 
 ConeImpulse impulse_by(const Cone& cone, const Vec3& b, const Vec3& guess, int steps)

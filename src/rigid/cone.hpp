@@ -33,7 +33,4 @@ ConeImpulse cone_impulse(const Cone& cone, const Vec3& b, const Vec3& guess);
 /// sweeps. The exact impulse is its only fixed point.
 ConeImpulse nearer_impulse(const Cone& cone, const Vec3& b, const Vec3& guess);
 
-/// The nearest point of the friction cone |p_t| <= mu p_n; components beyond `size` become zero.
-Vec3 onto_cone(Vec3 p, double mu, int size);
-
 } // namespace hyoryu

@@ -61,10 +61,10 @@ Deal deal_out(const ContactMemory& memory, const std::vector<Outcome*>& outcomes
 
 // The state of a body after the step.
 struct BodyOutcome {
-    Vec3 position{0, 0, 0};              // [m]
-    std::array<double, 4> orientation{}; // x, y, z, w
-    Vec3 velocity{0, 0, 0};              // [m/s]
-    Vec3 angular_momentum{0, 0, 0};      // [kg m2/s]
+    Vec3 position{0, 0, 0}; // [m]
+    Quat orientation = Quat::Identity();
+    Vec3 velocity{0, 0, 0};         // [m/s]
+    Vec3 angular_momentum{0, 0, 0}; // [kg m2/s]
     Deviation deviation;
     double work = 0; // [updates of rows]
 };
@@ -74,21 +74,19 @@ BodyOutcome outcome_of(const StepContext& context, int k)
     const ContactMemory& memory = context.memory;
     const Body& body = context.rigid.bodies[at(k)];
     const SolidPose& pose = memory.poses[at(k)];
-    BodyOutcome outcome{.position = pose.x,
-                        .velocity = body.velocity,
-                        .angular_momentum = body.angular_momentum,
-                        .deviation = memory.deviations[at(k)],
-                        .work = memory.work_of[at(k)]};
-    std::ranges::copy(pose.q.coeffs(), outcome.orientation.begin());
-    return outcome;
+    return {.position = pose.x,
+            .orientation = pose.q,
+            .velocity = body.velocity,
+            .angular_momentum = body.angular_momentum,
+            .deviation = memory.deviations[at(k)],
+            .work = memory.work_of[at(k)]};
 }
 
 void take(const StepContext& context, int k, const BodyOutcome& outcome)
 {
     ContactMemory& memory = context.memory;
     Body& body = context.rigid.bodies[at(k)];
-    const auto& [x, y, z, w] = outcome.orientation;
-    memory.poses[at(k)] = pose_of(outcome.position, Quat(w, x, y, z));
+    memory.poses[at(k)] = pose_of(outcome.position, outcome.orientation);
     body.velocity = outcome.velocity;
     body.angular_momentum = outcome.angular_momentum;
     memory.work_of[at(k)] = outcome.work;

@@ -8,7 +8,6 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -33,11 +32,6 @@ constexpr double left_by_corrections = 1e-13;
 
 // A factorisation of n unknowns costs as much as n^3 over this number of updates of rows.
 constexpr double factored_in_an_update = 250;
-
-double cubed(double x)
-{
-    return x * x * x;
-}
 
 int unknowns(const Row& row, int state)
 {
@@ -224,7 +218,8 @@ void solve_orthogonally(SolverWork& work)
 bool solve_densely(std::span<const Row> rows, SolverWork& work)
 {
     assemble(rows, work);
-    work.updates += cubed(static_cast<double>(work.W.rows())) / factored_in_an_update;
+    const auto n = static_cast<double>(work.W.rows());
+    work.updates += n * n * n / factored_in_an_update;
     if (work.W.size() > 0 && !solve_shifted(work)) {
         solve_orthogonally(work);
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "friction_patches.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

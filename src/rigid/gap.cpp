@@ -78,7 +78,7 @@ Touch round_touch(const Feature& feature, const Configuration& at)
     const PlacedSolid ball = placed(at, ball_is_a ? feature.a : feature.b);
     const PlacedSolid other = placed(at, ball_is_a ? feature.b : feature.a);
     const Mat3& R = other.pose.R;
-    const Solid& part = convex_parts(other.solid)[static_cast<std::size_t>(feature.f)];
+    const Solid& part = convex_parts(other.solid)[feature.f];
     const Vec3 centre = R.transpose() * (ball.pose.x - other.pose.x);
     const Touch local =
         feature.k > 0 ? over_face(part.faces[feature.k - 1], centre) : nearest(part, centre);

@@ -171,10 +171,10 @@ std::vector<Outcome> groups_of(const StepContext& context, const Cluster& cluste
             index = static_cast<int>(groups.size());
             groups.emplace_back();
         }
-        groups[static_cast<std::size_t>(index)].cluster.bodies.push_back(k);
+        groups[index].cluster.bodies.push_back(k);
     }
     const auto group_of = [&](int body) -> Outcome& {
-        return groups[static_cast<std::size_t>(memory.island_of_root[root_of(parents, body)])];
+        return groups[memory.island_of_root[root_of(parents, body)]];
     };
     for (const BodyPair& pair : cluster.pairs) {
         const bool moves = memory.rotors[pair.a].movable;

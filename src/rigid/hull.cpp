@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points, for bodies that come as meshes.
 #include "hyoryu/rigid/body.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ struct HullFace {
 
 HullFace make_face(const std::vector<Vec3>& p, int a, int b, int c)
 {
-    const auto at = [&](int k) { return p[static_cast<std::size_t>(k)]; };
+    const auto at = [&](int k) { return p[k]; };
     const Vec3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
     return {{a, b, c}, normal, normal.dot(at(a))};
 }
@@ -29,7 +28,7 @@ int farthest_along(const std::vector<Vec3>& p, const F& f)
 {
     int best = 0;
     for (int k = 1; k < static_cast<int>(p.size()); ++k) {
-        if (f(p[static_cast<std::size_t>(k)]) > f(p[static_cast<std::size_t>(best)])) {
+        if (f(p[k]) > f(p[best])) {
             best = k;
         }
     }
@@ -39,7 +38,7 @@ int farthest_along(const std::vector<Vec3>& p, const F& f)
 // Four points that span as much as a greedy choice finds.
 std::vector<HullFace> first_tetrahedron(const std::vector<Vec3>& p)
 {
-    const auto at = [&](int k) { return p[static_cast<std::size_t>(k)]; };
+    const auto at = [&](int k) { return p[k]; };
     const int a = farthest_along(p, [](const Vec3& x) { return x.x(); });
     const int b = farthest_along(p, [&](const Vec3& x) { return (x - at(a)).squaredNorm(); });
     const Vec3 line = (at(b) - at(a)).normalized();
@@ -69,7 +68,7 @@ constexpr double rounding = 1e-13;
 // flat side would be replaced, and the hull would not be closed.
 void add_point(const std::vector<Vec3>& p, int point, double size, std::vector<HullFace>& faces)
 {
-    const Vec3& x = p[static_cast<std::size_t>(point)];
+    const Vec3& x = p[point];
     const auto above = [&](const HullFace& face) { return face.normal.dot(x) - face.offset; };
     const auto sees = [&](const HullFace& face) { return above(face) > rounding * size; };
     if (std::ranges::none_of(faces,
@@ -142,7 +141,7 @@ Polytope convex_hull(const std::vector<Vec3>& points)
         for (const int k : outline({coplanar, faces.end()})) {
             const auto known = number.try_emplace(k, static_cast<int>(number.size())).first;
             if (known->second == static_cast<int>(hull.corners.size())) {
-                hull.corners.push_back(points[static_cast<std::size_t>(k)]);
+                hull.corners.push_back(points[k]);
             }
             face.push_back(known->second);
         }

@@ -3,7 +3,6 @@
 #include "impact_law.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 

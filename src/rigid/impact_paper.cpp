@@ -3,7 +3,6 @@
 #include "impact_law.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 namespace hyoryu {
@@ -96,7 +95,7 @@ double paper_round(const StepContext& context, Round& round)
             }
         }
         for (const Row* row : face) {
-            done[static_cast<std::size_t>(row - rows.data())] = true;
+            done[row - rows.data()] = true;
         }
         strike(face, round, context);
     }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Contact manifolds of polytopes: corners and edge crossings of the overlap of two faces, or one
-// pair of edges.
 #include "manifold.hpp"
 #include "tolerances.hpp"
 
@@ -37,16 +35,6 @@ struct FaceMeeting {
 Vec3 seen_from(const PlacedSolid& frame, const PlacedSolid& other, const Vec3& point)
 {
     return frame.pose.R.transpose() * (other.pose.x + other.pose.R * point - frame.pose.x);
-}
-
-// The largest distance past a side of the face; negative inside.
-double past_sides(const Face& face, const Vec3& p)
-{
-    double past = -infinity;
-    for (const Side& side : face.sides) {
-        past = std::max(past, side.normal.dot(p) - side.offset);
-    }
-    return past;
 }
 
 int deepest_corner(const Solid& solid, const Vec3& n)

@@ -12,12 +12,6 @@ namespace {
 
 using std::numbers::pi;
 
-// I = tr(J) E - J of the second moments J = integral of x x^T.
-Mat3 inertia_of_moments(const Mat3& J)
-{
-    return J.trace() * Mat3::Identity() - J;
-}
-
 // Sums of mass, first and second moments over simplices.
 struct Moments {
     double mass = 0;
@@ -32,10 +26,12 @@ struct Moments {
                 second + mixed + mixed.transpose() + mass * d * d.transpose()};
     }
 
+    // I = tr(J) E - J of the second moments J = integral of x x^T.
     MassProperties about_centre() const
     {
         const Vec3 centre = first / mass;
-        return {mass, inertia_of_moments(second - mass * centre * centre.transpose())};
+        const Mat3 J = second - mass * centre * centre.transpose();
+        return {mass, J.trace() * Mat3::Identity() - J};
     }
 };
 
@@ -101,7 +97,7 @@ Moments moments_about(const Vec3& inside, const Polytope& polytope, double densi
     const auto& c = polytope.corners;
     Moments sums;
     if (dimensions == 2) {
-        for (const auto& edge : polygon_edges(polytope)) {
+        for (const auto& edge : faces_of(polytope, dimensions)) {
             add_triangle(sums, c[edge[0]] - inside, c[edge[1]] - inside, density);
         }
         return sums;

@@ -4,7 +4,6 @@
 #include "hyoryu/core/error.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -98,15 +97,20 @@ Vec3 acceleration(const StepContext& context, int body)
                                      context.loads[body].force);
 }
 
+void set_response(const StepContext& context, int body)
+{
+    const Body& now = context.rigid.bodies[body];
+    Response& response = context.memory.responses[body];
+    response.inverse_inertia =
+        inverse_inertia(context.memory.rotors[body], context.memory.poses[body].R);
+    response.v = now.velocity;
+    response.omega = response.inverse_inertia * now.angular_momentum;
+}
+
 void set_responses(const StepContext& context, const Cluster& cluster)
 {
     for (const int k : cluster.bodies) {
-        const Body& body = context.rigid.bodies[k];
-        Response& response = context.memory.responses[k];
-        response.inverse_inertia =
-            inverse_inertia(context.memory.rotors[k], context.memory.poses[k].R);
-        response.v = body.velocity;
-        response.omega = response.inverse_inertia * body.angular_momentum;
+        set_response(context, k);
     }
 }
 
@@ -114,13 +118,9 @@ double separation_speed(const ContactMemory& memory, const Candidate& contact, d
 {
     const Feature& feature = contact.feature;
     const Touch& touch = contact.touch;
-    const auto at_point = [&](int k) {
-        const Response& body = memory.responses[k];
-        return Vec3(body.v + body.omega.cross(touch.point - memory.poses[k].x));
-    };
-    const Vec3 other =
-        feature.b >= 0 ? at_point(feature.b) : wall_velocity(memory, feature.b, time);
-    return touch.normal.dot(at_point(feature.a) - other);
+    const Vec3 other = feature.b >= 0 ? velocity_at(memory, feature.b, touch.point)
+                                      : wall_velocity(memory, feature.b, time);
+    return touch.normal.dot(velocity_at(memory, feature.a, touch.point) - other);
 }
 
 ContactStart contact_start(const Rigid& rigid)

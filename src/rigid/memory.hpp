@@ -166,8 +166,16 @@ const ContactLaws::Law& law_of(const Rigid& rigid, int a, int b);
 /// Acceleration of a body under gravity and its load, without locked axes.
 Vec3 acceleration(const StepContext& context, int body);
 
-/// Sets V, omega and the inverse inertia of the bodies of a cluster as they are now.
+/// Sets V, omega and the inverse inertia of a body, or of those of a cluster, as they are now.
+void set_response(const StepContext& context, int body);
 void set_responses(const StepContext& context, const Cluster& cluster);
+
+/// Velocity of a point of a body, from its response and its pose [m/s].
+inline Vec3 velocity_at(const ContactMemory& memory, int body, const Vec3& point)
+{
+    const Response& now = memory.responses[body];
+    return now.v + now.omega.cross(point - memory.poses[body].x);
+}
 
 /// Normal velocity of separation of a contact, from the responses and poses of `time` [m/s].
 double separation_speed(const ContactMemory& memory, const Candidate& contact, double time);

@@ -5,7 +5,6 @@
 #include "tolerances.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace hyoryu {
@@ -137,17 +136,8 @@ private:
         lowest_ = infinity;
         Feature f = feature(FeatureKind::rim_low);
         f.f = triangle.patch;
-        for (f.i = 0; f.i < 2; ++f.i) {
-            add_rim(f, triangle);
-        }
-        const double upright = pose_.R.col(0).dot(patch.normal);
-        if (std::abs(upright) > standing) {
-            f.kind = FeatureKind::corner_plane;
-            for (const int corner : solid_.faces[upright > 0 ? 0 : 1].corners) {
-                f.i = corner;
-                add_rim(f, triangle);
-            }
-        }
+        for_low_features(f, solid_, pose_.R.col(0).dot(patch.normal),
+                         [&](const Feature& low) { add_rim(low, triangle); });
         for (std::size_t k = 0; k < 3; ++k) {
             if (triangle.crease[k] >= 0) {
                 rod_on(triangle, triangle.crease[k]);

@@ -7,7 +7,6 @@
 #include "tolerances.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -95,14 +94,10 @@ private:
         if (!c.sharp) {
             return;
         }
-        const Vec3 p = in_body(c.point);
+        const Vec3 p = in_frame(part_.pose, c.point);
         for (std::size_t f = 0; f < part_.solid.faces.size(); ++f) {
-            const Face& face = part_.solid.faces[f];
-            const bool under =
-                std::all_of(face.sides.begin(), face.sides.end(), [&](const Side& side) {
-                    return side.normal.dot(p) - side.offset <= rim_tolerance * part_.solid.reach;
-                });
-            if (under && in_cone(mesh_, c, -part_.normals[f]) &&
+            if (past_sides(part_.solid.faces[f], p) <= rim_tolerance * part_.solid.reach &&
+                in_cone(mesh_, c, -part_.normals[f]) &&
                 face_is_open(part_.whole, part_.solid, static_cast<int>(f), p)) {
                 Feature found = feature(FeatureKind::face_corner);
                 found.i = corner;
@@ -130,7 +125,7 @@ private:
             const double t = (q - p).cross(u).dot(cross) / sq(length);
             const bool within = std::min(s, t) > edge_end && std::max(s, t) < 1 - edge_end;
             if (within && in_cone(crease, n) && rests_on(part_, edge, n, lying_flat) &&
-                edge_is_open(part_.whole, part_.solid, edge, in_body(p + s * u))) {
+                edge_is_open(part_.whole, part_.solid, edge, in_frame(part_.pose, p + s * u))) {
                 Feature found = feature(FeatureKind::edge_crease);
                 found.i = part_.solid.first_corner + edge.i;
                 found.j = part_.solid.first_corner + edge.j;
@@ -169,8 +164,6 @@ private:
         }
         return inwards;
     }
-
-    Vec3 in_body(const Vec3& p) const { return part_.pose.R.transpose() * (p - part_.pose.x); }
 
     const BodyPair& pair_;
     const Configuration& at_;

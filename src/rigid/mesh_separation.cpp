@@ -3,7 +3,6 @@
 #include "tolerances.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Builds the tables of a mesh: merges coplanar triangles into patches and finds creases and
-// corners.
 #include "mesh_table.hpp"
 
-#include <algorithm>
+#include "hyoryu/core/triangle_sides.hpp"
+
 #include <cmath>
 #include <span>
 #include <utility>
@@ -21,18 +20,6 @@ constexpr double flat_angle = 1e-3;
 constexpr double straight = 1e-6;
 // Slack of a cone of normals, as the cosine with its boundary.
 constexpr double cone_slack = 1e-6;
-
-// One side of an edge.
-struct EdgeSide {
-    int i = 0, j = 0; // corners, i < j
-    int triangle = 0;
-    auto operator<=>(const EdgeSide&) const = default;
-};
-
-std::pair<int, int> edge_of(const std::array<int, 3>& triangle, std::size_t k)
-{
-    return std::minmax(triangle[k], triangle[(k + 1) % 3]);
-}
 
 class MeshTableBuilder {
 public:
@@ -77,32 +64,20 @@ private:
     // The sides of all edges, edge by edge, and where those of each edge of a triangle begin.
     void sort_sides()
     {
-        sides_.reserve(3 * triangles_.size());
-        for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto [i, j] = edge_of(triangles_[t], k);
-                sides_.push_back({i, j, static_cast<int>(t)});
-            }
-        }
-        std::sort(sides_.begin(), sides_.end());
+        sides_ = sorted_sides(triangles_);
         edge_.resize(triangles_.size());
-        for_edges([&](std::span<const EdgeSide> both) {
-            for (const EdgeSide& side : both) {
-                const auto& t = triangles_[at(side.triangle)];
-                for (std::size_t k = 0; k < 3; ++k) {
-                    if (edge_of(t, k) == std::pair(side.i, side.j)) {
-                        edge_[at(side.triangle)][k] = static_cast<int>(both.data() - sides_.data());
-                    }
-                }
+        for_edges([&](std::span<const TriangleSide> both) {
+            for (const TriangleSide& s : both) {
+                edge_[at(s.triangle)][at(s.side)] = static_cast<int>(both.data() - sides_.data());
             }
         });
     }
 
-    std::span<const EdgeSide> sides_from(std::size_t first) const
+    std::span<const TriangleSide> sides_from(std::size_t first) const
     {
         std::size_t last = first;
-        while (last < sides_.size() && sides_[last].i == sides_[first].i &&
-               sides_[last].j == sides_[first].j) {
+        while (last < sides_.size() && sides_[last].low == sides_[first].low &&
+               sides_[last].high == sides_[first].high) {
             ++last;
         }
         return std::span(sides_).subspan(first, last - first);
@@ -112,7 +87,7 @@ private:
     void for_edges(const auto& visit) const
     {
         for (std::size_t k = 0; k < sides_.size();) {
-            const std::span<const EdgeSide> both = sides_from(k);
+            const std::span<const TriangleSide> both = sides_from(k);
             visit(both);
             k += both.size();
         }
@@ -149,8 +124,8 @@ private:
             const std::size_t t = at(open.back());
             open.pop_back();
             for (std::size_t k = 0; k < 3; ++k) {
-                const std::span<const EdgeSide> both = sides_from(at(edge_[t][k]));
-                for (const auto& [i, j, other] : both) {
+                const std::span<const TriangleSide> both = sides_from(at(edge_[t][k]));
+                for (const auto& [low, high, other, side] : both) {
                     const auto& o = triangles_[at(other)];
                     const bool fits =
                         patch_[at(other)] < 0 && both.size() == 2 &&
@@ -186,15 +161,9 @@ private:
     }
 
     // The direction from an edge into a triangle.
-    Vec3 into(int triangle, const std::pair<int, int>& edge) const
+    Vec3 into(const TriangleSide& s) const
     {
-        const FlatTriangle& t = mesh_.triangles[at(triangle)];
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (edge_of(t.corner, k) == edge) {
-                return -t.sideways[k];
-            }
-        }
-        return Vec3::Zero();
+        return -mesh_.triangles[at(s.triangle)].sideways[at(s.side)];
     }
 
     void grow_tree()
@@ -214,9 +183,9 @@ private:
     // Corners along the edges of each corner, in the order of the edges.
     void find_neighbours()
     {
-        for_edges([&](std::span<const EdgeSide> both) {
-            ++mesh_.corners[at(both[0].i)].count;
-            ++mesh_.corners[at(both[0].j)].count;
+        for_edges([&](std::span<const TriangleSide> both) {
+            ++mesh_.corners[at(both[0].low)].count;
+            ++mesh_.corners[at(both[0].high)].count;
         });
         int first = 0;
         for (MeshCorner& corner : mesh_.corners) {
@@ -227,24 +196,24 @@ private:
         const auto add = [&](MeshCorner& corner, int end) {
             mesh_.neighbours[at(corner.first + corner.count++)] = end;
         };
-        for_edges([&](std::span<const EdgeSide> both) {
-            add(mesh_.corners[at(both[0].i)], both[0].j);
-            add(mesh_.corners[at(both[0].j)], both[0].i);
+        for_edges([&](std::span<const TriangleSide> both) {
+            add(mesh_.corners[at(both[0].low)], both[0].high);
+            add(mesh_.corners[at(both[0].high)], both[0].low);
         });
     }
 
-    bool within_a_patch(std::span<const EdgeSide> both) const
+    bool within_a_patch(std::span<const TriangleSide> both) const
     {
         return both.size() == 2 && patch_[at(both[0].triangle)] == patch_[at(both[1].triangle)];
     }
 
-    Crease crease_of(std::span<const EdgeSide> both) const
+    Crease crease_of(std::span<const TriangleSide> both) const
     {
-        const int a = both.front().triangle;
-        const int b = both.back().triangle;
-        const std::pair edge(both[0].i, both[0].j);
-        Crease crease{edge.first, edge.second, into(a, edge), into(b, edge)};
-        crease.outward = both.size() == 1 ? Vec3(-crease.left) : Vec3(normal_of(a) + normal_of(b));
+        const TriangleSide& a = both.front();
+        const TriangleSide& b = both.back();
+        Crease crease{a.low, a.high, into(a), into(b)};
+        crease.outward = both.size() == 1 ? Vec3(-crease.left)
+                                          : Vec3(normal_of(a.triangle) + normal_of(b.triangle));
         return crease;
     }
 
@@ -253,7 +222,7 @@ private:
         return mesh_.patches[at(patch_[at(triangle)])].normal;
     }
 
-    bool is_convex(std::span<const EdgeSide> both) const
+    bool is_convex(std::span<const TriangleSide> both) const
     {
         return !within_a_patch(both) &&
                (both.size() == 1 ||
@@ -263,24 +232,20 @@ private:
     void find_creases()
     {
         std::size_t count = 0;
-        for_edges([&](std::span<const EdgeSide> both) { count += is_convex(both) ? 1 : 0; });
+        for_edges([&](std::span<const TriangleSide> both) { count += is_convex(both) ? 1 : 0; });
         mesh_.creases.reserve(count);
-        for_edges([&](std::span<const EdgeSide> both) {
+        for_edges([&](std::span<const TriangleSide> both) {
             if (is_convex(both)) {
                 note(both);
             }
         });
     }
 
-    void note(std::span<const EdgeSide> both)
+    void note(std::span<const TriangleSide> both)
     {
-        for (const EdgeSide& side : both) {
-            FlatTriangle& triangle = mesh_.triangles[at(side.triangle)];
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (edge_of(triangle.corner, k) == std::pair(side.i, side.j)) {
-                    triangle.crease[k] = static_cast<int>(mesh_.creases.size());
-                }
-            }
+        for (const TriangleSide& s : both) {
+            mesh_.triangles[at(s.triangle)].crease[at(s.side)] =
+                static_cast<int>(mesh_.creases.size());
         }
         mesh_.creases.push_back(crease_of(both));
     }
@@ -296,10 +261,10 @@ private:
             Ends& known = ends[at(corner)];
             known.corner[at(std::min(known.count++, 1))] = end;
         };
-        for_edges([&](std::span<const EdgeSide> both) {
+        for_edges([&](std::span<const TriangleSide> both) {
             if (!within_a_patch(both)) {
-                add(both[0].i, both[0].j);
-                add(both[0].j, both[0].i);
+                add(both[0].low, both[0].high);
+                add(both[0].high, both[0].low);
             }
         });
         for (std::size_t k = 0; k < ends.size(); ++k) {
@@ -315,7 +280,7 @@ private:
     MeshTable mesh_;
     std::vector<std::array<int, 3>> triangles_;
     AlignedBox bounds_;
-    std::vector<EdgeSide> sides_;
+    std::vector<TriangleSide> sides_;
     std::vector<std::array<int, 3>> edge_; // of a triangle: where the sides of its edges begin
     std::vector<int> patch_;
 };

@@ -4,7 +4,6 @@
 #include "tolerances.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -15,12 +14,6 @@ struct Line {
     Vec3 from{0, 0, 0};
     Vec3 along{0, 0, 0};
 };
-
-Line line_of(const MeshTable& mesh, const Crease& crease, const Vec3& shift)
-{
-    const Vec3& a = mesh.corners[hyoryu::at(crease.i)].point;
-    return {a + shift, mesh.corners[hyoryu::at(crease.j)].point - a};
-}
 
 Touch edge_on_crease(const Feature& feature, const PlacedSolid& a, const Line& line,
                      const Crease& crease)
@@ -69,7 +62,8 @@ Touch mesh_touch(const Feature& feature, const Configuration& at)
         return ball_on_point(a, wall.mesh.corners[hyoryu::at(feature.i)].point + shift);
     }
     const Crease& crease = wall.mesh.creases[hyoryu::at(feature.k)];
-    const Line line = line_of(wall.mesh, crease, shift);
+    const Vec3& end = wall.mesh.corners[hyoryu::at(crease.i)].point;
+    const Line line{end + shift, wall.mesh.corners[hyoryu::at(crease.j)].point - end};
     if (feature.kind == FeatureKind::edge_crease) {
         return edge_on_crease(feature, a, line, crease);
     }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Narrow phase: chooses the algorithm for the shapes of a pair and collects its contact candidates.
 #include "narrow_phase.hpp"
 #include "compound.hpp"
 #include "covered.hpp"
 #include "manifold.hpp"
 #include "mesh_contact.hpp"
 #include "rod_contact.hpp"
+#include "rod_touch.hpp"
 #include "separation.hpp"
-#include "tolerances.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -21,23 +19,6 @@ void add(const Feature& feature, const Configuration& at, std::vector<Candidate>
     found.push_back({feature, touch_of(feature, at)});
 }
 
-void rod_on_plane(Feature feature, const Vec3& normal, const Configuration& at,
-                  std::vector<Candidate>& found)
-{
-    feature.kind = FeatureKind::rim_low;
-    for (feature.i = 0; feature.i < 2; ++feature.i) {
-        add(feature, at, found);
-    }
-    const double upright = at.poses[feature.a].R.col(0).dot(normal);
-    if (std::abs(upright) > standing) {
-        feature.kind = FeatureKind::corner_plane;
-        for (const int corner : at.geometry.solids[feature.a].faces[upright > 0 ? 0 : 1].corners) {
-            feature.i = corner;
-            add(feature, at, found);
-        }
-    }
-}
-
 void on_plane(const BodyPair& pair, const Configuration& at, std::vector<Candidate>& found)
 {
     const Solid& solid = at.geometry.solids[pair.a];
@@ -46,7 +27,9 @@ void on_plane(const BodyPair& pair, const Configuration& at, std::vector<Candida
         feature.kind = FeatureKind::ball_plane;
         add(feature, at, found);
     } else if (solid.form == Form::rod) {
-        rod_on_plane(feature, at.geometry.walls[-1 - pair.b].plane->normal, at, found);
+        const Vec3& normal = at.geometry.walls[-1 - pair.b].plane->normal;
+        for_low_features(feature, solid, at.poses[pair.a].R.col(0).dot(normal),
+                         [&](const Feature& low) { add(low, at, found); });
     } else {
         for (const int corner : solid.extremes) {
             feature.i = corner;

@@ -51,10 +51,7 @@ Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& p)
 Vec3 nearest_on_face(const Solid& solid, const Face& face, const Vec3& p)
 {
     const Vec3 foot = p - (face.normal.dot(p) - face.offset) * face.normal;
-    const bool inside = std::all_of(face.sides.begin(), face.sides.end(), [&](const Side& side) {
-        return side.normal.dot(foot) <= side.offset;
-    });
-    if (inside) {
+    if (past_sides(face, foot) <= 0) {
         return foot;
     }
     Vec3 best = foot;

@@ -150,11 +150,6 @@ std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Ve
     return hull;
 }
 
-PatchRule patch_rule(std::span<const Vec3> points, const Vec3& n, PatchForm form)
-{
-    return patch_rule(points, hull_of(points, n), n, form);
-}
-
 PatchRule patch_rule(std::span<const Vec3> points, std::span<const int> hull, const Vec3& n,
                      PatchForm form)
 {

@@ -39,10 +39,8 @@ std::vector<int> outermost(std::span<const Vec3> points, const Vec3& n, const Ve
 enum class PatchForm { hull, disc };
 
 /// The rule of a patch of contacts at these points [m], in one plane with the unit normal `n`.
-/// Points on one line count as a line of uniform pressure; a single point is its own friction
-/// point.
-PatchRule patch_rule(std::span<const Vec3> points, const Vec3& n, PatchForm form);
-/// The same with the corners of the hull known, by their indices, counter-clockwise about `n`.
+/// `hull`: the corners of their hull by their indices, counter-clockwise about `n`. Points on one
+/// line count as a line of uniform pressure; a single point is its own friction point.
 PatchRule patch_rule(std::span<const Vec3> points, std::span<const int> hull, const Vec3& n,
                      PatchForm form);
 

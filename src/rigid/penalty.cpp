@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The penalty method: spring-dashpot pair forces, integrated by the symplectic Euler scheme.
 #include "penalty.hpp"
 
 #include "penalty_pairs.hpp"
@@ -58,7 +57,7 @@ public:
         const double count = std::max(1.0, std::ceil(context_.dt / parameters_.step * whole));
         const double h = context_.dt / count;
         for (int k = 0; k < static_cast<int>(context_.rigid.bodies.size()); ++k) {
-            refresh(k);
+            set_response(context_, k);
         }
         travelled_ = infinity;
         for (double n = 0; n < count; ++n) {
@@ -88,10 +87,7 @@ private:
         travelled_ += 2 * h * fastest; // two bodies may approach each other
     }
 
-    double reach(int k) const
-    {
-        return context_.rigid.penalty->bodies[static_cast<std::size_t>(k)].reach;
-    }
+    double reach(int k) const { return context_.rigid.penalty->bodies[k].reach; }
 
     // Walls go to where they are at this time.
     void move_walls(double time)
@@ -105,21 +101,6 @@ private:
         travelled_ += farthest;
     }
 
-    void refresh(int k)
-    {
-        const Body& body = context_.rigid.bodies[static_cast<std::size_t>(k)];
-        Response& response = memory_.responses[k];
-        response.inverse_inertia = inverse_inertia(memory_.rotors[k], memory_.poses[k].R);
-        response.v = body.velocity;
-        response.omega = response.inverse_inertia * body.angular_momentum;
-    }
-
-    Vec3 velocity_at(int k, const Vec3& point) const
-    {
-        const Response& body = memory_.responses[k];
-        return body.v + body.omega.cross(point - memory_.poses[k].x);
-    }
-
     void push(const Meeting& meeting, double time, double h)
     {
         const auto [a, b] = meeting.who;
@@ -129,7 +110,7 @@ private:
         for (const ParticlePair& pair : meeting.pairs) {
             const Vec3 xa = memory_.poses[a].x + memory_.poses[a].R * pair.a;
             const Vec3 xb = b >= 0 ? Vec3(memory_.poses[b].x + memory_.poses[b].R * pair.b)
-                                   : Vec3(pair.b + places_[static_cast<std::size_t>(-1 - b)]);
+                                   : Vec3(pair.b + places_[-1 - b]);
             const Vec3 line = xa - xb;
             const double r = line.norm();
             if (r >= meeting.range || r == 0) {
@@ -137,23 +118,23 @@ private:
             }
             const Vec3 n = line / r;
             const Vec3 middle = 0.5 * (xa + xb);
-            const Vec3 u =
-                velocity_at(a, middle) - (b >= 0 ? velocity_at(b, middle) : other_velocity);
+            const Vec3 u = velocity_at(memory_, a, middle) -
+                           (b >= 0 ? velocity_at(memory_, b, middle) : other_velocity);
             const double spring = parameters_.stiffness * (meeting.range - r);
             const double separation = n.dot(u);
             const double F = std::max(0.0, spring - parameters_.damping * separation);
             const Vec3 slip = u - separation * n;
             const double slip_speed = slip.norm();
-            const double friction_offset =
+            const double drag = // friction by speed of sliding [N s/m]
                 slip_speed > 0 ? std::min(parameters_.damping, mu * F / slip_speed) : 0;
             sum.normal += h * F * n;
-            sum.friction -= h * friction_offset * slip;
+            sum.friction -= h * drag * slip;
             sum.point += h * F * middle;
             sum.weight += h * F;
-            sum.lost += h * ((spring - F) * separation + friction_offset * sq(slip_speed));
-            apply(a, middle, F * n - friction_offset * slip);
+            sum.lost += h * ((spring - F) * separation + drag * sq(slip_speed));
+            apply(a, middle, F * n - drag * slip);
             if (b >= 0) {
-                apply(b, middle, friction_offset * slip - F * n);
+                apply(b, middle, drag * slip - F * n);
             }
             double& worst = context_.rigid.counters.worst_penetration;
             worst = std::max(worst, meeting.range - r);
@@ -162,7 +143,7 @@ private:
 
     void apply(int k, const Vec3& point, const Vec3& force)
     {
-        Wrench& push = pushes_[static_cast<std::size_t>(k)];
+        Wrench& push = pushes_[k];
         push.force += force;
         push.torque += (point - memory_.poses[k].x).cross(force);
     }
@@ -174,8 +155,8 @@ private:
         if (!rotor.movable) {
             return;
         }
-        Body& body = context_.rigid.bodies[static_cast<std::size_t>(k)];
-        const Wrench& push = pushes_[static_cast<std::size_t>(k)];
+        Body& body = context_.rigid.bodies[k];
+        const Wrench& push = pushes_[k];
         body.velocity += h * rotor.inverse_mass.cwiseProduct(
                                  body.mass.mass * context_.rigid.settings.gravity + push.force);
         for (int m = 0; m < 3; ++m) {
@@ -183,7 +164,7 @@ private:
         }
         SolidPose& pose = memory_.poses[k];
         pose = pose_of(pose.x + h * body.velocity, turned(rotor, pose.q, body.angular_momentum, h));
-        refresh(k);
+        set_response(context_, k);
     }
 
     double effective_mass(const Contact& contact) const

@@ -106,29 +106,13 @@ void over_near(const Lattice& lattice, const Vec3& p, double range, const auto& 
 void over_near(const ParticleCloud& cloud, const Vec3& p, double range, const auto& put)
 {
     const CellGrid& grid = cloud.grid;
-    std::array<Index, 3> first = grid.cell_of(p - Vec3::Constant(range));
-    std::array<Index, 3> last = grid.cell_of(p + Vec3::Constant(range));
-    for (std::size_t m = 0; m < 3; ++m) {
-        first[m] = std::max<Index>(first[m], 0);
-        last[m] = std::min(last[m], grid.count[m] - 1);
-    }
-    for (Index k = first[2]; k <= last[2]; ++k) {
-        for (Index j = first[1]; j <= last[1]; ++j) {
-            if (first[0] > last[0]) {
-                continue;
-            }
-            const auto row = grid.count[0] * (j + grid.count[1] * k);
-            const auto begin = grid.start[static_cast<std::size_t>(row + first[0])];
-            const auto end = grid.start[static_cast<std::size_t>(row + last[0] + 1)];
-            for (auto slot = begin; slot < end; ++slot) {
-                const Vec3& at = cloud.points[static_cast<std::size_t>(
-                    grid.order[static_cast<std::size_t>(slot)])];
-                if ((at - p).squaredNorm() < sq(range)) {
-                    put(at);
-                }
-            }
+    const Vec3 reach = Vec3::Constant(range);
+    for_points_in(grid, grid.cell_of(p - reach), grid.cell_of(p + reach), [&](std::size_t row) {
+        const Vec3& at = cloud.points[row];
+        if ((at - p).squaredNorm() < sq(range)) {
+            put(at);
         }
-    }
+    });
 }
 
 class Search {
@@ -153,9 +137,9 @@ public:
 
 private:
     bool movable(int k) const { return context_.memory.rotors[k].movable; }
-    bool left(int k) const { return context_.rigid.bodies[static_cast<std::size_t>(k)].left; }
+    bool left(int k) const { return context_.rigid.bodies[k].left; }
     const SolidPose& pose(int k) const { return context_.memory.poses[k]; }
-    const ParticleCloud& cloud(int k) const { return penalty_.bodies[static_cast<std::size_t>(k)]; }
+    const ParticleCloud& cloud(int k) const { return penalty_.bodies[k]; }
 
     void keep(Meeting& meeting)
     {
@@ -166,7 +150,7 @@ private:
 
     void meet_wall(int a, int w)
     {
-        const Boundary& wall = context_.rigid.boundaries[static_cast<std::size_t>(w)];
+        const Boundary& wall = context_.rigid.boundaries[w];
         const int dimensions = context_.rigid.settings.dimensions;
         // Walls are searched at their place at time 0; the body is moved back instead.
         const Vec3 back = -displacement(wall.motion, time_);
@@ -181,7 +165,7 @@ private:
                 pair_up(meeting, lattice_of(*basin, penalty_.wall_spacing, dimensions), back);
             }
         } else {
-            const ParticleCloud& obstacle = penalty_.obstacles[static_cast<std::size_t>(w)];
+            const ParticleCloud& obstacle = penalty_.obstacles[w];
             meeting.range = 0.5 * (cloud(a).spacing + obstacle.spacing);
             pair_up(meeting, obstacle, back);
         }

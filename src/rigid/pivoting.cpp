@@ -28,7 +28,7 @@ struct Complementarity {
 Complementarity without_impulses(std::span<Row> rows, std::vector<Response>& bodies, double shift)
 {
     const auto n = static_cast<Index>(rows.size());
-    const auto row = [&](Index k) -> Row& { return rows[static_cast<std::size_t>(k)]; };
+    const auto row = [&](Index k) -> Row& { return rows[k]; };
     set_impulses(rows, std::vector<Vec3>(rows.size(), Vec3::Zero()), bodies);
     Complementarity c{Eigen::MatrixXd(n, n), Eigen::VectorXd(n), Eigen::VectorXd::Zero(n),
                       std::vector<char>(rows.size(), 0)};
@@ -105,24 +105,16 @@ void find_pressing(Complementarity& c)
 
 double solve_by_pivoting(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
-    work.start.clear();
-    for (const Row& row : rows) {
-        work.start.push_back(row.p);
-    }
     const double left = residual(rows, bodies);
-    Complementarity c = without_impulses(rows, bodies, work.shift);
-    find_pressing(c);
-    std::vector<Vec3> p;
-    for (const double p_n : c.p) {
-        p.emplace_back(std::max(p_n, 0.0), 0, 0);
-    }
-    set_impulses(rows, p, bodies);
-    const double now = residual(rows, bodies);
-    if (now <= left) {
-        return now;
-    }
-    set_impulses(rows, work.start, bodies);
-    return left;
+    return left_by(rows, bodies, work, left, left, [&] {
+        Complementarity c = without_impulses(rows, bodies, work.shift);
+        find_pressing(c);
+        std::vector<Vec3> p;
+        for (const double p_n : c.p) {
+            p.emplace_back(std::max(p_n, 0.0), 0, 0);
+        }
+        set_impulses(rows, p, bodies);
+    });
 }
 
 } // namespace hyoryu

@@ -19,25 +19,13 @@ constexpr double no_overlap = -1e-9;
 // The smallest gap of the contacts equals the distance of the solids to this accuracy [units].
 constexpr double exact = 1e-10;
 
-// max n . (x - origin of the body)
-double support(const PlacedSolid& body, const Vec3& n)
-{
-    const Vec3 local = body.pose.R.transpose() * n;
-    if (body.solid.form == Form::rod) {
-        return body.solid.half_length * std::abs(local.x()) +
-               body.solid.radius * std::hypot(local.y(), local.z());
-    }
-    double farthest = -infinity;
-    for (const Vec3& corner : body.solid.corners) {
-        farthest = std::max(farthest, local.dot(corner));
-    }
-    return farthest;
-}
-
 // The distance of two solids along a direction from b to a.
 double distance_along(const PartPair& parts, const Vec3& n)
 {
-    return n.dot(parts.a.pose.x - parts.b.pose.x) - support(parts.a, -n) - support(parts.b, n);
+    const auto reach = [](const PlacedSolid& body, const Vec3& way) {
+        return support(body.solid, body.pose.R.transpose() * way);
+    };
+    return n.dot(parts.a.pose.x - parts.b.pose.x) - reach(parts.a, -n) - reach(parts.b, n);
 }
 
 // A face and the distance of the other solid along its normal.
@@ -193,10 +181,7 @@ bool is_over(const Look& look, const FaceAxis& axis, const Vec3& point)
     if (body.solid.form == Form::rod) {
         return std::hypot(p.y(), p.z()) <= body.solid.radius + look.tolerance;
     }
-    const auto& sides = body.solid.faces[axis.face].sides;
-    return std::all_of(sides.begin(), sides.end(), [&](const Side& side) {
-        return side.normal.dot(p) - side.offset <= look.tolerance;
-    });
+    return past_sides(body.solid.faces[axis.face], p) <= look.tolerance;
 }
 
 // Whether the feature lies on the surface of the compound at the touch.

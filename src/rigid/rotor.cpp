@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Free rotation of a rigid body by symmetric splitting about its principal axes.
 #include "rotor.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -3,8 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <cmath>
-
 namespace hyoryu {
 
 namespace {

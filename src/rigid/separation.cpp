@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Separating-axis test of two polytopes with edge pruning on the Gauss map.
 #include "separation.hpp"
 #include "tolerances.hpp"
 
@@ -120,13 +119,7 @@ bool lies_over(const PlacedSolid& body, const PlacedSolid& under, int face)
 {
     const Vec3 centre = under.pose.R.transpose() *
                         (body.pose.x + body.pose.R * body.solid.box_centre - under.pose.x);
-    const double radius = body.solid.box_half.norm();
-    for (const Side& side : under.solid.faces[static_cast<std::size_t>(face)].sides) {
-        if (side.normal.dot(centre) - side.offset > -radius) {
-            return false;
-        }
-    }
-    return true;
+    return past_sides(under.solid.faces[at(face)], centre) <= -body.solid.box_half.norm();
 }
 
 Separation separation(const PlacedSolid& a, const PlacedSolid& b, double enough, double unit)

@@ -18,15 +18,6 @@ constexpr int cap_corners = 16;
 // precision).
 constexpr double coplanar_angle = 1e-5;
 
-Vec3 middle(const std::vector<Vec3>& points)
-{
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& point : points) {
-        sum += point;
-    }
-    return sum / static_cast<double>(points.size());
-}
-
 Face face_through(const std::vector<Vec3>& corners, std::vector<int> of_face, const Vec3& inside,
                   int dimensions)
 {
@@ -155,11 +146,11 @@ void add_polytope(Solid& solid, const Polytope& shape, int dimensions)
 {
     solid.corners = shape.corners;
     add_extent(solid);
-    const Vec3 inside = middle(solid.corners);
+    const Vec3 inside = mean_of(solid.corners);
     solid.inside = inside;
     solid.extremes.resize(solid.corners.size());
     std::iota(solid.extremes.begin(), solid.extremes.end(), 0);
-    for (const auto& face : dimensions == 2 ? polygon_edges(shape) : shape.faces) {
+    for (const auto& face : faces_of(shape, dimensions)) {
         solid.faces.push_back(face_through(solid.corners, face, inside, dimensions));
     }
     if (dimensions == 3) {
@@ -199,19 +190,27 @@ Polytope caps_of(const Rod& rod)
 
 } // namespace
 
-std::vector<std::vector<int>> polygon_edges(const Polytope& polygon)
+std::vector<std::vector<int>> faces_of(const Polytope& shape, int dimensions)
 {
+    if (dimensions == 3) {
+        return shape.faces;
+    }
     std::vector<std::vector<int>> edges;
-    for (const auto& face : polygon.faces) {
-        if (face.size() == 2) {
-            edges.push_back(face);
-            continue;
-        }
-        for (std::size_t k = 0; k < face.size(); ++k) {
+    for (const auto& face : shape.faces) {
+        for (std::size_t k = 0; k < (face.size() == 2 ? 1 : face.size()); ++k) {
             edges.push_back({face[k], face[(k + 1) % face.size()]});
         }
     }
     return edges;
+}
+
+Vec3 mean_of(const std::vector<Vec3>& points)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& point : points) {
+        sum += point;
+    }
+    return sum / static_cast<double>(points.size());
 }
 
 Solid solid_of(const ContactShape& shape, int dimensions)
@@ -242,6 +241,21 @@ Solid solid_of(const ContactShape& shape, int dimensions)
         return compound_solid(std::get<Compound>(shape), dimensions);
     }
     return solid;
+}
+
+double support(const Solid& solid, const Vec3& n)
+{
+    if (solid.form == Form::ball) {
+        return solid.radius;
+    }
+    if (solid.form == Form::rod) {
+        return solid.half_length * std::abs(n.x()) + solid.radius * std::hypot(n.y(), n.z());
+    }
+    double farthest = -infinity;
+    for (const int corner : solid.extremes) {
+        farthest = std::max(farthest, n.dot(solid.corners[corner]));
+    }
+    return farthest;
 }
 
 } // namespace hyoryu

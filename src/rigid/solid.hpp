@@ -4,6 +4,7 @@
 
 #include "hyoryu/rigid/body.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace hyoryu {
@@ -25,6 +26,16 @@ struct Face {
     std::vector<int> corners;
     std::vector<Side> sides;
 };
+
+/// How far the foot of a point on the plane of a face is past its sides; negative inside [m].
+inline double past_sides(const Face& face, const Vec3& p)
+{
+    double past = -infinity;
+    for (const Side& side : face.sides) {
+        past = std::max(past, side.normal.dot(p) - side.offset);
+    }
+    return past;
+}
 
 /// An edge between two faces, with the cross product of their normals (the arc on the Gauss map).
 struct Edge {
@@ -66,8 +77,7 @@ inline bool turns_unseen(const Solid& solid)
 /// The tables of a shape. In two dimensions a rod is the rectangle of its lengthwise section.
 Solid solid_of(const ContactShape& shape, int dimensions);
 
-/// The edges of a polygon in the x-z plane, from faces that are edges or from one face that is the
-/// polygon.
-std::vector<std::vector<int>> polygon_edges(const Polytope& polygon);
+/// How far a solid reaches from the origin of its axes along the unit direction n [m].
+double support(const Solid& solid, const Vec3& n);
 
 } // namespace hyoryu

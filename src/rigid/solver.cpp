@@ -3,7 +3,6 @@
 #include "solver.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -47,27 +46,14 @@ struct Turns {
     double enough = 0; // may be left [m/s]
 };
 
-void keep_impulses(std::span<const Row> rows, SolverWork& work)
-{
-    work.start.clear();
-    for (const Row& row : rows) {
-        work.start.push_back(row.p);
-    }
-}
-
 // Tries the direct solution; restores the former impulses if its residual is larger.
 double try_directly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work,
                     double left)
 {
-    keep_impulses(rows, work);
-    guess_states(rows, bodies, work);
-    solve_directly(rows, bodies, work);
-    const double left_directly = residual(rows, bodies);
-    if (left_directly <= left) {
-        return left_directly;
-    }
-    set_impulses(rows, work.start, bodies);
-    return left;
+    return left_by(rows, bodies, work, left, left, [&] {
+        guess_states(rows, bodies, work);
+        solve_directly(rows, bodies, work);
+    });
 }
 
 // Whether the contacts are redundant and slide, so that their share of the load affects the motion.
@@ -83,18 +69,13 @@ bool slide_together(std::span<const Row> rows)
 // Returns the residual of the direct solution, or infinity with the old impulses if it fails.
 double share_evenly(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work)
 {
-    keep_impulses(rows, work);
-    guess_states(rows, bodies, work);
-    load_all_that_slide(rows, bodies, work);
-    work.shift = large_shift;
-    solve_directly(rows, bodies, work);
-    work.shift = small_shift;
-    const double left = residual(rows, bodies);
-    if (left <= solved_speed * work.unit) {
-        return left;
-    }
-    set_impulses(rows, work.start, bodies);
-    return infinity;
+    return left_by(rows, bodies, work, solved_speed * work.unit, infinity, [&] {
+        guess_states(rows, bodies, work);
+        load_all_that_slide(rows, bodies, work);
+        work.shift = large_shift;
+        solve_directly(rows, bodies, work);
+        work.shift = small_shift;
+    });
 }
 
 // Alternates direct solutions and sweeps: the sweeps find which contacts stick, slide and open, and

@@ -13,8 +13,8 @@
 namespace hyoryu {
 
 /// An unknown impulse of the direct solution: the velocities (v, omega) that a unit impulse gives
-/// to the two bodies (`answer`), and the coefficients of their velocities in its equation
-/// (`sight`).
+/// to the two bodies (the responses), and the coefficients of their velocities in its equation (the
+/// Jacobians).
 struct Unknown {
     Vec6 response_a, response_b, jacobian_a, jacobian_b;
 };
@@ -108,6 +108,23 @@ double solve(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& wor
 
 /// The parts of the solver, for its tests and for one another.
 double residual(std::span<Row> rows, const std::vector<Response>& bodies);
+/// What `attempt` leaves, if that is at most `most`; else puts the impulses back that the rows had
+/// and returns `otherwise` [m/s]. The attempt must leave `work.start` as it is.
+double left_by(std::span<Row> rows, std::vector<Response>& bodies, SolverWork& work, double most,
+               double otherwise, const auto& attempt)
+{
+    work.start.clear();
+    for (const Row& row : rows) {
+        work.start.push_back(row.p);
+    }
+    attempt();
+    const double left = residual(rows, bodies);
+    if (left <= most) {
+        return left;
+    }
+    set_impulses(rows, work.start, bodies);
+    return otherwise;
+}
 struct Sweeps {
     int most = 0;
     double settled = 0; // change of speed in a sweep at which to stop [m/s]

@@ -6,7 +6,6 @@
 #include "hyoryu/core/parallel.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hyoryu {
 
@@ -66,16 +65,16 @@ void find_all_closing(const StepContext& context, const SubStep& sub)
     const Index blocks = (count + pairs_per_block - 1) / pairs_per_block;
     memory.found.resize(std::max(memory.found.size(), static_cast<std::size_t>(blocks)));
     parallel_blocks(0, blocks, [&](Index block) {
-        std::vector<Candidate>& found = memory.found[static_cast<std::size_t>(block)];
+        std::vector<Candidate>& found = memory.found[block];
         found.clear();
         const Index last = std::min(count, (block + 1) * pairs_per_block);
         for (Index k = block * pairs_per_block; k < last; ++k) {
-            find_closing(context, pairs[static_cast<std::size_t>(k)], sub, found);
+            find_closing(context, pairs[k], sub, found);
         }
     });
     memory.candidates.clear();
     for (Index block = 0; block < blocks; ++block) {
-        const auto& found = memory.found[static_cast<std::size_t>(block)];
+        const auto& found = memory.found[block];
         memory.candidates.insert(memory.candidates.end(), found.begin(), found.end());
     }
     double& worst = context.rigid.counters.worst_penetration;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Warm start: the contact forces of the last sub-step are the first guess of the next.
 #include "sub_step.hpp"
 
 #include <algorithm>
@@ -7,12 +6,6 @@
 namespace hyoryu {
 
 namespace {
-
-Vec3 place_on_first(const ContactMemory& memory, const Candidate& c)
-{
-    const SolidPose& pose = memory.poses[c.feature.a];
-    return pose.R.transpose() * (c.touch.point - pose.x);
-}
 
 std::span<const Remembered> of_pair(std::span<const Remembered> known, const Feature& f)
 {
@@ -31,8 +24,7 @@ std::ptrdiff_t nearest_untaken(const ContactMemory& memory, const Persistent& p,
     for (const Remembered& r : forces) {
         const std::ptrdiff_t k = &r - memory.known.data();
         const double distance = (r.place - p.place).squaredNorm();
-        if (memory.taken[static_cast<std::size_t>(k)] == 0 && distance < least &&
-            r.force.dot(p.candidate.touch.normal) > 0) {
+        if (memory.taken[k] == 0 && distance < least && r.force.dot(p.candidate.touch.normal) > 0) {
             least = distance;
             best = k;
         }
@@ -46,8 +38,8 @@ void recall_forces(ContactMemory& memory, double h)
 {
     memory.taken.assign(memory.known.size(), 0);
     const auto take = [&](Persistent& p, std::ptrdiff_t k) {
-        p.impulse = h * memory.known[static_cast<std::size_t>(k)].force;
-        memory.taken[static_cast<std::size_t>(k)] = 1;
+        p.impulse = h * memory.known[k].force;
+        memory.taken[k] = 1;
         p.recalled = true;
     };
     const Feature* last = nullptr;
@@ -60,7 +52,7 @@ void recall_forces(ContactMemory& memory, double h)
     };
     for (Persistent& p : memory.persistent) {
         const Feature& f = p.candidate.feature;
-        p.place = place_on_first(memory, p.candidate);
+        p.place = in_frame(memory.poses[f.a], p.candidate.touch.point);
         find_forces(f);
         const auto known = std::ranges::find(forces, f, &Remembered::feature);
         if (known != forces.end()) {

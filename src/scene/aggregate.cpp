@@ -31,11 +31,11 @@ void fill_shape(Aggregate& body, const auto& shape, double spacing, int dimensio
 void fill_shape(Aggregate& body, const MeshShape& mesh, double spacing, int)
 {
     const TriangleTree tree = triangle_tree(mesh.corners, mesh.triangles);
-    const MeshLattice lattice = mesh_lattice(mesh, spacing);
+    const Cells lattice = mesh_lattice(mesh, spacing);
     for (const MeshPoint& point : points_within(lattice, tree, {})) {
         add_place(body, point.place, point.nearest.distance > -spacing);
     }
-    body.cell = lattice.cell();
+    body.cell = lattice.edges();
 }
 
 void fill_shape(Aggregate& body, const ParticleShape& shape, double, int)

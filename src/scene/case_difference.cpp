@@ -50,41 +50,13 @@ bool is_list_of_tables(const TomlNode& node)
     return items != nullptr && !items->empty() && items->front().table() != nullptr;
 }
 
-bool equal(const TomlNode& a, const TomlNode& b);
-
-struct Equal {
-    const TomlNode& other;
-    bool operator()(const TomlArray& array) const
-    {
-        const TomlArray& with = *other.array();
-        return std::ranges::equal(array, with, equal);
-    }
-    bool operator()(const TomlTable& table) const
-    {
-        return std::ranges::equal(table, *other.table(),
-                                  [](const TomlEntry& a, const TomlEntry& b) {
-                                      return a.key == b.key && equal(a.node, b.node);
-                                  });
-    }
-    bool operator()(const TomlDate&) const { return true; }
-    bool operator()(const auto& value) const
-    {
-        return value == *std::get_if<std::decay_t<decltype(value)>>(&other.value);
-    }
-};
-
-bool equal(const TomlNode& a, const TomlNode& b)
-{
-    return a.value.index() == b.value.index() && std::visit(Equal{b}, a.value);
-}
-
 class Comparison {
 public:
     // Either may be missing: nullptr.
     void compare(const std::string& path, const TomlNode* before, const TomlNode* after)
     {
         const TomlNode& one = before != nullptr ? *before : *after;
-        if (before != nullptr && after != nullptr && equal(*before, *after)) {
+        if (before != nullptr && after != nullptr && *before == *after) {
             return;
         }
         const bool alike =

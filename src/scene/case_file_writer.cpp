@@ -18,11 +18,6 @@ std::string toml(double value)
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-std::string toml(bool value)
-{
-    return value ? "true" : "false";
-}
-
 std::string toml(const std::string& text)
 {
     std::string quoted = "\"";
@@ -57,7 +52,7 @@ std::string toml(const Quat& q)
 
 std::string toml(const std::integral auto& value)
 {
-    return std::to_string(value);
+    return fmt::format("{}", value); // also true and false
 }
 
 template <class List>

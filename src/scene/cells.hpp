@@ -14,17 +14,15 @@ struct Cells {
     Vec3 length{0, 0, 0}; // of its edges [m]
     std::array<Index, 3> count{1, 1, 1};
 
-    double edge(int axis) const
-    {
-        return length[axis] / static_cast<double>(count[static_cast<std::size_t>(axis)]);
-    }
+    Index number() const { return count[0] * count[1] * count[2]; }
+    double edge(int axis) const { return length[axis] / static_cast<double>(count[at(axis)]); }
+    Vec3 edges() const { return {edge(0), edge(1), edge(2)}; }
     Vec3 middle(const std::array<Index, 3>& cell) const
     {
         Vec3 p = centre;
         for (int a = 0; a < 3; ++a) {
-            const auto k = static_cast<std::size_t>(a);
-            const double part =
-                (static_cast<double>(cell[k]) + 0.5) / static_cast<double>(count[k]) - 0.5;
+            const auto cells = static_cast<double>(count[at(a)]);
+            const double part = (static_cast<double>(cell[at(a)]) + 0.5) / cells - 0.5;
             p[a] += part * length[a];
         }
         return p;

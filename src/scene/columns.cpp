@@ -192,7 +192,7 @@ std::vector<double> volumes_of_all(const std::vector<WaterColumn>& columns, Comm
 {
     std::vector<double> volumes;
     std::ranges::transform(columns, std::back_inserter(volumes), &WaterColumn::volume);
-    return comm == nullptr ? volumes : gather(*comm, std::span<const double>(volumes)).all;
+    return of_all_ranks(comm, std::move(volumes));
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "conform.hpp"
 
-#include "hyoryu/core/cell_grid.hpp"
+#include "near_points.hpp"
+
 #include "hyoryu/core/kernel.hpp"
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/shapes.hpp"
@@ -30,9 +31,7 @@ Side nearest_side(const MeshShape& mesh, double spacing, const Vec3& p, std::spa
     constexpr double alike = 0.25;
     Side best;
     for (const auto& triangle : mesh.triangles) {
-        const auto corner = [&](std::size_t k) {
-            return mesh.corners[static_cast<std::size_t>(triangle[k])];
-        };
+        const auto corner = [&](std::size_t k) { return mesh.corners[at(triangle[k])]; };
         const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
         const Vec3 way = closest_on_triangle(mesh, triangle, p) - p;
         const double depth = way.norm();
@@ -63,30 +62,13 @@ bool snap(const MeshShape& mesh, double spacing, Vec3& p)
     return true;
 }
 
-// Calls f for the points in the cells about a place.
-void for_near(const CellGrid& grid, const Vec3& place, const auto& f)
-{
-    const auto home = grid.cell_of(place);
-    for (Index z = std::max<Index>(home[2] - 1, 0); z < std::min(home[2] + 2, grid.count[2]); ++z) {
-        for (Index y = std::max<Index>(home[1] - 1, 0); y < std::min(home[1] + 2, grid.count[1]);
-             ++y) {
-            const Index row = (z * grid.count[1] + y) * grid.count[0];
-            const Index first = row + std::max<Index>(home[0] - 1, 0);
-            const Index last = row + std::min(home[0] + 2, grid.count[0]);
-            for (Index k = grid.start[at(first)]; k < grid.start[at(last)]; ++k) {
-                f(Index(grid.order[at(k)]));
-            }
-        }
-    }
-}
-
 // sum V F r over the points about one, which points to where they are dense [1/m].
 Vec3 crowding(const CellGrid& grid, std::span<const Vec3> points, const Kernel& kernel,
               double volume, Index i)
 {
     Vec3 sum(0, 0, 0);
-    for_near(grid, points[at(i)], [&](Index j) {
-        const Vec3 r = points[at(i)] - points[at(j)];
+    for_cells_about(grid, points[at(i)], [&](std::size_t j) {
+        const Vec3 r = points[at(i)] - points[j];
         sum += volume * kernel(Vec<real>{r.x(), r.y(), r.z()}).f * r;
     });
     return sum;
@@ -101,14 +83,13 @@ void thin(double spacing, std::vector<Vec3>& points)
     build(grid, points, 0, spacing);
     std::vector<std::uint8_t> kept(points.size(), 1);
     std::vector<Vec3> result;
-    for (Index i = 0; i < static_cast<Index>(points.size()); ++i) {
-        for_near(grid, points[at(i)], [&](Index j) {
-            const bool meets =
-                j < i && kept[at(j)] != 0 && (points[at(i)] - points[at(j)]).norm() < least;
-            kept[at(i)] = meets ? 0 : kept[at(i)];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for_cells_about(grid, points[i], [&](std::size_t j) {
+            const bool meets = j < i && kept[j] != 0 && (points[i] - points[j]).norm() < least;
+            kept[i] = meets ? 0 : kept[i];
         });
-        if (kept[at(i)] != 0) {
-            result.push_back(points[at(i)]);
+        if (kept[i] != 0) {
+            result.push_back(points[i]);
         }
     }
     points = std::move(result);

@@ -64,7 +64,7 @@ private:
     {
         Cell c{};
         for (int a = 0; a < 3; ++a) {
-            c[static_cast<std::size_t>(a)] = static_cast<Index>(std::floor(p[a] / cell_));
+            c[at(a)] = static_cast<Index>(std::floor(p[a] / cell_));
         }
         return c;
     }
@@ -84,11 +84,11 @@ private:
     }
     const Vec3& place_of(std::int32_t member) const
     {
-        return points_[static_cast<std::size_t>(members_[static_cast<std::size_t>(member)].point)];
+        return points_[at(members_[at(member)].point)];
     }
     bool is_of(std::int32_t group, std::int32_t member) const
     {
-        return group != no_group && members_[static_cast<std::size_t>(member)].group == group;
+        return group != no_group && members_[at(member)].group == group;
     }
     void grow()
     {

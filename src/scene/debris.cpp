@@ -101,11 +101,6 @@ std::string listed(const DebrisNumber& number, std::string_view unit)
 }
 
 // Second moments about the centre of mass along x, y, z: sums of m x^2, m y^2, m z^2.
-Vec3 inertia_of(const Vec3& second)
-{
-    return Vec3::Constant(second.sum()) - second;
-}
-
 // A thin shell on the six faces of a box, of one mass per area.
 Vec3 second_of_shell(const Vec3& size, double mass)
 {
@@ -147,11 +142,6 @@ struct Cargo {
     double thick = 0; // [m]
 };
 
-Cargo cargo_in(double mass, double part, double height)
-{
-    return {mass, (part - 0.5) * height, 2 * std::min(part, 1 - part) * height};
-}
-
 // The piece and its cargo together; `up` is the axis of the body along which it stands.
 void add_cargo(const Vec3& piece, const Vec3& slab, double own, const Cargo& cargo, int up,
                BodySettings& body)
@@ -164,7 +154,7 @@ void add_cargo(const Vec3& piece, const Vec3& slab, double own, const Cargo& car
     if (cargo.mass > 0) {
         body.centre_of_mass = centre;
     }
-    body.inertia = inertia_of(second);
+    body.inertia = Vec3(Vec3::Constant(second.sum()) - second);
 }
 
 void fill_box(const DebrisKind& kind, double own, const Cargo& cargo, DebrisPiece& piece)
@@ -202,11 +192,6 @@ void flatten(DebrisPiece& piece)
     }
 }
 
-double height_of(const DebrisKind& kind, const std::vector<double>& size)
-{
-    return kind.shape == DebrisShape::lying_cylinder ? size[0] : size.back();
-}
-
 } // namespace
 
 std::span<const DebrisKind> debris_library()
@@ -242,9 +227,11 @@ DebrisPiece debris_piece(const DebrisLoad& load, int dimensions)
     const auto state = std::ranges::find(kind.masses, load.state, &DebrisNumber::name);
     const double empty = kind.masses.front().value.front();
     const double of_state = state == kind.masses.end() ? empty : state->value.front();
+    const double height = kind.shape == DebrisShape::lying_cylinder ? size[0] : size.back();
+    const double part = load.load_height;
+    const Cargo cargo{of_state - empty + load.load, (part - 0.5) * height,
+                      2 * std::min(part, 1 - part) * height};
     DebrisPiece piece;
-    const Cargo cargo =
-        cargo_in(of_state - empty + load.load, load.load_height, height_of(kind, size));
     if (kind.shape == DebrisShape::standing_cylinder) {
         const double r = size[0] / 2;
         const double own = kind.per_area ? empty * 2 * pi * r * (size[1] + r) : empty;

@@ -12,20 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-/// A key without the brackets of lists: "body[2].size" and "body[].size" become "body.size".
-std::string plain(std::string_view key)
-{
-    std::string text;
-    bool inside = false;
-    for (const char c : key) {
-        inside = c == '[' || (inside && c != ']');
-        if (!inside && c != ']') {
-            text += c;
-        }
-    }
-    return text;
-}
-
 std::string kind_of(const Parameter& parameter)
 {
     const bool free_length = parameter.shortest != parameter.longest;
@@ -55,9 +41,9 @@ std::string kind_of(const Parameter& parameter)
     case ValueKind::texts:
         return fmt::format("list of {}texts", count);
     case ValueKind::table:
-        return fmt::format("table, written [{}]", plain(parameter.key));
+        return fmt::format("table, written [{}]", plain_key(parameter.key));
     case ValueKind::tables:
-        return fmt::format("tables, each written [[{}]]", plain(parameter.key));
+        return fmt::format("tables, each written [[{}]]", plain_key(parameter.key));
     }
     return {};
 }
@@ -86,22 +72,35 @@ std::string entry_text(const Parameter& parameter)
 {
     std::vector<std::string> names;
     for (const Parameter& parameter : parameters()) {
-        names.push_back(plain(parameter.key));
+        names.push_back(plain_key(parameter.key));
     }
     const std::vector<std::string_view> candidates(names.begin(), names.end());
-    const std::string near = did_you_mean(plain(key), candidates);
+    const std::string near = did_you_mean(plain_key(key), candidates);
     throw CaseError(fmt::format("unknown key \"{}\"", key),
                     near.empty() ? "`hyoryu describe` lists all keys" : near);
 }
 
 } // namespace
 
+std::string plain_key(std::string_view key)
+{
+    std::string text;
+    bool inside = false;
+    for (const char c : key) {
+        inside = c == '[' || (inside && c != ']');
+        if (!inside && c != ']') {
+            text += c;
+        }
+    }
+    return text;
+}
+
 std::string describe(std::string_view key)
 {
-    const std::string wanted = plain(key);
+    const std::string wanted = plain_key(key);
     std::string text;
     for (const Parameter& parameter : parameters()) {
-        const std::string name = plain(parameter.key);
+        const std::string name = plain_key(parameter.key);
         if (wanted.empty() || name == wanted || name.starts_with(wanted + ".")) {
             text += text.empty() ? "" : "\n";
             text += entry_text(parameter);

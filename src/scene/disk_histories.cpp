@@ -30,11 +30,6 @@ constexpr double of_index = 2.1e3;
 constexpr double left_of_active = 0.65;
 constexpr double left_of_idle = 0.002;
 
-double count_of_nonzero(const Vec3& v)
-{
-    return static_cast<double>(std::ranges::count_if(v, [](double a) { return a != 0; }));
-}
-
 // Impacts of spheres that stand in a row along one axis turn nothing out of it.
 bool spheres_level_along(const Scene& scene, Eigen::Index axis)
 {
@@ -57,23 +52,26 @@ bool moves_along(const Scene& scene, const Plan& plan, Eigen::Index axis)
                                [&](const BodySettings& b) { return b.velocity[axis] != 0; });
 }
 
-double axes(const Scene& scene, const Plan& plan)
-{
-    double count = 0;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        count += moves_along(scene, plan, axis) ? 1 : 0;
-    }
-    return count;
-}
+// How the bodies of a scene may move.
+struct Freedom {
+    std::array<bool, 3> moves{}; // along x, y, z
+    bool turns = false;          // not in a row of spheres that hit each other head on
 
-// Whether bodies ever turn: not in a row of spheres that hit each other head on.
-bool turns(const Scene& scene, const Plan& plan)
+    double axes() const { return static_cast<double>(std::ranges::count(moves, true)); }
+};
+
+Freedom freedom_of(const Scene& scene, const Plan& plan)
 {
-    return plan.fluid || axes(scene, plan) > 1 ||
-           std::ranges::any_of(scene.bodies, [](const BodySettings& b) {
-               return !std::holds_alternative<SphereShape>(b.shape) ||
-                      b.angular_velocity.norm() > 0;
-           });
+    Freedom freedom;
+    for (int axis = 0; axis < 3; ++axis) {
+        freedom.moves[at(axis)] = moves_along(scene, plan, axis);
+    }
+    freedom.turns =
+        plan.fluid || freedom.axes() > 1 ||
+        std::ranges::any_of(scene.bodies, [](const BodySettings& b) {
+            return !std::holds_alternative<SphereShape>(b.shape) || b.angular_velocity.norm() > 0;
+        });
+    return freedom;
 }
 
 double text_of(double active, double idle)
@@ -97,30 +95,17 @@ HistorySize energy(const Scene& scene, const Plan& plan, const Course& course)
     constexpr double columns = 19; // without the time; of lost particles 4
     const bool falls = scene.gravity.norm() > 0;
     const bool pushes = !scene.walls.empty() && (plan.fluid || plan.contact);
-    const Vec3 drive = scene.fluid ? scene.fluid->acceleration : Vec3(Vec3::Zero());
+    const Vec3 drive =
+        scene.gravity + (scene.fluid ? scene.fluid->acceleration : Vec3(Vec3::Zero()));
     double active = 0;
     active += plan.fluid ? (falls ? 3 : 2) : 0;
     active += plan.rigid ? (falls ? 2 : 1) : 0;
-    active += plan.contact && !plan.fluid ? 1 : 0;  // water keeps most bodies from each other
-    active += (pushes ? 2 : 1) * axes(scene, plan); // momentum and the impulses of walls
-    active += count_of_nonzero(scene.gravity + drive);
+    active += plan.contact && !plan.fluid ? 1 : 0; // water keeps most bodies from each other
+    // Momentum and the impulses of walls.
+    active += (pushes ? 2 : 1) * freedom_of(scene, plan).axes();
+    active += static_cast<double>((drive.array() != 0.0).count());
     const double text = time_cell(plan) + text_of(active, columns - active);
     return {history_rows(scene, course), text, active + 1, columns - active, 0, 0};
-}
-
-// How the bodies of a scene may move: asked once for all of them.
-struct Freedom {
-    std::array<bool, 3> moves{}; // along x, y, z
-    bool turns = false;
-};
-
-Freedom freedom_of(const Scene& scene, const Plan& plan)
-{
-    Freedom freedom{.turns = turns(scene, plan)};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        freedom.moves[axis] = moves_along(scene, plan, static_cast<Eigen::Index>(axis));
-    }
-    return freedom;
 }
 
 // Numbers of a body that change: position, orientation, both velocities, and loads of a fluid.

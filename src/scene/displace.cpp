@@ -4,6 +4,8 @@
 #include "near_points.hpp"
 #include "walls.hpp"
 
+#include "hyoryu/rigid/box_tree.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -147,7 +149,7 @@ void choose(std::vector<CutCell>& cut, const std::vector<Vec3>& points, double s
             displaced += cell->covered.part;
         }
         constexpr double round_off = 1e-9; // a half is rounded up in spite of round-off
-        const auto wanted = static_cast<std::size_t>(std::llround(displaced + round_off));
+        const auto wanted = at(std::llround(displaced + round_off));
         for (auto cell = begin; cell != end && (cell->shut_in || taken < wanted); ++cell) {
             gone[cell->row] = true;
             taken += 1;
@@ -209,11 +211,11 @@ void mark(const std::vector<CutCell>& cut, double spacing, Filling& filling)
     if (cut.empty()) {
         return;
     }
-    std::vector<std::uint8_t> marked(filling.fluid.size(), 0);
+    std::vector<Vec3> places;
     for (const CutCell& cell : cut) {
-        marked[cell.row] = 1;
+        places.push_back(filling.fluid[cell.row]);
     }
-    marked = marks_about(filling.fluid, marked, around * spacing);
+    const auto marked = marks_near(filling.fluid, places, around * spacing);
     for (std::size_t k = 0; k < marked.size(); ++k) {
         filling.fluid_cut[k] = std::max(filling.fluid_cut[k], marked[k]);
     }
@@ -242,39 +244,26 @@ std::vector<Bounds> boxes_of(const std::vector<Placed>& shapes, double spacing)
     return boxes;
 }
 
-// The axis along which boxes are spread the most.
-Index longest_axis(const std::vector<Bounds>& boxes)
-{
-    Bounds all;
-    for (const Bounds& box : boxes) {
-        all.add(box);
-    }
-    Index axis = 0;
-    if (!boxes.empty()) {
-        (all.max - all.min).maxCoeff(&axis);
-    }
-    return axis;
-}
-
-// For each body, the earlier bodies with which it may cut a cell, by a sweep along the longest
-// axis: with many bodies, testing all pairs takes too long.
+// For each body, the earlier bodies with which it may cut a cell: with many bodies, testing all
+// pairs takes too long.
 std::vector<std::vector<std::size_t>> near_before(const std::vector<Bounds>& boxes, double spacing)
 {
     const auto meet = [&](const Bounds& a, const Bounds& b) { // both are a spacing too large
         return (a.min.array() <= b.max.array() - spacing).all() &&
                (b.min.array() <= a.max.array() - spacing).all();
     };
-    const Index axis = longest_axis(boxes);
-    std::vector<std::size_t> order(boxes.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::ranges::sort(order, {}, [&](std::size_t k) { return boxes[k].min[axis]; });
+    std::vector<AlignedBox> aligned;
+    for (const Bounds& box : boxes) {
+        aligned.push_back({box.min, box.max});
+    }
+    const BoxTree tree = tree_over(aligned);
     std::vector<std::vector<std::size_t>> near(boxes.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const std::size_t one = order[k];
-        for (std::size_t m = k + 1;
-             m < order.size() && boxes[order[m]].min[axis] <= boxes[one].max[axis]; ++m) {
-            if (meet(boxes[one], boxes[order[m]])) {
-                near[std::max(one, order[m])].push_back(std::min(one, order[m]));
+    std::vector<int> found;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        find_near(tree, aligned[k], found);
+        for (const int other : found) {
+            if (at(other) < k && meet(boxes[k], boxes[at(other)])) {
+                near[k].push_back(at(other));
             }
         }
     }

@@ -74,7 +74,7 @@ std::vector<std::size_t> owned(const FillRegion& region, std::span<const Vec3> p
 void displace_of_several(const Scene& scene, const FillRegion& region, Filling& filling)
 {
     Comm& comm = region.comm();
-    const auto ranks = static_cast<std::size_t>(comm.size());
+    const auto ranks = at(comm.size());
     const Split rows = split(scene, region.lattice(), filling);
     Filling near = exchange_fluid(
         comm, filling, std::vector<std::vector<std::size_t>>(ranks, rows.near)); // equal on all

@@ -29,16 +29,6 @@ namespace hyoryu {
 
 namespace {
 
-Placed placed(const Scene& scene, const FluidBlock& block)
-{
-    return {&block.shape, block.centre, block.rotation, scene.dimensions};
-}
-
-Placed placed(const Scene& scene, const BodySettings& body)
-{
-    return placed(body, scene.dimensions);
-}
-
 struct BlockPoints {
     BlockParticles particles;
     Index before = 0, count = 0; // points of processes before this one, and of all
@@ -56,7 +46,7 @@ BlockPoints points_of(const Scene& scene, std::size_t block, Comm* comm)
         result.before = std::accumulate(counts.begin(), counts.begin() + comm->rank(), Index(0));
         result.count = std::accumulate(counts.begin(), counts.end(), Index(0));
     }
-    result.box = bounds(placed(scene, scene.fluid->blocks[block]));
+    result.box = bounds(placed(scene.fluid->blocks[block], scene.dimensions));
     for (int corner = 0; corner < 8; ++corner) {
         const Bounds& b = result.box;
         const double h = height(scene, {(corner & 1) != 0 ? b.max.x() : b.min.x(),
@@ -158,9 +148,7 @@ struct Start {
 // of this process; every process reports the first fault of all processes.
 void check_starts(const Scene& scene, Comm* comm, std::vector<Start> faults)
 {
-    if (comm != nullptr) {
-        faults = gather(*comm, std::span<const Start>(faults)).all;
-    }
+    faults = of_all_ranks(comm, std::move(faults));
     const auto first = std::ranges::min_element(faults, {}, &Start::number);
     if (first == faults.end()) {
         return;
@@ -171,7 +159,7 @@ void check_starts(const Scene& scene, Comm* comm, std::vector<Start> faults)
     const std::string value = speed_fits ? fmt::format("{} Pa", first->pressure)
                                          : fmt::format("({}, {}, {}) m/s", v.x(), v.y(), v.z());
     throw CaseError({diagnostic_at(
-        scene, scene.fluid->blocks[static_cast<std::size_t>(first->block)].place,
+        scene, scene.fluid->blocks[at(first->block)].place,
         fmt::format("fluid.block[{}].{}", first->block,
                     speed_fits ? "pressure_field" : "velocity_field"),
         fmt::format("is {} at ({:.6g}, {:.6g}, {:.6g}) m, where there is fluid", value, p.x(),
@@ -262,6 +250,13 @@ int wall_layers(double smoothing_ratio)
     return static_cast<int>(std::ceil(2 * smoothing_ratio - 1e-9));
 }
 
+double thickness_of_rows(const Scene& scene)
+{
+    const double ratio =
+        scene.fluid ? scene.fluid->smoothing_ratio : FluidSettings{}.smoothing_ratio;
+    return wall_layers(ratio) * scene.spacing;
+}
+
 Bounds domain_of(const Scene& scene)
 {
     if (scene.domain) {
@@ -270,22 +265,15 @@ Bounds domain_of(const Scene& scene)
     Bounds box;
     if (scene.fluid) {
         for (const FluidBlock& block : scene.fluid->blocks) {
-            box.add(bounds(placed(scene, block)));
+            box.add(bounds(placed(block, scene.dimensions)));
         }
     }
     for (const BodySettings& body : scene.bodies) {
-        box.add(bounds(placed(scene, body)));
+        box.add(bounds(placed(body, scene.dimensions)));
     }
     for (const Wall& wall : scene.walls) {
-        if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
-            box.add(swept({basin->min, basin->max}, wall.motion, scene.time.end));
-        } else if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
-            box.add(swept({round->centre - Vec3::Constant(round->radius),
-                           round->centre + Vec3::Constant(round->radius)},
-                          wall.motion, scene.time.end));
-        } else if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
-            box.add(swept(bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}),
-                          wall.motion, scene.time.end));
+        if (const Bounds own = bounds(wall, scene.dimensions); !own.empty()) {
+            box.add(swept(own, wall.motion, scene.time.end));
         }
     }
     if (box.empty()) {

@@ -87,7 +87,7 @@ Cells even_cells(const Bounds& box, double spacing, int dimensions)
 std::vector<Vec3> middles_in(const Placed& block, const Cells& cells, const Comm* comm)
 {
     std::vector<Vec3> points;
-    const FillPart own = part_of(cells.count[0] * cells.count[1] * cells.count[2], comm);
+    const FillPart own = part_of(cells.number(), comm);
     for (Index k = own.first; k < own.last; ++k) {
         const Vec3 p = cells.middle(cell_at(k, cells.count));
         if (signed_distance(block, p) < 0) {
@@ -189,7 +189,7 @@ LayerPoints layers_of(const Scene& scene, const FluidBlock& block, const Comm* c
 BlockParticles fill_block(const Scene& scene, std::size_t block, Comm* comm)
 {
     const FluidBlock& own = scene.fluid->blocks[block];
-    const Placed shape{&own.shape, own.centre, own.rotation, scene.dimensions};
+    const Placed shape = placed(own, scene.dimensions);
     const FreeSpace space(scene, block);
     const int d = scene.dimensions;
     const Cells plain = plain_cells(bounds(shape), scene.spacing, d);

@@ -63,11 +63,11 @@ TileLattice fill_lattice(const Scene& scene, const Bounds& domain)
 }
 
 FillHalo::FillHalo(const FillRegion& region, std::span<const Vec3> places, double reach)
-    : region_(region), sent_(static_cast<std::size_t>(region.comm().size()))
+    : region_(region), sent_(at(region.comm().size()))
 {
     for (std::size_t k = 0; k < places.size(); ++k) {
         for (const int rank : region.others_about(places[k], reach)) {
-            sent_[static_cast<std::size_t>(rank)].push_back(static_cast<std::int32_t>(k));
+            sent_[at(rank)].push_back(static_cast<std::int32_t>(k));
         }
     }
 }
@@ -81,10 +81,9 @@ void FillHalo::keep(std::span<const std::uint8_t> marked)
         before += mark != 0 ? 1 : 0;
     }
     for (std::vector<std::int32_t>& rows : sent_) {
-        std::erase_if(rows,
-                      [&](std::int32_t row) { return marked[static_cast<std::size_t>(row)] == 0; });
+        std::erase_if(rows, [&](std::int32_t row) { return marked[at(row)] == 0; });
         for (std::int32_t& row : rows) {
-            row = number[static_cast<std::size_t>(row)];
+            row = number[at(row)];
         }
     }
 }

@@ -77,7 +77,7 @@ public:
         for (std::size_t rank = 0; rank < sent_.size(); ++rank) {
             std::vector<T> some;
             for (const std::int32_t row : sent_[rank]) {
-                some.push_back(own[static_cast<std::size_t>(row)]);
+                some.push_back(own[at(row)]);
             }
             put(out[rank], std::span<const T>(some));
         }

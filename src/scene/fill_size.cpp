@@ -32,9 +32,7 @@ double shell_volume(const MeshShape& mesh, const Scene& scene)
     const double layers = scene.fluid ? wall_layers(scene.fluid->smoothing_ratio) : 0;
     double area = 0;
     for (const auto& t : mesh.triangles) {
-        const auto corner = [&](std::size_t k) {
-            return mesh.corners[static_cast<std::size_t>(t[k])];
-        };
+        const auto corner = [&](std::size_t k) { return mesh.corners[at(t[k])]; };
         area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
     }
     return area * layers * scene.spacing;

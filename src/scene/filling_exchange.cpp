@@ -28,13 +28,6 @@ void put_some(Parcel& parcel, const std::vector<T>& values, const std::vector<st
 }
 
 template <class T>
-void take_more(Unpacking& from, std::vector<T>& values)
-{
-    const std::vector<T> more = take_list<T>(from);
-    values.insert(values.end(), more.begin(), more.end());
-}
-
-template <class T>
 void rearrange(std::vector<T>& values, const std::vector<std::size_t>& order)
 {
     std::vector<T> sorted;
@@ -126,9 +119,9 @@ void swap_fluid(Filling& a, Filling& b)
 void give_fluid(Comm& comm, const std::function<int(const Vec3&)>& owner, Filling& filling)
 {
     const Index count = filling.fluid_count();
-    std::vector<std::vector<std::size_t>> rows(static_cast<std::size_t>(comm.size()));
+    std::vector<std::vector<std::size_t>> rows(at(comm.size()));
     for (std::size_t k = 0; k < filling.fluid.size(); ++k) {
-        rows[static_cast<std::size_t>(owner(filling.fluid[k]))].push_back(k);
+        rows[at(owner(filling.fluid[k]))].push_back(k);
     }
     Filling own = exchange_fluid(comm, filling, rows);
     swap_fluid(own, filling);
@@ -144,7 +137,7 @@ void give_walls_to_all(Comm& comm, const std::function<bool(std::int32_t)>& whic
             rows.push_back(k);
         }
     }
-    const auto ranks = static_cast<std::size_t>(comm.size());
+    const auto ranks = at(comm.size());
     Filling all =
         exchange(comm, filling, std::vector<std::vector<std::size_t>>(ranks, rows), over_walls);
     sort(all.wall_number, over_walls, all);

@@ -96,12 +96,8 @@ public:
     // The level at which that share of the volume is below it.
     double level_of(const Vec3& up, double share) const
     {
-        double low = infinity;
-        double high = -infinity;
-        for (const Vec3& corner : surface_.corners) {
-            low = std::min(low, up.dot(corner));
-            high = std::max(high, up.dot(corner));
-        }
+        double low = lowest(up);
+        double high = -lowest(-up);
         const double wanted = share * whole_;
         while (high - low > level_accuracy * size_) {
             const double middle = 0.5 * (low + high);
@@ -123,7 +119,7 @@ public:
     }
 
 private:
-    const Vec3& corner(int k) const { return surface_.corners[static_cast<std::size_t>(k)]; }
+    const Vec3& corner(int k) const { return surface_.corners[at(k)]; }
 
     void add(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& apex, Part& part) const
     {
@@ -184,13 +180,13 @@ Eigen::Matrix2d stiffness(const Hull& hull, const Vec3& up, double share)
     const Index axes = hull.dimensions() == 2 ? 1 : 2;
     Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
     for (Index k = 0; k < axes; ++k) {
-        const Vec3 way = tilt_step * t[static_cast<std::size_t>(k)];
+        const Vec3 way = tilt_step * t[at(k)];
         const Vec3 there = (up + way).normalized();
         const Vec3 back = (up - way).normalized();
         const Vec3 change = across(there, state_of(hull, there, share).lever, hull.dimensions()) -
                             across(back, state_of(hull, back, share).lever, hull.dimensions());
         for (Index m = 0; m < axes; ++m) {
-            slope(m, k) = change.dot(t[static_cast<std::size_t>(m)]) / (2 * tilt_step);
+            slope(m, k) = change.dot(t[at(m)]) / (2 * tilt_step);
         }
     }
     if (axes == 1) {
@@ -206,7 +202,7 @@ Flotation flotation_at(const Hull& hull, const Vec3& up, double share)
     const State state = state_of(hull, up, share);
     const double stiff = Axes(stiffness(hull, up, share)).eigenvalues()[0];
     const double least = std::abs(stiff) < hull.neutral() ? 0 : stiff;
-    return {state.level - hull.lowest(up), least, up, -state.level};
+    return {state.level - hull.lowest(up), least, up};
 }
 
 // Where to turn from a state: Newton's step where the energy is a bowl, else downhill; from a state

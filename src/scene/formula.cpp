@@ -15,11 +15,6 @@ namespace hyoryu {
 
 namespace {
 
-double floor_of(double x)
-{
-    return std::floor(x);
-}
-
 // muParser takes "0,5" for two expressions, of which the last counts, and "x = 5" for an
 // assignment.
 void expect_one_value(const std::string& text, int values)
@@ -39,11 +34,6 @@ void expect_one_value(const std::string& text, int values)
     }
 }
 
-double radians(double degrees)
-{
-    return degrees * std::numbers::pi / 180;
-}
-
 constexpr const char* letters_of_names =
     "0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
@@ -60,8 +50,10 @@ Formula::Formula(const std::string& text) : state_(std::make_unique<State>())
     mu::Parser& parser = state_->parser;
     try {
         parser.DefineNameChars(letters_of_names);
-        parser.DefineFun("floor", floor_of);
-        parser.DefineFun("rad", radians);
+        parser.DefineFun(
+            "floor", +[](double x) { return std::floor(x); });
+        parser.DefineFun(
+            "rad", +[](double degrees) { return degrees * std::numbers::pi / 180; });
         parser.SetExpr(text);
         for (const auto& [name, place] : parser.GetUsedVar()) {
             state_->names.push_back(name);
@@ -80,7 +72,6 @@ Formula::Formula(const std::string& text) : state_(std::make_unique<State>())
 
 Formula::~Formula() = default;
 Formula::Formula(Formula&&) noexcept = default;
-Formula& Formula::operator=(Formula&&) noexcept = default;
 
 const std::vector<std::string>& Formula::names() const
 {

@@ -63,7 +63,7 @@ std::vector<int> FreeSpace::about(const Vec3& point, double distance) const
 {
     std::vector<int> found;
     for (const int k : all_) {
-        const SolidSurface& solid = obstacles_[static_cast<std::size_t>(k)];
+        const SolidSurface& solid = obstacles_[at(k)];
         if (from(solid, point).norm() - solid.reach < distance) {
             found.push_back(k);
         }
@@ -76,15 +76,14 @@ NearestPlace FreeSpace::nearest(const Vec3& point, std::span<const int> among,
 {
     NearestPlace nearest;
     for (const int k : among) {
-        const SolidSurface& solid = obstacles_[static_cast<std::size_t>(k)];
+        const SolidSurface& solid = obstacles_[at(k)];
         const Vec3 r = from(solid, point);
         // The surface is not nearer than the ball that holds it.
         if (r.norm() - solid.reach >= nearest.distance) {
             continue;
         }
-        NearestPlace place = nearest_place(solid, solid.rotation.conjugate() * r, farthest);
+        const NearestPlace place = nearest_from_centre(solid, r, farthest);
         if (place.distance < nearest.distance) {
-            place.normal = solid.rotation * place.normal;
             nearest = place;
         }
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ground.hpp"
 
+#include "plan_polygon.hpp"
+
 #include "hyoryu/scene/triangles.hpp"
 
 #include <algorithm>
@@ -10,8 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-// A triangle over more buckets than this is looked at for every place.
-constexpr double most_buckets = 64;
 // A face that is steeper than this is a side, not ground (sine of its slope).
 constexpr double least_up = 1e-9;
 
@@ -69,13 +69,17 @@ Ground::Ground(const std::vector<Wall>& walls, const std::string& on, double far
         }
         const TriangleSurface surface = surface_for(wall, far, dimensions);
         for (const auto& t : surface.triangles) {
-            const auto corner = [&](std::size_t k) {
-                return surface.corners[static_cast<std::size_t>(t[k])];
-            };
+            const auto corner = [&](std::size_t k) { return surface.corners[at(t[k])]; };
             add({corner(0), corner(1), corner(2)});
         }
     }
-    fill_buckets();
+    std::vector<AlignedBox> boxes(triangles_.size());
+    for (std::size_t n = 0; n < triangles_.size(); ++n) {
+        for (const Vec3& corner : triangles_[n]) {
+            boxes[n].add(corner);
+        }
+    }
+    tree_ = tree_over(boxes);
 }
 
 void Ground::add(const Triangle& t)
@@ -86,76 +90,18 @@ void Ground::add(const Triangle& t)
     }
 }
 
-void Ground::fill_buckets()
-{
-    double sum = 0;
-    const auto box_of = [](const Triangle& t) {
-        Bounds box;
-        for (const Vec3& corner : t) {
-            box.add(corner);
-        }
-        return box;
-    };
-    std::vector<double> widths;
-    for (const Triangle& t : triangles_) {
-        const Vec3 size = box_of(t).max - box_of(t).min;
-        widths.push_back(std::max(size.x(), size.y()));
-    }
-    if (widths.empty()) {
-        return;
-    }
-    std::ranges::nth_element(widths,
-                             widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2));
-    sum = widths[widths.size() / 2];
-    bucket_ = sum > 0 ? 2 * sum : 1;
-    for (std::size_t n = 0; n < triangles_.size(); ++n) {
-        const Bounds box = box_of(triangles_[n]);
-        const Vec3 cells = (box.max - box.min) / bucket_ + Vec3::Ones();
-        if (cells.x() * cells.y() > most_buckets) {
-            wide_.push_back(n);
-            continue;
-        }
-        const auto first = [&](double v) { return static_cast<long>(std::floor(v / bucket_)); };
-        for (long i = first(box.min.x()); i <= first(box.max.x()); ++i) {
-            for (long j = first(box.min.y()); j <= first(box.max.y()); ++j) {
-                buckets_[{i, j}].push_back(n);
-            }
-        }
-    }
-}
-
-std::vector<std::size_t> Ground::near(const Plan2& low, const Plan2& high) const
-{
-    std::vector<std::size_t> found = wide_;
-    const auto cell = [&](double v) { return static_cast<long>(std::floor(v / bucket_)); };
-    for (long i = cell(low[0]); i <= cell(high[0]); ++i) {
-        for (auto at = buckets_.lower_bound({i, cell(low[1])});
-             at != buckets_.end() && at->first[0] == i && at->first[1] <= cell(high[1]); ++at) {
-            found.insert(found.end(), at->second.begin(), at->second.end());
-        }
-    }
-    std::ranges::sort(found);
-    const auto rest = std::ranges::unique(found);
-    found.erase(rest.begin(), rest.end());
-    return found;
-}
-
 Ground::Range Ground::range_under(const Ring& footprint) const
 {
-    Plan2 low{infinity, infinity};
-    Plan2 high{-infinity, -infinity};
-    for (const Plan2& p : footprint) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            low[k] = std::min(low[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-    }
+    auto [low, high] = frame_of(footprint);
     if (dimensions_ == 2) {
-        low[1] = high[1] = 0;
+        low[1] = -infinity;
+        high[1] = infinity;
     }
+    std::vector<int> near;
+    find_near(tree_, {{low[0], low[1], -infinity}, {high[0], high[1], infinity}}, near);
     Range range;
-    for (const std::size_t n : near(low, high)) {
-        std::vector<Vec3> polygon(triangles_[n].begin(), triangles_[n].end());
+    for (const int n : near) {
+        std::vector<Vec3> polygon(triangles_[at(n)].begin(), triangles_[at(n)].end());
         if (dimensions_ == 2) { // the section: its part between two verticals
             polygon = clipped(polygon, {low[0], 1}, {low[0], 0});
             polygon = clipped(polygon, {high[0], 0}, {high[0], 1});

@@ -3,16 +3,16 @@
 #pragma once
 
 #include "hyoryu/geometry/outline.hpp"
+#include "hyoryu/rigid/box_tree.hpp"
 #include "hyoryu/scene/shapes.hpp"
 
 #include <array>
-#include <map>
 #include <string>
 #include <vector>
 
 namespace hyoryu {
 
-/// The faces that look up, of all walls that do not move or of one of them, in buckets by place.
+/// The faces that look up, of all walls that do not move or of one of them, in a tree of boxes.
 class Ground {
 public:
     /// `on`: the name of a wall, or empty for all. A plane reaches `far` from the origin [m].
@@ -36,14 +36,10 @@ private:
 
     Range range_under(const Ring& footprint) const;
     void add(const Triangle& triangle);
-    void fill_buckets();
-    std::vector<std::size_t> near(const Plan2& low, const Plan2& high) const;
 
     int dimensions_;
     std::vector<Triangle> triangles_;
-    double bucket_ = 1; // edge [m]
-    std::map<std::array<long, 2>, std::vector<std::size_t>> buckets_;
-    std::vector<std::size_t> wide_; // triangles over many buckets
+    BoxTree tree_; // over the triangles
 };
 
 } // namespace hyoryu

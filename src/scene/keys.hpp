@@ -50,6 +50,9 @@ inline constexpr std::size_t list_length<std::optional<T>> = list_length<T>;
 template <class T>
 inline constexpr std::size_t list_length<const T> = list_length<T>;
 
+/// A key without the brackets of lists: "body[2].size" and "body[].size" become "body.size".
+std::string plain_key(std::string_view key);
+
 /// Visits the keys of a table: calls `what(visitor, ...)` if it is callable, else visits the keys
 /// of the struct `what`.
 template <class Visitor, class What, class... Context>

@@ -112,7 +112,7 @@ inline void check_locks(TableReader& table, const BodySettings& body)
         table.error("locks", "has no meaning for a fixed body", "remove it, or `fixed = true`");
     }
     for (Index k = 0; k < 3; ++k) {
-        const auto axis = static_cast<std::size_t>(k);
+        const auto axis = at(k);
         if (body.locks[axis] && body.velocity[k] != 0) {
             table.error("velocity", fmt::format("is not 0 along {}, which is locked", "xyz"[k]),
                         "write 0, or remove the lock");
@@ -171,7 +171,7 @@ inline void append_copies(TableReader& table, const BodyCopies& copies, BodySett
         return;
     }
     for (Index k = 0; k < 3; ++k) {
-        if (count[static_cast<std::size_t>(k)] > 1 && !(std::abs(copies.pitch[k]) > 0)) {
+        if (count[at(k)] > 1 && !(std::abs(copies.pitch[k]) > 0)) {
             table.error("pitch", fmt::format("copies along {} would coincide", "xyz"[k]),
                         "make it at least as long as the body");
         }

@@ -20,12 +20,7 @@ struct BuildingKeys {
 inline std::vector<Footprint> load_footprints(TableReader& table, const BuildingKeys& buildings)
 {
     const auto path = path_of_file(table, "file", buildings.file);
-    if (table.reading().dimensions == 2) {
-        table.error("file", "buildings are supported in three dimensions only",
-                    "set `dimensions = 3`");
-        return {};
-    }
-    if (!path || !table.sound("height")) {
+    if (refuse_flat(table, "file", "buildings are") || !path || !table.sound("height")) {
         return {};
     }
     try {

@@ -112,11 +112,10 @@ inline void find_polygon(TableReader& table, DebrisScatter& scatter, const std::
     }
 }
 
-inline void place(TableReader& table, DebrisKeys& debris, const std::optional<DebrisArray>& array,
-                  const std::optional<DebrisScatter>& scatter, Scene& scene)
+inline void place(TableReader& table, DebrisKeys& debris, Scene& scene)
 {
-    const bool arrayed = array.has_value();
-    const bool scattered = scatter.has_value();
+    const bool arrayed = debris.array.has_value();
+    const bool scattered = debris.scatter.has_value();
     table.reading().names_known =
         table.reading().names_known && table.reading().diagnostics.empty();
     if (arrayed == scattered && !table.mistaken({"array", "scatter"})) {
@@ -128,9 +127,7 @@ inline void place(TableReader& table, DebrisKeys& debris, const std::optional<De
     if (!table.reading().diagnostics.empty()) {
         return; // walls or numbers are mistaken: no place follows from them
     }
-    debris.array = array.value_or(DebrisArray{});
-    debris.scatter = scatter.value_or(DebrisScatter{});
-    const std::vector<PlaceFault> faults = place_debris(debris, arrayed, scene);
+    const std::vector<PlaceFault> faults = place_debris(debris, scene);
     for (const PlaceFault& fault : faults) {
         table.error(arrayed ? "array" : "scatter", fault.what, fault.hint);
     }
@@ -218,14 +215,12 @@ void keys_of(auto& keys, Is<DebrisKeys> auto& debris, auto& scene)
     keys.rule(check_state, debris);
     keys.text("material", debris.material, "Name of the material, for contact.pair.");
     keys.rule(check_material, debris.material);
-    std::optional<DebrisArray> array;
-    std::optional<DebrisScatter> scatter;
-    keys.table("array", "Pieces in rows, columns and stacks.", array);
+    keys.table("array", "Pieces in rows, columns and stacks.", debris.array);
     keys.table("scatter",
                "Pieces at random positions in a yard, generated with the seed of the case; the "
                "distance between two pieces is at least `gap` (random sequential addition).",
-               scatter, scene);
-    keys.rule(place, debris, array, scatter, scene);
+               debris.scatter, scene);
+    keys.rule(place, debris, scene);
 }
 
 } // namespace hyoryu

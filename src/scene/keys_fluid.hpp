@@ -32,28 +32,13 @@ inline void check_slip(TableReader& table, const FluidSettings& fluid)
     }
 }
 
-inline void check_gradient(TableReader& table, const FluidSettings& fluid)
+// Of a key that is `used` with a value for SPH alone. `what` to leave out and `why`, for the hint.
+inline void expect_sph(TableReader& table, std::string_view key, bool used,
+                       FormulationKind formulation, std::string_view what, std::string_view why)
 {
-    if (fluid.gradient.corrected && fluid.formulation == FormulationKind::mps) {
-        table.error(
-            "gradient", "is available for SPH only",
-            "leave gradient out with formulation = \"mps\", which has the corrected gradient");
-    }
-}
-
-inline void check_kernel(TableReader& table, const FluidSettings& fluid)
-{
-    if (fluid.kernel != KernelShape::wendland && fluid.formulation == FormulationKind::mps) {
-        table.error("kernel", "is available for SPH only",
-                    "leave kernel out with formulation = \"mps\", which has a weight of its own");
-    }
-}
-
-inline void expect_sph(TableReader& table, FormulationKind formulation, std::string_view effect)
-{
-    if (formulation == FormulationKind::mps) {
-        table.error("model", "is available for SPH only",
-                    fmt::format("leave {} out with formulation = \"mps\"", effect));
+    if (used && formulation == FormulationKind::mps) {
+        table.error(key, "is available for SPH only",
+                    fmt::format("leave {} out with formulation = \"mps\"{}", what, why));
     }
 }
 
@@ -119,7 +104,7 @@ void model_keys(auto& keys, const SlotTable& table, auto& choice, FormulationKin
             Model::keys(keys, model);
         }
         if constexpr (requires { Model::for_sph_alone; }) {
-            keys.rule(expect_sph, formulation, table.key);
+            keys.rule(expect_sph, "model", true, formulation, table.key, "");
         }
     };
     keys.alternatives("model", index, model_names(choice), models_text(table, choice), {},
@@ -223,9 +208,11 @@ void keys_of(auto& keys, Is<FluidSettings> auto& fluid, const Scene& scene)
                 "Kernel of the SPH gradients. \"isotropic\": the pressure remains isotropic when "
                 "waves and flows strain the particle arrangement, so that wave propagation is more "
                 "accurate; time steps are 6 % shorter.");
-    keys.rule(check_kernel, fluid);
+    keys.rule(expect_sph, "kernel", fluid.kernel != KernelShape::wendland, fluid.formulation,
+              "kernel", ", which has a weight of its own");
     GradientSettings::keys(keys, fluid.gradient);
-    keys.rule(check_gradient, fluid);
+    keys.rule(expect_sph, "gradient", fluid.gradient.corrected, fluid.formulation, "gradient",
+              ", which has the corrected gradient");
     WallContinuitySettings::keys(keys, fluid.continuity);
     // The first slot's table is listed before the other keys of walls.
     keys.heading("viscosity", "Viscosity of the fluid.");

@@ -14,11 +14,6 @@ namespace hyoryu {
 /// The columns of gauges.csv so far, and the line of the gauge that has each.
 using GaugeColumns = std::map<std::string, int>;
 
-inline void find_face(TableReader& table, bool& face)
-{
-    face = table.has("area") || table.has("normal");
-}
-
 inline void check_place(TableReader& table, const Gauge& gauge)
 {
     if (table.count("at") == 2 && gauge.type != GaugeType::elevation) {
@@ -102,8 +97,7 @@ void gauge_place_keys(auto& keys, Is<Gauge> auto& gauge)
 /// The face of a pressure gauge and the plane of a flux gauge.
 void gauge_face_keys(auto& keys, Is<Gauge> auto& gauge)
 {
-    bool face = gauge.area > 0;
-    keys.rule(find_face, face);
+    const bool face = gauge.area > 0 || keys.gives("area") || keys.gives("normal");
     const bool pressure = gauge.type == GaugeType::pressure;
     if (keys.applies(pressure) && keys.shows(face)) {
         keys.positive(

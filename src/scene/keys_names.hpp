@@ -17,6 +17,17 @@ inline void inherit(TableReader& /*table*/, double& value, double from)
     value = from;
 }
 
+/// In two dimensions notes that what a key asks for needs three; whether it did.
+inline bool refuse_flat(TableReader& table, std::string_view key, std::string_view what_are)
+{
+    const bool flat = table.reading().dimensions == 2;
+    if (flat) {
+        table.error(key, fmt::format("{} supported in three dimensions only", what_are),
+                    "set `dimensions = 3`");
+    }
+    return flat;
+}
+
 inline std::optional<std::filesystem::path> path_of_file(TableReader& table, std::string_view key,
                                                          const std::string& name)
 {

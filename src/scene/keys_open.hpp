@@ -85,7 +85,7 @@ inline void check_window(TableReader& table, const OpenSettings& open, const Sce
                         "`min` is the lower corner of the window, `max` the upper one");
         }
     }
-    if (scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)]) {
+    if (scene.domain && scene.domain->periodic[at(axis)]) {
         table.error("into", fmt::format("the domain is periodic along {}", "xyz"[axis]),
                     "a periodic side cannot be open");
     }
@@ -104,40 +104,33 @@ inline void check_asked(TableReader& table, const OpenSettings& open, const Seri
     if (table.mistaken({"kind", "level", "velocity", "discharge", "series", "station"})) {
         return;
     }
-    const auto refuse = [&](std::string_view key, std::string what, std::string hint) {
-        table.error(key, std::move(what), std::move(hint));
-    };
+    const char* given = open.level ? "level" : open.velocity ? "velocity" : "discharge";
     if (open.kind == OpenKind::outflow && (series || constant)) {
-        refuse(series          ? "series"
-               : open.level    ? "level"
-               : open.velocity ? "velocity"
-                               : "discharge",
-               "has no effect with kind = \"outflow\", which prescribes no flow",
-               "kind = \"inflow\" follows a series; kind = \"absorb\" keeps a level");
+        table.error(series ? "series" : given,
+                    "has no effect with kind = \"outflow\", which prescribes no flow",
+                    "kind = \"inflow\" follows a series; kind = \"absorb\" keeps a level");
         return;
     }
     if (series && constant) {
-        refuse(open.level      ? "level"
-               : open.velocity ? "velocity"
-                               : "discharge",
-               "has no meaning beside a series", "give one of them");
+        table.error(given, "has no meaning beside a series", "give one of them");
     }
     if (keys.file && !open.series.empty()) {
-        refuse("series", "has no meaning beside [[open.station]]", "give one of them");
+        table.error("series", "has no meaning beside [[open.station]]", "give one of them");
     }
     if (open.kind == OpenKind::inflow && !series && !open.level && !open.discharge) {
-        refuse("series", "is missing: an inflow needs a flow to follow",
-               "give `series`, or `level` with or without `velocity`, or `discharge`");
+        table.error("series", "is missing: an inflow needs a flow to follow",
+                    "give `series`, or `level` with or without `velocity`, or `discharge`");
     }
     if (open.discharge && (open.level || open.velocity)) {
-        refuse("discharge", "has no meaning beside `level` or `velocity`",
-               "a discharge enters at the depth that the water inside has, or at the critical one");
+        table.error(
+            "discharge", "has no meaning beside `level` or `velocity`",
+            "a discharge enters at the depth that the water inside has, or at the critical one");
     }
     if (open.kind == OpenKind::inflow && open.velocity && !open.level && !open.discharge) {
-        refuse("velocity", "needs a `level`", "or give `discharge`");
+        table.error("velocity", "needs a `level`", "or give `discharge`");
     }
     if (open.kind == OpenKind::absorb && open.discharge) {
-        refuse("discharge", "has no meaning with kind = \"absorb\"", "use kind = \"inflow\"");
+        table.error("discharge", "has no meaning with kind = \"absorb\"", "use kind = \"inflow\"");
     }
 }
 
@@ -309,7 +302,7 @@ inline void finish_station(TableReader& table, const SeriesKeys& keys, const Ope
     const auto unsorted =
         std::ranges::adjacent_find(series.times, [](double a, double b) { return b <= a; });
     if (unsorted != series.times.end()) {
-        table.error_at("times", static_cast<std::size_t>(unsorted + 1 - series.times.begin()),
+        table.error_at("times", at(unsorted + 1 - series.times.begin()),
                        "is not later than the time before it", "times must ascend");
     }
     check_series(table, "times", series);

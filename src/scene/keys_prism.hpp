@@ -11,12 +11,8 @@ namespace hyoryu {
 inline void make_prism(TableReader& table, const std::vector<Vec3>& corners, MeshShape& shape)
 {
     PrismOutline& outline = *shape.prism;
-    if (table.reading().dimensions == 2) {
-        table.error("shape", "prisms are supported in three dimensions only",
-                    "set `dimensions = 3`");
-        return;
-    }
-    if (!table.sound("corners") || !table.sound("bottom") || !table.sound("top")) {
+    if (refuse_flat(table, "shape", "prisms are") || !table.sound("corners") ||
+        !table.sound("bottom") || !table.sound("top")) {
         return;
     }
     for (const Vec3& corner : corners) {

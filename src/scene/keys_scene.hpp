@@ -90,7 +90,7 @@ inline void find_periods(TableReader& table, const std::vector<std::string>& nam
                                               : "there are \"x\", \"y\" and \"z\"");
             continue;
         }
-        const auto axis = static_cast<std::size_t>(found - axes.begin());
+        const auto axis = at(found - axes.begin());
         domain.periodic[axis] = true;
         check_period(table, scene, domain, static_cast<int>(axis), name);
     }
@@ -188,7 +188,7 @@ void general_keys(auto& keys, Is<Scene> auto& scene)
             particles.choice("precision", scene.precision, {"single", "double"},
                              "Floating-point type of the pair interactions. The state and the "
                              "bodies use double precision in either case. \"double\" is for "
-                             "verification and needs about twice the time.");
+                             "verification and takes about the same time.");
             constexpr double no_bound = 1e15;
             particles.integer("most", scene.most_fluid, 0, no_bound, ">= 0",
                               "Maximum number of fluid particles in a run with open sides, "

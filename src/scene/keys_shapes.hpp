@@ -51,11 +51,6 @@ inline void check_corners(TableReader& table, const Vec3& low, const Vec3& high)
     }
 }
 
-inline void find_corners(TableReader& table, bool& by_corners)
-{
-    by_corners = table.has("min") || table.has("max");
-}
-
 inline void place_box(TableReader& table, const std::optional<Vec3>& low,
                       const std::optional<Vec3>& high, BoxShape& box, Vec3& centre)
 {
@@ -69,12 +64,7 @@ inline void place_box(TableReader& table, const std::optional<Vec3>& low,
 inline void load_mesh(TableReader& table, MeshShape& shape)
 {
     const auto path = path_of_file(table, "file", shape.file);
-    if (table.reading().dimensions == 2) {
-        table.error("shape", "meshes are supported in three dimensions only",
-                    "set `dimensions = 3`");
-        return;
-    }
-    if (!path) {
+    if (refuse_flat(table, "shape", "meshes are") || !path) {
         return;
     }
     shape.file = path->string();
@@ -150,12 +140,7 @@ inline std::string particle_given_twice(const NumberTable& numbers)
 inline void load_particles(TableReader& table, ParticleShape& shape)
 {
     const auto path = path_of_file(table, "file", shape.file);
-    if (table.reading().dimensions == 2) {
-        table.error("shape", "bodies of particles are supported in three dimensions only",
-                    "set `dimensions = 3`");
-        return;
-    }
-    if (!path) {
+    if (refuse_flat(table, "shape", "bodies of particles are") || !path) {
         return;
     }
     shape.file = path->string();
@@ -246,18 +231,12 @@ void rotation_keys(auto& keys, Is<Quat> auto& rotation, std::string_view meaning
     keys.rule(check_one_rotation, turn.has_value());
 }
 
-/// The edges of a box that has no corners in space.
-void size_keys(auto& keys, Is<BoxShape> auto& box, const ShapeWords& words)
-{
-    keys.vector("size", box.size, "m", words.size, needed);
-    keys.rule(check_size, box);
-}
-
 /// A shape about its own centre, of any kind but a box in space.
 void shape_keys(auto& keys, Is<Shape> auto& shape, const ShapeWords& words)
 {
     if (auto* box = std::get_if<BoxShape>(&shape)) {
-        size_keys(keys, *box, words);
+        keys.vector("size", box->size, "m", words.size, needed);
+        keys.rule(check_size, *box);
     } else if (auto* sphere = std::get_if<SphereShape>(&shape)) {
         keys.positive("radius", sphere->radius, "m", words.radius, needed);
     } else if (auto* cylinder = std::get_if<CylinderShape>(&shape)) {
@@ -279,8 +258,7 @@ void shape_keys(auto& keys, Is<Shape> auto& shape, const ShapeWords& words)
 void placed_keys(auto& keys, Is<Shape> auto& shape, auto& centre, const ShapeWords& words)
 {
     auto* box = std::get_if<BoxShape>(&shape);
-    bool by_corners = false;
-    keys.rule(find_corners, by_corners);
+    const bool by_corners = keys.gives("min") || keys.gives("max");
     if (box != nullptr && keys.applies(by_corners)) {
         std::optional<Vec3> low;
         std::optional<Vec3> high;

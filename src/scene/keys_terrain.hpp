@@ -179,12 +179,7 @@ inline void load_terrain(TableReader& table, const TerrainKeys& given,
                          const std::string& name, TerrainPatch& patch, Mesh& mesh)
 {
     const auto path = path_of_file(table, "file", name);
-    if (table.reading().dimensions == 2) {
-        table.error("shape", "terrain is supported in three dimensions only",
-                    "set `dimensions = 3`");
-        return;
-    }
-    if (!path || table.mistaken()) {
+    if (refuse_flat(table, "shape", "terrain is") || !path || table.mistaken()) {
         return;
     }
     try {

@@ -113,8 +113,7 @@ inline void check_path(TableReader& table, Motion& motion)
     const auto unsorted = std::adjacent_find(motion.times.begin(), motion.times.end(),
                                              [](double a, double b) { return b <= a; });
     if (unsorted != motion.times.end()) {
-        table.error_at("times", static_cast<std::size_t>(unsorted + 1 - motion.times.begin()),
-                       "times must ascend");
+        table.error_at("times", at(unsorted + 1 - motion.times.begin()), "times must ascend");
     } else if (const std::string fault = fault_of_speed(motion); !fault.empty()) {
         table.error("places", fault, "times are in s, places in m");
     } else if (displacement(motion, 0).norm() > at_origin) {
@@ -127,14 +126,8 @@ inline void check_path(TableReader& table, Motion& motion)
 struct AbsorbKeys {
     bool absorbs = false;
     std::optional<double> depth; // [m]
-    bool leveled = false;
-    std::vector<double> levels; // [m]
+    std::vector<double> levels;  // [m]
 };
-
-inline void find_levels(TableReader& table, bool& leveled)
-{
-    leveled = table.has("levels");
-}
 
 inline void check_absorption(TableReader& table, const AbsorbKeys& keys, MotionWay way, Wall& wall)
 {
@@ -200,7 +193,7 @@ void absorb_keys(auto& keys, MotionWay way, auto& wall)
 {
     AbsorbKeys absorb;
     if (const auto& absorption = wall.motion.absorption; keys.writes && absorption) {
-        absorb = {true, absorption->depth, !absorption->levels.empty(), absorption->levels};
+        absorb = {true, absorption->depth, absorption->levels};
     }
     if (keys.shows(absorb.absorbs)) {
         keys.flag("absorb", absorb.absorbs,
@@ -213,8 +206,7 @@ void absorb_keys(auto& keys, MotionWay way, auto& wall)
                       "Depth of the water at rest in front of an absorbing paddle; a piston has "
                       "its own depth key.",
                       no_default);
-        keys.rule(find_levels, absorb.leveled);
-        if (keys.applies(absorb.leveled)) {
+        if (keys.applies(!absorb.levels.empty() || keys.gives("levels"))) {
             keys.path("levels", absorb.levels, "m",
                       "Water level at the paddle, above still water, that the path generates at "
                       "each of the times.");

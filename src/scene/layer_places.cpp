@@ -12,12 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-// Indices of cell k of a lattice, the first axis fastest.
-std::array<Index, 3> cell(Index k, const std::array<Index, 3>& count)
-{
-    return {k % count[0], k / count[0] % count[1], k / count[0] / count[1]};
-}
-
 // A volume in cubes of the spacing; that of a lattice that fits is one cube but for rounding.
 double in_cubes(double volume, const LayerLattice& lattice)
 {
@@ -58,9 +52,8 @@ BasinPlaces places_of(const BasinWall& basin, const LayerLattice& lattice)
     BasinPlaces places{.basin = basin, .dimensions = lattice.dimensions};
     const Vec3 size = basin.max - basin.min;
     for (int a = 0; a < 3; ++a) {
-        const auto k = static_cast<std::size_t>(a);
-        places.cavity[k] = std::max<Index>(1, std::llround(size[a] / lattice.spacing));
-        places.layers[k] = lattice.layers;
+        places.cavity[at(a)] = std::max<Index>(1, std::llround(size[a] / lattice.spacing));
+        places.layers[at(a)] = lattice.layers;
     }
     if (lattice.dimensions == 2) {
         places.cavity[1] = 1;
@@ -93,17 +86,17 @@ LayerPlaces places_of(const SolidWall& solid, const SolidSurface& surface,
 {
     const auto of_shape = [&]<class Own>(const Own& shape) -> LayerPlaces {
         if constexpr (std::same_as<Own, MeshShape>) {
-            const MeshLattice cells = mesh_lattice(shape, lattice.spacing);
+            const Cells cells = mesh_lattice(shape, lattice.spacing);
             return MeshPlaces{&solid,          &std::get<TriangleTree>(surface.shape),
-                              cells,           in_cubes(cells.cell().prod(), lattice),
+                              cells,           in_cubes(cells.edges().prod(), lattice),
                               lattice.spacing, lattice.depth()};
         } else if constexpr (std::same_as<Own, ParticleShape>) {
             // Finer cubes are not all taken.
             const double edge =
                 shape.spacing < Crowd::distance * lattice.spacing ? lattice.spacing : shape.spacing;
-            return CubePlaces{&solid, &shape.points,
-                              in_cubes(std::pow(edge, lattice.dimensions), lattice),
-                              lattice.depth(), lattice.dimensions};
+            return ObstaclePlaces{&solid, GivenPoints{&shape.points},
+                                  in_cubes(std::pow(edge, lattice.dimensions), lattice),
+                                  lattice.depth(), lattice.dimensions};
         } else {
             const ShapePoints points = shape_points(shape, lattice.spacing, lattice.dimensions);
             return ObstaclePlaces{&solid, points, cubes_of(shape, number_of(points), lattice),
@@ -123,7 +116,7 @@ LayerLattice layer_lattice(const Scene& scene, const Bounds& domain)
 std::optional<WallCell> PlanePlaces::place(Index k) const
 {
     const auto half = [&](Index index) { return (static_cast<double>(index) + 0.5) * spacing; };
-    const std::array<Index, 3> c = cell(k, count);
+    const std::array<Index, 3> c = cell_at(k, count);
     Vec3 p =
         (plane.normal.dot(plane.point) - half(c[2])) * plane.normal + half(first[0] + c[0]) * along;
     if (dimensions == 3) {
@@ -145,12 +138,12 @@ Index BasinPlaces::number() const
 
 std::optional<WallCell> BasinPlaces::place(Index k) const
 {
-    const std::array<Index, 3> c =
-        cell(k, {cavity[0] + 2 * layers[0], cavity[1] + 2 * layers[1], cavity[2] + 2 * layers[2]});
+    const std::array<Index, 3> c = cell_at(
+        k, {cavity[0] + 2 * layers[0], cavity[1] + 2 * layers[1], cavity[2] + 2 * layers[2]});
     bool outside = false;
     Vec3 p(0, 0, 0);
     for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
+        const auto a = at(axis);
         if (dimensions == 2 && axis == 1) {
             continue;
         }
@@ -177,14 +170,6 @@ std::optional<WallCell> RoundPlaces::place(Index k) const
 std::optional<WallCell> ObstaclePlaces::place(Index k) const
 {
     const Vec3 p = point_of(points, k).place;
-    const bool is_core =
-        signed_distance({.shape = &solid->shape, .dimensions = dimensions}, p) <= -depth;
-    return is_core ? std::nullopt : std::optional(WallCell{in_world(*solid, p), cubes});
-}
-
-std::optional<WallCell> CubePlaces::place(Index k) const
-{
-    const Vec3 p = (*points)[static_cast<std::size_t>(k)];
     const bool is_core =
         signed_distance({.shape = &solid->shape, .dimensions = dimensions}, p) <= -depth;
     return is_core ? std::nullopt : std::optional(WallCell{in_world(*solid, p), cubes});

@@ -74,7 +74,8 @@ struct RoundPlaces {
     std::optional<WallCell> place(Index k) const;
 };
 
-/// The particles of a simple obstacle without its core, which is out of reach of the fluid.
+/// The particles of a simple obstacle, or of one that consists of cubes, without its core, which is
+/// out of reach of the fluid.
 struct ObstaclePlaces {
     const SolidWall* solid = nullptr;
     ShapePoints points;
@@ -83,18 +84,6 @@ struct ObstaclePlaces {
     int dimensions = 3;
 
     Index number() const { return number_of(points); }
-    std::optional<WallCell> place(Index k) const;
-};
-
-/// The same for an obstacle that consists of cubes.
-struct CubePlaces {
-    const SolidWall* solid = nullptr;
-    const std::vector<Vec3>* points = nullptr;
-    double cubes = 1; // volume of a cell
-    double depth = 0; // of the layers [m]
-    int dimensions = 3;
-
-    Index number() const { return static_cast<Index>(points->size()); }
     std::optional<WallCell> place(Index k) const;
 };
 
@@ -108,7 +97,7 @@ struct CubePlaces {
 struct MeshPlaces {
     const SolidWall* solid = nullptr;
     const TriangleTree* tree = nullptr;
-    MeshLattice lattice;
+    Cells lattice;
     double cubes = 1;              // volume of a cell of the lattice
     double spacing = 0, depth = 0; // [m]
 
@@ -116,7 +105,7 @@ struct MeshPlaces {
     /// Empty if the cell has no part within the mesh.
     std::optional<WallCell> cell_of(const MeshPoint& point) const;
     /// Of the middles of the cells that may have a particle.
-    DepthRange range() const { return {depth, lattice.cell().norm() / 2}; }
+    DepthRange range() const { return {depth, lattice.edges().norm() / 2}; }
 
 private:
     /// A point in a row along an axis that begins at a surface.
@@ -138,8 +127,7 @@ private:
     InRow in_row(int axis, const Vec3& point) const;
 };
 
-using LayerPlaces =
-    std::variant<PlanePlaces, BasinPlaces, RoundPlaces, ObstaclePlaces, CubePlaces, MeshPlaces>;
+using LayerPlaces = std::variant<PlanePlaces, BasinPlaces, RoundPlaces, ObstaclePlaces, MeshPlaces>;
 
 /// The layers of a wall. `surface`: the surface of this wall.
 LayerPlaces layer_places(const Wall& wall, const SolidSurface& surface,

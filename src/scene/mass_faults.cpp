@@ -19,9 +19,7 @@ double outside_hull(const std::vector<Vec3>& points, const Vec3& p)
     const Polytope hull = convex_hull(points);
     double out = -infinity;
     for (const std::vector<int>& face : hull.faces) {
-        const auto corner = [&](std::size_t k) {
-            return hull.corners[static_cast<std::size_t>(face[k])];
-        };
+        const auto corner = [&](std::size_t k) { return hull.corners[at(face[k])]; };
         Vec3 normal = Vec3::Zero();
         for (std::size_t k = 2; k < face.size(); ++k) {
             normal += (corner(k - 1) - corner(0)).cross(corner(k) - corner(0));

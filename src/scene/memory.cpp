@@ -40,19 +40,15 @@ constexpr double number = 1.5 * 8;
 constexpr double text = 1.5 * 32;
 constexpr double line = 16;
 
-double of_table(const HistorySize& table)
-{
-    return table.rows * (table.row_text + line + number * (table.active + table.idle) +
-                         text * table.text_columns);
-}
-
 // Memory for results.h5 at the end of a run: its image, and the largest table as text and numbers.
 double closing(const std::vector<HistorySize>& tables)
 {
     double most = 0;
     double image = 0;
     for (const HistorySize& table : tables) {
-        most = std::max(most, of_table(table));
+        const double row = table.row_text + line + number * (table.active + table.idle) +
+                           text * table.text_columns;
+        most = std::max(most, table.rows * row);
         image += 8 * table.rows * (table.active + table.idle) + table.rows * table.names;
     }
     return most + image;

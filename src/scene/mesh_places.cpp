@@ -112,13 +112,14 @@ std::optional<Vec3> place_within(const TriangleTree& tree, const Vec3& centre, c
 
 std::optional<WallCell> MeshPlaces::place(Index k) const
 {
-    const Vec3 p = lattice.place(k);
+    const Vec3 p =
+        k < lattice.number() ? lattice.middle(cell_at(k, lattice.count)) : lattice.centre;
     return cell_of({k, p, nearest_place(*tree, p, infinity)});
 }
 
 MeshPlaces::InRow MeshPlaces::in_row(int axis, const Vec3& point) const
 {
-    const double pitch = lattice.cell()[axis];
+    const double pitch = lattice.edge(axis);
     const double longest = longest_shared * spacing;
     const auto surface = [&](int sense) {
         return row_surface(way_out(*tree, point, {axis, sense}, longest), axis, pitch, spacing);
@@ -153,10 +154,10 @@ MeshPlaces::InRows MeshPlaces::in_rows(const Vec3& point) const
             rows.sure_shift[axis] = row.shift;
             rows.sure_cubes *= row.ratio;
             // Half a cell along the axis is nearer to an inclined surface.
-            rows.least = std::min(rows.least, flat_cosine / 2 * row.ratio * lattice.cell()[axis]);
+            rows.least = std::min(rows.least, flat_cosine / 2 * row.ratio * lattice.edge(axis));
         } else {
             rows.weight = std::max(rows.weight, row.weight);
-            rows.free[axis] = lattice.cell()[axis];
+            rows.free[axis] = lattice.edge(axis);
         }
         rows.shift[axis] = row.shift;
         rows.cubes *= row.ratio;
@@ -166,7 +167,7 @@ MeshPlaces::InRows MeshPlaces::in_rows(const Vec3& point) const
 
 std::optional<WallCell> MeshPlaces::cell_of(const MeshPoint& point) const
 {
-    const Vec3 pitch = lattice.cell();
+    const Vec3 pitch = lattice.edges();
     const double on_surface = grazing * spacing;
     const NearestPlace& surface = point.nearest;
     const bool in_lattice = point.number < lattice.number();

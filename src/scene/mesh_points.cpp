@@ -16,7 +16,7 @@ constexpr Index block = 8; // cells along an edge of the coarsest blocks; a powe
 // A row of blocks along x: the cells of it that may be within the layers.
 class BlockRow {
 public:
-    BlockRow(const MeshLattice& lattice, const TriangleTree& tree, const DepthRange& range, Index j,
+    BlockRow(const Cells& lattice, const TriangleTree& tree, const DepthRange& range, Index j,
              Index k)
         : lattice_(lattice), tree_(tree), range_(range), first_{0, j, k},
           wanted_(at(lattice.count[0] * block * block), 0)
@@ -36,7 +36,7 @@ public:
                 if (wanted_[place_of({i, j, k})] == 0) {
                     continue;
                 }
-                const Vec3 p = lattice_.place(i, j, k);
+                const Vec3 p = lattice_.middle({i, j, k});
                 const NearestPlace nearest = nearest_place(tree_, p, range_.below);
                 if (nearest.distance < range_.above) {
                     points.push_back({i + nx * (j + ny * k), p, nearest});
@@ -64,9 +64,9 @@ private:
             wanted_[place_of(low)] = 1;
             return;
         }
-        const Vec3 half = 0.5 * static_cast<double>(edge - 1) * lattice_.cell();
+        const Vec3 half = 0.5 * static_cast<double>(edge - 1) * lattice_.edges();
         const double reach = 1.001 * half.norm(); // to the farthest of its points, with rounding
-        const Vec3 centre = lattice_.place(low[0], low[1], low[2]) + half;
+        const Vec3 centre = lattice_.middle(low) + half;
         const double distance = nearest_place(tree_, centre, range_.below + reach).distance;
         if (distance >
             reach + range_.above) { // all outside, or the surface is farther than the layers
@@ -80,7 +80,7 @@ private:
         }
     }
 
-    const MeshLattice& lattice_;
+    const Cells& lattice_;
     const TriangleTree& tree_;
     DepthRange range_;
     std::array<Index, 3> first_;
@@ -89,7 +89,7 @@ private:
 
 } // namespace
 
-MeshLattice mesh_lattice(const MeshShape& mesh, double spacing)
+Cells mesh_lattice(const MeshShape& mesh, double spacing)
 {
     Bounds box;
     for (const Vec3& corner : mesh.corners) {
@@ -101,7 +101,7 @@ MeshLattice mesh_lattice(const MeshShape& mesh, double spacing)
             {cells(size.x(), spacing), cells(size.y(), spacing), cells(size.z(), spacing)}};
 }
 
-std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
+std::vector<MeshPoint> points_within(const Cells& lattice, const TriangleTree& tree,
                                      const DepthRange& range, Comm* comm)
 {
     const Index rows = (lattice.count[1] + block - 1) / block;

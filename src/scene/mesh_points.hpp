@@ -2,6 +2,8 @@
 // Particles of a mesh on a lattice.
 #pragma once
 
+#include "cells.hpp"
+
 #include "hyoryu/ranks/comm.hpp"
 #include "hyoryu/scene/scene.hpp"
 #include "hyoryu/scene/triangle_tree.hpp"
@@ -25,31 +27,9 @@ inline double middle(Index k, Index n, double length)
     return ((static_cast<double>(k) + 0.5) / static_cast<double>(n) - 0.5) * length;
 }
 
-/// Cells of about the spacing in the box of a mesh, x fastest; behind the last one its centre, for
-/// a mesh that is thinner than a cell everywhere.
-struct MeshLattice {
-    Vec3 centre{0, 0, 0}, size{0, 0, 0}; // of the box [m]
-    std::array<Index, 3> count{};        // of cells
-
-    Index number() const { return count[0] * count[1] * count[2]; }
-    Vec3 cell() const
-    {
-        return size.cwiseQuotient(Vec3(static_cast<double>(count[0]), static_cast<double>(count[1]),
-                                       static_cast<double>(count[2])));
-    }
-    Vec3 place(Index i, Index j, Index k) const
-    {
-        return centre + Vec3{middle(i, count[0], size.x()), middle(j, count[1], size.y()),
-                             middle(k, count[2], size.z())};
-    }
-    Vec3 place(Index k) const
-    {
-        return k < number() ? place(k % count[0], k / count[0] % count[1], k / count[0] / count[1])
-                            : centre;
-    }
-};
-
-MeshLattice mesh_lattice(const MeshShape& mesh, double spacing);
+/// Cells of about the spacing in the box of a mesh. The number behind that of the last one stands
+/// for the centre, for a mesh that is thinner than a cell everywhere.
+Cells mesh_lattice(const MeshShape& mesh, double spacing);
 
 /// How far points may be from the surface of a mesh [m].
 struct DepthRange {
@@ -68,7 +48,7 @@ struct MeshPoint {
 /// centre if there is none and it is as near. The cost is that of the cells near the surface where
 /// the range is finite, O(log n) a cell for n triangles. Of several processes, which call it
 /// together, each gets a part.
-std::vector<MeshPoint> points_within(const MeshLattice& lattice, const TriangleTree& tree,
+std::vector<MeshPoint> points_within(const Cells& lattice, const TriangleTree& tree,
                                      const DepthRange& range, Comm* comm = nullptr);
 
 } // namespace hyoryu

@@ -17,20 +17,4 @@ std::vector<std::uint8_t> marks_near(std::span<const Vec3> points, std::span<con
     return near;
 }
 
-std::vector<std::uint8_t> marks_about(std::span<const Vec3> points,
-                                      std::span<const std::uint8_t> marked, double distance)
-{
-    CellGrid grid;
-    build(grid, points, 0, distance);
-    std::vector<std::uint8_t> near(marked.begin(), marked.end());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        if (marked[k] != 0) {
-            for_cells_about(grid, points[k], [&](std::size_t j) {
-                near[j] = (points[k] - points[j]).norm() < distance ? 1 : near[j];
-            });
-        }
-    }
-    return near;
-}
-
 } // namespace hyoryu

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 
 namespace hyoryu {
 
@@ -111,15 +112,6 @@ std::string parse_row(const std::vector<std::string>& words, std::span<const Num
     return {};
 }
 
-Order order_asked_for(std::size_t columns)
-{
-    Order order(columns);
-    for (std::size_t k = 0; k < columns; ++k) {
-        order[k] = k;
-    }
-    return order;
-}
-
 } // namespace
 
 NumberTable read_number_table(const std::filesystem::path& file,
@@ -131,7 +123,8 @@ NumberTable read_number_table(const std::filesystem::path& file,
         table.faults.push_back(fmt::format("{}: {}", file.string(), why));
         return table;
     }
-    Order order = order_asked_for(columns.size());
+    Order order(columns.size()); // as asked for, without a header
+    std::iota(order.begin(), order.end(), std::size_t{0});
     bool header_allowed = true;
     for (const TableLine& line : table_lines(file)) {
         const bool header = header_allowed && !table_number(line.words.front());

@@ -22,7 +22,7 @@ std::optional<double> value_at(const OpenSeries& series, const std::vector<doubl
     if (after == series.times.end()) {
         return values.back();
     }
-    const auto k = static_cast<std::size_t>(after - series.times.begin());
+    const auto k = at(after - series.times.begin());
     const double part = (time - series.times[k - 1]) / (series.times[k] - series.times[k - 1]);
     return values[k - 1] + part * (values[k] - values[k - 1]);
 }

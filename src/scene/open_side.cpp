@@ -13,23 +13,12 @@ namespace hyoryu {
 
 namespace {
 
-std::vector<SolidSurface> surfaces_of(const Scene& scene)
-{
-    std::vector<SolidSurface> surfaces;
-    const double thickness = wall_layers(scene.fluid->smoothing_ratio) * scene.spacing;
-    for (const Wall& wall : scene.walls) {
-        surfaces.push_back(surface_of(wall, thickness, scene.dimensions));
-    }
-    return surfaces;
-}
-
 // Distance of a point from the nearest wall, negative inside of one.
 double distance_to_walls(const std::vector<SolidSurface>& surfaces, const Vec3& point)
 {
     double least = infinity;
     for (const SolidSurface& surface : surfaces) {
-        const Vec3 local = surface.rotation.conjugate() * (point - surface.centre);
-        least = std::min(least, nearest_place(surface, local).distance);
+        least = std::min(least, nearest_from_centre(surface, point - surface.centre).distance);
     }
     return least;
 }
@@ -70,6 +59,23 @@ double ground_at(const std::vector<SolidSurface>& surfaces, Vec3 point, double l
     return free;
 }
 
+// Whether in any lane with ground the distance from the walls passes a test, at a distance from the
+// window and `above` the ground.
+bool any_lane(const Scene& scene, const OpenSide& side, double distance, double above,
+              const auto& test)
+{
+    const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
+    for (int lane = 0; lane < side.lanes(); ++lane) {
+        const double bed = side.bed[at(lane)];
+        Vec3 x = point_of_window(side, lane, distance, scene.spacing, scene.dimensions);
+        x.z() = bed + above;
+        if (bed < infinity && test(distance_to_walls(surfaces, x))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 Vec3 point_of_window(const OpenSide& side, int lane, double distance, double spacing,
@@ -102,7 +108,7 @@ OpenSide open_side(const Scene& scene, const OpenSettings& open)
 {
     constexpr int strip_columns = 8;
     const double dp = scene.spacing;
-    const auto across = static_cast<std::size_t>(1 - open.axis());
+    const auto across = at(1 - open.axis());
     OpenSide side;
     side.axis = open.axis();
     side.plane = open.plane();
@@ -114,7 +120,7 @@ OpenSide open_side(const Scene& scene, const OpenSettings& open)
     const int lanes =
         scene.dimensions == 2 ? 1 : std::max(1, static_cast<int>(std::floor(width / dp + 1e-6)));
     side.first = scene.dimensions == 2 ? 0 : open.min[1 - open.axis()] + (width - lanes * dp) / 2;
-    const std::vector<SolidSurface> surfaces = surfaces_of(scene);
+    const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     for (int lane = 0; lane < lanes; ++lane) {
         const auto ground = [&](double distance) {
             return ground_at(surfaces, point_of_window(side, lane, distance, dp, scene.dimensions),
@@ -134,40 +140,24 @@ OpenSide open_side(const Scene& scene, const OpenSettings& open)
 
 bool is_walled(const Scene& scene, const OpenSide& side)
 {
-    const std::vector<SolidSurface> surfaces = surfaces_of(scene);
-    for (int lane = 0; lane < side.lanes(); ++lane) {
-        const double bed = side.bed[static_cast<std::size_t>(lane)];
-        Vec3 x = point_of_window(side, lane, -0.5 * scene.spacing, scene.spacing, scene.dimensions);
-        x.z() = bed + scene.spacing;
-        if (bed < infinity && distance_to_walls(surfaces, x) < -1e-6 * scene.spacing) {
-            return true;
-        }
-    }
-    return false;
+    return any_lane(scene, side, -0.5 * scene.spacing, scene.spacing,
+                    [&](double distance) { return distance < -1e-6 * scene.spacing; });
 }
 
 bool stands_on_ground(const Scene& scene, const OpenSide& side)
 {
-    const std::vector<SolidSurface> surfaces = surfaces_of(scene);
-    for (int lane = 0; lane < side.lanes(); ++lane) {
-        const double bed = side.bed[static_cast<std::size_t>(lane)];
-        Vec3 x = point_of_window(side, lane, 0.5 * scene.spacing, scene.spacing, scene.dimensions);
-        x.z() = bed;
-        if (bed < infinity && distance_to_walls(surfaces, x) > 0.5 * scene.spacing) {
-            return false;
-        }
-    }
-    return true;
+    return !any_lane(scene, side, 0.5 * scene.spacing, 0,
+                     [&](double distance) { return distance > 0.5 * scene.spacing; });
 }
 
 double ground_behind(const Scene& scene, const OpenSide& side)
 {
     constexpr double near = 1.5;
     const double dp = scene.spacing;
-    const std::vector<SolidSurface> surfaces = surfaces_of(scene);
+    const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     double least = side.columns * dp;
     for (int lane = 0; lane < side.lanes(); ++lane) {
-        double ground = side.bed[static_cast<std::size_t>(lane)];
+        double ground = side.bed[at(lane)];
         for (double s = dp / 2; ground < infinity && s < least + near * dp; s += dp) {
             Vec3 x = point_of_window(side, lane, -s, dp, scene.dimensions);
             x.z() = ground;
@@ -291,7 +281,7 @@ bool CarriedWalls::belongs(const Vec3& place, std::int32_t wall) const
     const double margin = (layers_ + 0.5) * scene_.spacing;
     const bool beside = scene_.dimensions == 2 || (place[across] > open_.min[across] - margin &&
                                                    place[across] < open_.max[across] + margin);
-    return beside && !moves(scene_.walls[static_cast<std::size_t>(wall)].motion);
+    return beside && !moves(scene_.walls[at(wall)].motion);
 }
 
 void carry_walls_out(const Scene& scene, Filling& filling)

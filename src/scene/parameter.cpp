@@ -21,13 +21,9 @@ std::string typed(double value)
     }
     return text;
 }
-std::string typed(bool value)
-{
-    return value ? "true" : "false";
-}
 std::string typed(const std::integral auto& value)
 {
-    return std::to_string(value);
+    return fmt::format("{}", value); // also true and false
 }
 std::string typed(const Vec3& v)
 {

@@ -20,23 +20,6 @@ constexpr double same_place = 1e-6;
 // Neighbours whose footprints share less than this part of the smaller one only touch.
 constexpr double touching = 0.01;
 
-struct Frame2 {
-    Plan2 low{infinity, infinity};
-    Plan2 high{-infinity, -infinity};
-};
-
-Frame2 frame_of(const Ring& ring)
-{
-    Frame2 frame;
-    for (const Plan2& p : ring) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            frame.low[k] = std::min(frame.low[k], p[k]);
-            frame.high[k] = std::max(frame.high[k], p[k]);
-        }
-    }
-    return frame;
-}
-
 bool overlap(const Frame2& a, const Frame2& b)
 {
     return a.low[0] < b.high[0] && b.low[0] < a.high[0] && a.low[1] < b.high[1] &&
@@ -72,7 +55,7 @@ double lowest_ground(const Ground& ground, const Ring& ring)
 {
     double lowest = infinity;
     for (const auto& [i, j, k] : ear_triangles(ring)) {
-        const auto corner = [&](int n) { return ring[static_cast<std::size_t>(n)]; };
+        const auto corner = [&](int n) { return ring[at(n)]; };
         lowest = std::min(lowest, ground.lowest_under({corner(i), corner(j), corner(k)}));
     }
     return lowest;

@@ -19,9 +19,6 @@ struct Buildings {
 /// The first wall of the scene that is terrain, or none.
 const Wall* terrain_of(const Scene& scene);
 
-/// How its grid lies in the case; none without a terrain.
-const TerrainPatch* terrain_patch_of(const Scene& scene);
-
 /// The prisms on footprints in the coordinates of the terrain, or in the axes of the case without
 /// one. A prism reaches from three spacings below the lowest ground under it to its height above
 /// that ground, which is the terrain, or else all walls that do not move. Footprints wholly beside

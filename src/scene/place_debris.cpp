@@ -179,7 +179,7 @@ std::string unknown_ground(const Scene& scene, const std::string& on)
 std::vector<PlaceFault> place_array(DebrisKeys& debris, Scene& scene)
 {
     std::vector<PlaceFault> faults;
-    const DebrisArray& array = debris.array;
+    const DebrisArray& array = *debris.array;
     Placing placing(debris, scene);
     const Vec3& extent = placing.extent();
     auto count = array.count;
@@ -254,24 +254,6 @@ std::vector<Taken> bodies_in(const Scene& scene, const Plan2& low, const Plan2& 
     return found;
 }
 
-// The box about a yard.
-struct Frame {
-    Plan2 low{infinity, infinity};
-    Plan2 high{-infinity, -infinity};
-};
-
-Frame frame_about(const std::vector<Plan2>& polygon)
-{
-    Frame frame;
-    for (const Plan2& corner : polygon) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            frame.low[k] = std::min(frame.low[k], corner[k]);
-            frame.high[k] = std::max(frame.high[k], corner[k]);
-        }
-    }
-    return frame;
-}
-
 // The pieces and bodies that a yard already holds.
 struct Occupied {
     std::vector<Taken> bodies;
@@ -292,7 +274,7 @@ bool is_clear(const std::vector<Taken>& bodies, const Spot& spot, double height,
 bool find_spot(const DebrisScatter& scatter, const Vec3& extent, const Ground& ground,
                const Occupied& occupied, Dice& dice, Spot& spot)
 {
-    const Frame frame = frame_about(scatter.polygon);
+    const Frame2 frame = frame_of(scatter.polygon);
     for (int n = 0; n < most_tries; ++n) {
         spot.at = {dice.between(frame.low[0], frame.high[0]),
                    dice.between(frame.low[1], frame.high[1])};
@@ -320,7 +302,7 @@ bool find_spot(const DebrisScatter& scatter, const Vec3& extent, const Ground& g
 
 std::vector<PlaceFault> scatter_over_yard(DebrisKeys& debris, Scene& scene)
 {
-    const DebrisScatter& scatter = debris.scatter;
+    const DebrisScatter& scatter = *debris.scatter;
     if (scene.dimensions == 2) {
         return {{"a yard has a width, so it needs three dimensions", "use `array`"}};
     }
@@ -329,7 +311,7 @@ std::vector<PlaceFault> scatter_over_yard(DebrisKeys& debris, Scene& scene)
     }
     Placing placing(debris, scene);
     const Vec3& extent = placing.extent();
-    const Frame frame = frame_about(scatter.polygon);
+    const Frame2 frame = frame_of(scatter.polygon);
     const double least = std::min(extent.x(), extent.y());
     if (std::min(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]) < least) {
         return {{fmt::format("the yard is {:.3g} m by {:.3g} m, too small for a piece of {:.3g} m "
@@ -362,17 +344,17 @@ std::vector<PlaceFault> scatter_over_yard(DebrisKeys& debris, Scene& scene)
 
 } // namespace
 
-std::vector<PlaceFault> place_debris(DebrisKeys& debris, bool as_array, Scene& scene)
+std::vector<PlaceFault> place_debris(DebrisKeys& debris, Scene& scene)
 {
     if (debris.size) {
         debris.load.size.assign(debris.size->begin(), debris.size->end());
     }
     const std::string unknown =
-        unknown_ground(scene, as_array ? debris.array.on : debris.scatter.on);
+        unknown_ground(scene, debris.array ? debris.array->on : debris.scatter->on);
     if (!unknown.empty()) {
         return {{unknown}};
     }
-    return as_array ? place_array(debris, scene) : scatter_over_yard(debris, scene);
+    return debris.array ? place_array(debris, scene) : scatter_over_yard(debris, scene);
 }
 
 } // namespace hyoryu

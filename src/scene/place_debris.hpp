@@ -33,15 +33,15 @@ struct DebrisKeys {
     std::optional<std::array<double, 2>> size; // diameter and height [m]
     std::string name;
     std::string material;
-    DebrisArray array;
-    DebrisScatter scatter;
-    std::size_t placed = 0; // bodies that it has become
+    std::optional<DebrisArray> array;     // this
+    std::optional<DebrisScatter> scatter; // or this
+    std::size_t placed = 0;               // bodies that it has become
     Place place;
 };
 
 /// Appends the pieces to the bodies of the scene and returns what is wrong with their places: no
 /// ground below, ground too uneven to stand on, a stack whose pieces overlap, no room in the yard
 /// beside the bodies that are there already. The same seed and name give the same places.
-std::vector<PlaceFault> place_debris(DebrisKeys& debris, bool as_array, Scene& scene);
+std::vector<PlaceFault> place_debris(DebrisKeys& debris, Scene& scene);
 
 } // namespace hyoryu

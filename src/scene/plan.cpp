@@ -3,7 +3,6 @@
 
 #include "hyoryu/core/built_effects.hpp"
 #include "hyoryu/core/error.hpp"
-#include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/memory.hpp"
 #include "hyoryu/scene/moving_walls.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
@@ -13,6 +12,7 @@
 #include "plan_gauges.hpp"
 #include "plan_open.hpp"
 #include "plan_scale.hpp"
+#include "plan_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -34,6 +34,7 @@ constexpr double bodies_only_step = 1e-3; // [s]
 constexpr double sound_over_speed = 10;
 // Skin of the neighbour lists in spacings that flows come to, for the estimate of memory.
 constexpr double usual_skin = 0.2;
+constexpr const char* no_fluid = "the scene has no fluid";
 
 std::string counted(std::integral auto number, std::string_view one, std::string_view many)
 {
@@ -114,32 +115,9 @@ double viscosity_of_scheme(const Plan& plan)
     return effective_viscosity(Fluid{.parameters = *plan.fluid, .effects = plan.effects});
 }
 
-// Collects effects as on or off with one reason for either.
-class Census {
-public:
-    explicit Census(Plan& plan) : plan_(plan) {}
-    void add(std::string name, const std::optional<std::string>& on, std::string off)
-    {
-        if (on) {
-            plan_.on.push_back({std::move(name), *on});
-        } else {
-            plan_.off.push_back({std::move(name), std::move(off)});
-        }
-    }
-
-private:
-    Plan& plan_;
-};
-
-std::optional<std::string> when(const bool holds, std::string why)
-{
-    return holds ? std::optional(std::move(why)) : std::nullopt;
-}
-
 // Each model of a slot; those of one name are one effect.
 template <class... Models>
-void list_slot(const std::variant<Models...>& choice, bool runs, const std::string& off,
-               Census& census)
+void list_slot(const std::variant<Models...>& choice, bool runs, const std::string& off, Plan& plan)
 {
     Plan::Effect held;
     const auto tell = [&]<class Model>(const Model& model) {
@@ -151,129 +129,119 @@ void list_slot(const std::variant<Models...>& choice, bool runs, const std::stri
     std::string_view last = Off::name;
     for (const std::string_view name : {Models::name...}) {
         if (name != last && name != Off::name) {
-            census.add(std::string(name), when(runs && name == held.name, held.why), off);
+            list_effect(plan, std::string(name), runs && name == held.name, held.why, off);
             last = name;
         }
     }
 }
 
 // Friction at solids, and the forces that drive the fluid.
-void list_walls_and_drive(const Scene& scene, const Plan& plan, Census& census)
+void list_walls_and_drive(const Scene& scene, Plan& plan)
 {
     const bool fluid = plan.fluid.has_value();
-    const std::string none = "the scene has no fluid";
     const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
-    census.add("no_slip",
-               when(solids && !std::holds_alternative<Off>(plan.effects[slot::slip]),
-                    "`fluid.walls` is \"no_slip\": friction at walls and bodies"),
-               !fluid   ? none
-               : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
-                        : "the scene has no wall and no body");
-    census.add("drive",
-               when(fluid && scene.fluid->acceleration.norm() > 0,
-                    "`fluid.acceleration` drives the fluid"),
-               fluid ? "`fluid.acceleration` is zero" : none);
+    list_effect(plan, "no_slip", solids && !std::holds_alternative<Off>(plan.effects[slot::slip]),
+                "`fluid.walls` is \"no_slip\": friction at walls and bodies",
+                !fluid   ? no_fluid
+                : solids ? "`fluid.walls` is \"free_slip\", or there is no viscosity"
+                         : "the scene has no wall and no body");
+    list_effect(plan, "drive", fluid && scene.fluid->acceleration.norm() > 0,
+                "`fluid.acceleration` drives the fluid",
+                fluid ? "`fluid.acceleration` is zero" : no_fluid);
 }
 
-void list_fluid_effects(const Scene& scene, Plan& plan, Census& census)
+void list_fluid_effects(const Scene& scene, Plan& plan)
 {
     const bool fluid = plan.fluid.has_value();
-    const std::string none = "the scene has no fluid";
     const bool solids = fluid && (plan.counts.wall > 0 || plan.counts.bodies > 0);
     const bool mps = fluid && plan.fluid->formulation == FormulationKind::mps;
-    census.add("pressure", when(fluid, "the scene has a fluid"), none);
-    census.add("continuity", when(fluid, "the scene has a fluid"), none);
-    census.add("corrected_gradient",
-               when(fluid && !std::holds_alternative<Off>(plan.effects[slot::gradient]),
-                    fmt::format("`fluid.{}`: reverse kernel gradient correction",
-                                mps ? "formulation` is \"mps\"" : "gradient` is \"corrected\"")),
-               fluid ? "`fluid.gradient` is \"plain\"" : none);
-    census.add("paired_walls",
-               when(solids && !std::holds_alternative<Off>(plan.effects[slot::wall_continuity]),
-                    "`fluid.wall_continuity` is \"paired\": compression in front of walls and "
-                    "bodies"),
-               !fluid   ? none
-               : solids ? "`fluid.wall_continuity` is \"plain\""
-                        : "the scene has no wall and no body");
-    census.add("isotropic_kernel",
-               when(fluid && plan.fluid->kernel == KernelShape::isotropic,
-                    "`fluid.kernel` is \"isotropic\": pressure stays isotropic among strained "
-                    "particles"),
-               fluid ? "`fluid.kernel` is \"wendland\"" : none);
-    census.add("wall_extrapolation", when(solids, "the scene has walls or bodies"),
-               fluid ? "the scene has no wall and no body" : none);
-    census.add("solid_backstop", when(solids, "the scene has walls or bodies"),
-               fluid ? "the scene has no wall and no body" : none);
+    list_effect(plan, "pressure", fluid, "the scene has a fluid", no_fluid);
+    list_effect(plan, "continuity", fluid, "the scene has a fluid", no_fluid);
+    list_effect(plan, "corrected_gradient",
+                fluid && !std::holds_alternative<Off>(plan.effects[slot::gradient]),
+                fmt::format("`fluid.{}`: reverse kernel gradient correction",
+                            mps ? "formulation` is \"mps\"" : "gradient` is \"corrected\""),
+                fluid ? "`fluid.gradient` is \"plain\"" : no_fluid);
+    list_effect(plan, "paired_walls",
+                solids && !std::holds_alternative<Off>(plan.effects[slot::wall_continuity]),
+                "`fluid.wall_continuity` is \"paired\": compression in front of walls and "
+                "bodies",
+                !fluid   ? no_fluid
+                : solids ? "`fluid.wall_continuity` is \"plain\""
+                         : "the scene has no wall and no body");
+    list_effect(plan, "isotropic_kernel", fluid && plan.fluid->kernel == KernelShape::isotropic,
+                "`fluid.kernel` is \"isotropic\": pressure stays isotropic among strained "
+                "particles",
+                fluid ? "`fluid.kernel` is \"wendland\"" : no_fluid);
+    list_effect(plan, "wall_extrapolation", solids, "the scene has walls or bodies",
+                fluid ? "the scene has no wall and no body" : no_fluid);
+    list_effect(plan, "solid_backstop", solids, "the scene has walls or bodies",
+                fluid ? "the scene has no wall and no body" : no_fluid);
     const bool surfaces = fluid && (plan.counts.walls > 0 || plan.counts.bodies > 0);
-    census.add("wall_barrier",
-               when(surfaces, "the scene has walls or bodies: particles that would pass their "
-                              "exact surfaces are stopped, and their momentum acts on the solid"),
-               fluid ? "the scene has no wall and no body" : none);
+    list_effect(plan, "wall_barrier", surfaces,
+                "the scene has walls or bodies: particles that would pass their "
+                "exact surfaces are stopped, and their momentum acts on the solid",
+                fluid ? "the scene has no wall and no body" : no_fluid);
     const FluidChoices choices = fluid ? scene.fluid->effects : FluidChoices{};
     for_each(ModelSlots<AllSlots>{}, [&](auto slot) {
         const bool runs = !std::holds_alternative<Off>(plan.effects[slot]);
-        list_slot(choices[slot], runs, fluid ? std::string(slot.table.off) : none, census);
+        list_slot(choices[slot], runs, fluid ? std::string(slot.table.off) : no_fluid, plan);
         if (std::same_as<decltype(slot), ViscositySlot>) { // wall friction is listed with viscosity
-            list_walls_and_drive(scene, plan, census);
+            list_walls_and_drive(scene, plan);
         }
     });
     const bool periodic =
         scene.domain && std::ranges::any_of(scene.domain->periodic, std::identity{});
-    census.add("periodic", when(periodic, "`domain.periodic` lists directions"),
-               "`domain.periodic` lists no direction");
+    list_effect(plan, "periodic", periodic, "`domain.periodic` lists directions",
+                "`domain.periodic` lists no direction");
     const bool coupled = fluid && plan.counts.bodies > 0;
-    census.add("body_load", when(coupled, "bodies are in the fluid or may touch it"),
-               fluid ? "the scene has no bodies" : none);
-    census.add("film_pressure", when(coupled, "thin films of fluid between solids carry pressure"),
-               fluid ? "the scene has no bodies" : none);
+    list_effect(plan, "body_load", coupled, "bodies are in the fluid or may touch it",
+                fluid ? "the scene has no bodies" : no_fluid);
+    list_effect(plan, "film_pressure", coupled, "thin films of fluid between solids carry pressure",
+                fluid ? "the scene has no bodies" : no_fluid);
     const auto sealed = std::ranges::count(scene.bodies, true, &BodySettings::sealed);
-    census.add("seepage",
-               when(coupled, "water seeps under bodies where they stand" +
-                                 (sealed == 0 ? std::string()
-                                              : fmt::format(", but under {} with `body.stands` "
-                                                            "\"sealed\"",
-                                                            sealed))),
-               fluid ? "the scene has no bodies" : none);
+    list_effect(plan, "seepage", coupled,
+                "water seeps under bodies where they stand" +
+                    (sealed == 0 ? std::string()
+                                 : fmt::format(", but under {} with `body.stands` "
+                                               "\"sealed\"",
+                                               sealed)),
+                fluid ? "the scene has no bodies" : no_fluid);
 }
 
 void list_effects(const Scene& scene, Plan& plan)
 {
-    Census census(plan);
     const bool gravity = scene.gravity.norm() > 0;
-    census.add("gravity", when(gravity, fmt::format("|g| = {} m/s2", scene.gravity.norm())),
-               "`gravity` is zero");
-    list_fluid_effects(scene, plan, census);
-    census.add("rigid_motion", when(plan.rigid, counted(plan.counts.bodies, "body", "bodies")),
-               plan.counts.bodies > 0 ? "every body is fixed" : "the scene has no bodies");
-    census.add("contact",
-               when(plan.contact, plan.counts.bodies > 1 ? "bodies may touch each other or a wall"
-                                                         : "the body may touch a wall"),
-               plan.counts.bodies == 0 ? "the scene has no bodies" : "a single body and no wall");
+    list_effect(plan, "gravity", gravity, fmt::format("|g| = {} m/s2", scene.gravity.norm()),
+                "`gravity` is zero");
+    list_fluid_effects(scene, plan);
+    list_effect(plan, "rigid_motion", plan.rigid, counted(plan.counts.bodies, "body", "bodies"),
+                plan.counts.bodies > 0 ? "every body is fixed" : "the scene has no bodies");
+    list_effect(plan, "contact", plan.contact,
+                plan.counts.bodies > 1 ? "bodies may touch each other or a wall"
+                                       : "the body may touch a wall",
+                plan.counts.bodies == 0 ? "the scene has no bodies" : "a single body and no wall");
     const bool moving = has_moving_walls(scene);
-    census.add("moving_walls", when(moving, "a wall has `motion`"), "all walls are fixed");
+    list_effect(plan, "moving_walls", moving, "a wall has `motion`", "all walls are fixed");
     const bool fluid = plan.fluid.has_value();
-    const std::string dry = "the scene has no fluid";
-    census.add(
-        "sponge",
-        when(fluid && !scene.sponges.empty(),
-             "damping of the fluid in " + counted(scene.sponges.size(), "sponge", "sponges")),
-        fluid ? "the scene has no sponge" : dry);
+    list_effect(plan, "sponge", fluid && !scene.sponges.empty(),
+                "damping of the fluid in " + counted(scene.sponges.size(), "sponge", "sponges"),
+                fluid ? "the scene has no sponge" : no_fluid);
     const auto rough =
         std::ranges::count_if(scene.walls, [](const Wall& wall) { return wall.manning > 0; });
-    census.add("bed_friction",
-               when(fluid && rough > 0, "`manning` of " + counted(rough, "wall", "walls")),
-               fluid ? "no wall has `manning`" : dry);
+    list_effect(plan, "bed_friction", fluid && rough > 0,
+                "`manning` of " + counted(rough, "wall", "walls"),
+                fluid ? "no wall has `manning`" : no_fluid);
     const bool absorbs = std::ranges::any_of(
         scene.walls, [](const Wall& wall) { return wall.motion.absorption.has_value(); });
-    census.add("wave_absorption",
-               when(fluid && absorbs, "a paddle absorbs waves: `wall.motion.absorb`"),
-               fluid ? "no wall has `motion.absorb`" : dry);
-    census.add("open_boundary",
-               when(!scene.open.empty(), counted(scene.open.size(), "open side", "open sides")),
-               "no side is open: the scene has no [[open]]");
-    census.add("gauges",
-               when(!scene.gauges.empty(), counted(scene.gauges.size(), "gauge", "gauges")),
-               "the scene has no gauges");
+    list_effect(plan, "wave_absorption", fluid && absorbs,
+                "a paddle absorbs waves: `wall.motion.absorb`",
+                fluid ? "no wall has `motion.absorb`" : no_fluid);
+    list_effect(plan, "open_boundary", !scene.open.empty(),
+                counted(scene.open.size(), "open side", "open sides"),
+                "no side is open: the scene has no [[open]]");
+    list_effect(plan, "gauges", !scene.gauges.empty(),
+                counted(scene.gauges.size(), "gauge", "gauges"), "the scene has no gauges");
 }
 
 void list_pairs(Plan& plan)

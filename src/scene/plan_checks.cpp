@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan_checks.hpp"
 
+#include "hyoryu/rigid/box_tree.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan_slips.hpp"
 #include "hyoryu/scene/rigid_scene.hpp"
@@ -62,8 +63,7 @@ double depth_in_mesh(const BodySettings& body, const Wall& wall, int dimensions)
                         !std::holds_alternative<ParticleShape>(body.shape);
     const double half = convex ? thinnest(body.shape, dimensions) / 2 : 0;
     const Vec3 middle = body.position - body.rotation * body.centre_of_mass.value_or(Vec3(0, 0, 0));
-    const double depth =
-        -signed_distance({&solid->shape, solid->centre, solid->rotation, dimensions}, middle);
+    const double depth = -signed_distance(placed(*solid, dimensions), middle);
     return depth > -allowed_overlap * body.spacing ? depth + half : 0;
 }
 
@@ -75,40 +75,28 @@ bool is_clear_of(const Wall& wall, const Body& body, int dimensions)
            -depth_behind(wall, body.position, dimensions) > bounding_radius(body, dimensions);
 }
 
-// Pairs a < b whose bounding balls meet, by a sweep along the axis on which the bodies are spread
-// the most: with up to 100,000 copies, testing all pairs takes too long.
+// Pairs a < b whose bounding balls meet, in the order of the case: with up to 100,000 copies,
+// testing all pairs takes too long.
 std::vector<std::pair<int, int>> pairs_that_may_meet(const Rigid& rigid, int dimensions)
 {
-    struct Ball {
-        Vec3 centre;
-        double radius = 0;
-        int body = 0;
-    };
-    std::vector<Ball> balls;
-    Bounds box;
+    std::vector<double> radii;
+    std::vector<AlignedBox> boxes;
     for (const Body& body : rigid.bodies) {
-        balls.push_back(
-            {body.position, bounding_radius(body, dimensions), static_cast<int>(balls.size())});
-        box.add(body.position);
+        radii.push_back(bounding_radius(body, dimensions));
+        boxes.push_back(AlignedBox{body.position, body.position}.grown(radii.back()));
     }
-    Index axis = 0;
-    if (!balls.empty()) {
-        (box.max - box.min).maxCoeff(&axis);
-    }
-    const auto begin = [axis](const Ball& ball) { return ball.centre[axis] - ball.radius; };
-    std::ranges::sort(balls, {}, begin);
+    const BoxTree tree = tree_over(boxes);
     std::vector<std::pair<int, int>> pairs;
-    for (std::size_t k = 0; k < balls.size(); ++k) {
-        const Ball& one = balls[k];
-        for (std::size_t m = k + 1;
-             m < balls.size() && begin(balls[m]) <= one.centre[axis] + one.radius; ++m) {
-            const Ball& other = balls[m];
-            if ((one.centre - other.centre).squaredNorm() <= sq(one.radius + other.radius)) {
-                pairs.emplace_back(std::minmax(one.body, other.body));
+    std::vector<int> near;
+    for (int a = 0; a < static_cast<int>(boxes.size()); ++a) {
+        find_near(tree, boxes[at(a)], near);
+        for (const int b : near) {
+            const Vec3 way = rigid.bodies[at(a)].position - rigid.bodies[at(b)].position;
+            if (b > a && way.squaredNorm() <= sq(radii[at(a)] + radii[at(b)])) {
+                pairs.emplace_back(a, b);
             }
         }
     }
-    std::ranges::sort(pairs); // messages in the order of the case
     return pairs;
 }
 
@@ -118,25 +106,24 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
     const auto bodies = static_cast<int>(rigid.bodies.size());
     const auto walls = static_cast<int>(scene.walls.size());
     const auto report = [&](int a, const std::string& other, double depth) {
-        const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
+        const BodySettings& body = scene.bodies[at(a)];
         errors.push_back(diagnostic_without_line(
-            scene, body.place, body_key(static_cast<std::size_t>(a)),
+            scene, body.place, body_key(at(a)),
             fmt::format("body \"{}\" overlaps {} by {:.3g} m", body.name, other, depth),
             "move it apart, or make it smaller; touching is allowed"));
     };
     for (const auto& [a, b] : pairs_that_may_meet(rigid, scene.dimensions)) {
-        const double allowed = allowed_overlap * scene.bodies[static_cast<std::size_t>(a)].spacing;
+        const double allowed = allowed_overlap * scene.bodies[at(a)].spacing;
         const double depth = overlap(rigid, a, b, 0);
         if (depth > allowed) {
-            report(b, fmt::format("body \"{}\"", scene.bodies[static_cast<std::size_t>(a)].name),
-                   depth);
+            report(b, fmt::format("body \"{}\"", scene.bodies[at(a)].name), depth);
         }
     }
     for (int a = 0; a < bodies; ++a) {
-        const BodySettings& body = scene.bodies[static_cast<std::size_t>(a)];
+        const BodySettings& body = scene.bodies[at(a)];
         for (int w = 0; w < walls; ++w) {
-            const Wall& wall = scene.walls[static_cast<std::size_t>(w)];
-            if (is_clear_of(wall, rigid.bodies[static_cast<std::size_t>(a)], scene.dimensions)) {
+            const Wall& wall = scene.walls[at(w)];
+            if (is_clear_of(wall, rigid.bodies[at(a)], scene.dimensions)) {
                 continue;
             }
             const double depth =
@@ -337,7 +324,7 @@ void check_fluid(const Scene& scene, const PlanFacts& facts, std::vector<Diagnos
         return;
     }
     const bool fits = std::ranges::any_of(scene.fluid->blocks, [&](const FluidBlock& block) {
-        const Bounds box = bounds({&block.shape, block.centre, block.rotation, scene.dimensions});
+        const Bounds box = bounds(placed(block, scene.dimensions));
         const Vec3 size = box.max - box.min;
         return size.x() >= scene.spacing && size.z() >= scene.spacing &&
                (scene.dimensions == 2 || size.y() >= scene.spacing);

@@ -44,7 +44,7 @@ public:
     {
         std::array<Number, 9> block{};
         for (long long k = 0; k < 9; ++k) {
-            block[static_cast<std::size_t>(k)] = {column[0] + k % 3 - 1, column[1] + k / 3 - 1};
+            block[at(k)] = {column[0] + k % 3 - 1, column[1] + k / 3 - 1};
         }
         return block;
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plan_contact.hpp"
 
-#include "hyoryu/scene/case_file.hpp"
+#include "plan_warnings.hpp"
+
 #include "hyoryu/scene/rigid_scene.hpp"
 
 #include <fmt/format.h>
@@ -15,25 +16,20 @@ namespace hyoryu {
 
 namespace {
 
-void list(Plan& plan, std::string name, const bool runs, std::string why, std::string why_not)
-{
-    auto& effects = runs ? plan.on : plan.off;
-    effects.push_back({std::move(name), runs ? std::move(why) : std::move(why_not)});
-}
-
 void list_method(const ContactSettings& contact, Plan& plan)
 {
     const bool penalty = plan.contact && contact.penalty;
     const bool impulse = plan.contact && !contact.penalty;
     const std::string none = "no bodies or walls that could touch";
-    list(plan, "contact_impulse", impulse, "`contact.method` is \"impulse\"",
-         plan.contact ? "`contact.method` is \"penalty\"" : none);
+    list_effect(plan, "contact_impulse", impulse, "`contact.method` is \"impulse\"",
+                plan.contact ? "`contact.method` is \"penalty\"" : none);
     const PenaltyParameters parameters = contact.penalty.value_or(PenaltyParameters{});
-    list(plan, "contact_penalty", penalty,
-         fmt::format("`contact.method` is \"penalty\": {} N/m and {} N s/m per pair of particles, "
-                     "sub-steps of {} s",
-                     parameters.stiffness, parameters.damping, parameters.step),
-         plan.contact ? "`contact.method` is \"impulse\"" : none);
+    list_effect(
+        plan, "contact_penalty", penalty,
+        fmt::format("`contact.method` is \"penalty\": {} N/m and {} N s/m per pair of particles, "
+                    "sub-steps of {} s",
+                    parameters.stiffness, parameters.damping, parameters.step),
+        plan.contact ? "`contact.method` is \"impulse\"" : none);
     struct Law {
         ImpactLaw law;
         const char* name;
@@ -46,8 +42,8 @@ void list_method(const ContactSettings& contact, Plan& plan)
         const std::string off = impulse   ? "`contact.law` selects another law"
                                 : penalty ? "the penalty method has no impact law"
                                           : none;
-        list(plan, fmt::format("law_{}", known.name), impulse && contact.law == known.law,
-             fmt::format("`contact.law` is \"{}\": {}", known.name, known.meaning), off);
+        list_effect(plan, fmt::format("law_{}", known.name), impulse && contact.law == known.law,
+                    fmt::format("`contact.law` is \"{}\": {}", known.name, known.meaning), off);
     }
 }
 
@@ -113,14 +109,11 @@ void warn_about_sub_steps(const Scene& scene, const PlanFacts& facts, Plan& plan
     }
     constexpr double part = 0.2;
     if (penalty.step > part * shortest) {
-        Diagnostic note = diagnostic_without_line(
-            scene, scene.bodies[lightest].place, "contact.penalty.step",
-            fmt::format("sub-steps of {} s are too long for the springs of body "
-                        "\"{}\": its restitution will depend on them",
-                        penalty.step, scene.bodies[lightest].name),
-            fmt::format("{:.2g} s or less is sufficient", part * shortest));
-        note.severity = Diagnostic::Severity::warning;
-        plan.warnings.push_back(std::move(note));
+        warn(scene, scene.bodies[lightest].place, "contact.penalty.step",
+             fmt::format("sub-steps of {} s are too long for the springs of body "
+                         "\"{}\": its restitution will depend on them",
+                         penalty.step, scene.bodies[lightest].name),
+             fmt::format("{:.2g} s or less is sufficient", part * shortest), plan);
     }
 }
 

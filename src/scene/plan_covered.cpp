@@ -18,14 +18,6 @@ namespace {
 constexpr std::size_t most_looks = 2000; // places of a wall
 constexpr double noteworthy = 0.03;      // of the places that are looked at
 
-// The nearest place of a surface, both where they are at time 0.
-NearestPlace place_of(const SolidSurface& solid, const Vec3& place)
-{
-    NearestPlace found = nearest_place(solid, solid.rotation.conjugate() * (place - solid.centre));
-    found.normal = solid.rotation * found.normal;
-    return found;
-}
-
 // Whether a particle of a moving wall is as deep in a fixed wall as in its own, along the same
 // normal: the two surfaces coincide there.
 bool coincides(const NearestPlace& own, const SolidSurface& fixed, const Vec3& place,
@@ -33,7 +25,7 @@ bool coincides(const NearestPlace& own, const SolidSurface& fixed, const Vec3& p
 {
     constexpr double close = 0.1;    // spacings
     constexpr double parallel = 0.9; // cosine
-    const NearestPlace other = place_of(fixed, place);
+    const NearestPlace other = nearest_from_centre(fixed, place - fixed.centre);
     return std::abs(other.distance - own.distance) < close * spacing &&
            other.normal.dot(own.normal) > parallel;
 }
@@ -48,7 +40,7 @@ double share_covered(const Scene& scene, const Wall& wall, const SolidSurface& o
     double looks = 0;
     double covered = 0;
     for (std::size_t k = 0; k < places.size(); k += stride) {
-        const NearestPlace at_own = place_of(own, places[k]);
+        const NearestPlace at_own = nearest_from_centre(own, places[k] - own.centre);
         if (at_own.distance < -scene.spacing) {
             continue;
         }
@@ -70,21 +62,17 @@ void warn_about_covered_walls(const Scene& scene, const PlanFacts& facts, Plan& 
         return;
     }
     const double thickness = 4 * scene.spacing; // of the sides of basins: more than is looked at
-    std::vector<SolidSurface> surfaces;
-    for (const Wall& wall : scene.walls) {
-        surfaces.push_back(surface_of(wall, thickness, scene.dimensions));
-    }
+    const auto surfaces = surfaces_of(scene.walls, thickness, scene.dimensions);
     const std::vector<int> all_fixed = fixed_walls_of(scene);
     for (std::size_t w = 0; w < facts.moving.size(); ++w) {
         const Wall& wall = scene.walls[w];
         for (const int f : all_fixed) {
-            const auto k = static_cast<std::size_t>(f);
-            if (share_covered(scene, wall, surfaces[w], surfaces[k], facts.moving[w]) >
+            if (share_covered(scene, wall, surfaces[w], surfaces[at(f)], facts.moving[w]) >
                 noteworthy) {
                 warn(scene, wall.place, fmt::format("wall[{}]", w),
                      fmt::format("the surface of the moving wall \"{}\" lies in that of the fixed "
                                  "wall \"{}\", which alone acts on the water there",
-                                 wall.name, scene.walls[k].name),
+                                 wall.name, scene.walls[at(f)].name),
                      "open that side of the basin, or let the moving wall stand in front of it",
                      plan);
             }

@@ -12,11 +12,6 @@ namespace hyoryu {
 
 namespace {
 
-bool is_moving_solid(const Wall& wall)
-{
-    return std::holds_alternative<SolidWall>(wall.geometry) && moves(wall.motion);
-}
-
 // Whether columns are asked for: along them things fall.
 bool has_columns(const Scene& scene)
 {
@@ -59,7 +54,7 @@ void look_before_sides(const Scene& scene, const Filling& filling, PlanFacts& fa
 Span before_face(const Scene& scene, const Filling& filling, const SolidWall& solid)
 {
     constexpr double before = 3; // spacings
-    const Bounds box = bounds({&solid.shape, solid.centre, solid.rotation, scene.dimensions});
+    const Bounds box = bounds(placed(solid, scene.dimensions));
     Span heights;
     for (const Vec3& p : filling.fluid) {
         const double away = p.x() - box.max.x();
@@ -71,16 +66,6 @@ Span before_face(const Scene& scene, const Filling& filling, const SolidWall& so
     return heights;
 }
 
-bool holds_fluid(const Scene& scene, const Filling& filling, const Sponge& sponge)
-{
-    return std::ranges::any_of(filling.fluid, [&](const Vec3& p) {
-        const bool beside =
-            scene.dimensions == 3 && (p.y() < sponge.min.y() || p.y() > sponge.max.y());
-        return !beside && p.x() >= sponge.min.x() && p.x() <= sponge.max.x() &&
-               p.z() >= sponge.min.z() && p.z() <= sponge.max.z();
-    });
-}
-
 void look_at_waves(const Scene& scene, const Filling& filling, PlanFacts& facts)
 {
     for (const Wall& wall : scene.walls) {
@@ -90,7 +75,8 @@ void look_at_waves(const Scene& scene, const Filling& filling, PlanFacts& facts)
             solid != nullptr && asked ? before_face(scene, filling, *solid) : Span{});
     }
     for (const Sponge& sponge : scene.sponges) {
-        facts.sponge_is_wet.push_back(holds_fluid(scene, filling, sponge) ? 1 : 0);
+        const auto is_in = [&](const Vec3& p) { return holds(sponge, p, scene.dimensions); };
+        facts.sponge_is_wet.push_back(std::ranges::any_of(filling.fluid, is_in) ? 1 : 0);
     }
 }
 
@@ -98,9 +84,10 @@ void look_at_walls(const Scene& scene, const Filling& filling, PlanFacts& facts)
 {
     facts.moving.resize(scene.walls.size());
     for (std::size_t k = 0; k < filling.wall.size(); ++k) {
-        const std::size_t wall = at(filling.wall_owner[k]);
-        if (is_moving_solid(scene.walls[wall])) {
-            facts.moving[wall].push_back(filling.wall[k]);
+        const std::size_t owner = at(filling.wall_owner[k]);
+        const Wall& wall = scene.walls[owner];
+        if (std::holds_alternative<SolidWall>(wall.geometry) && moves(wall.motion)) {
+            facts.moving[owner].push_back(filling.wall[k]);
         }
     }
 }
@@ -139,16 +126,15 @@ void look_at_columns(const Scene& scene, const Filling& filling, Comm* comm, Pla
     for (const Vec3& p : filling.fluid) {
         facts.water.add(facts.water.number_of(p), {p.z(), p.z()});
     }
-    facts.walls = stacks_of(facts.water, scene.spacing, filling);
+    facts.walls = of_all_ranks(comm, stacks_of(facts.water, scene.spacing, filling));
     if (comm != nullptr) {
         std::vector<ColumnSpan> own;
         for (const auto& [column, heights] : facts.water.spans()) {
             own.push_back({column, heights});
         }
-        for (const ColumnSpan& span : gather(*comm, std::span<const ColumnSpan>(own)).all) {
+        for (const ColumnSpan& span : of_all_ranks(comm, std::move(own))) {
             facts.water.add(span.column, span.heights);
         }
-        facts.walls = gather(*comm, std::span<const WallStack>(facts.walls)).all;
     }
     std::ranges::sort(facts.walls);
     std::map<Columns::Number, double> floor; // of the columns of the fluid [m]
@@ -191,7 +177,7 @@ void join(Comm& comm, PlanFacts& facts)
     facts.wall = counts[1];
     facts.unsupported = counts[2];
     for (std::vector<Vec3>& points : facts.moving) {
-        points = gather(comm, std::span<const Vec3>(points)).all;
+        points = of_all_ranks(&comm, std::move(points));
     }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "plan_gaps.hpp"
 
-#include "hyoryu/scene/case_file.hpp"
+#include "plan_warnings.hpp"
+
 #include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/solid_surface.hpp"
 
@@ -16,8 +17,7 @@ namespace {
 // A wall as surfaces that can each be at a distance: a basin as its sides.
 std::vector<SolidSurface> parts_of(const Scene& scene, const Wall& wall)
 {
-    const double thickness = wall_layers(scene.fluid->smoothing_ratio) * scene.spacing;
-    const SolidSurface whole = surface_of(wall, thickness, scene.dimensions);
+    const SolidSurface whole = surface_of(wall, thickness_of_rows(scene), scene.dimensions);
     const auto* basin = std::get_if<HollowBox>(&whole.shape);
     if (basin == nullptr) {
         return {whole};
@@ -36,7 +36,7 @@ double distance(const SolidSurface& solid, const Vec3& point, int dimensions)
 {
     Vec3 r = point - solid.centre;
     r.y() = dimensions == 2 ? 0 : r.y();
-    return nearest_place(solid, solid.rotation.conjugate() * r).distance;
+    return nearest_from_centre(solid, r).distance;
 }
 
 // From the surface of a wall, whose particles are at these points, to another solid [m].
@@ -53,20 +53,17 @@ double gap_between(const SolidSurface& own, std::span<const Vec3> points, const 
 // Gaps that are larger are meant: four spacings, or a tenth of the size of the obstacle [m].
 double largest_slip(const Scene& scene, const SolidWall& solid)
 {
-    const Bounds box = bounds({&solid.shape, solid.centre, solid.rotation, scene.dimensions});
+    const Bounds box = bounds(placed(solid, scene.dimensions));
     return std::max(4 * scene.spacing, 0.1 * (box.max - box.min).maxCoeff());
 }
 
-void warn(const Scene& scene, std::size_t wall, const Wall& other, double gap, Plan& plan)
+void warn_about_gap(const Scene& scene, std::size_t wall, const Wall& other, double gap, Plan& plan)
 {
-    Diagnostic note = diagnostic_without_line(
-        scene, scene.walls[wall].place, fmt::format("wall[{}]", wall),
-        fmt::format("\"{}\" moves and leaves a gap of {:.3g} m, {:.2g} spacings, to \"{}\": water "
-                    "passes through it",
-                    scene.walls[wall].name, gap, gap / scene.spacing, other.name),
-        "extend it to half a spacing from that wall");
-    note.severity = Diagnostic::Severity::warning;
-    plan.warnings.push_back(std::move(note));
+    warn(scene, scene.walls[wall].place, fmt::format("wall[{}]", wall),
+         fmt::format("\"{}\" moves and leaves a gap of {:.3g} m, {:.2g} spacings, to \"{}\": water "
+                     "passes through it",
+                     scene.walls[wall].name, gap, gap / scene.spacing, other.name),
+         "extend it to half a spacing from that wall", plan);
 }
 
 } // namespace
@@ -86,7 +83,7 @@ void warn_about_gaps(const Scene& scene, const PlanFacts& facts, Plan& plan)
             for (const SolidSurface& part : parts_of(scene, other)) {
                 const double gap = gap_between(own, facts.moving[w], part, scene.dimensions);
                 if (gap > scene.spacing * (1 - 1e-6) && gap < largest_slip(scene, *solid)) {
-                    warn(scene, w, other, gap, plan);
+                    warn_about_gap(scene, w, other, gap, plan);
                 }
             }
         }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "plan_gauges.hpp"
 
-#include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/fill.hpp"
 #include "hyoryu/scene/gauge_columns.hpp"
+#include "plan_warnings.hpp"
 #include "walls.hpp"
 
 #include <fmt/format.h>
@@ -91,12 +91,6 @@ double looks_of_search(const Scene& scene, const Plan& plan)
                                                     : 0;
 }
 
-bool has_place(const Gauge& gauge)
-{
-    return gauge.type == GaugeType::elevation || gauge.type == GaugeType::pressure ||
-           gauge.type == GaugeType::velocity;
-}
-
 // Whether all corners of the domain are on one side of the plane of a flux gauge.
 bool misses(const Gauge& gauge, const Bounds& domain)
 {
@@ -138,16 +132,15 @@ void warn_about_other_sides(const Scene& scene, const Gauge& gauge, const std::s
         const double distance = std::max(0.0, -depth_behind(wall, gauge.at, scene.dimensions));
         const double thin = box_thickness(wall, scene.dimensions);
         if (distance + thin < support * (1 - 1e-9)) {
-            Diagnostic note = diagnostic_without_line(
+            warn(
                 scene, gauge.place, key,
                 fmt::format(
                     "the gauge \"{}\" also reads water behind the wall \"{}\", which is {:.3g} "
                     "m thick and {:.3g} m away: the kernel reaches {:.3g} m",
                     gauge.name, wall.name, thin, distance, support),
                 "move the gauge away from the wall; for the pressure on the wall give `normal` and "
-                "`area`");
-            note.severity = Diagnostic::Severity::warning;
-            plan.warnings.push_back(std::move(note));
+                "`area`",
+                plan);
         }
     }
 }
@@ -175,7 +168,7 @@ void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
     for (std::size_t k = 0; k < scene.gauges.size(); ++k) {
         const Gauge& gauge = scene.gauges[k];
         const std::string key = fmt::format("gauge[{}].at", k);
-        if (!has_place(gauge) && gauge.type != GaugeType::flux) {
+        if (gauge.type == GaugeType::force || gauge.type == GaugeType::front) {
             continue;
         }
         if (outside(scene, gauge, facts.domain)) {
@@ -198,13 +191,10 @@ void check_gauges(const Scene& scene, const PlanFacts& facts, Plan& plan,
                                      ? 0
                                      : depth_behind(wall, gauge.at, scene.dimensions);
             if (depth > scene.spacing / 2) {
-                Diagnostic note = diagnostic_without_line(
-                    scene, gauge.place, key,
-                    fmt::format("the gauge \"{}\" is {:.3g} m inside the wall \"{}\"", gauge.name,
-                                depth, wall.name),
-                    "move it to the surface or in front of it");
-                note.severity = Diagnostic::Severity::warning;
-                plan.warnings.push_back(std::move(note));
+                warn(scene, gauge.place, key,
+                     fmt::format("the gauge \"{}\" is {:.3g} m inside the wall \"{}\"", gauge.name,
+                                 depth, wall.name),
+                     "move it to the surface or in front of it", plan);
             }
         }
     }

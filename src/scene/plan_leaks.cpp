@@ -107,7 +107,7 @@ bool lets_out(const Scene& scene, const Vec3& from, const Vec3& to)
 {
     for (const int axis : {0, 1}) {
         // The middle of the last column of a period may lie beyond it: both may.
-        if (scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)] &&
+        if (scene.domain && scene.domain->periodic[at(axis)] &&
             (to[axis] < scene.domain->min[axis] || to[axis] > scene.domain->max[axis])) {
             return true;
         }
@@ -258,8 +258,8 @@ Raised raised(const LeakContext& start, std::span<const std::size_t> gates)
         raise(result.scene.walls[gate], rise[gate]);
     }
     for (WallStack& stack : result.walls) {
-        stack.low += rise[static_cast<std::size_t>(stack.wall)];
-        stack.high += rise[static_cast<std::size_t>(stack.wall)];
+        stack.low += rise[at(stack.wall)];
+        stack.high += rise[at(stack.wall)];
     }
     std::ranges::sort(result.walls);
     return result;

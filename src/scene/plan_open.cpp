@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "plan_open.hpp"
 
-#include "hyoryu/scene/case_file.hpp"
 #include "open_side.hpp"
 #include "place_buildings.hpp"
+#include "plan_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -204,7 +204,7 @@ void check_bodies_at(const Scene& scene, const OpenSettings& open, const OpenSid
                      std::vector<Diagnostic>& errors)
 {
     for (const BodySettings& body : scene.bodies) {
-        const Bounds box = bounds({&body.shape, body.position, body.rotation, scene.dimensions});
+        const Bounds box = bounds(placed(body, scene.dimensions));
         const double nearest = std::min(side.distance(box.min), side.distance(box.max));
         if (nearest < 0) {
             errors.push_back(note_at(scene, open, "min",
@@ -318,9 +318,8 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
                 const WaterAtStart& water, Plan& plan)
 {
     const auto warn = [&](std::string_view key, std::string what, std::string hint) {
-        Diagnostic note = note_at(scene, open, key, std::move(what), std::move(hint));
-        note.severity = Diagnostic::Severity::warning;
-        plan.warnings.push_back(std::move(note));
+        hyoryu::warn(scene, open.place, fmt::format("open.{}.{}", open.name, key), std::move(what),
+                     std::move(hint), plan);
     };
     if (!open.series.empty() && !open.hold) {
         const std::vector<double>& times = open.series.front().times;

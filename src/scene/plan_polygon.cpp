@@ -34,6 +34,18 @@ double beyond_edges(const std::vector<Plan2>& a, const std::vector<Plan2>& b)
 
 } // namespace
 
+Frame2 frame_of(const Ring& ring)
+{
+    Frame2 frame;
+    for (const Plan2& p : ring) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            frame.low[k] = std::min(frame.low[k], p[k]);
+            frame.high[k] = std::max(frame.high[k], p[k]);
+        }
+    }
+    return frame;
+}
+
 std::string fault_of_yard(const std::vector<Plan2>& polygon)
 {
     const std::size_t n = polygon.size();

@@ -6,6 +6,14 @@
 
 namespace hyoryu {
 
+/// The rectangle about some places, along the axes [m].
+struct Frame2 {
+    Plan2 low{infinity, infinity};
+    Plan2 high{-infinity, -infinity};
+};
+
+Frame2 frame_of(const Ring& ring);
+
 /// The reason why a polygon cannot serve as a yard: too few or too many corners, or edges that
 /// cross; empty if it can.
 std::string fault_of_yard(const std::vector<Plan2>& polygon);

@@ -159,8 +159,7 @@ void check_gate(const Scene& scene, const Wall& wall, double top, Plan& plan)
     if (solid == nullptr || !(g > 0)) {
         return;
     }
-    const double bottom =
-        bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions}).min.z();
+    const double bottom = bounds(wall, scene.dimensions).min.z();
     const double depth = top + scene.spacing / 2 - bottom;
     const double opens = depth > 0 ? opening_time(wall.motion, depth) : 0;
     const bool leaves = !wall.motion.places.empty() && wall.motion.places.back().z() >= depth;

@@ -22,32 +22,6 @@ constexpr double far_away = 3;
 constexpr double very_far_away = 30; // together with others, too
 constexpr double out_of_scale = 100;
 
-Bounds box_of(const Scene& scene, const BodySettings& body)
-{
-    return bounds(placed(body, scene.dimensions));
-}
-
-Bounds box_of(const Scene& scene, const FluidBlock& block)
-{
-    return bounds({&block.shape, block.centre, block.rotation, scene.dimensions});
-}
-
-// Empty for a plane.
-Bounds box_of(const Scene& scene, const Wall& wall)
-{
-    if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
-        return {basin->min, basin->max};
-    }
-    if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
-        return {round->centre - Vec3::Constant(round->radius),
-                round->centre + Vec3::Constant(round->radius)};
-    }
-    if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
-        return bounds({&solid->shape, solid->centre, solid->rotation, scene.dimensions});
-    }
-    return {};
-}
-
 double across(const Bounds& box, int dimensions)
 {
     Vec3 size = box.max - box.min;
@@ -65,27 +39,28 @@ Bounds rest_of(const Scene& scene, const Wall* wall, const BodySettings* body)
         }
     };
     for (const FluidBlock& block : scene.fluid ? scene.fluid->blocks : std::vector<FluidBlock>{}) {
-        add(box_of(scene, block));
+        add(bounds(placed(block, scene.dimensions)));
     }
     for (const Wall& other : scene.walls) {
         if (&other != wall) {
-            add(box_of(scene, other));
+            add(bounds(other, scene.dimensions));
         }
     }
     // In a scene of bodies alone the first body represents all, so that thousands of copies need no
     // search.
     if (rest.empty() && !scene.bodies.empty() && &scene.bodies.front() != body) {
-        add(box_of(scene, scene.bodies.front()));
+        add(bounds(placed(scene.bodies.front(), scene.dimensions)));
     }
     return rest;
 }
 
-void look_at_gravity(const Scene& scene, PlanWarnings& slips)
+void look_at_gravity(const Scene& scene, Plan& plan)
 {
     if (scene.gravity.z() > 0 && scene.gravity.z() >= 0.5 * scene.gravity.norm()) {
-        slips.add({}, "gravity", "points upward: z is up",
-                  fmt::format("write gravity = [{}, {}, {}]", scene.gravity.x(), scene.gravity.y(),
-                              -scene.gravity.z()));
+        warn(scene, {}, "gravity", "points upward: z is up",
+             fmt::format("write gravity = [{}, {}, {}]", scene.gravity.x(), scene.gravity.y(),
+                         -scene.gravity.z()),
+             plan);
     }
 }
 
@@ -111,28 +86,29 @@ bool is_first_of_entry(const Scene& scene, std::size_t b)
            scene.bodies[b].place.line != scene.bodies[b - 1].place.line;
 }
 
-void look_for_bodies_far_away(const Scene& scene, PlanWarnings& slips)
+void look_for_bodies_far_away(const Scene& scene, Plan& plan)
 {
     const Bounds rest = rest_of(scene, nullptr, nullptr);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const double away = rest.empty() ? 0 : distance(rest, body.position);
         const double size =
-            std::max(across(rest, scene.dimensions), across(box_of(scene, body), scene.dimensions));
+            std::max(across(rest, scene.dimensions),
+                     across(bounds(placed(body, scene.dimensions)), scene.dimensions));
         if (away > far_away * size && is_first_of_entry(scene, b) &&
             (away > very_far_away * size || distance_to_others(scene, b) > far_away * size)) {
-            return slips.add(
-                body.place, fmt::format("body[{}].position", b),
+            return warn(
+                scene, body.place, fmt::format("body[{}].position", b),
                 fmt::format(
                     "body \"{}\" is {:.3g} m from the rest of the scene, whose size is {:.3g} m",
                     body.name, away, size),
-                "check that its position is in metres and in the axes of the scene");
+                "check that its position is in metres and in the axes of the scene", plan);
         }
     }
 }
 
 void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, const Place& place,
-                   const std::string& key, const Scene& scene, PlanWarnings& slips)
+                   const std::string& key, const Scene& scene, Plan& plan)
 {
     const double size = across(box, scene.dimensions);
     const double others = across(rest, scene.dimensions);
@@ -143,32 +119,34 @@ void look_at_scale(const Shape& shape, const Bounds& box, const Bounds& rest, co
     const std::string hint =
         "check `scale`, the factor from the numbers of the file to metres: 0.001 for millimetres";
     if (size < scene.spacing) {
-        slips.add(place, key + ".scale",
-                  fmt::format("the mesh is {:.3g} m across, less than the spacing of {:.3g} m",
-                              size, scene.spacing),
-                  hint);
+        warn(scene, place, key + ".scale",
+             fmt::format("the mesh is {:.3g} m across, less than the spacing of {:.3g} m", size,
+                         scene.spacing),
+             hint, plan);
     } else if (others > 0 && size > out_of_scale * others) {
-        slips.add(place, key + ".scale",
-                  fmt::format("the mesh is {:.3g} m across, the rest of the scene {:.3g} m", size,
-                              others),
-                  hint);
+        warn(scene, place, key + ".scale",
+             fmt::format("the mesh is {:.3g} m across, the rest of the scene {:.3g} m", size,
+                         others),
+             hint, plan);
     }
 }
 
-void look_at_meshes(const Scene& scene, PlanWarnings& slips)
+void look_at_meshes(const Scene& scene, Plan& plan)
 {
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
         if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
-            look_at_scale(solid->shape, box_of(scene, wall), rest_of(scene, &wall, nullptr),
-                          wall.place, fmt::format("wall[{}]", w), scene, slips);
+            look_at_scale(solid->shape, bounds(wall, scene.dimensions),
+                          rest_of(scene, &wall, nullptr), wall.place, fmt::format("wall[{}]", w),
+                          scene, plan);
         }
     }
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
-            look_at_scale(body.shape, box_of(scene, body), rest_of(scene, nullptr, &body),
-                          body.place, fmt::format("body[{}]", b), scene, slips);
+            look_at_scale(body.shape, bounds(placed(body, scene.dimensions)),
+                          rest_of(scene, nullptr, &body), body.place, fmt::format("body[{}]", b),
+                          scene, plan);
         }
     }
 }
@@ -190,7 +168,7 @@ double doubled_share(const ParticleShape& shape)
     return doubled / (static_cast<double>(points.size()) * edge * edge * edge);
 }
 
-void look_for_doubled_cells(const Scene& scene, PlanWarnings& slips)
+void look_for_doubled_cells(const Scene& scene, Plan& plan)
 {
     constexpr double noteworthy = 0.01;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -200,75 +178,71 @@ void look_for_doubled_cells(const Scene& scene, PlanWarnings& slips)
             continue;
         }
         if (const double share = doubled_share(*shape); share > noteworthy) {
-            slips.add(
-                body.place, fmt::format("body[{}].spacing", b),
-                fmt::format("the cells of the particles of body \"{}\", cubes with an edge of "
-                            "{:.3g} m, overlap by {:.0f} % of their volume: volume, mass and "
-                            "draft count this part twice",
-                            body.name, shape->spacing, 100 * share),
-                "set `spacing` to the distance of the particles in the file");
+            warn(scene, body.place, fmt::format("body[{}].spacing", b),
+                 fmt::format("the cells of the particles of body \"{}\", cubes with an edge of "
+                             "{:.3g} m, overlap by {:.0f} % of their volume: volume, mass and "
+                             "draft count this part twice",
+                             body.name, shape->spacing, 100 * share),
+                 "set `spacing` to the distance of the particles in the file", plan);
         }
     }
 }
 
-void look_for_coarse_bodies(const Scene& scene, PlanWarnings& slips)
+void look_for_coarse_bodies(const Scene& scene, Plan& plan)
 {
     for (std::size_t b = 0; scene.fluid && b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         const bool copy = b > 0 && body.place.line == scene.bodies[b - 1].place.line;
         if (!copy && body.spacing > scene.spacing * (1 + 1e-9)) {
-            slips.add(
-                body.place, fmt::format("body[{}].spacing", b),
-                fmt::format("the particles of body \"{}\" are {:.3g} m apart, those of the fluid "
-                            "{:.3g} m: the body displaces too little water and floats too "
-                            "deep",
-                            body.name, body.spacing, scene.spacing),
-                "omit `spacing`, or give at most that of the fluid");
+            warn(scene, body.place, fmt::format("body[{}].spacing", b),
+                 fmt::format("the particles of body \"{}\" are {:.3g} m apart, those of the fluid "
+                             "{:.3g} m: the body displaces too little water and floats too "
+                             "deep",
+                             body.name, body.spacing, scene.spacing),
+                 "omit `spacing`, or give at most that of the fluid", plan);
         }
     }
 }
 
 // Water below the underside of the ground, at `bottom` [m], has nothing to stand on.
-void look_for_water_below(const Wall& ground, double bottom, const Scene& scene,
-                          PlanWarnings& slips)
+void look_for_water_below(const Wall& ground, double bottom, const Scene& scene, Plan& plan)
 {
     for (std::size_t b = 0; scene.fluid && b < scene.fluid->blocks.size(); ++b) {
         const FluidBlock& block = scene.fluid->blocks[b];
-        const double lowest = box_of(scene, block).min.z();
+        const double lowest = bounds(placed(block, scene.dimensions)).min.z();
         if (lowest < bottom) {
-            slips.add(block.place, fmt::format("fluid.block[{}]", b),
-                      fmt::format("the block reaches down to {:.4g} m, below the underside of the "
-                                  "ground \"{}\" at {:.4g} m: water is also placed there",
-                                  lowest, ground.name, bottom),
-                      "raise the lower side of the block, or lower `wall.bottom`");
+            warn(scene, block.place, fmt::format("fluid.block[{}]", b),
+                 fmt::format("the block reaches down to {:.4g} m, below the underside of the "
+                             "ground \"{}\" at {:.4g} m: water is also placed there",
+                             lowest, ground.name, bottom),
+                 "raise the lower side of the block, or lower `wall.bottom`", plan);
         }
     }
 }
 
 // And bodies, which do not even overlap the ground there.
-void look_for_bodies_below(const Wall& ground, double bottom, const Scene& scene,
-                           PlanWarnings& slips)
+void look_for_bodies_below(const Wall& ground, double bottom, const Scene& scene, Plan& plan)
 {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
-        if (box_of(scene, body).max.z() < bottom) {
-            slips.add(body.place, fmt::format("body[{}]", b),
-                      fmt::format("body \"{}\" lies below the underside of the ground \"{}\" at "
-                                  "{:.4g} m, which does not support it",
-                                  body.name, ground.name, bottom),
-                      "raise it: z is up, and the `datum` of the ground shifts its zero level");
+        if (bounds(placed(body, scene.dimensions)).max.z() < bottom) {
+            warn(scene, body.place, fmt::format("body[{}]", b),
+                 fmt::format("body \"{}\" lies below the underside of the ground \"{}\" at "
+                             "{:.4g} m, which does not support it",
+                             body.name, ground.name, bottom),
+                 "raise it: z is up, and the `datum` of the ground shifts its zero level", plan);
         }
     }
 }
 
-void look_below_terrain(const Scene& scene, PlanWarnings& slips)
+void look_below_terrain(const Scene& scene, Plan& plan)
 {
     for (const Wall& wall : scene.walls) {
         const auto* solid = std::get_if<SolidWall>(&wall.geometry);
         const auto* mesh = solid != nullptr ? std::get_if<MeshShape>(&solid->shape) : nullptr;
         if (mesh != nullptr && mesh->terrain) {
-            look_for_water_below(wall, mesh->terrain->bottom, scene, slips);
-            look_for_bodies_below(wall, mesh->terrain->bottom, scene, slips);
+            look_for_water_below(wall, mesh->terrain->bottom, scene, plan);
+            look_for_bodies_below(wall, mesh->terrain->bottom, scene, plan);
         }
     }
 }
@@ -278,7 +252,7 @@ bool lies_inside(const Bounds& box, const Scene& scene, double slack)
     const DomainSettings& domain = *scene.domain;
     for (Index axis = 0; axis < 3; ++axis) {
         const bool flat = scene.dimensions == 2 && axis == 1;
-        const bool periodic = domain.periodic[static_cast<std::size_t>(axis)];
+        const bool periodic = domain.periodic[at(axis)];
         if (!flat && !periodic &&
             (box.min[axis] < domain.min[axis] - slack ||
              box.max[axis] > domain.max[axis] + slack)) {
@@ -313,7 +287,7 @@ std::string cut_by_domain(const Scene& scene)
         return {};
     }
     for (std::size_t b = 0; b < scene.fluid->blocks.size(); ++b) {
-        if (!lies_inside(box_of(scene, scene.fluid->blocks[b]), scene, slack)) {
+        if (!lies_inside(bounds(placed(scene.fluid->blocks[b], scene.dimensions)), scene, slack)) {
             return fmt::format("`fluid.block[{}]`", b);
         }
     }
@@ -324,7 +298,7 @@ std::string cut_by_domain(const Scene& scene)
         }
     }
     for (const BodySettings& body : scene.bodies) {
-        if (!lies_inside(box_of(scene, body), scene, slack)) {
+        if (!lies_inside(bounds(placed(body, scene.dimensions)), scene, slack)) {
             return fmt::format("body \"{}\"", body.name);
         }
     }
@@ -333,20 +307,19 @@ std::string cut_by_domain(const Scene& scene)
 
 void warn_about_slips(const Scene& scene, Plan& plan)
 {
-    PlanWarnings slips(scene, plan);
-    look_at_gravity(scene, slips);
-    look_for_bodies_far_away(scene, slips);
-    look_at_meshes(scene, slips);
-    look_for_doubled_cells(scene, slips);
-    look_for_coarse_bodies(scene, slips);
-    look_below_terrain(scene, slips);
+    look_at_gravity(scene, plan);
+    look_for_bodies_far_away(scene, plan);
+    look_at_meshes(scene, plan);
+    look_for_doubled_cells(scene, plan);
+    look_for_coarse_bodies(scene, plan);
+    look_below_terrain(scene, plan);
     const std::string cut = cut_by_domain(scene);
     if (!cut.empty()) {
-        slips.add({}, "domain",
-                  fmt::format("the domain ends within the scene: {} reaches beyond it, and fluid "
-                              "there is removed from the run",
-                              cut),
-                  "omit [domain], or enlarge it to contain the scene");
+        warn(scene, {}, "domain",
+             fmt::format("the domain ends within the scene: {} reaches beyond it, and fluid "
+                         "there is removed from the run",
+                         cut),
+             "omit [domain], or enlarge it to contain the scene", plan);
     }
 }
 

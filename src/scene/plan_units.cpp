@@ -20,78 +20,79 @@ constexpr double least_density = 5, largest_density = 23'000;
 constexpr double largest_friction = 2;                  // rubber on concrete has 1
 constexpr double largest_sound = 100, usual_sound = 10; // in speeds of the flow
 
-void look_at_density(double density, const Place& place, const std::string& key,
-                     PlanWarnings& found)
+void look_at_density(const Scene& scene, double density, const Place& place, const std::string& key,
+                     Plan& plan)
 {
     if (density < least_density) {
-        found.add(
-            place, key,
-            fmt::format("{:.4g} kg/m3 is lower than the density of any solid or liquid", density),
-            density * 1000 >= least_density
-                ? fmt::format("if it is a ratio to water, write {:.6g}; a `mass` is in kg",
-                              density * 1000)
-                : "densities are in kg/m3, water has 1000; a `mass` is in kg");
+        warn(scene, place, key,
+             fmt::format("{:.4g} kg/m3 is lower than the density of any solid or liquid", density),
+             density * 1000 >= least_density
+                 ? fmt::format("if it is a ratio to water, write {:.6g}; a `mass` is in kg",
+                               density * 1000)
+                 : "densities are in kg/m3, water has 1000; a `mass` is in kg",
+             plan);
     } else if (density > largest_density) {
-        found.add(place, key,
-                  fmt::format("{:.4g} kg/m3 is higher than the density of any material", density),
-                  "densities are in kg/m3, steel has 7850; a `mass` is in kg");
+        warn(scene, place, key,
+             fmt::format("{:.4g} kg/m3 is higher than the density of any material", density),
+             "densities are in kg/m3, steel has 7850; a `mass` is in kg", plan);
     }
 }
 
-void look_at_densities(const Scene& scene, PlanWarnings& found)
+void look_at_densities(const Scene& scene, Plan& plan)
 {
     if (scene.fluid) {
-        look_at_density(scene.fluid->density, {}, "fluid.density", found);
+        look_at_density(scene, scene.fluid->density, {}, "fluid.density", plan);
     }
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
-            look_at_density(body.density, body.place, fmt::format("body[{}].density", b), found);
+            look_at_density(scene, body.density, body.place, fmt::format("body[{}].density", b),
+                            plan);
         }
     }
 }
 
-void look_at_friction(const Scene& scene, PlanWarnings& found)
+void look_at_friction(const Scene& scene, Plan& plan)
 {
     const double friction = scene.contact.friction;
     if (!scene.bodies.empty() && friction > largest_friction) {
-        found.add({}, "contact.friction",
-                  fmt::format("a friction coefficient of {:.4g} is unusually large", friction),
-                  friction < 90
-                      ? fmt::format("if it is an angle in degrees, write its tangent, {:.3g}",
-                                    std::tan(friction * std::numbers::pi / 180))
-                      : "it is the ratio of the forces along and across the surface");
+        warn(scene, {}, "contact.friction",
+             fmt::format("a friction coefficient of {:.4g} is unusually large", friction),
+             friction < 90 ? fmt::format("if it is an angle in degrees, write its tangent, {:.3g}",
+                                         std::tan(friction * std::numbers::pi / 180))
+                           : "it is the ratio of the forces along and across the surface",
+             plan);
     }
 }
 
-void look_at_sound(const Scene& scene, const Plan& plan, PlanWarnings& found)
+void look_at_sound(const Scene& scene, Plan& plan)
 {
     const double speed = plan.expected_speed;
     const double sound = scene.fluid ? scene.fluid->sound_speed.value_or(0) : 0;
     if (speed > 0 && sound > largest_sound * speed) {
-        found.add({}, "fluid.sound_speed",
-                  fmt::format("{:.4g} m/s is {:.3g} times the largest expected speed, {:.3g} m/s: "
-                              "the run takes about {:.3g} times as many steps as with the default",
-                              sound, sound / speed, speed, sound / (usual_sound * speed)),
-                  "omit it: the default keeps the density within 1 %, and flows of water do not "
-                  "need the real speed of sound");
+        warn(scene, {}, "fluid.sound_speed",
+             fmt::format("{:.4g} m/s is {:.3g} times the largest expected speed, {:.3g} m/s: "
+                         "the run takes about {:.3g} times as many steps as with the default",
+                         sound, sound / speed, speed, sound / (usual_sound * speed)),
+             "omit it: the default keeps the density within 1 %, and flows of water do not "
+             "need the real speed of sound",
+             plan);
     }
 }
 
-void look_at_spacing(const Scene& scene, PlanWarnings& found)
+void look_at_spacing(const Scene& scene, Plan& plan)
 {
     for (std::size_t b = 0; scene.fluid && b < scene.fluid->blocks.size(); ++b) {
         const FluidBlock& block = scene.fluid->blocks[b];
-        const Bounds box = bounds({&block.shape, block.centre, block.rotation, scene.dimensions});
+        const Bounds box = bounds(placed(block, scene.dimensions));
         Vec3 size = box.max - box.min;
         size.y() = scene.dimensions == 2 ? size.x() : size.y();
         if (size.maxCoeff() < scene.spacing) {
-            return found.add(
-                {}, "particles.spacing",
-                fmt::format("{:.4g} m is larger than `fluid.block[{}]`, which is {:.3g} "
-                            "m across",
-                            scene.spacing, b, size.maxCoeff()),
-                "lengths are in metres: 20 mm are 0.02, or \"20 mm\"");
+            return warn(scene, {}, "particles.spacing",
+                        fmt::format("{:.4g} m is larger than `fluid.block[{}]`, which is {:.3g} "
+                                    "m across",
+                                    scene.spacing, b, size.maxCoeff()),
+                        "lengths are in metres: 20 mm are 0.02, or \"20 mm\"", plan);
         }
     }
 }
@@ -100,11 +101,10 @@ void look_at_spacing(const Scene& scene, PlanWarnings& found)
 
 void warn_about_units(const Scene& scene, Plan& plan)
 {
-    PlanWarnings found(scene, plan);
-    look_at_densities(scene, found);
-    look_at_friction(scene, found);
-    look_at_sound(scene, plan, found);
-    look_at_spacing(scene, found);
+    look_at_densities(scene, plan);
+    look_at_friction(scene, plan);
+    look_at_sound(scene, plan);
+    look_at_spacing(scene, plan);
 }
 
 } // namespace hyoryu

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Warnings of a plan, each with its place in the case file.
+// Entries of a plan: warnings, each with its place in the case file, and effects.
 #pragma once
 
 #include "hyoryu/scene/case_file.hpp"
@@ -19,20 +19,12 @@ inline void warn(const Scene& scene, const Place& place, std::string key, std::s
     plan.warnings.push_back(std::move(note));
 }
 
-/// Adds to the warnings of a plan.
-class PlanWarnings {
-public:
-    PlanWarnings(const Scene& scene, Plan& plan) : scene_(scene), plan_(plan) {}
-
-    /// `key` as a user writes it; `what` is wrong, and a hint.
-    void add(const Place& place, std::string key, std::string what, std::string hint)
-    {
-        warn(scene_, place, std::move(key), std::move(what), std::move(hint), plan_);
-    }
-
-private:
-    const Scene& scene_;
-    Plan& plan_;
-};
+/// Lists an effect as on or off, with the reason for that.
+inline void list_effect(Plan& plan, std::string name, bool runs, std::string why,
+                        std::string why_not)
+{
+    auto& effects = runs ? plan.on : plan.off;
+    effects.push_back({std::move(name), runs ? std::move(why) : std::move(why_not)});
+}
 
 } // namespace hyoryu

@@ -38,17 +38,10 @@ std::string joined(std::string_view path, std::string_view key)
                                        : fmt::format("{}.{}", path, key);
 }
 
-// A table as it is written: "body[].copies" as "body.copies".
-std::string as_written(std::string_view schema)
-{
-    std::string name(schema);
-    std::erase_if(name, [](char c) { return c == '[' || c == ']'; });
-    return name;
-}
-
+// A table as it is written: "body[].copies" as "[body.copies]".
 std::string header_of(std::string_view schema)
 {
-    const std::string name = as_written(schema);
+    const std::string name = plain_key(schema);
     return schema.ends_with(']') ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
 }
 
@@ -162,7 +155,7 @@ bool TableReader::pick(const Parameter& rule, std::size_t& index, Default fallba
         abandoned_ = true;
         return false;
     }
-    index = static_cast<std::size_t>(std::ranges::find(rule.choices, value) - rule.choices.begin());
+    index = at(std::ranges::find(rule.choices, value) - rule.choices.begin());
     return true;
 }
 

@@ -128,14 +128,14 @@ void Reading::error(const Place& place, int override_number, std::string key, st
     }
     Diagnostic diagnostic{.key = std::move(key), .what = std::move(what), .hint = std::move(hint)};
     if (override_number >= 0) {
-        diagnostic.file = "--set " + overrides[static_cast<std::size_t>(override_number)];
+        diagnostic.file = "--set " + overrides[at(override_number)];
     } else {
         diagnostic.file = file.string();
         diagnostic.line = place.line;
         diagnostic.column = place.column;
         diagnostic.length = place.length;
-        if (place.line > 0 && static_cast<std::size_t>(place.line) <= lines.size()) {
-            diagnostic.source = lines[static_cast<std::size_t>(place.line) - 1];
+        if (place.line > 0 && at(place.line) <= lines.size()) {
+            diagnostic.source = lines[at(place.line) - 1];
         }
     }
     diagnostics.push_back(std::move(diagnostic));

@@ -68,7 +68,7 @@ struct Packing {
 
 void add_fluid(const Filling& filling, std::span<const std::uint8_t> rows, Packing& packing)
 {
-    const auto all = packing.rows.size() + static_cast<std::size_t>(std::ranges::count(rows, 1));
+    const auto all = packing.rows.size() + at(std::ranges::count(rows, 1));
     packing.rows.reserve(all);
     packing.points.reserve(all);
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -144,7 +144,7 @@ Vec3 middle_of_blocks(const Scene& scene)
 {
     Bounds box;
     for (const FluidBlock& block : scene.fluid->blocks) {
-        box.add(bounds({&block.shape, block.centre, block.rotation, scene.dimensions}));
+        box.add(bounds(placed(block, scene.dimensions)));
     }
     return (box.min + box.max) / 2;
 }
@@ -217,7 +217,7 @@ Packing packing_of(const Scene& scene, const Filling& filling, std::vector<float
     packing.way.assign(packing.points.size(), Eigen::Vector3f::Zero());
     moves.resize(filling.fluid.size(), 0);
     const double seen = sight(support, dp);
-    std::vector<std::uint8_t> stays = marks_about(filling.fluid, moves, seen);
+    std::vector<std::uint8_t> stays = marks_near(filling.fluid, packing.points, seen);
     std::ranges::transform(stays, moves, stays.begin(), std::minus<>());
     add_fluid(filling, stays, packing);
     if (neighbours != nullptr) {
@@ -237,7 +237,7 @@ Packing packing_of(const Scene& scene, const Filling& filling, std::vector<float
 float depth_of(const Filling& filling, const Packing& packing, const Vec3& down, double dp,
                std::size_t k)
 {
-    const auto row = static_cast<std::size_t>(packing.rows[k]);
+    const auto row = at(packing.rows[k]);
     const double sunk = down.dot(packing.points[k] - filling.fluid[row]);
     return static_cast<float>((filling.fluid_depth[row] + sunk) / dp);
 }
@@ -370,12 +370,6 @@ void sort(const Filling& filling, const Vec3& down, double dp, double reach, Pac
     });
 }
 
-double deepest_of(const Filling& filling, const Packing& packing)
-{
-    return largest(0, packing.moving, 0.0,
-                   [&](Index k) { return filling.fluid_depth[at(packing.rows[at(k)])]; });
-}
-
 } // namespace
 
 void relax_packing(const Scene& scene, const FillRegion* region, Filling& filling)
@@ -404,7 +398,8 @@ void relax_packing(const Scene& scene, const FillRegion* region, Filling& fillin
     const FreeSpace space(scene);
     find_surfaces(scene, space, packing);
     const double unit = packing.units.size / dp;
-    double deepest = deepest_of(filling, packing);
+    double deepest = largest(0, packing.moving, 0.0,
+                             [&](Index k) { return filling.fluid_depth[at(packing.rows[at(k)])]; });
     largest_of_all(comm, {&deepest, 1});
     const double layers = deepest / dp;
     const PackingPressure pressure{.kernel = kernel,

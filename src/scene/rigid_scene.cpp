@@ -185,24 +185,13 @@ Body make_body(const BodySettings& settings, const ContactShape& shape, int dime
     }
     body.position = settings.position;
     body.orientation = settings.rotation;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto k = static_cast<std::size_t>(axis);
-        body.velocity[axis] = body.locks[k] ? 0 : settings.velocity[axis];
-    }
     Vec3 omega = settings.angular_velocity;
     for (int axis = 0; axis < 3; ++axis) {
-        omega[axis] = body.locks[static_cast<std::size_t>(axis) + 3] ? 0 : omega[axis];
+        body.velocity[axis] = body.locks[at(axis)] ? 0 : settings.velocity[axis];
+        omega[axis] = body.locks[at(axis + 3)] ? 0 : omega[axis];
     }
     body.angular_momentum = angular_momentum(body, omega);
     return body;
-}
-
-// How thick the rows of wall particles are, or would be with the usual kernel.
-double thickness_of_rows(const Scene& scene)
-{
-    const double ratio =
-        scene.fluid ? scene.fluid->smoothing_ratio : FluidSettings{}.smoothing_ratio;
-    return wall_layers(ratio) * scene.spacing;
 }
 
 Boundary make_boundary(const Wall& wall, const Scene& scene, Materials& materials)

@@ -2,6 +2,7 @@
 // The table of keys as a JSON Schema, in the draft-04 subset that editors of TOML know.
 #include "hyoryu/scene/parameter.hpp"
 
+#include "hyoryu/core/name.hpp"
 #include "keys.hpp"
 
 #include <fmt/format.h>
@@ -12,14 +13,7 @@ namespace {
 
 std::string json_text(std::string_view text)
 {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') {
-            quoted += '\\';
-        }
-        quoted += c;
-    }
-    return quoted + '"';
+    return '"' + replaced(text, {{'"', "\\\""}, {'\\', "\\\\"}}) + '"';
 }
 
 /// The schema of one number: a text with a unit is a number too.

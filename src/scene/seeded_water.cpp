@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "seeded_water.hpp"
 
+#include "cells.hpp"
+
 #include "hyoryu/core/parallel.hpp"
 
 #include <fmt/format.h>
@@ -24,18 +26,21 @@ Index number_of(const SeededCells& cells, const Cell& c)
     return (c[2] * cells.count[1] + c[1]) * cells.count[0] + c[0];
 }
 
-Cell cell_of(const SeededCells& cells, Index number)
+// The cell at a place, which may be outside of the lattice.
+Cell cell_about(const SeededCells& cells, const Vec3& place)
 {
-    const Index nx = cells.count[0];
-    const Index ny = cells.count[1];
-    return {number % nx, number / nx % ny, number / (nx * ny)};
+    Cell cell{};
+    for (int a = 0; a < 3; ++a) {
+        cell[at(a)] = static_cast<Index>(std::floor((place[a] - cells.first[a]) / cells.edge));
+    }
+    return cell;
 }
 
 Vec3 middle_of(const SeededCells& cells, const Cell& c)
 {
     Vec3 p = cells.first;
     for (Index a = 0; a < 3; ++a) {
-        p[a] += (static_cast<double>(c[static_cast<std::size_t>(a)]) + 0.5) * cells.edge;
+        p[a] += (static_cast<double>(c[at(a)]) + 0.5) * cells.edge;
     }
     return p;
 }
@@ -48,6 +53,11 @@ bool is_within(const SeededCells& cells, const Cell& c)
         }
     }
     return true;
+}
+
+bool is_wet(const SeededCells& cells, const Cell& c)
+{
+    return is_within(cells, c) && cells.wet[at(number_of(cells, c))] != 0;
 }
 
 // Whether a line is free: its ends have clearances that cover it, or both of its halves are.
@@ -82,7 +92,7 @@ SeededCells lattice_of(const Scene& scene, const SeededWater& water, const Bound
                              ? 1
                              : std::ceil(length / cells.edge - 1e-6); // a part of a cell counts
         all *= std::max(n, 0.0);
-        cells.count[static_cast<std::size_t>(a)] = n < most_cells ? static_cast<Index>(n) : 0;
+        cells.count[at(a)] = n < most_cells ? static_cast<Index>(n) : 0;
     }
     cells.first = within.min;
     cells.first.y() = scene.dimensions == 2 ? -cells.edge / 2 : cells.first.y();
@@ -113,7 +123,7 @@ std::vector<Crossing> crossings_from(const SeededCells& cells, const std::vector
 {
     std::vector<Crossing> found;
     for (const Index number : front) {
-        const Cell from = cell_of(cells, number);
+        const Cell from = cell_at(number, cells.count);
         for (std::size_t face = 0; face < 6; ++face) {
             const std::size_t axis = face / 2;
             if (dimensions == 2 && axis == 1) {
@@ -122,9 +132,7 @@ std::vector<Crossing> crossings_from(const SeededCells& cells, const std::vector
             Cell to = from;
             to[axis] += face % 2 == 0 ? -1 : 1;
             const bool above = to[2] >= cells.count[2];
-            const bool known = is_within(cells, to) &&
-                               cells.wet[static_cast<std::size_t>(number_of(cells, to))] != 0;
-            if (!above && !known) {
+            if (!above && !is_wet(cells, to)) {
                 found.push_back({from, to});
             }
         }
@@ -153,7 +161,7 @@ std::vector<Index> advance(const Scene& scene, SeededCells& cells, const FreeSpa
     parallel_for(
         0, static_cast<Index>(crossings.size()),
         [&](Index k) {
-            Crossing& c = crossings[static_cast<std::size_t>(k)];
+            Crossing& c = crossings[at(k)];
             c.open = is_free(space, middle_of(cells, c.from), middle_of(cells, c.to));
         },
         256);
@@ -169,7 +177,7 @@ std::vector<Index> advance(const Scene& scene, SeededCells& cells, const FreeSpa
             }
             continue;
         }
-        std::uint8_t& wet = cells.wet[static_cast<std::size_t>(number_of(cells, c.to))];
+        std::uint8_t& wet = cells.wet[at(number_of(cells, c.to))];
         if (wet == 0) {
             wet = 1;
             next.push_back(number_of(cells, c.to));
@@ -188,10 +196,9 @@ SeededCells seeded_cells(const Scene& scene, std::size_t block, const Bounds& wi
         return cells;
     }
     const FreeSpace space(scene, block);
-    const Vec3 from_corner = (water.seed - cells.first) / cells.edge;
-    const Cell seed{static_cast<Index>(std::floor(from_corner.x())),
-                    scene.dimensions == 2 ? 0 : static_cast<Index>(std::floor(from_corner.y())),
-                    cells.count[2] - 1};
+    Cell seed = cell_about(cells, water.seed);
+    seed[1] = scene.dimensions == 2 ? 0 : seed[1];
+    seed[2] = cells.count[2] - 1;
     if (!is_within(cells, seed)) {
         cells.fault = fmt::format("the seed lies outside of the scene, which has x from {:.6g} to "
                                   "{:.6g} m and y from {:.6g} to {:.6g} m",
@@ -206,7 +213,7 @@ SeededCells seeded_cells(const Scene& scene, std::size_t block, const Bounds& wi
         return cells;
     }
     std::vector<Index> front{number_of(cells, seed)};
-    cells.wet[static_cast<std::size_t>(front.front())] = 1;
+    cells.wet[at(front.front())] = 1;
     while (!front.empty()) {
         cells.reached += static_cast<Index>(front.size());
         front = advance(scene, cells, space, front);
@@ -219,7 +226,7 @@ Bounds box_about(const SeededCells& cells)
     Bounds box;
     for (std::size_t k = 0; k < cells.wet.size(); ++k) {
         if (cells.wet[k] != 0) {
-            const Cell c = cell_of(cells, static_cast<Index>(k));
+            const Cell c = cell_at(static_cast<Index>(k), cells.count);
             Bounds own;
             for (std::size_t a = 0; a < 3; ++a) {
                 const auto axis = static_cast<Index>(a);
@@ -240,12 +247,8 @@ bool share_a_cell(const SeededCells& a, const SeededCells& b)
         if (a.wet[k] == 0) {
             continue;
         }
-        const Vec3 middle = middle_of(a, cell_of(a, static_cast<Index>(k)));
-        const Vec3 from_corner = (middle - b.first) / b.edge;
-        const Cell c{static_cast<Index>(std::floor(from_corner.x())),
-                     static_cast<Index>(std::floor(from_corner.y())),
-                     static_cast<Index>(std::floor(from_corner.z()))};
-        if (is_within(b, c) && b.wet[static_cast<std::size_t>(number_of(b, c))] != 0) {
+        const Vec3 middle = middle_of(a, cell_at(static_cast<Index>(k), a.count));
+        if (is_wet(b, cell_about(b, middle))) {
             return true;
         }
     }
@@ -254,17 +257,12 @@ bool share_a_cell(const SeededCells& a, const SeededCells& b)
 
 bool is_reached(const SeededCells& cells, const FreeSpace& space, const Vec3& place)
 {
-    Cell own{};
-    for (Index a = 0; a < 3; ++a) {
-        own[static_cast<std::size_t>(a)] =
-            static_cast<Index>(std::floor((place[a] - cells.first[a]) / cells.edge));
-    }
+    Cell own = cell_about(cells, place);
     own[1] = space.dimensions() == 2 ? 0 : own[1];
     for (int way = 0; way < 27; ++way) {
         const int first = (way + 13) % 27; // the own cell first
         const Cell c{own[0] + first % 3 - 1, own[1] + first / 3 % 3 - 1, own[2] + first / 9 - 1};
-        if (is_within(cells, c) && cells.wet[static_cast<std::size_t>(number_of(cells, c))] != 0 &&
-            is_free(space, middle_of(cells, c), place)) {
+        if (is_wet(cells, c) && is_free(space, middle_of(cells, c), place)) {
             return true;
         }
     }

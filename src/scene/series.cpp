@@ -134,8 +134,7 @@ private:
     {
         std::vector<std::size_t> columns;
         for (const std::string& name : source_.columns) {
-            columns.push_back(
-                static_cast<std::size_t>(std::ranges::find(quantities, name) - quantities.begin()));
+            columns.push_back(at(std::ranges::find(quantities, name) - quantities.begin()));
         }
         if (!columns.empty() || lines.empty()) {
             return columns;
@@ -233,11 +232,6 @@ private:
 };
 
 } // namespace
-
-std::span<const std::string_view> series_quantities()
-{
-    return quantities;
-}
 
 OpenSeries read_series(const SeriesSource& source, std::vector<std::string>& faults)
 {

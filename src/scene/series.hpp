@@ -5,7 +5,6 @@
 #include "hyoryu/scene/open_settings.hpp"
 
 #include <filesystem>
-#include <span>
 
 namespace hyoryu {
 
@@ -23,9 +22,6 @@ struct SeriesSource {
     double time_offset = 0;           // time of the file at time 0 of the scene [s]
     double scale = 1;                 // of levels above the datum and of velocities [1]
 };
-
-/// The quantities that a column of a CSV file may hold, and "-".
-std::span<const std::string_view> series_quantities();
 
 /// The series of a file; mistakes are added to `faults` as "FILE:LINE: what is wrong".
 OpenSeries read_series(const SeriesSource& source, std::vector<std::string>& faults);

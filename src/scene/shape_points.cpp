@@ -18,12 +18,6 @@ bool outermost(Index k, Index n)
     return k == 0 || k == n - 1;
 }
 
-// The layer of a point, from the first point of each.
-Index layer_of(const std::vector<Index>& start, Index k)
-{
-    return std::upper_bound(start.begin(), start.end(), k) - start.begin() - 1;
-}
-
 // The number of the first point of each layer below a surface of `radius`; a layer at radius r has
 // points_at(r) points. The last entry is the number of all points.
 std::vector<Index> first_of_layers(double radius, double spacing, const auto& points_at)
@@ -47,11 +41,10 @@ struct InLayer {
 
 InLayer in_layer(const std::vector<Index>& start, double radius, Index point)
 {
-    const Index layer = layer_of(start, point);
-    const auto at = static_cast<std::size_t>(layer);
+    const Index layer = std::ranges::upper_bound(start, point) - start.begin() - 1;
     const double step = radius / static_cast<double>(start.size() - 1);
-    return {layer, radius - (static_cast<double>(layer) + 0.5) * step, point - start[at],
-            start[at + 1] - start[at]};
+    return {layer, radius - (static_cast<double>(layer) + 0.5) * step, point - start[at(layer)],
+            start[at(layer + 1)] - start[at(layer)]};
 }
 
 RingPoints rings(double radius, double spacing, int dimensions)

@@ -48,7 +48,15 @@ struct ShellPoints {
     ShapePoint point(Index k) const;
 };
 
-using ShapePoints = std::variant<BoxPoints, RingPoints, ShellPoints>;
+/// Points of a list, which must stay where it is while they are used.
+struct GivenPoints {
+    const std::vector<Vec3>* points = nullptr;
+
+    Index number() const { return static_cast<Index>(points->size()); }
+    ShapePoint point(Index k) const { return {(*points)[at(k)]}; }
+};
+
+using ShapePoints = std::variant<BoxPoints, RingPoints, ShellPoints, GivenPoints>;
 
 ShapePoints shape_points(const BoxShape& box, double spacing, int dimensions);
 ShapePoints shape_points(const SphereShape& sphere, double spacing, int dimensions);

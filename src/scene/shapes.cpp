@@ -103,9 +103,9 @@ double distance_to(const MeshShape& mesh, const Vec3& p, int)
     double nearest = infinity;
     double turns = 0;
     for (const auto& t : mesh.triangles) {
-        const Vec3& a = mesh.corners[static_cast<std::size_t>(t[0])];
-        const Vec3& b = mesh.corners[static_cast<std::size_t>(t[1])];
-        const Vec3& c = mesh.corners[static_cast<std::size_t>(t[2])];
+        const Vec3& a = mesh.corners[at(t[0])];
+        const Vec3& b = mesh.corners[at(t[1])];
+        const Vec3& c = mesh.corners[at(t[2])];
         nearest = std::min(nearest, (p - closest_on_triangle(p, a, b, c)).squaredNorm());
         turns += winding(p, a, b, c);
     }
@@ -172,9 +172,8 @@ double volume_of(const ParticleShape& shape, int)
 Vec3 closest_on_triangle(const MeshShape& mesh, const std::array<int, 3>& triangle,
                          const Vec3& point)
 {
-    return closest_on_triangle(point, mesh.corners[static_cast<std::size_t>(triangle[0])],
-                               mesh.corners[static_cast<std::size_t>(triangle[1])],
-                               mesh.corners[static_cast<std::size_t>(triangle[2])]);
+    return closest_on_triangle(point, mesh.corners[at(triangle[0])], mesh.corners[at(triangle[1])],
+                               mesh.corners[at(triangle[2])]);
 }
 
 Vec3 middle_of_shape(const BodySettings& body)
@@ -197,6 +196,16 @@ Placed placed(const BodySettings& body, int dimensions)
                             ? Vec3(body.position - body.rotation * *body.centre_of_mass)
                             : body.position;
     return {&body.shape, middle, body.rotation, dimensions};
+}
+
+Placed placed(const FluidBlock& block, int dimensions)
+{
+    return {&block.shape, block.centre, block.rotation, dimensions};
+}
+
+Placed placed(const SolidWall& solid, int dimensions)
+{
+    return {&solid.shape, solid.centre, solid.rotation, dimensions};
 }
 
 double volume(const Shape& shape, int dimensions)
@@ -233,6 +242,19 @@ Bounds bounds(const Placed& placed)
         box.max.y() = 0;
     }
     return box;
+}
+
+Bounds bounds(const Wall& wall, int dimensions)
+{
+    if (const auto* basin = std::get_if<BasinWall>(&wall.geometry)) {
+        return {basin->min, basin->max};
+    }
+    if (const auto* round = std::get_if<RoundWall>(&wall.geometry)) {
+        return {round->centre - Vec3::Constant(round->radius),
+                round->centre + Vec3::Constant(round->radius)};
+    }
+    const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+    return solid != nullptr ? bounds(placed(*solid, dimensions)) : Bounds{};
 }
 
 } // namespace hyoryu

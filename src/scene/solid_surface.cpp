@@ -75,19 +75,15 @@ NearestPlace nearest_to(const SolidRod& rod, const Vec3& p, double)
     return out > along ? NearestPlace{out, radial} : NearestPlace{along, axial};
 }
 
-bool contains(const Bounds& box, const Vec3& p)
-{
-    return (p.array() > box.min.array()).all() && (p.array() < box.max.array()).all();
-}
-
 NearestPlace nearest_to(const HollowBox& basin, const Vec3& p, double)
 {
-    if (contains(basin.outer, p)) {
+    const Bounds& outer = basin.outer;
+    if ((p.array() > outer.min.array()).all() && (p.array() < outer.max.array()).all()) {
         // In the cavity the nearest of its faces, in a side the nearest way out of it.
         const NearestPlace of_cavity = nearest_to(basin.cavity, p);
         const NearestPlace in{-of_cavity.distance, -of_cavity.normal};
         const NearestPlace out =
-            of_cavity.distance > 0 ? nearest_to(basin.outer, p) : NearestPlace{-infinity};
+            of_cavity.distance > 0 ? nearest_to(outer, p) : NearestPlace{-infinity};
         return in.distance > out.distance ? in : out;
     }
     NearestPlace nearest;
@@ -109,7 +105,7 @@ HollowBox hollow_box(const BasinWall& basin, double thickness, int dimensions)
     hollow.cavity = {basin.min, basin.max};
     hollow.outer = hollow.cavity;
     for (int a = 0; a < 3; ++a) {
-        const auto k = static_cast<std::size_t>(a);
+        const auto k = at(a);
         const bool none = dimensions == 2 && a == 1;
         const bool low_open = basin.open[2 * k] || none;
         const bool high_open = basin.open[2 * k + 1] || none;
@@ -217,6 +213,16 @@ SolidSurface surface_of(const Wall& wall, double thickness, int dimensions)
     return surface;
 }
 
+std::vector<SolidSurface> surfaces_of(const std::vector<Wall>& walls, double thickness,
+                                      int dimensions)
+{
+    std::vector<SolidSurface> surfaces;
+    for (const Wall& wall : walls) {
+        surfaces.push_back(surface_of(wall, thickness, dimensions));
+    }
+    return surfaces;
+}
+
 SolidSurface surface_of(const BodySettings& body, int dimensions)
 {
     SolidSurface surface;
@@ -234,6 +240,13 @@ NearestPlace nearest_place(const SolidSurface& solid, const Vec3& point, double 
     NearestPlace nearest =
         std::visit([&](const auto& s) { return nearest_to(s, p, farthest); }, solid.shape);
     return nearest.distance <= farthest ? nearest : NearestPlace{};
+}
+
+NearestPlace nearest_from_centre(const SolidSurface& solid, const Vec3& way, double farthest)
+{
+    NearestPlace nearest = nearest_place(solid, solid.rotation.conjugate() * way, farthest);
+    nearest.normal = solid.rotation * nearest.normal;
+    return nearest;
 }
 
 } // namespace hyoryu

@@ -23,19 +23,9 @@ constexpr double parted = 0.6;           // distance to which it is moved
 // Rows of the points in the cells that a box reaches.
 std::vector<std::size_t> rows_in(const CellGrid& grid, const Bounds& box)
 {
-    const auto low = grid.cell_of(box.min);
-    const auto high = grid.cell_of(box.max);
-    const auto first = [&](std::size_t a) { return std::max<Index>(low[a], 0); };
-    const auto last = [&](std::size_t a) { return std::min(high[a] + 1, grid.count[a]); };
     std::vector<std::size_t> rows;
-    for (Index z = first(2); z < last(2); ++z) {
-        for (Index y = first(1); y < last(1) && first(0) < last(0); ++y) {
-            const Index row = (z * grid.count[1] + y) * grid.count[0];
-            for (Index k = grid.start[at(row + first(0))]; k < grid.start[at(row + last(0))]; ++k) {
-                rows.push_back(at(grid.order[at(k)]));
-            }
-        }
-    }
+    for_points_in(grid, grid.cell_of(box.min), grid.cell_of(box.max),
+                  [&](std::size_t row) { rows.push_back(row); });
     return rows;
 }
 
@@ -138,12 +128,6 @@ struct Seen {
     std::int64_t is_free = 0;
 };
 
-template <class T>
-std::vector<T> of_all(Comm* comm, std::vector<T> own)
-{
-    return comm == nullptr ? own : gather(*comm, std::span<const T>(own)).all;
-}
-
 std::vector<Vec3> places_of(const Filling& filling, std::span<const std::uint8_t> marked)
 {
     std::vector<Vec3> places;
@@ -161,7 +145,7 @@ std::vector<Seen> seen_about(const Scene& scene, Comm* comm, const std::vector<V
                              double radius, const Filling& filling)
 {
     const std::vector<std::uint8_t> giving = marks_near(filling.fluid, centres, radius);
-    const std::vector<Vec3> movers = of_all(comm, places_of(filling, giving));
+    const std::vector<Vec3> movers = of_all_ranks(comm, places_of(filling, giving));
     const std::vector<std::uint8_t> seen = marks_near(filling.fluid, movers, scene.spacing);
     std::vector<Seen> own;
     for (std::size_t k = 0; k < seen.size(); ++k) {
@@ -169,7 +153,7 @@ std::vector<Seen> seen_about(const Scene& scene, Comm* comm, const std::vector<V
             own.push_back({filling.number_of_fluid(k), filling.fluid[k], giving[k]});
         }
     }
-    std::vector<Seen> all = of_all(comm, std::move(own));
+    std::vector<Seen> all = of_all_ranks(comm, std::move(own));
     std::ranges::sort(all, {}, &Seen::number);
     return all;
 }
@@ -178,7 +162,7 @@ std::vector<Seen> seen_about(const Scene& scene, Comm* comm, const std::vector<V
 void move_apart(const Scene& scene, Comm* comm, std::span<const std::uint8_t> marked, double radius,
                 double distance, Filling& filling)
 {
-    const std::vector<Vec3> centres = of_all(comm, places_of(filling, marked));
+    const std::vector<Vec3> centres = of_all_ranks(comm, places_of(filling, marked));
     if (centres.empty()) {
         return;
     }

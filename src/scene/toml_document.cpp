@@ -97,6 +97,16 @@ std::string lower_first(std::string text)
 
 } // namespace
 
+bool operator==(const TomlNode& a, const TomlNode& b)
+{
+    return a.value == b.value;
+}
+
+bool operator==(const TomlEntry& a, const TomlEntry& b)
+{
+    return a.key == b.key && a.node == b.node;
+}
+
 const TomlEntry* find_entry(const TomlTable& table, std::string_view key)
 {
     const auto at = std::find_if(table.begin(), table.end(),

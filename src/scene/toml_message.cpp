@@ -78,11 +78,6 @@ std::optional<Words> slip_in(const std::string& line)
     return std::nullopt;
 }
 
-bool ends_the_line(const std::string& line, int column)
-{
-    return static_cast<std::size_t>(std::max(column, 1)) > line.size();
-}
-
 // Messages for rare mistakes.
 Words rare_meaning_of(const std::string& description)
 {
@@ -176,7 +171,8 @@ TomlFault plain_fault(std::string_view text, const Place& place, const std::stri
     if (const auto slip = doubled ? std::nullopt : slip_in(line)) {
         return {place, slip->what, slip->hint};
     }
-    Words words = meaning_of(description, ends_the_line(line, place.column));
+    const bool at_end = at(std::max(place.column, 1)) > line.size();
+    Words words = meaning_of(description, at_end);
     if (words.what.empty()) {
         constexpr std::string_view lead = "error while parsing ";
         const auto colon = description.find(": ");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "hyoryu/scene/triangle_tree.hpp"
 
+#include "hyoryu/core/triangle_sides.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <numbers>
 #include <numeric>
 
@@ -46,28 +47,6 @@ double angle_at(const Corners& t, std::size_t k)
     return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
 }
 
-// An edge of a triangle by the numbers of its ends, the lower one first.
-struct Edge {
-    int low, high;
-    int triangle, side; // on which side of which triangle
-    auto operator<=>(const Edge&) const = default;
-};
-
-// The edges of all triangles, those between the same corners together.
-std::vector<Edge> sorted_edges(const Numbers& numbers)
-{
-    std::vector<Edge> all;
-    all.reserve(3 * numbers.size());
-    for (std::size_t t = 0; t < numbers.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(numbers[t][k], numbers[t][(k + 1) % 3]);
-            all.push_back({low, high, static_cast<int>(t), static_cast<int>(k)});
-        }
-    }
-    std::ranges::sort(all);
-    return all;
-}
-
 void set_corner_normals(TriangleTree& tree)
 {
     tree.corner_normals.assign(tree.corners.size(), Vec3::Zero());
@@ -83,10 +62,10 @@ void set_corner_normals(TriangleTree& tree)
 // Numbers the edges and sums the normals of the faces that meet there.
 void set_edge_normals(const Numbers& numbers, TriangleTree& tree)
 {
-    const std::vector<Edge> sorted = sorted_edges(numbers);
+    const std::vector<TriangleSide> sorted = sorted_sides(numbers);
     tree.edge_normals.reserve(sorted.size() / 2);
     for (std::size_t k = 0; k < sorted.size(); ++k) {
-        const Edge& e = sorted[k];
+        const TriangleSide& e = sorted[k];
         if (k == 0 || e.low != sorted[k - 1].low || e.high != sorted[k - 1].high) {
             tree.edge_normals.emplace_back(0, 0, 0);
         }

@@ -153,8 +153,7 @@ void add_wall(TriangleSurface& surface, const BasinWall& basin, const Bounds&, i
 {
     for (int axis = 0; axis < 3; ++axis) {
         for (int side = 0; side < 2; ++side) {
-            if (basin.open[static_cast<std::size_t>(2 * axis + side)] ||
-                (dimensions == 2 && axis == 1)) {
+            if (basin.open[at(2 * axis + side)] || (dimensions == 2 && axis == 1)) {
                 continue;
             }
             auto polygon = face(basin.min, basin.max, axis, side);

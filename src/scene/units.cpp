@@ -19,57 +19,36 @@ struct NamedUnit {
     Unit unit;
 };
 
-constexpr Unit metre(double up, double down)
-{
-    return {{1, 0, 0, 0}, up, down};
-}
-constexpr Unit kilogram(double up, double down)
-{
-    return {{0, 1, 0, 0}, up, down};
-}
-constexpr Unit second(double up)
-{
-    return {{0, 0, 1, 0}, up, 1};
-}
-constexpr Unit newton(double up)
-{
-    return {{1, 1, -2, 0}, up, 1};
-}
-constexpr Unit pascal(double up)
-{
-    return {{-1, 1, -2, 0}, up, 1};
-}
-constexpr Unit radian(double up, double down)
-{
-    return {{0, 0, 0, 1}, up, down};
-}
+// Powers of metre, kilogram, second and radian.
+constexpr std::array<int, 4> of_length{1, 0, 0, 0}, of_mass{0, 1, 0, 0}, of_duration{0, 0, 1, 0},
+    of_angle{0, 0, 0, 1}, of_force{1, 1, -2, 0}, of_stress{-1, 1, -2, 0};
 
 constexpr std::array named_units = {
-    NamedUnit{"m", metre(1, 1)},
-    NamedUnit{"cm", metre(1, 100)},
-    NamedUnit{"mm", metre(1, 1000)},
-    NamedUnit{"km", metre(1000, 1)},
-    NamedUnit{"ft", metre(3048, 10000)},
-    NamedUnit{"in", metre(254, 10000)},
-    NamedUnit{"s", second(1)},
-    NamedUnit{"ms", {{0, 0, 1, 0}, 1, 1000}},
-    NamedUnit{"min", second(60)},
-    NamedUnit{"h", second(3600)},
-    NamedUnit{"kg", kilogram(1, 1)},
-    NamedUnit{"g", kilogram(1, 1000)},
-    NamedUnit{"t", kilogram(1000, 1)},
-    NamedUnit{"N", newton(1)},
-    NamedUnit{"kN", newton(1e3)},
-    NamedUnit{"MN", newton(1e6)},
-    NamedUnit{"Pa", pascal(1)},
-    NamedUnit{"kPa", pascal(1e3)},
-    NamedUnit{"MPa", pascal(1e6)},
-    NamedUnit{"GPa", pascal(1e9)},
-    NamedUnit{"bar", pascal(1e5)},
+    NamedUnit{"m", {of_length, 1, 1}},
+    NamedUnit{"cm", {of_length, 1, 100}},
+    NamedUnit{"mm", {of_length, 1, 1000}},
+    NamedUnit{"km", {of_length, 1000, 1}},
+    NamedUnit{"ft", {of_length, 3048, 10000}},
+    NamedUnit{"in", {of_length, 254, 10000}},
+    NamedUnit{"s", {of_duration, 1, 1}},
+    NamedUnit{"ms", {of_duration, 1, 1000}},
+    NamedUnit{"min", {of_duration, 60, 1}},
+    NamedUnit{"h", {of_duration, 3600, 1}},
+    NamedUnit{"kg", {of_mass, 1, 1}},
+    NamedUnit{"g", {of_mass, 1, 1000}},
+    NamedUnit{"t", {of_mass, 1000, 1}},
+    NamedUnit{"N", {of_force, 1, 1}},
+    NamedUnit{"kN", {of_force, 1e3, 1}},
+    NamedUnit{"MN", {of_force, 1e6, 1}},
+    NamedUnit{"Pa", {of_stress, 1, 1}},
+    NamedUnit{"kPa", {of_stress, 1e3, 1}},
+    NamedUnit{"MPa", {of_stress, 1e6, 1}},
+    NamedUnit{"GPa", {of_stress, 1e9, 1}},
+    NamedUnit{"bar", {of_stress, 1e5, 1}},
     NamedUnit{"J", {{2, 1, -2, 0}, 1, 1}},
     NamedUnit{"W", {{2, 1, -3, 0}, 1, 1}},
-    NamedUnit{"rad", radian(1, 1)},
-    NamedUnit{"deg", radian(std::numbers::pi, 180)},
+    NamedUnit{"rad", {of_angle, 1, 1}},
+    NamedUnit{"deg", {of_angle, std::numbers::pi, 180}},
 };
 
 std::optional<Unit> named_unit(std::string_view name)
@@ -93,11 +72,6 @@ void multiply(Unit& product, const Unit& factor, int power)
     }
 }
 
-bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 bool take(std::string_view& text, std::string_view front)
 {
     if (!text.starts_with(front)) {
@@ -116,6 +90,7 @@ void skip_blanks(std::string_view& text)
 /// The name of a unit at the front of the text: letters, or the 1 of "1/s".
 std::string_view take_name(std::string_view& text)
 {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     std::size_t length = 0;
     while (length < text.size() && is_letter(text[length])) {
         ++length;

@@ -23,14 +23,13 @@ double depth_in(const BasinWall& basin, const Vec3& p, int dimensions)
 {
     double depth = -infinity;
     for (int a = 0; a < 3; ++a) {
-        const auto k = static_cast<std::size_t>(a);
         if (dimensions == 2 && a == 1) {
             continue;
         }
-        if (!basin.open[2 * k]) {
+        if (!basin.open[at(2 * a)]) {
             depth = std::max(depth, basin.min[a] - p[a]);
         }
-        if (!basin.open[2 * k + 1]) {
+        if (!basin.open[at(2 * a + 1)]) {
             depth = std::max(depth, p[a] - basin.max[a]);
         }
     }
@@ -42,7 +41,7 @@ double depth_in(const RoundWall& round, const Vec3& p, int)
 }
 double depth_in(const SolidWall& solid, const Vec3& p, int dimensions)
 {
-    return -signed_distance({&solid.shape, solid.centre, solid.rotation, dimensions}, p);
+    return -signed_distance(placed(solid, dimensions), p);
 }
 
 std::vector<LayerPlaces> places_of_walls(const Scene& scene, const Filling& filling,
@@ -72,7 +71,7 @@ const WallRun& run_with(const std::vector<WallRun>& runs, Index index)
 bool in_period(const Scene& scene, const Vec3& point)
 {
     for (Index axis = 0; axis < 3; ++axis) {
-        const bool repeats = scene.domain && scene.domain->periodic[static_cast<std::size_t>(axis)];
+        const bool repeats = scene.domain && scene.domain->periodic[at(axis)];
         if (repeats &&
             !(point[axis] >= scene.domain->min[axis] && point[axis] < scene.domain->max[axis])) {
             return false;
@@ -84,8 +83,7 @@ bool in_period(const Scene& scene, const Vec3& point)
 double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& p, int dimensions)
 {
     if (std::holds_alternative<TriangleTree>(surface.shape)) {
-        return -nearest_place(surface, surface.rotation.conjugate() * (p - surface.centre))
-                    .distance;
+        return -nearest_from_centre(surface, p - surface.centre).distance;
     }
     return depth_behind(wall, p, dimensions);
 }
@@ -146,13 +144,13 @@ WallMaker wall_maker(const Scene& scene, const Filling& filling,
             sticks = scene.fluid->walls.sticks, dimensions = scene.dimensions,
             cube_mass](std::int32_t index) -> WallPoint {
         const WallRun& run = run_with(runs, index);
-        const auto w = static_cast<std::size_t>(run.wall);
+        const auto w = at(run.wall);
         const auto place_in = [&](const auto& layers) {
             return layers.place(run.place + index - run.first);
         };
         const WallCell cell = std::visit(place_in, places[w]).value();
         const real depth = sticks ? depth_behind(walls[w], surfaces[w], cell.place, dimensions) : 0;
-        return {cell.place + shifts[static_cast<std::size_t>(run.shift)], depth,
+        return {cell.place + shifts[at(run.shift)], depth,
                 static_cast<real>(cell.cubes) * cube_mass, -1 - run.wall};
     };
 }
@@ -160,10 +158,7 @@ WallMaker wall_maker(const Scene& scene, const Filling& filling,
 std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
 {
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
-    std::vector<SolidSurface> surfaces;
-    for (const Wall& wall : scene.walls) {
-        surfaces.push_back(surface_of(wall, lattice.depth(), scene.dimensions));
-    }
+    const auto surfaces = surfaces_of(scene.walls, lattice.depth(), scene.dimensions);
     const std::vector<LayerPlaces> places = places_of_walls(scene, filling, surfaces);
     const std::vector<int> fixed = fixed_walls_of(scene);
     const Periods periods = periods_of(scene);

@@ -28,15 +28,6 @@ struct LayerPlace {
     bool operator==(const LayerPlace& other) const { return key() == other.key(); }
 };
 
-std::vector<SolidSurface> surfaces_of(const Scene& scene, const LayerLattice& lattice)
-{
-    std::vector<SolidSurface> surfaces;
-    for (const Wall& wall : scene.walls) {
-        surfaces.push_back(surface_of(wall, lattice.depth(), scene.dimensions));
-    }
-    return surfaces;
-}
-
 // The places in the part of the layers that this process computes.
 std::vector<LayerPlace> part_of_layers(const Scene& scene, const LayerLattice& lattice,
                                        const std::vector<SolidSurface>& surfaces, Comm& comm)
@@ -82,8 +73,7 @@ std::vector<LayerPlace> send(Comm& comm, const std::vector<LayerPlace>& places, 
     std::vector<LayerPlace> all;
     for (const Parcel& parcel : comm.exchange(std::move(out))) {
         Unpacking from(parcel);
-        const std::vector<LayerPlace> some = take_list<LayerPlace>(from);
-        all.insert(all.end(), some.begin(), some.end());
+        take_more(from, all);
     }
     std::ranges::sort(all, {}, &LayerPlace::key);
     return all;
@@ -157,8 +147,7 @@ std::vector<LayerPlace> carry_out(Comm& comm, const CarriedWalls& window,
             own.insert({column, p.copy});
         }
     }
-    const std::vector<NewCopy> listed(own.begin(), own.end());
-    std::vector<NewCopy> made = gather(comm, std::span<const NewCopy>(listed)).all;
+    std::vector<NewCopy> made = of_all_ranks(&comm, std::vector<NewCopy>(own.begin(), own.end()));
     std::ranges::sort(made);
     made.erase(std::ranges::unique(made).begin(), made.end());
     const auto copies = static_cast<std::int32_t>(shifts.size());
@@ -203,7 +192,7 @@ std::vector<PlaceRun> number_runs(Comm& comm, const std::vector<LayerPlace>& pla
         }
         own.back().count += 1;
     }
-    std::vector<PlaceRun> runs = gather(comm, std::span<const PlaceRun>(own)).all;
+    std::vector<PlaceRun> runs = of_all_ranks(&comm, std::move(own));
     std::ranges::sort(runs, {}, &PlaceRun::key);
     Index index = 0;
     for (PlaceRun& run : runs) {
@@ -254,7 +243,7 @@ void add_particles(const Scene& scene, const std::vector<LayerPlace>& places,
 FillRegion fill_walls_by_range(const Scene& scene, Comm& comm, Filling& filling)
 {
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
-    const std::vector<SolidSurface> surfaces = surfaces_of(scene, lattice);
+    const auto surfaces = surfaces_of(scene.walls, lattice.depth(), scene.dimensions);
     std::vector<LayerPlace> places = part_of_layers(scene, lattice, surfaces, comm);
     FillRegion region = region_of(scene, filling, comm, places);
     const auto to_owner = [&](const LayerPlace& p, const auto& to) {

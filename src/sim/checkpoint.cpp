@@ -43,7 +43,7 @@ template <class T>
 void read_wall_column(StateReader& state, const std::string& name, const std::string& unit,
                       const WallRows& rows, Index moving, std::span<T> own)
 {
-    std::vector<T> all(static_cast<std::size_t>(rows.all));
+    std::vector<T> all(at(rows.all));
     state.values(name, unit, std::span(all));
     std::copy_n(all.begin(), moving, own.begin());
     std::copy_n(all.begin() + rows.first, std::ssize(own) - moving, own.begin() + moving);
@@ -70,13 +70,13 @@ void forget_friction_of_others(Fluid& fluid)
     if (!fluid.ghosts || !wall.has(field::viscous_force)) {
         return;
     }
-    std::vector<bool> is_own(static_cast<std::size_t>(wall.size()), false);
+    std::vector<bool> is_own(at(wall.size()), false);
     for (const std::int32_t row : fluid.neighbours.wall.row) {
-        is_own[static_cast<std::size_t>(row)] = true;
+        is_own[at(row)] = true;
     }
     const auto F = wall[field::viscous_force];
     for (Index row = 0; row < fluid.fixed_walls.moving_rows; ++row) {
-        F[row] = is_own[static_cast<std::size_t>(row)] ? Vec3(F[row]) : Vec3(0, 0, 0);
+        F[row] = is_own[at(row)] ? Vec3(F[row]) : Vec3(0, 0, 0);
     }
 }
 
@@ -224,44 +224,36 @@ void describe_conservation(State& state, Conservation& sums)
 template <class State, class Simulation>
 void describe_absorbers(State& state, Simulation& sim)
 {
-    std::vector<double> times, places, speeds, levels, still;
-    for (const Absorber& absorber : sim.waves.absorbers) {
-        const auto& absorption = *sim.scene.walls[absorber.wall].motion.absorption;
-        times.push_back(absorption.time);
-        places.push_back(absorption.place);
-        speeds.push_back(absorption.velocity);
-        levels.push_back(absorber.level);
-        still.push_back(absorber.still);
-    }
-    state.values("absorbers/time", "s", std::span(times));
-    state.values("absorbers/place", "m", std::span(places));
-    state.values("absorbers/velocity", "m/s", std::span(speeds));
-    state.values("absorbers/level", "m", std::span(levels));
-    state.values("absorbers/still", "", std::span(still));
+    auto& absorbers = sim.waves.absorbers;
+    const auto added = [&sim](auto member) {
+        return [&sim, member ](const Absorber& absorber) -> auto&
+        {
+            return (*sim.scene.walls[absorber.wall].motion.absorption).*member;
+        };
+    };
+    state.each("absorbers/time", "s", absorbers, added(&Motion::Absorption::time));
+    state.each("absorbers/place", "m", absorbers, added(&Motion::Absorption::place));
+    state.each("absorbers/velocity", "m/s", absorbers, added(&Motion::Absorption::velocity));
+    state.each("absorbers/level", "m", absorbers, &Absorber::level);
+    state.each("absorbers/still", "", absorbers, &Absorber::still);
     if constexpr (State::reads) {
-        for (std::size_t k = 0; k < sim.waves.absorbers.size(); ++k) {
-            Absorber& absorber = sim.waves.absorbers[k];
-            absorber.level = levels[k];
-            absorber.still = still[k];
-            auto& absorption = sim.scene.walls[absorber.wall].motion.absorption;
-            absorption->time = times[k];
-            absorption->place = places[k];
-            absorption->velocity = speeds[k];
-            sim.rigid.boundaries[absorber.wall].motion.absorption = absorption;
+        for (const Absorber& absorber : absorbers) {
+            sim.rigid.boundaries[absorber.wall].motion.absorption =
+                sim.scene.walls[absorber.wall].motion.absorption;
         }
     }
 }
 
-// Whether all bodies and open sides belong to the case, and no body is listed twice.
-bool are_of_case(const Simulation& sim, std::vector<int> bodies, std::span<const int> sides)
+// Whether the bodies that left and their open sides belong to the case, and none is listed twice.
+bool are_of_case(const Simulation& sim, std::vector<LeftBody> left)
 {
     const auto is_below = [](std::size_t count) {
-        return [count](int k) { return k >= 0 && static_cast<std::size_t>(k) < count; };
+        return [count](int k) { return k >= 0 && at(k) < count; };
     };
-    std::ranges::sort(bodies);
-    return std::ranges::all_of(bodies, is_below(sim.rigid.bodies.size())) &&
-           std::ranges::all_of(sides, is_below(sim.scene.open.size())) &&
-           std::ranges::adjacent_find(bodies) == bodies.end();
+    std::ranges::sort(left, {}, &LeftBody::body);
+    return std::ranges::all_of(left, is_below(sim.rigid.bodies.size()), &LeftBody::body) &&
+           std::ranges::all_of(left, is_below(sim.scene.open.size()), &LeftBody::side) &&
+           std::ranges::adjacent_find(left, {}, &LeftBody::body) == left.end();
 }
 
 template <class State, class Boundary>
@@ -292,30 +284,17 @@ void describe_open(State& state, Boundary& open)
 template <class State, class Simulation>
 void describe_left_bodies(State& state, Simulation& sim)
 {
-    std::vector<int> bodies, sides;
-    std::vector<double> times;
-    std::vector<Vec3> positions, velocities;
-    for (const LeftBody& left : sim.open.left) {
-        bodies.push_back(left.body);
-        sides.push_back(left.side);
-        times.push_back(left.time);
-        positions.push_back(left.position);
-        velocities.push_back(left.velocity);
-    }
-    state.list("open/left/body", "", bodies);
-    state.list("open/left/side", "", sides);
-    state.list("open/left/time", "s", times);
-    state.list("open/left/position", "m", positions);
-    state.list("open/left/velocity", "m/s", velocities);
+    auto& left = sim.open.left;
+    state.resize("open/left/body", left, &LeftBody::body);
+    state.each("open/left/body", "", left, &LeftBody::body);
+    state.each("open/left/side", "", left, &LeftBody::side);
+    state.each("open/left/time", "s", left, &LeftBody::time);
+    state.each("open/left/position", "m", left, &LeftBody::position);
+    state.each("open/left/velocity", "m/s", left, &LeftBody::velocity);
     if constexpr (State::reads) {
-        const std::size_t count = bodies.size();
-        if (sides.size() != count || times.size() != count || positions.size() != count ||
-            velocities.size() != count || !are_of_case(sim, bodies, sides)) {
+        if (!are_of_case(sim, left)) {
             throw IoError("the checkpoint lists bodies that left the domain, but they are not in "
                           "this case: it is damaged or belongs to another case");
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-            sim.open.left.push_back({bodies[k], sides[k], times[k], positions[k], velocities[k]});
         }
         remove_left_bodies(sim);
     }

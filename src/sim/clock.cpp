@@ -10,11 +10,6 @@ namespace hyoryu {
 
 namespace {
 
-double frame_time(const Clock& clock, const Scene& scene)
-{
-    return static_cast<double>(clock.frame - clock.frame_offset) * scene.output.every;
-}
-
 // Rows that are not spaced in time are due after every step.
 bool row_due(double time, std::int64_t number, double every)
 {
@@ -30,7 +25,9 @@ bool finished(const Clock& clock, const Scene& scene)
 
 bool frame_due(const Clock& clock, const Scene& scene)
 {
-    return clock.time >= frame_time(clock, scene) - rounding_of_times * scene.output.every;
+    const double every = scene.output.every;
+    const double frame = static_cast<double>(clock.frame - clock.frame_offset) * every;
+    return clock.time >= frame - rounding_of_times * every;
 }
 
 bool history_due(const Clock& clock, const Scene& scene)

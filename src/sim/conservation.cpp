@@ -15,7 +15,7 @@ namespace {
 
 bool locked(const Body& body, int axis)
 {
-    return body.locks[static_cast<std::size_t>(axis)];
+    return body.locks[at(axis)];
 }
 
 // Impulse of contacts with walls, and of the constraints on the locked axes of bodies, which cancel

@@ -217,13 +217,6 @@ std::vector<double> shares(const Variant& with, const Variant& without, const Sp
     return found;
 }
 
-double seconds_of_step(Simulation& sim)
-{
-    const auto start = std::chrono::steady_clock::now();
-    step(sim);
-    return seconds_since(start);
-}
-
 } // namespace
 
 StepCost::Share share_of(std::string effect, std::vector<double> rounds)
@@ -308,7 +301,9 @@ StepCost measure_cost(Simulation& sim, int steps)
         for (Variant& variant : all) {
             sim.fluid->effects = variant.effects;
             const double lists = spent(sim).lists;
-            const double seconds = seconds_of_step(sim);
+            const auto start = std::chrono::steady_clock::now();
+            step(sim);
+            const double seconds = seconds_since(start);
             times.add(sim);
             variant.seconds.push_back(seconds - (spent(sim).lists - lists));
         }

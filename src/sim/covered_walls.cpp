@@ -25,9 +25,9 @@ std::vector<std::vector<int>> near_walls(const Simulation& sim, const std::vecto
         const double reach = surfaces[w].reach + sim.scene.spacing;
         for (const int k : sim.covered.fixed) {
             const SolidSurface& solid = surfaces[at(k)];
-            const Vec3 own = solid.rotation.conjugate() * (centre - solid.centre);
             // An image of a wall may be near fixed ones that the wall itself is far from.
-            if (!(reach < infinity) || periodic || nearest_place(solid, own).distance < reach) {
+            if (!(reach < infinity) || periodic ||
+                nearest_from_centre(solid, centre - solid.centre).distance < reach) {
                 near[w].push_back(k);
             }
         }

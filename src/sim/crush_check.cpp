@@ -25,11 +25,11 @@ Pressing pressing_by_body(const Simulation& sim)
     Pressing all(sim.rigid.bodies.size());
     for (Contact c : sim.contacts) {
         if (c.normal_impulse > 0) {
-            all[static_cast<std::size_t>(c.a)].push_back(c);
+            all[at(c.a)].push_back(c);
             if (c.b >= 0) {
                 std::swap(c.a, c.b);
                 c.normal = -c.normal;
-                all[static_cast<std::size_t>(c.a)].push_back(c);
+                all[at(c.a)].push_back(c);
             }
         }
     }
@@ -66,8 +66,7 @@ private:
     double speed_of(int b) const
     {
         return b < 0 ? push_.normal.dot(
-                           velocity(sim_.rigid.boundaries[static_cast<std::size_t>(-1 - b)].motion,
-                                    sim_.clock.time))
+                           velocity(sim_.rigid.boundaries[at(-1 - b)].motion, sim_.clock.time))
                      : 0;
     }
 
@@ -76,21 +75,21 @@ private:
         if (b < 0) {
             return speed_of(b) < speed_;
         }
-        const auto& locks = sim_.rigid.bodies[static_cast<std::size_t>(b)].locks;
+        const auto& locks = sim_.rigid.bodies[at(b)].locks;
         return locks[0] && locks[1] && locks[2];
     }
 
     void follow(int body, double missing)
     {
-        seen_[static_cast<std::size_t>(body)] = true;
-        for (const Contact& c : pressing_[static_cast<std::size_t>(body)]) {
+        seen_[at(body)] = true;
+        for (const Contact& c : pressing_[at(body)]) {
             const double so_far = missing + c.depth;
             if (c.normal.dot(push_.normal) > -straight_on) {
                 continue;
             }
             if (stands(c.b)) {
                 worst_ = so_far > worst_.missing ? End{c.b, so_far} : worst_;
-            } else if (c.b >= 0 && !seen_[static_cast<std::size_t>(c.b)]) {
+            } else if (c.b >= 0 && !seen_[at(c.b)]) {
                 follow(c.b, so_far);
             }
         }
@@ -122,15 +121,13 @@ std::optional<Crushed> crushed(const Simulation& sim)
     }
     const Pressing pressing = pressing_by_body(sim);
     for (const Contact& c : sim.contacts) {
-        if (c.b >= 0 || c.normal_impulse <= 0 ||
-            !moves(walls[static_cast<std::size_t>(-1 - c.b)].motion)) {
+        if (c.b >= 0 || c.normal_impulse <= 0 || !moves(walls[at(-1 - c.b)].motion)) {
             continue;
         }
         const auto [against, missing] = PushedColumn(sim, pressing, c).worst();
         if (missing > deep) {
-            return Crushed{sim.rigid.bodies[static_cast<std::size_t>(c.a)].name,
-                           walls[static_cast<std::size_t>(-1 - c.b)].name, solid_name(sim, against),
-                           missing};
+            return Crushed{sim.rigid.bodies[at(c.a)].name, walls[at(-1 - c.b)].name,
+                           solid_name(sim, against), missing};
         }
     }
     return std::nullopt;

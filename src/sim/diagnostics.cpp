@@ -21,11 +21,9 @@ std::string owner_name(const Simulation& sim, std::int32_t owner)
         return "of the fluid";
     }
     if (owner >= 0) {
-        return fmt::format("of body \"{}\"",
-                           sim.rigid.bodies[static_cast<std::size_t>(owner)].name);
+        return fmt::format("of body \"{}\"", sim.rigid.bodies[at(owner)].name);
     }
-    return fmt::format("of wall \"{}\"",
-                       sim.scene.walls[static_cast<std::size_t>(-1 - owner)].name);
+    return fmt::format("of wall \"{}\"", sim.scene.walls[at(-1 - owner)].name);
 }
 
 } // namespace
@@ -33,9 +31,9 @@ std::string owner_name(const Simulation& sim, std::int32_t owner)
 std::string solid_name(const Simulation& sim, int b)
 {
     if (b >= 0) {
-        return fmt::format("body \"{}\"", sim.rigid.bodies[static_cast<std::size_t>(b)].name);
+        return fmt::format("body \"{}\"", sim.rigid.bodies[at(b)].name);
     }
-    const Boundary& boundary = sim.rigid.boundaries[static_cast<std::size_t>(-1 - b)];
+    const Boundary& boundary = sim.rigid.boundaries[at(-1 - b)];
     return fmt::format("{} \"{}\"", boundary.bodies_only ? "open side" : "wall", boundary.name);
 }
 
@@ -89,9 +87,9 @@ Overlap deepest_overlap(const Simulation& sim)
                (all[a].position - all[b].position).norm() < reach[a] + reach[b];
     };
     for (int a = 0; a < bodies; ++a) {
-        const auto row = static_cast<std::size_t>(a);
+        const auto row = at(a);
         for (int b = all[row].left ? a : -walls; b < a; ++b) {
-            if (b < 0 ? is_fixed(all[row]) : !may_meet(row, static_cast<std::size_t>(b))) {
+            if (b < 0 ? is_fixed(all[row]) : !may_meet(row, at(b))) {
                 continue;
             }
             const double depth = overlap(sim.rigid, a, b, sim.clock.time);

@@ -98,7 +98,7 @@ double dry_value(const Fluid& fluid, const std::string& column)
 // Puts each row of a column at its place, and the value of dry walls at all others.
 void spread(Column& column, std::span<const std::size_t> place, std::size_t count, double dry)
 {
-    const auto width = static_cast<std::size_t>(column.components);
+    const auto width = at(column.components);
     std::visit(
         [&]<class T>(std::vector<T>& values) {
             std::vector<T> all(count * width, static_cast<T>(dry));
@@ -240,9 +240,7 @@ Cloud body_cloud(const Simulation& sim, const Store* particles)
         return cloud;
     }
     std::vector<std::int64_t> ids(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        ids[k] = static_cast<std::int64_t>(k);
-    }
+    std::iota(ids.begin(), ids.end(), std::int64_t{0});
     cloud.columns = {
         {"Id", "", 1, std::move(ids)},
         {"Velocity", "m/s", 3, std::move(velocities)},

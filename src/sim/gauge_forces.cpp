@@ -29,8 +29,8 @@ Vec3 viscous_force(const Simulation& sim, int target)
         return owner[row] == target ? F[row] : none;
     };
     // All processes know the friction on all bodies.
-    return target >= 0 ? sum_of_vectors(rows.size(), unit, term)
-                       : vector_sum_over_ranks(*sim.fluid, rows.size(), unit, term);
+    Comm* const sharing = target >= 0 ? nullptr : comm_of(*sim.fluid);
+    return vector_sum_over_ranks(sharing, rows.size(), unit, term);
 }
 
 // With its part of the forces on particles of walls that it meets.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace hyoryu {
@@ -67,7 +66,7 @@ double filtered(FilterMemory& memory, double time, double value)
         memory.values.push_back(value);
     }
     if (memory.values.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return not_a_number;
     }
     if (memory.filter == GaugeFilter::median) {
         return median(memory.values);

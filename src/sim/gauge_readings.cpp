@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hyoryu {
 
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 Pair<real> pair_at(const Fluid& fluid, const Vec3& r)
 {
@@ -58,7 +55,7 @@ double elevation(const Fluid& fluid, const GaugeTerms& column, const Vec3& place
         }
         above = here;
     }
-    return nothing;
+    return not_a_number;
 }
 
 // Kernel average of value(particle) over the fluid about a place.
@@ -95,7 +92,8 @@ double pressure(const Fluid& fluid, const GaugeTerms& terms, const Gauge& gauge)
 
 Vec3 velocity(const Fluid& fluid, const GaugeTerms& terms, const Vec3& place)
 {
-    return average(fluid, terms.fluid, place, Vec3(Vec3::Zero()), Vec3(Vec3::Constant(nothing)),
+    return average(fluid, terms.fluid, place, Vec3(Vec3::Zero()),
+                   Vec3(Vec3::Constant(not_a_number)),
                    [](const FluidNear& particle) { return particle.velocity; });
 }
 

@@ -38,7 +38,6 @@ template <class Test>
 void append_rows_near(const Tiles& tiles, const TileBounds& bounds, std::span<const Vec3> x,
                       const Test& may_be_near, std::vector<Index>& rows)
 {
-    const auto at = [](Index k) { return static_cast<std::size_t>(k); };
     for (std::size_t group = 0; group < bounds.group.size(); ++group) {
         if (!may_be_near(extent_of(bounds.group[group]))) {
             continue;

@@ -216,18 +216,11 @@ void put_terms(Parcel& parcel, const GaugeTerms& terms)
     put(parcel, terms.flux);
 }
 
-template <class T>
-void append_list(Unpacking& from, std::vector<T>& values)
-{
-    const std::vector<T> more = take_list<T>(from);
-    values.insert(values.end(), more.begin(), more.end());
-}
-
 void append_terms(Unpacking& from, GaugeTerms& terms)
 {
-    append_list(from, terms.fluid);
-    append_list(from, terms.wall);
-    append_list(from, terms.body);
+    take_more(from, terms.fluid);
+    take_more(from, terms.wall);
+    take_more(from, terms.body);
     terms.farthest = std::max(terms.farthest, from.take<double>());
     terms.flux.add(from.take<FixedSum>());
 }
@@ -236,7 +229,7 @@ void append_terms(Unpacking& from, GaugeTerms& terms)
 
 void gather_terms(Comm& comm, std::vector<GaugeTerms>& terms)
 {
-    std::vector<Parcel> out(static_cast<std::size_t>(comm.size()));
+    std::vector<Parcel> out(at(comm.size()));
     for (const GaugeTerms& own : terms) {
         put_terms(out.front(), own);
     }

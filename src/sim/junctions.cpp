@@ -86,11 +86,8 @@ private:
 
     NearestPlace nearest(int wall, const Vec3& place, double farthest) const
     {
-        const SolidSurface& solid = sim_.barrier->solids[at(wall)];
-        NearestPlace found =
-            nearest_place(solid, solid.rotation.conjugate() * from_centre(wall, place), farthest);
-        found.normal = solid.rotation * found.normal;
-        return found;
+        return nearest_from_centre(sim_.barrier->solids[at(wall)], from_centre(wall, place),
+                                   farthest);
     }
 
     // From the centre of a wall to a place, or to its image that is nearest to it.

@@ -50,7 +50,7 @@ void overwrite(Column& all, const Column& next, std::span<const std::int32_t> ro
         all.values.index() == next.values.index() && all.components == next.components;
     const auto count = std::min(rows_of(all), rows_of(next));
     for (const std::int32_t row : rows) {
-        if (!fits || row < 0 || static_cast<std::size_t>(row) >= count) {
+        if (!fits || row < 0 || at(row) >= count) {
             refuse_rows(name);
         }
         std::visit(

@@ -2,10 +2,9 @@
 // Where the solids of a simulation are, and how far points are from them.
 #pragma once
 
+#include "hyoryu/scene/covered_share.hpp"
 #include "hyoryu/sim/simulation.hpp"
 #include "hyoryu/sim/wall_barrier.hpp"
-
-#include <array>
 
 namespace hyoryu {
 
@@ -26,21 +25,8 @@ void for_images(const Fluid& fluid, const Vec3& x, double reach, const auto& f)
         f(x);
         return;
     }
-    const Vec3 own = fluid.neighbours.fluid.lattice.wrapped(x);
-    std::array<int, 3> first{}, last{};
-    for (int a = 0; a < 3; ++a) {
-        const auto k = static_cast<std::size_t>(a);
-        const double low = own[a] - fluid.domain_min[a];
-        first[k] = fluid.period[a] > 0 && fluid.period[a] - low < reach ? -1 : 0;
-        last[k] = fluid.period[a] > 0 && low < reach ? 1 : 0;
-    }
-    for (int i = first[0]; i <= last[0]; ++i) {
-        for (int j = first[1]; j <= last[1]; ++j) {
-            for (int k = first[2]; k <= last[2]; ++k) {
-                f(Vec3(own + Vec3(i, j, k).cwiseProduct(fluid.period)));
-            }
-        }
-    }
+    over_images(fluid.neighbours.fluid.lattice.wrapped(x), fluid.domain_min, fluid.period, reach,
+                f);
 }
 
 } // namespace hyoryu

@@ -25,8 +25,7 @@ struct FluidShare {
 FluidShare fluid_share(const Tiles& tiles, const TileRange& range)
 {
     const auto place = [&](std::uint64_t tile) {
-        return static_cast<std::size_t>(std::ranges::lower_bound(tiles.tile, tile) -
-                                        tiles.tile.begin());
+        return at(std::ranges::lower_bound(tiles.tile, tile) - tiles.tile.begin());
     };
     const std::size_t first = place(range.begin);
     const std::size_t last = std::max(first, place(range.end));

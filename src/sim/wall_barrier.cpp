@@ -128,7 +128,7 @@ public:
                                       approached * barrier_.spacing + dt_ * (v.norm() + fastest_));
         for_images(fluid_, x, far_, [&](const Vec3& image) {
             for (const int solid : solids) {
-                const auto k = static_cast<std::size_t>(solid);
+                const auto k = at(solid);
                 const SolidPlace& place = barrier_.places[k];
                 const NearestPlace nearest = nearest_of(barrier_, place, k, image, far_);
                 clearance = std::min(clearance, nearest.distance);
@@ -286,7 +286,7 @@ void book_hits(Simulation& sim, double dt)
     const double mass = sim.fluid->parameters.mass;
     for (const std::vector<BarrierHit>& hits : barrier.hits) {
         for (const BarrierHit& hit : hits) {
-            const auto solid = static_cast<std::size_t>(hit.solid);
+            const auto solid = at(hit.solid);
             const Vec3 f = -hit.impulse / dt;
             if (solid < barrier.walls) {
                 sim.loads.of_walls.add(solid, {f.x(), f.y(), f.z()});
@@ -305,7 +305,7 @@ void book_hits(Simulation& sim, double dt)
 void make_room(WallBarrier& barrier)
 {
     constexpr std::size_t usual = 1024;
-    const auto threads = static_cast<std::size_t>(thread_count());
+    const auto threads = at(thread_count());
     if (barrier.hits.size() < threads) {
         barrier.hits.resize(threads);
         barrier.holds.resize(threads);
@@ -323,10 +323,7 @@ WallBarrier make_wall_barrier(const Scene& scene)
     barrier.spacing = scene.spacing;
     barrier.dimensions = scene.dimensions;
     barrier.walls = scene.walls.size();
-    const double thickness = wall_layers(scene.fluid->smoothing_ratio) * scene.spacing;
-    for (const Wall& wall : scene.walls) {
-        barrier.solids.push_back(surface_of(wall, thickness, scene.dimensions));
-    }
+    barrier.solids = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     for (const BodySettings& body : scene.bodies) {
         barrier.solids.push_back(surface_of(body, scene.dimensions));
     }
@@ -366,7 +363,7 @@ void share_hits(Simulation& sim)
     }
     for (const std::vector<BarrierHit>& hits : barrier.hits) {
         for (const BarrierHit& hit : hits) {
-            const auto solid = static_cast<std::size_t>(hit.solid);
+            const auto solid = at(hit.solid);
             const double yield =
                 solid < barrier.walls ? 0 : sim.loads.of_hits.of(solid - barrier.walls).back();
             if (const double share = share_at(yield); share < 1) {

@@ -76,18 +76,16 @@ Complaint first_complaint(Comm& comm, const std::optional<Complaint>& own)
     Parcel parcel;
     if (own) {
         for (const std::string& text : *own) {
-            put(parcel, text.size());
-            put(parcel, std::span<const char>(text));
+            put_text(parcel, text);
         }
     }
-    const auto ranks = static_cast<std::size_t>(comm.size());
+    const auto ranks = at(comm.size());
     const std::vector<Parcel> in = comm.exchange(std::vector<Parcel>(ranks, parcel));
     const auto first = std::ranges::find_if(in, [](const Parcel& p) { return !p.empty(); });
     Complaint complaint;
     Unpacking from(*first);
     for (std::string& text : complaint) {
-        text.resize(from.take<std::size_t>());
-        from.take(std::span<char>(text));
+        text = take_text(from);
     }
     return complaint;
 }
@@ -103,7 +101,7 @@ Complaint first_complaint(Comm& comm, const std::optional<Complaint>& own)
     }
     std::optional<Complaint> own;
     if (row < store.size()) {
-        own = complaint_of(sim, static_cast<std::size_t>(row));
+        own = complaint_of(sim, at(row));
     }
     const Ghosts* const g = sim.fluid->ghosts.get();
     const Complaint said = g != nullptr ? first_complaint(g->comm, own) : own.value();

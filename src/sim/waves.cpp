@@ -42,25 +42,12 @@ double side_of_fluid(const Simulation& sim, double middle)
     return count_over_ranks(*sim.fluid, right) >= 0 ? 1 : -1;
 }
 
-bool holds(const Sponge& sponge, const Vec3& x, int dimensions)
-{
-    const bool across = dimensions == 2 || (x.y() >= sponge.min.y() && x.y() <= sponge.max.y());
-    return across && x.x() >= sponge.min.x() && x.x() <= sponge.max.x() &&
-           x.z() >= sponge.min.z() && x.z() <= sponge.max.z();
-}
-
 // From 0 where the sponge begins to 1 at its side.
 double depth_in(const Sponge& sponge, const Vec3& x)
 {
     const int axis = sponge.side / 2;
     const double s = (x[axis] - sponge.min[axis]) / (sponge.max[axis] - sponge.min[axis]);
     return sponge.side % 2 == 1 ? s : 1 - s;
-}
-
-// The rate of damping at the side of a sponge; 10 sqrt(g/d) for waves in water of depth d [1/s].
-double strongest_rate(const Sponge& sponge, double gravity)
-{
-    return sponge.rate ? *sponge.rate : 10 * std::sqrt(gravity / sponge.depth.value());
 }
 
 Vec3 velocity_asked(const Sponge& sponge, const Vec3& x)
@@ -80,8 +67,7 @@ Waves make_waves(const Simulation& sim)
         if (!wall.motion.absorption || solid == nullptr) {
             continue;
         }
-        const Bounds box =
-            bounds({&solid->shape, solid->centre, solid->rotation, sim.scene.dimensions});
+        const Bounds box = bounds(wall, sim.scene.dimensions);
         Absorber absorber{.wall = w, .low = box.min.y(), .high = box.max.y()};
         absorber.side = side_of_fluid(sim, solid->centre.x());
         absorber.face = absorber.side > 0 ? box.max.x() : box.min.x();
@@ -144,7 +130,9 @@ void damp_in_sponges(Simulation& sim, double dt)
         if (sponge.pressure) {
             relax_density(sponge, dt, sim.scene.gravity, fluid);
         }
-        const double rate = strongest_rate(sponge, sim.scene.gravity.norm());
+        // At its side; for waves in water of depth d.
+        const double g = sim.scene.gravity.norm();
+        const double rate = sponge.rate ? *sponge.rate : 10 * std::sqrt(g / sponge.depth.value());
         // Each particle is in one tile, and so is damped once.
         const auto [px, py, pz] = sum_over_fluid<3>(fluid, {unit, unit, unit}, [&](Index i) {
             if (!holds(sponge, x[i], sim.scene.dimensions)) {

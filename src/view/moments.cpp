@@ -3,7 +3,7 @@
 #include "moments.hpp"
 
 #include "hyoryu/core/error.hpp"
-#include "hyoryu/io/results.hpp"
+#include "hyoryu/io/convert.hpp"
 
 #include <fmt/format.h>
 
@@ -24,12 +24,6 @@ constexpr std::size_t frames_surveyed = 16;
 constexpr std::size_t points_surveyed = 20000; // of a frame
 constexpr double outliers = 0.002;             // share of points at each end that a bound ignores
 
-std::string number_of(const fs::path& file)
-{
-    const std::string stem = file.stem().string();
-    return stem.substr(stem.rfind('_') + 1);
-}
-
 void add_series(const fs::path& results, const std::string& name, fs::path Moment::*member,
                 std::map<std::string, Moment>& moments)
 {
@@ -38,9 +32,9 @@ void add_series(const fs::path& results, const std::string& name, fs::path Momen
         return;
     }
     for (const SeriesEntry& entry : read_series(series)) {
-        Moment& moment = moments[number_of(entry.file)];
+        Moment& moment = moments[frame_number(entry)];
         moment.time = entry.time;
-        moment.number = number_of(entry.file);
+        moment.number = frame_number(entry);
         moment.*member = results / entry.file;
     }
 }
@@ -49,10 +43,7 @@ std::vector<Moment> nearest(const std::vector<Moment>& all, const std::vector<do
 {
     std::vector<Moment> chosen;
     for (const double time : times) {
-        chosen.push_back(
-            *std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-                return std::abs(a.time - time) < std::abs(b.time - time);
-            }));
+        chosen.push_back(all[nearest_in_time(all, time)]);
     }
     return chosen;
 }
@@ -142,6 +133,12 @@ double rounded_up(double value)
     return std::ceil(value / unit) * unit;
 }
 
+const Column* find_column(const std::vector<Column>& columns, const std::string& name)
+{
+    const auto found = std::ranges::find(columns, name, &Column::name);
+    return found == columns.end() ? nullptr : &*found;
+}
+
 void survey_colour(const Cloud& fluid, const std::string& colour, std::vector<float>& sample,
                    Survey& survey)
 {
@@ -189,13 +186,6 @@ int digits_between(const std::vector<Moment>& moments)
 }
 
 } // namespace
-
-const Column* find_column(const std::vector<Column>& columns, const std::string& name)
-{
-    const auto found = std::find_if(columns.begin(), columns.end(),
-                                    [&](const Column& column) { return column.name == name; });
-    return found == columns.end() ? nullptr : &*found;
-}
 
 std::vector<std::int32_t> indices_in(const std::vector<Column>& columns, const std::string& name)
 {

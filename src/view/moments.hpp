@@ -47,7 +47,6 @@ Survey survey_of(const std::vector<Moment>& moments, const Surface& structures,
 
 /// One number a point: the column itself or, for vectors, their lengths; empty without the column.
 std::vector<float> magnitudes(const Cloud& cloud, const std::string& column);
-const Column* find_column(const std::vector<Column>& columns, const std::string& name);
 /// The values of a column of 32-bit integers; empty if there is none of this name.
 std::vector<std::int32_t> indices_in(const std::vector<Column>& columns, const std::string& name);
 

@@ -6,6 +6,7 @@
 
 #ifdef HYORYU_HAS_VTK
 #include "animation.hpp"
+#include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "moments.hpp"
 #include "picture.hpp"
@@ -33,15 +34,8 @@ fs::path emptied_pictures(const fs::path& results)
     const fs::path pictures = results / "pictures";
     try {
         fs::create_directories(pictures);
-        std::vector<fs::path> old;
-        for (const auto& entry : fs::directory_iterator(pictures)) {
-            const std::string name = entry.path().filename().string();
-            if (is_picture_of_ours(name)) {
-                old.push_back(entry.path());
-            }
-        }
-        for (const fs::path& file : old) {
-            fs::remove(file);
+        for (const std::string& name : owned_names(pictures, is_picture_of_ours)) {
+            fs::remove(pictures / name);
         }
     } catch (const fs::filesystem_error& error) {
         throw IoError(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The checkpoint: every bit survives, and every damage is noticed before anything is read.
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/state.hpp"
 #include "hyoryu/io/results.hpp"
 #include "results_fixture.hpp"
 
@@ -115,7 +116,7 @@ void write_in_parts(const std::filesystem::path& folder, double number, int coun
     for (int part = 0; part < count; ++part) {
         Snapshot own;
         own.arrays["number"] = {"", "", 1, std::vector<double>{number, 1.0 * part}};
-        parts.push_back(write_checkpoint_part(folder, set, part, own));
+        parts.push_back(write_checkpoint_part(folder, set, part, on_demand(std::move(own))));
     }
     write_checkpoint(folder, Snapshot{{}, {{"step", std::to_string(number)}}}, parts);
 }
@@ -146,7 +147,7 @@ TEST_F(Checkpoint, InPartsKeepsTwoGenerationsAndNoOtherParts)
     }
     EXPECT_EQ(test_help::content_of(folder).size(), 2U + 2 + 3);
     // Whatever a kill leaves of a set that was never named does not hinder the next one.
-    write_checkpoint_part(folder, next_part_set(folder), 0, Snapshot{});
+    write_checkpoint_part(folder, next_part_set(folder), 0, on_demand(Snapshot{}));
     write_in_parts(folder, 7, 2);
     EXPECT_EQ(number_of(folder, read_newest_checkpoint(folder)), 7);
     EXPECT_EQ(test_help::content_of(folder).size(), 2U + 3 + 2);

@@ -99,7 +99,7 @@ protected:
             writer.write(run.surfaces.back());
         }
         run.walls = random_cloud(dice, "walls", 0);
-        writer.write_static(run.walls);
+        writer.write(run.walls, FramePlace::alone);
         writer.finish();
         return run;
     }

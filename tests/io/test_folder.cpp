@@ -20,7 +20,7 @@ protected:
         prepare_results(folder, Existing::extend);
         FrameWriter writer(folder);
         writer.write(make_cloud("fluid", 0, 3));
-        writer.write_static(make_cloud("walls", 0, 3));
+        writer.write(make_cloud("walls", 0, 3), FramePlace::alone);
         writer.finish();
         for (const char* name : {"bodies", "contacts", "energy", "gauges"}) {
             const History history(folder, {name, {{"time", "s"}}});

@@ -61,7 +61,7 @@ TEST_F(Frames, OfSurfacesComeBack)
     FrameWriter writer(folder);
     const Surface surface = make_surface(3);
     writer.write(surface);
-    writer.write_static(surface);
+    writer.write(surface, FramePlace::alone);
     writer.finish();
     for (const char* file : {"frames/surfaces_000003.hdf", "surfaces.hdf"}) {
         const Surface read = read_surface(folder / file);
@@ -80,7 +80,7 @@ TEST_F(Frames, AreNamedInTheirSeries)
         writer.write(make_cloud("bodies", index, 4));
         writer.write(make_surface(index));
     }
-    writer.write_static(make_cloud("walls", 0, 7));
+    writer.write(make_cloud("walls", 0, 7), FramePlace::alone);
     writer.finish();
     for (const char* name : {"fluid", "bodies", "surfaces"}) {
         const auto entries = read_series(folder / (std::string(name) + ".hdf.series"));

@@ -33,7 +33,7 @@ TEST_F(Master, LeadsToEverything)
         writer.write(test_help::make_cloud("fluid", index, 70000));
         writer.write(test_help::make_surface(index));
     }
-    writer.write_static(test_help::make_cloud("walls", 0, 5));
+    writer.write(test_help::make_cloud("walls", 0, 5), FramePlace::alone);
     writer.finish();
     {
         History history(folder, {"bodies", {{"time", "s"}, {"body", ""}, {"x", "m"}}});

@@ -155,8 +155,8 @@ inline Cloud make_wall_particles(double spacing)
 inline void write_flood(const std::filesystem::path& folder, double spacing, std::int64_t frames)
 {
     FrameWriter writer(folder);
-    writer.write_static(make_flume());
-    writer.write_static(make_wall_particles(spacing));
+    writer.write(make_flume(), FramePlace::alone);
+    writer.write(make_wall_particles(spacing), FramePlace::alone);
     for (std::int64_t index = 0; index < frames; ++index) {
         writer.write(make_water(index, spacing));
         writer.write(make_timbers(index, 6));

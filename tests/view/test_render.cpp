@@ -164,7 +164,7 @@ TEST_F(Render, ShowsWallsWhereTheyAre)
         wall.columns = {{"Wall", "", 1, owner}};
         return wall;
     };
-    writer.write_static(wall_at(0, 0));
+    writer.write(wall_at(0, 0), FramePlace::alone);
     for (std::int64_t index = 0; index < 2; ++index) {
         Surface timber = test_help::make_timbers(0, 1);
         timber.time = 0.1 * static_cast<double>(index);
@@ -246,7 +246,7 @@ TEST_F(Render, FramesInPartsAreWhatVtkReads)
         Cloud part = test_help::make_cloud("fluid", 4, points);
         whole.columns = test_help::make_cloud("fluid", 4, 0).columns;
         last = points > 0 ? part.points[3 * points - 3] : last;
-        writer.write_part(std::move(part), static_cast<int>(whole.points.size()));
+        writer.write(std::move(part), FramePlace::series, static_cast<int>(whole.points.size()));
         whole.points.push_back(static_cast<std::int64_t>(points));
     }
     writer.write(whole);

@@ -22,6 +22,15 @@ double lowest_corner(const Solid& box, const State& state)
     return state.position.z() - reach.dot(box.size) / 2;
 }
 
+// The sample nearest to a time.
+const Sample& sample_at(const Trace& trace, double time)
+{
+    const auto nearer = [time](const Sample& a, const Sample& b) {
+        return std::abs(a.time - time) < std::abs(b.time - time);
+    };
+    return *std::min_element(trace.begin(), trace.end(), nearer);
+}
+
 } // namespace
 
 Vec3 inertia(const Solid& solid)
@@ -43,14 +52,6 @@ double kinetic_energy(const Solid& solid, const State& state)
 {
     return solid.mass * state.velocity.squaredNorm() / 2 +
            state.omega.dot(angular_momentum(solid, state)) / 2;
-}
-
-const Sample& sample_at(const Trace& trace, double time)
-{
-    const auto nearer = [time](const Sample& a, const Sample& b) {
-        return std::abs(a.time - time) < std::abs(b.time - time);
-    };
-    return *std::min_element(trace.begin(), trace.end(), nearer);
 }
 
 Metric rms_height(const std::string& name, double until, std::function<double(double)> exact)

@@ -6,9 +6,6 @@
 
 namespace hyoryu::bench {
 
-/// The sample nearest to a time.
-const Sample& sample_at(const Trace& trace, double time);
-
 /// Height of body 0 against an exact z(t), root mean square until `until` [mm].
 Metric rms_height(const std::string& name, double until, std::function<double(double)> exact);
 /// Height of the k-th (from 1) apex of body 0 [mm]. NaN if there are fewer.

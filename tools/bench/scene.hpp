@@ -87,8 +87,6 @@ std::vector<Scene> all_scenes(Extent extent);
 std::vector<Scene> drop_scenes();
 std::vector<Scene> sliding_scenes();
 std::vector<Scene> timber_scenes();
-std::vector<Scene> stack_scenes(Extent extent);
-std::vector<Scene> flight_scenes();
 std::vector<Scene> heap_scenes();
 
 } // namespace hyoryu::bench

@@ -104,8 +104,6 @@ Scene dzhanibekov()
     return scene;
 }
 
-} // namespace
-
 std::vector<Scene> stack_scenes(Extent extent)
 {
     std::vector<Scene> list = {
@@ -123,6 +121,8 @@ std::vector<Scene> flight_scenes()
     return {cradle("i_cradle", "five touching balls, e = 1", 0),
             cradle("i_cradle_gap", "five balls 1 mm apart, e = 1", 1e-3), dzhanibekov()};
 }
+
+} // namespace
 
 std::vector<Scene> all_scenes(Extent extent)
 {

@@ -54,15 +54,9 @@ double basin_distance(const Solid& basin, const Vec3& p, int dimensions)
 
 double mesh_distance(const Mesh& mesh, const Vec3& p)
 {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) { // outside its box: far enough
-        const auto order = [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; };
-        const auto [low, high] =
-            std::minmax_element(mesh.corners.begin(), mesh.corners.end(), order);
-        if (p[axis] < (*low)[axis] || p[axis] > (*high)[axis]) {
-            return INFINITY;
-        }
-    }
-    return winding_number(mesh, p) > 0.5 ? -distance_to(mesh, p) : INFINITY;
+    // Outside of its box is far enough.
+    return bounds_of(mesh).contains(p) && winding_number(mesh, p) > 0.5 ? -distance_to(mesh, p)
+                                                                        : INFINITY;
 }
 
 double cubes_distance(const Solid& body, const Vec3& p)

@@ -137,6 +137,15 @@ Vec3 centroid(const Mesh& mesh)
     return m.first / m.volume;
 }
 
+Eigen::AlignedBox3d bounds_of(const Mesh& mesh)
+{
+    Eigen::AlignedBox3d box;
+    for (const Vec3& corner : mesh.corners) {
+        box.extend(corner);
+    }
+    return box;
+}
+
 double winding_number(const Mesh& mesh, const Vec3& point)
 {
     double angle = 0;

@@ -17,6 +17,9 @@ MassProperties mass_of(const Solid& body, int dimensions);
 /// Centre of the volume that a mesh encloses [m].
 Vec3 centroid(const Mesh& mesh);
 
+/// The box about a mesh [m].
+Eigen::AlignedBox3d bounds_of(const Mesh& mesh);
+
 /// How often the surface winds about a point: 1 inside, 0 outside (solid angles of its triangles,
 /// Van Oosterom and Strackee 1983).
 double winding_number(const Mesh& mesh, const Vec3& point);

@@ -194,21 +194,12 @@ private:
         }
         if (wall.surface) {
             const Vec3 p = turn.transpose() * (row.bodies[body].x - origin);
-            if (within_box(wall.wall->mesh, p) && winding_number(wall.wall->mesh, p) > 0.5) {
+            if (bounds_of(wall.wall->mesh).contains(p) &&
+                winding_number(wall.wall->mesh, p) > 0.5) {
                 note(distance_to(wall.wall->mesh, p), row.time, scene_.bodies[body].name,
                      wall.wall->name, 0);
             }
         }
-    }
-
-    static bool within_box(const Mesh& mesh, const Vec3& p)
-    {
-        Vec3 low = mesh.corners[0], high = low;
-        for (const Vec3& corner : mesh.corners) {
-            low = low.cwiseMin(corner);
-            high = high.cwiseMax(corner);
-        }
-        return (p - low).minCoeff() >= 0 && (high - p).minCoeff() >= 0;
     }
 
     struct Hash {

@@ -103,18 +103,14 @@ std::vector<Convex> runs_of(const std::vector<Vec3>& centres, const Vec3& cell)
 
 std::vector<Convex> cells_within(const Mesh& mesh, double spacing)
 {
-    Vec3 low = mesh.corners[0], high = low;
-    for (const Vec3& corner : mesh.corners) {
-        low = low.cwiseMin(corner);
-        high = high.cwiseMax(corner);
-    }
-    const Vec3 count = ((high - low) / spacing).array().round().max(1);
-    const Vec3 cell = (high - low).cwiseQuotient(count);
+    const Eigen::AlignedBox3d box = bounds_of(mesh);
+    const Vec3 count = (box.sizes() / spacing).array().round().max(1);
+    const Vec3 cell = box.sizes().cwiseQuotient(count);
     std::vector<Vec3> inside;
     for (double k = 0.5; k < count.z(); ++k) {
         for (double j = 0.5; j < count.y(); ++j) {
             for (double i = 0.5; i < count.x(); ++i) {
-                const Vec3 p = low + cell.cwiseProduct(Vec3(i, j, k));
+                const Vec3 p = box.min() + cell.cwiseProduct(Vec3(i, j, k));
                 if (winding_number(mesh, p) > 0.5) {
                     inside.push_back(p);
                 }

@@ -140,6 +140,31 @@ double tangent(const Path& path, std::size_t k, Eigen::Index axis)
     return left * right <= 0 ? 0 : 3 * (h + g) / ((2 * g + h) / left + (g + 2 * h) / right);
 }
 
+// The bodies that left the run, and when.
+std::map<std::string, double> left_bodies(const std::filesystem::path& folder)
+{
+    std::map<std::string, double> left;
+    if (std::ifstream stream(folder / "summary.json"); stream) {
+        const auto summary = nlohmann::json::parse(stream);
+        if (summary.contains("open")) {
+            for (const auto& body : summary["open"]["bodies_left"]) {
+                left[body["name"]] = body["time"];
+            }
+        }
+    }
+    return left;
+}
+
+// The state in the last columns of a row, from x on.
+State state_in(const std::vector<std::string>& cells, std::size_t first)
+{
+    const auto n = [&](std::size_t k) { return std::stod(cells.at(first + k)); };
+    return {{n(0), n(1), n(2)},
+            Quat(n(3), n(4), n(5), n(6)).normalized(),
+            {n(7), n(8), n(9)},
+            {n(10), n(11), n(12)}};
+}
+
 } // namespace
 
 std::optional<std::size_t> Table::column(const std::string& name) const
@@ -176,35 +201,6 @@ Table read_table(const std::filesystem::path& file)
     }
     return table;
 }
-
-namespace {
-
-// The bodies that left the run, and when.
-std::map<std::string, double> left_bodies(const std::filesystem::path& folder)
-{
-    std::map<std::string, double> left;
-    if (std::ifstream stream(folder / "summary.json"); stream) {
-        const auto summary = nlohmann::json::parse(stream);
-        if (summary.contains("open")) {
-            for (const auto& body : summary["open"]["bodies_left"]) {
-                left[body["name"]] = body["time"];
-            }
-        }
-    }
-    return left;
-}
-
-// The state in the last columns of a row, from x on.
-State state_in(const std::vector<std::string>& cells, std::size_t first)
-{
-    const auto n = [&](std::size_t k) { return std::stod(cells.at(first + k)); };
-    return {{n(0), n(1), n(2)},
-            Quat(n(3), n(4), n(5), n(6)).normalized(),
-            {n(7), n(8), n(9)},
-            {n(10), n(11), n(12)}};
-}
-
-} // namespace
 
 std::vector<Row> read_rows(const std::filesystem::path& folder, const Scene& scene)
 {

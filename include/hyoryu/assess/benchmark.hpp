@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -217,6 +218,9 @@ struct Benchmark {
 
 /// Reads `folder/verify.toml`. Throws CaseError with every mistake of the file.
 Benchmark read_benchmark(const std::filesystem::path& folder);
+
+/// The folders in a folder of cases that have a `verify.toml`; none if it cannot be read.
+std::set<std::filesystem::path> benchmark_folders(const std::filesystem::path& cases);
 
 /// The benchmarks of a folder of cases, by name. Throws CaseError with the mistakes of all files.
 std::vector<Benchmark> read_benchmarks(const std::filesystem::path& cases);

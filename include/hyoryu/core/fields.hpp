@@ -8,7 +8,6 @@
 
 #include "hyoryu/core/vec.hpp"
 
-#include <array>
 #include <string_view>
 #include <type_traits>
 
@@ -35,6 +34,17 @@ concept Field = requires
         F::info
         } -> std::convertible_to<FieldInfo>;
 };
+
+/// A number, or a vector of three equal ones.
+template <class T>
+T uniform(real all)
+{
+    if constexpr (std::is_same_v<T, Vec3>) {
+        return Vec3::Constant(all);
+    } else {
+        return all;
+    }
+}
 
 // The number of scalars in a field: 1 or 3.
 template <Field F>

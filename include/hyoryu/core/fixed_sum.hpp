@@ -106,13 +106,13 @@ FixedSums<n> sum_of_blocks(Index blocks, const F& add)
         0, parts,
         [&](Index part) {
             for (Index k = part * blocks / parts; k < (part + 1) * blocks / parts; ++k) {
-                add(k, partial[static_cast<std::size_t>(part)]);
+                add(k, partial[part]);
             }
         },
         2);
     FixedSums<n> all;
     for (Index part = 0; part < parts; ++part) {
-        all.add(partial[static_cast<std::size_t>(part)]);
+        all.add(partial[part]);
     }
     return all;
 }
@@ -126,7 +126,7 @@ FixedSums<n> sums_by_tile(const Tiles& tiles, const FixedUnits<n>& units, const 
         const auto t = static_cast<std::size_t>(tile);
         std::array<double, n> of_tile{};
         for (auto slot = tiles.start[t]; slot < tiles.start[t + 1]; ++slot) {
-            const std::array<double, n> own = term(tiles.row[static_cast<std::size_t>(slot)]);
+            const std::array<double, n> own = term(tiles.row[slot]);
             for (std::size_t k = 0; k < n; ++k) {
                 of_tile[k] += own[k];
             }
@@ -148,22 +148,6 @@ FixedSums<n> sums_of_each(Index count, const FixedUnits<n>& units, const F& term
         }
     };
     return sum_of_blocks<n>((count + block_terms - 1) / block_terms, add_block);
-}
-template <std::size_t n, class F>
-std::array<double, n> sum_of_each(Index count, const FixedUnits<n>& units, const F& term)
-{
-    return sums_of_each<n>(count, units, term).values(units);
-}
-
-/// The same of vectors.
-template <class F>
-Vec3 sum_of_vectors(Index count, const FixedUnit& unit, const F& term)
-{
-    const auto [x, y, z] = sum_of_each<3>(count, {unit, unit, unit}, [&](Index k) {
-        const Vec3& v = term(k);
-        return std::array{v.x(), v.y(), v.z()};
-    });
-    return {x, y, z};
 }
 
 } // namespace hyoryu

@@ -3,8 +3,10 @@
 // become columns of CSV files, links of HDF5 files, names of files and lines on a terminal.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace hyoryu {
 
@@ -28,5 +30,10 @@ bool has_control_characters(std::string_view text);
 /// The text with every control character except line ends replaced by `\xNN`, since a terminal
 /// would execute it.
 std::string printable(std::string_view text);
+
+/// The text with each of these characters replaced by its text, in one pass: what is put in is not
+/// replaced again.
+std::string replaced(std::string_view text,
+                     std::initializer_list<std::pair<char, std::string_view>> by);
 
 } // namespace hyoryu

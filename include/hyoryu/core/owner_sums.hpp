@@ -29,10 +29,8 @@ public:
     void add_tile(const Tiles& tiles, Index tile, const auto& owner_of, const auto& term)
     {
         const auto t = static_cast<std::size_t>(tile);
-        const auto row_at = [&](std::int32_t slot) {
-            return tiles.row[static_cast<std::size_t>(slot)];
-        };
-        std::vector<FixedSums<n>>& sums = by_thread_[static_cast<std::size_t>(worker())];
+        const auto row_at = [&](std::int32_t slot) { return tiles.row[slot]; };
+        std::vector<FixedSums<n>>& sums = by_thread_[worker()];
         std::array<double, n> run{};
         std::size_t owner = owner_of(row_at(tiles.start[t]));
         for (std::int32_t slot = tiles.start[t]; slot < tiles.start[t + 1]; ++slot) {
@@ -53,7 +51,7 @@ public:
     /// Adds a term of an owner, from any thread of a parallel loop.
     void add(std::size_t owner, const std::array<double, n>& term)
     {
-        by_thread_[static_cast<std::size_t>(worker())][owner].add(term, units_);
+        by_thread_[worker()][owner].add(term, units_);
     }
 
     /// Ends the summation: adds up the partial sums of the threads. Returns the sums of each owner,

@@ -6,8 +6,6 @@
 #include "hyoryu/core/types.hpp"
 
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
 namespace hyoryu {
@@ -39,11 +37,6 @@ struct Pack {
         return *this;
     }
 };
-
-template <class N>
-inline constexpr bool is_pack = false;
-template <class T, int bytes>
-inline constexpr bool is_pack<Pack<T, bytes>> = true;
 
 inline double square_root(double x)
 {

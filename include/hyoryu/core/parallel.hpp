@@ -83,12 +83,12 @@ T reduce(Index begin, Index end, const T& zero, const F& f, const Add& add)
         for (Index k = first; k < last; ++k) {
             total = add(total, f(k));
         }
-        partial[static_cast<std::size_t>(chunk)] = total;
+        partial[chunk] = total;
     };
     parallel_for(0, chunks, add_up, worth_sharing_blocks);
     T total = zero;
     for (Index chunk = 0; chunk < chunks; ++chunk) {
-        total = add(total, partial[static_cast<std::size_t>(chunk)]);
+        total = add(total, partial[chunk]);
     }
     return total;
 }

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <concepts>
 #include <span>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -101,7 +100,7 @@ public:
     template <Field F>
     bool has(F) const
     {
-        return find(&F::info) != nullptr;
+        return find(columns_, &F::info) != nullptr;
     }
     /// Whether particles of this kind have the field where an effect needs it.
     template <Field F>
@@ -115,14 +114,14 @@ public:
     template <Field F>
     ColumnView<typename F::type> operator[](F)
     {
-        auto* const column = find(&F::info);
+        auto* const column = find(columns_, &F::info);
         expects(column != nullptr);
         return std::span(std::get<ColumnValues<typename F::type>>(column->values));
     }
     template <Field F>
     ColumnView<const typename F::type> operator[](F) const
     {
-        const auto* const column = find(&F::info);
+        const auto* const column = find(columns_, &F::info);
         expects(column != nullptr);
         return std::span(std::get<ColumnValues<typename F::type>>(column->values));
     }
@@ -172,27 +171,18 @@ private:
         if (!may_have(F{})) {
             return;
         }
-        StoredColumn* column = find(&F::info);
+        StoredColumn* column = find(columns_, &F::info);
         if (column == nullptr) {
             column = &columns_.emplace_back(StoredColumn{&F::info, Values()});
         }
-        if constexpr (width<F> == 3) {
-            std::get<Values>(column->values).assign(id_.size(), Vec3::Zero());
-        } else {
-            std::get<Values>(column->values).assign(id_.size(), 0);
-        }
+        std::get<Values>(column->values).assign(id_.size(), uniform<typename F::type>(0));
     }
 
     // Null if the column is absent.
-    const StoredColumn* find(const FieldInfo* field) const
+    static auto* find(auto& columns, const FieldInfo* field)
     {
-        const auto found = std::ranges::find(columns_, field, &StoredColumn::field);
-        return found == columns_.end() ? nullptr : &*found;
-    }
-    StoredColumn* find(const FieldInfo* field)
-    {
-        const auto found = std::ranges::find(columns_, field, &StoredColumn::field);
-        return found == columns_.end() ? nullptr : &*found;
+        const auto found = std::ranges::find(columns, field, &StoredColumn::field);
+        return found == columns.end() ? nullptr : &*found;
     }
 
     Kind kind_;

@@ -8,6 +8,7 @@
 #include "hyoryu/core/tiles.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -71,6 +72,8 @@ template <class List, class Real>
 class Records {
 public:
     using Row = RecordRow<List, Real>;
+    /// The tiles that a call is for, by their indices; none: all.
+    using Which = std::optional<std::span<const std::int32_t>>;
 
     /// Records of `slots` slots and one more chunk, as a chunk may begin at the last slot.
     Records(RecordMemory& memory, Index slots)
@@ -83,37 +86,18 @@ public:
     /// ones. Positions are rounded to the unit of the lattice, half a millionth of a spacing in
     /// single precision.
     template <class Some = List>
-    void load(const Store& store, const Tiles& tiles, Some fields = {})
+    void load(const Store& store, const Tiles& tiles, Some fields = {}, Which which = {})
     {
-        parallel_blocks(0, tiles.tiles(),
-                        [&](Index tile) { load_tile(store, tiles, tile, fields); });
-    }
-    /// The same for some of the tiles.
-    template <class Some>
-    void load(const Store& store, const Tiles& tiles, std::span<const std::int32_t> which,
-              Some fields)
-    {
-        parallel_blocks(0, static_cast<Index>(which.size()), [&](Index k) {
-            load_tile(store, tiles, which[static_cast<std::size_t>(k)], fields);
-        });
+        over(tiles, which, [&](Index tile) { load_tile(store, tiles, tile, fields); });
     }
 
     /// Fills records with more fields than the common ones: the common fields are copied from the
     /// common records, the others from the columns.
     template <class Common>
-    void complete(Records<Common, Real> common, const Store& store, const Tiles& tiles)
-    {
-        parallel_blocks(0, tiles.tiles(),
-                        [&](Index tile) { complete_tile(common, store, tiles, tile); });
-    }
-    /// The same for some of the tiles.
-    template <class Common>
     void complete(Records<Common, Real> common, const Store& store, const Tiles& tiles,
-                  std::span<const std::int32_t> which)
+                  Which which = {})
     {
-        parallel_blocks(0, static_cast<Index>(which.size()), [&](Index k) {
-            complete_tile(common, store, tiles, which[static_cast<std::size_t>(k)]);
-        });
+        over(tiles, which, [&](Index tile) { complete_tile(common, store, tiles, tile); });
     }
 
     /// Sets a field of the records to value_of(row), where neighbours have to see another value
@@ -123,7 +107,7 @@ public:
     {
         constexpr int to = offset<To, List>;
         parallel_for(0, tiles.count(), [&](Index k) {
-            const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
+            const auto row = static_cast<std::size_t>(tiles.row[k]);
             Real* const value = &at(tiles.first_slot + k).value[to];
             if constexpr (width<To> == 3) {
                 put(value, value_of(row));
@@ -137,6 +121,12 @@ public:
 
 private:
     Row& at(Index slot) { return rows_[slot]; }
+
+    static void over(const Tiles& tiles, const Which& which, const auto& f)
+    {
+        const Index count = which ? std::ssize(*which) : tiles.tiles();
+        parallel_blocks(0, count, [&](Index k) { f(which ? Index{(*which)[k]} : k); });
+    }
 
     template <class Common>
     void complete_tile(Records<Common, Real> common, const Store& store, const Tiles& tiles,
@@ -178,7 +168,7 @@ private:
             }
             const auto column = store[field];
             for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k) {
-                const auto row = static_cast<std::size_t>(tiles.row[static_cast<std::size_t>(k)]);
+                const auto row = static_cast<std::size_t>(tiles.row[k]);
                 Real* const value = &at(tiles.first_slot + k).value[to];
                 if constexpr (std::is_same_v<decltype(field), Position>) {
                     put(value, rounded(column[row] - centre, unit));

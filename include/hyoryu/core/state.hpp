@@ -78,15 +78,15 @@ Column stored_column(const std::string& name, const std::string& unit, const Ran
 }
 
 /// Base of the classes that read a state through `describe`. `Visitor` is the derived class; it
-/// defines `each(name, unit, range, member)`, which handles one dataset.
+/// defines `each(name, unit, range, member)`, which handles one dataset; one that reads also sizes
+/// lists in `resize`.
 template <class Visitor>
 class StateVisitor {
 public:
     static constexpr bool reads = false;
 
     /// One value.
-    template <class T>
-    void operator()(const std::string& name, const std::string& unit, const T& value)
+    void operator()(const std::string& name, const std::string& unit, auto&& value)
     {
         self().each(name, unit, std::span(&value, 1), std::identity());
     }
@@ -97,10 +97,9 @@ public:
         self().each(name, unit, range, std::identity());
     }
     /// A list whose length is part of the state.
-    template <class T, class Allocator>
-    void list(const std::string& name, const std::string& unit,
-              const std::vector<T, Allocator>& list)
+    void list(const std::string& name, const std::string& unit, auto& list)
     {
+        self().resize(name, list, std::identity());
         self().each(name, unit, list, std::identity());
     }
     /// Before the members of a list whose length is part of the state: one of them.
@@ -180,17 +179,12 @@ inline StateOnDemand on_demand(Snapshot snapshot)
 
 /// Takes a state from a snapshot. Throws IoError if a dataset is missing or has another type or
 /// length than the case needs.
-class StateReader {
+class StateReader : public StateVisitor<StateReader> {
 public:
     static constexpr bool reads = true;
 
     explicit StateReader(const Snapshot& snapshot) : snapshot_(&snapshot) {}
 
-    template <class T>
-    void operator()(const std::string& name, const std::string& unit, T& value)
-    {
-        each(name, unit, std::span(&value, 1), std::identity());
-    }
     template <class Range, class Member>
     void each(const std::string& name, const std::string&, Range&& range, Member member)
     {
@@ -206,17 +200,6 @@ public:
             std::invoke(member, element) = Value::get(next);
             next += Value::components;
         }
-    }
-    template <class T>
-    void values(const std::string& name, const std::string& unit, std::span<T> range)
-    {
-        each(name, unit, range, std::identity());
-    }
-    template <class T, class Allocator>
-    void list(const std::string& name, const std::string& unit, std::vector<T, Allocator>& list)
-    {
-        resize(name, list, std::identity());
-        each(name, unit, list, std::identity());
     }
     template <class Range, class Member>
     void resize(const std::string& name, Range& range, Member)

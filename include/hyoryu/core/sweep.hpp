@@ -12,7 +12,6 @@
 #include "hyoryu/core/kernel.hpp"
 #include "hyoryu/core/neighbours.hpp"
 
-#include <algorithm>
 #include <concepts>
 #include <cstring>
 #include <numeric>
@@ -216,10 +215,7 @@ void clear(Store& store, List fields)
             return;
         }
         const auto column = store[field];
-        typename decltype(field)::type zero{};
-        if constexpr (width<decltype(field)> == 3) {
-            zero.setZero();
-        }
+        const auto zero = uniform<typename decltype(field)::type>(0);
         parallel_for(0, store.size(), [&](Index k) { column[k] = zero; });
     });
 }

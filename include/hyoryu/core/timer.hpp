@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wall time by named stage of a step.
+// CPU time of a thread, and wall time by named stage of a step.
 #pragma once
 
 #include <chrono>
@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace hyoryu {
+
+/// CPU time of this thread [s]: time that other work takes on the core does not count.
+double thread_seconds();
 
 /// Seconds by stage, in the order in which the stages were first met.
 class StageTimer {

@@ -4,6 +4,8 @@
 
 #include "hyoryu/core/pack.hpp"
 
+#include <type_traits>
+
 namespace hyoryu {
 
 /// A vector of three numbers N.

@@ -18,17 +18,16 @@ using FluidEffects = HeldTerms<AllSlots>;
 /// The user's choice of a model for each slot.
 using FluidChoices = ChosenModels<ModelSlots<AllSlots>>;
 
+/// Whether a type is among those of a variant.
+template <class T, class... U>
+inline constexpr bool contains<T, std::variant<U...>> = (std::is_same_v<T, U> || ...);
+
 namespace detail {
-template <class Effect, class Terms>
-inline constexpr bool is_among = false;
-template <class Effect, class... Terms>
-inline constexpr bool is_among<Effect, std::variant<Terms...>> = (std::is_same_v<Effect, Terms> ||
-                                                                  ...);
 template <class Effect, class List>
 struct SlotOf;
 template <class Effect, class First, class... Rest>
 struct SlotOf<Effect, SlotList<First, Rest...>>
-    : std::conditional_t<is_among<Effect, typename First::Terms>, std::type_identity<First>,
+    : std::conditional_t<contains<Effect, typename First::Terms>, std::type_identity<First>,
                          SlotOf<Effect, SlotList<Rest...>>> {
 };
 } // namespace detail

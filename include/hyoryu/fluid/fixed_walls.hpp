@@ -61,8 +61,6 @@ struct FixedWalls {
     std::vector<std::int32_t> row_of, old_row;
     Tiles last_candidates;
     std::vector<std::vector<WallCandidate>> made; // by worker
-
-    std::size_t bytes() const;
 };
 
 /// Appends a run of particles of a tile, joined to the last run if it continues that. Tiles and, in

@@ -38,11 +38,6 @@ constexpr std::string_view name(Precision precision)
 /// How the equations become sums over pairs.
 enum class FormulationKind { sph, mps };
 
-constexpr std::string_view name(FormulationKind kind)
-{
-    return kind == FormulationKind::mps ? "mps" : "sph";
-}
-
 /// A fluid of equal particles; in two dimensions masses and forces are per metre of width.
 struct FluidParameters {
     int dimensions = 3;

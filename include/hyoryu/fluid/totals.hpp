@@ -6,10 +6,10 @@
 
 namespace hyoryu {
 
-/// Adds to sums what the other ranks have of them.
-inline void add_other_ranks(const Fluid& fluid, std::span<FixedSum> sums)
+/// Adds to sums what the other ranks have of them; `comm` is null for one process.
+inline void add_other_ranks(Comm* comm, std::span<FixedSum> sums)
 {
-    Reduction all(comm_of(fluid));
+    Reduction all(comm);
     all.add(sums);
     all.run();
 }
@@ -27,24 +27,25 @@ template <std::size_t n, class F>
 std::array<double, n> sum_over_fluid(const Fluid& fluid, const FixedUnits<n>& units, const F& term)
 {
     FixedSums<n> sums = sums_by_tile<n>(fluid.neighbours.fluid, units, term);
-    add_other_ranks(fluid, sums.each());
+    add_other_ranks(comm_of(fluid), sums.each());
     return sums.values(units);
 }
 
-/// Sums of term(k) over the terms of all ranks, of which this one has k in [0, count).
+/// Sums of term(k) over the terms of all ranks, of which this one has k in [0, count); with `comm`
+/// null those of this process alone.
 template <std::size_t n, class F>
-std::array<double, n> sum_over_ranks(const Fluid& fluid, Index count, const FixedUnits<n>& units,
+std::array<double, n> sum_over_ranks(Comm* comm, Index count, const FixedUnits<n>& units,
                                      const F& term)
 {
     FixedSums<n> sums = sums_of_each<n>(count, units, term);
-    add_other_ranks(fluid, sums.each());
+    add_other_ranks(comm, sums.each());
     return sums.values(units);
 }
 /// The same of vectors.
 template <class F>
-Vec3 vector_sum_over_ranks(const Fluid& fluid, Index count, const FixedUnit& unit, const F& term)
+Vec3 vector_sum_over_ranks(Comm* comm, Index count, const FixedUnit& unit, const F& term)
 {
-    const auto [x, y, z] = sum_over_ranks<3>(fluid, count, {unit, unit, unit}, [&](Index k) {
+    const auto [x, y, z] = sum_over_ranks<3>(comm, count, {unit, unit, unit}, [&](Index k) {
         const Vec3& v = term(k);
         return std::array{v.x(), v.y(), v.z()};
     });

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hyoryu {
 
@@ -21,6 +22,11 @@ struct Claim {
 /// nothing. Other files do not matter. Throws IoError if the folder cannot be written.
 void claim_folder(const std::filesystem::path& folder, const Claim& claim);
 
+/// Names of the entries of a folder that `owns` takes for its own, sorted. Throws
+/// std::filesystem::filesystem_error.
+std::vector<std::string> owned_names(const std::filesystem::path& folder,
+                                     const std::function<bool(const std::string&)>& owns);
+
 /// By what a file that a command wrote is recognised.
 struct FileMark {
     std::string_view command; // `hyoryu COMMAND` in messages
@@ -32,6 +38,9 @@ struct FileMark {
 /// a regular file that is empty or has the mark. Symbolic links and devices are refused. Changes
 /// nothing.
 void expect_own_file(const std::filesystem::path& file, const FileMark& mark);
+
+/// Throws CaseError if a file, or anything else but a folder, has the name of a folder to be.
+void expect_no_file(const std::filesystem::path& folder);
 
 /// Throws CaseError if a run could not replace the folder (see `prepare_results`): it is not empty
 /// and either no results folder or holds files that no run wrote. Changes nothing.

@@ -6,12 +6,15 @@
 
 #include "hyoryu/core/snapshot.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace hyoryu {
@@ -52,6 +55,11 @@ void write_text(const std::filesystem::path& file, const std::string& text);
 /// cannot be written.
 bool write_new_text(const std::filesystem::path& file, std::string_view text);
 
+/// The content of a file, and whether it is one of a series, `frames/<name>_000012.hdf`, or never
+/// changes, and so stands alone: `<name>.hdf` in the folder itself.
+using FrameContent = std::variant<Cloud, Surface, CloudOfParts>;
+enum class FramePlace { series, alone };
+
 /// Writes frames in a thread of its own while the solver goes on; at most two frames wait (all
 /// clouds and surfaces of one index are one frame). Every file is a complete VTKHDF 1.0
 /// UnstructuredGrid under `frames/`; the series file `<name>.hdf.series` follows after the rename.
@@ -64,18 +72,10 @@ public:
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
-    void write(Cloud cloud);
-    void write(Surface surface);
-    /// A cloud or surface that never changes: `<name>.hdf` in the folder itself.
-    void write_static(Cloud cloud);
-    void write_static(Surface surface);
-    /// A part of a frame, `frames/<name>_000012.0003.hdf`, and of a cloud that never changes.
-    void write_part(Cloud cloud, int part);
-    void write_static_part(Cloud cloud, int part);
-    /// The frame, or the cloud that never changes, over its parts: written once all of them are on
-    /// disk, by whatever process. Of all parts at least one must have been given to this writer.
-    void write(CloudOfParts cloud);
-    void write_static(CloudOfParts cloud);
+    /// `part`: which part of the frame a cloud is, `frames/<name>_000012.0003.hdf`; -1: it is the
+    /// frame itself. One over parts is written once all of them are on disk, by whatever process;
+    /// at least one of them must have been given to this writer.
+    void write(FrameContent content, FramePlace place = FramePlace::series, int part = -1);
     /// Removes every frame later than `time` and its place in the series, and parts of no frame: a
     /// resumed run writes them again. Waits for frames on their way.
     void forget_after(double time);
@@ -161,8 +161,6 @@ std::int64_t next_part_set(const std::filesystem::path& folder);
 /// Writes `checkpoint.SET.PART.h5`.
 CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
                                      int part, const StateOnDemand& state);
-CheckpointPart write_checkpoint_part(const std::filesystem::path& folder, std::int64_t set,
-                                     int part, Snapshot snapshot);
 
 /// Writes `checkpoint.h5`; the one that stood there becomes `checkpoint.previous.h5`. At every
 /// moment at least one of the two is whole. Arrays are made, or those of the snapshot freed, as
@@ -212,5 +210,14 @@ struct SeriesEntry {
     double time = 0;
 };
 std::vector<SeriesEntry> read_series(const std::filesystem::path& series);
+
+/// Which of the entries, of which there is one at least, is nearest to a time [s]; the first of
+/// equally near ones. `entries`: of a series, or other things with a `time` [s].
+std::size_t nearest_in_time(const auto& entries, double time)
+{
+    const auto found = std::ranges::min_element(
+        entries, {}, [time](const auto& entry) { return std::abs(entry.time - time); });
+    return static_cast<std::size_t>(found - entries.begin());
+}
 
 } // namespace hyoryu

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace hyoryu {
@@ -121,11 +122,19 @@ void put_list(Parcel& parcel, const std::vector<T>& values)
 {
     put_list(parcel, std::span<const T>(values));
 }
+/// Takes such values and appends them to others.
+template <Sendable T>
+void take_more(Unpacking& from, std::vector<T>& values)
+{
+    const std::size_t before = values.size();
+    values.resize(before + from.take<std::size_t>());
+    from.take(std::span(values).subspan(before));
+}
 template <Sendable T>
 std::vector<T> take_list(Unpacking& from)
 {
-    std::vector<T> values(from.take<std::size_t>());
-    from.take(std::span(values));
+    std::vector<T> values;
+    take_more(from, values);
     return values;
 }
 inline void put_text(Parcel& parcel, std::string_view text)
@@ -162,6 +171,13 @@ Gathered<T> gather(Comm& comm, std::span<const T> values)
         Unpacking(in[r]).take(std::span(gathered.all).subspan(before));
     }
     return gathered;
+}
+
+/// The values of all ranks; `comm` is null for one process.
+template <class T>
+std::vector<T> of_all_ranks(Comm* comm, std::vector<T> own)
+{
+    return comm == nullptr ? std::move(own) : gather(*comm, std::span<const T>(own)).all;
 }
 
 } // namespace hyoryu

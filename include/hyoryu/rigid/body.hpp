@@ -43,6 +43,13 @@ using ContactShape = std::variant<Ball, Rod, Polytope, Compound>;
 /// is 2.
 Polytope box_polytope(const Vec3& size, int dimensions);
 
+/// The faces of a polytope by their corners; in two dimensions the edges of the polygon in the x-z
+/// plane, whose faces are its edges, or one is the polygon.
+std::vector<std::vector<int>> faces_of(const Polytope& shape, int dimensions);
+
+/// The mean of some points.
+Vec3 mean_of(const std::vector<Vec3>& points);
+
 /// The shape moved by `way` in body axes [m].
 ContactShape moved(ContactShape shape, const Vec3& way);
 

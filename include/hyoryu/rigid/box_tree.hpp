@@ -4,6 +4,8 @@
 
 #include "hyoryu/core/types.hpp"
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 namespace hyoryu {
@@ -48,10 +50,21 @@ struct BoxTree {
 
 BoxTree tree_over(const std::vector<AlignedBox>& boxes);
 
+/// Calls f(index) for the boxes of every leaf below the node `from` that meets `box`, until f
+/// returns true; whether it did.
+bool any_of_near(const BoxTree& tree, const AlignedBox& box, const auto& f, std::size_t from = 0)
+{
+    if (from >= tree.nodes.size() || !tree.nodes[from].box.meets(box)) {
+        return false;
+    }
+    const BoxTree::Node& node = tree.nodes[from];
+    if (node.right >= 0) {
+        return any_of_near(tree, box, f, from + 1) || any_of_near(tree, box, f, at(node.right));
+    }
+    return std::ranges::any_of(std::span(tree.order).subspan(at(node.first), at(node.count)), f);
+}
+
 /// Replaces `found` by the leaves' boxes that may meet `box`: indices in ascending order.
 void find_near(const BoxTree& tree, const AlignedBox& box, std::vector<int>& found);
-
-/// Whether the box meets a leaf of the tree.
-bool any_near(const BoxTree& tree, const AlignedBox& box);
 
 } // namespace hyoryu

@@ -10,6 +10,7 @@
 #include "hyoryu/scene/scene.hpp"
 #include "hyoryu/scene/solid_surface.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,26 @@ struct Periods {
 };
 
 Periods periods_of(const Scene& scene);
+
+/// Calls f(image) for a place in the first period and for those of its images that are within
+/// `reach` of an edge of it [m]. `first`: its lower corner [m]; `length`: as of Periods.
+void over_images(const Vec3& own, const Vec3& first, const Vec3& length, double reach,
+                 const auto& f)
+{
+    std::array<int, 3> low{}, high{};
+    for (int a = 0; a < 3; ++a) {
+        const double from_low = own[a] - first[a];
+        low[at(a)] = length[a] > 0 && length[a] - from_low < reach ? -1 : 0;
+        high[at(a)] = length[a] > 0 && from_low < reach ? 1 : 0;
+    }
+    for (int i = low[0]; i <= high[0]; ++i) {
+        for (int j = low[1]; j <= high[1]; ++j) {
+            for (int k = low[2]; k <= high[2]; ++k) {
+                f(Vec3(own + Vec3(i, j, k).cwiseProduct(length)));
+            }
+        }
+    }
+}
 
 /// The numbers of the walls that do not move.
 std::vector<int> fixed_walls_of(const Scene& scene);

@@ -63,6 +63,9 @@ private:
 /// Layers of solid particles that hide the void behind a wall from every fluid particle.
 int wall_layers(double smoothing_ratio);
 
+/// How thick these layers are, or would be with the usual kernel [m].
+double thickness_of_rows(const Scene& scene);
+
 /// Particles of one shape at the given spacing, in layers at half a spacing, one and a half, ...
 /// below the surface: planes for boxes, rings and shells for cylinders and spheres, a lattice for
 /// meshes.

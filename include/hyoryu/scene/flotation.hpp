@@ -11,10 +11,9 @@ namespace hyoryu {
 
 /// A state of rest of a floating body.
 struct Flotation {
-    double draft = 0;        // of the lowest point below the water level [m]
-    double metacentre = 0;   // GM: least metacentric height over all axes of tilting [m]
-    Vec3 up{0, 0, 1};        // the direction in body axes that points up
-    double centre_above = 0; // centre of mass above the water level [m]
+    double draft = 0;      // of the lowest point below the water level [m]
+    double metacentre = 0; // GM: least metacentric height over all axes of tilting [m]
+    Vec3 up{0, 0, 1};      // the direction in body axes that points up
 };
 
 struct Floating {

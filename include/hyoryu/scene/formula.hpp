@@ -24,7 +24,6 @@ public:
     explicit Formula(const std::string& text);
     ~Formula();
     Formula(Formula&&) noexcept;
-    Formula& operator=(Formula&&) noexcept;
 
     /// The names it uses, in the order of `value`'s numbers.
     const std::vector<std::string>& names() const;

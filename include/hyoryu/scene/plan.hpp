@@ -29,7 +29,7 @@ struct Plan {
         bool of_fluid_alone = false;  // solid particles have none
         bool of_solids_alone = false; // fluid particles have none
         Index rows = 0;               // particles that have it
-        std::size_t bytes() const { return bytes_per_particle * static_cast<std::size_t>(rows); }
+        std::size_t bytes() const { return bytes_per_particle * at(rows); }
         /// "" for all particles.
         std::string_view holders() const
         {

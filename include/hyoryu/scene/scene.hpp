@@ -252,4 +252,7 @@ struct Scene {
     std::vector<Diagnostic> notices; // of the reader: warnings of the plan
 };
 
+/// How the grid of the first wall that is terrain lies in the case; none without a terrain.
+const TerrainPatch* terrain_patch_of(const Scene& scene);
+
 } // namespace hyoryu

@@ -38,8 +38,10 @@ Vec3 middle_of_shape(const BodySettings& body);
 /// Moves points about the middle of its shape to axes about its centre of mass.
 void move_to_middle(const BodySettings& body, std::vector<Vec3>& points);
 
-/// The shape of a body where it is at the start.
+/// The shape of a body, a block or an obstacle where it is at the start; it points to that shape.
 Placed placed(const BodySettings& body, int dimensions);
+Placed placed(const FluidBlock& block, int dimensions);
+Placed placed(const SolidWall& solid, int dimensions);
 
 /// Volume [m3], or area [m2] in two dimensions.
 double volume(const Shape& shape, int dimensions);
@@ -50,5 +52,16 @@ double signed_distance(const Placed& placed, const Vec3& point);
 
 /// Bounds in space.
 Bounds bounds(const Placed& placed);
+
+/// Bounds of a wall at time 0: of the inside of a basin, of an obstacle; empty for a plane.
+Bounds bounds(const Wall& wall, int dimensions);
+
+/// Whether a point is in the box of a sponge; in two dimensions y does not count.
+inline bool holds(const Sponge& sponge, const Vec3& x, int dimensions)
+{
+    const bool across = dimensions == 2 || (x.y() >= sponge.min.y() && x.y() <= sponge.max.y());
+    return across && x.x() >= sponge.min.x() && x.x() <= sponge.max.x() &&
+           x.z() >= sponge.min.z() && x.z() <= sponge.max.z();
+}
 
 } // namespace hyoryu

@@ -51,8 +51,10 @@ struct SolidSurface {
     Vec3 middle{0, 0, 0};             // of a body: of its shape, from the centre of mass [m]
 };
 
-/// The surface of a wall at time 0. `thickness`: of the sides of a basin [m].
+/// The surface of a wall, or of each of some, at time 0. `thickness`: of the sides of a basin [m].
 SolidSurface surface_of(const Wall& wall, double thickness, int dimensions);
+std::vector<SolidSurface> surfaces_of(const std::vector<Wall>& walls, double thickness,
+                                      int dimensions);
 
 /// The surface of a body; its axes are those of the body.
 SolidSurface surface_of(const BodySettings& body, int dimensions);
@@ -61,5 +63,10 @@ SolidSurface surface_of(const BodySettings& body, int dimensions);
 /// normal; if the distance exceeds `farthest`, it is infinity and nothing else is set.
 NearestPlace nearest_place(const SolidSurface& solid, const Vec3& point,
                            double farthest = infinity);
+
+/// The same for a point at `way` from the centre of the solid [m]; both this and the normal are
+/// along the axes of the world at time 0.
+NearestPlace nearest_from_centre(const SolidSurface& solid, const Vec3& way,
+                                 double farthest = infinity);
 
 } // namespace hyoryu

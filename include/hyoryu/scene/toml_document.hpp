@@ -14,7 +14,9 @@ namespace hyoryu {
 
 struct TomlNode;
 struct TomlEntry;
-struct TomlDate {};
+struct TomlDate {
+    bool operator==(const TomlDate&) const = default;
+};
 using TomlArray = std::vector<TomlNode>;
 using TomlTable = std::vector<TomlEntry>;
 
@@ -36,6 +38,10 @@ struct TomlEntry {
     Place place; // of the key
     TomlNode node;
 };
+
+/// By keys and values, wherever they stand; any two dates are equal.
+bool operator==(const TomlNode& a, const TomlNode& b);
+bool operator==(const TomlEntry& a, const TomlEntry& b);
 
 /// A syntax error.
 struct TomlFault {
