@@ -97,6 +97,23 @@ TEST(CoveredShare, HoldsForImagesInPeriodicDomains)
     }
 }
 
+// Any number of walls may meet in a cell: many slabs within a floor, told before it, change
+// nothing.
+TEST(CoveredShare, DoesNotDependOnTheNumberOfWallsInACell)
+{
+    Dice dice(7);
+    const std::string floor = box({-1, -1, -1}, {5, 2, 0});
+    for (int draw = 0; draw < 20; ++draw) {
+        std::string slabs;
+        for (int k = 20 + dice.below(20); k > 0; --k) {
+            slabs += box({-1, -1, -1}, {5, 2, -dice.between(0.02, 0.04)});
+        }
+        const Vec3 place(dice.between(1, 3), 0.5, dice.between(-0.04, 0.04));
+        EXPECT_NEAR(share_of(scene_of(slabs + floor), place), 0.5 + place.z() / edge, close)
+            << place.transpose();
+    }
+}
+
 std::vector<std::string> told_of(const std::string& sides, const std::string& wall)
 {
     const Scene scene = parse_case(

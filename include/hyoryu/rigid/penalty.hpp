@@ -21,9 +21,9 @@ ParticleCloud particle_cloud(std::vector<Vec3> points, double spacing);
 ///
 /// Two particles nearer than d, the mean of their spacings, push each other along the line between
 /// them with F = max(0, k (d - r) - c v_n), v_n their speed of separation (Tanaka, Sakai and
-/// Koshizuka 2007), and rub with a force min(c |v_t|, mu F) against the sliding v_t at the middle
-/// between them: Coulomb friction, viscous while slow. Restitution follows from k and c, whatever
-/// the laws of the materials say.
+/// Koshizuka 2007), and a friction force min(c |v_t|, mu F) acts against the sliding v_t at the
+/// middle between them: Coulomb friction, viscous while slow. Restitution follows from k and c,
+/// whatever the laws of the materials say.
 ///
 /// A plane is the half-space behind it filled with particles, endless and never stored: cells of
 /// one spacing from the plane's point on, along n and the two tangents t (the x axis, or y for a
