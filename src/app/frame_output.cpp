@@ -189,6 +189,11 @@ void FrameOutput::forget_after(double time)
     }
 }
 
+std::vector<std::filesystem::path> FrameOutput::missing()
+{
+    return is_first() ? files_->missing() : std::vector<std::filesystem::path>();
+}
+
 void FrameOutput::finish()
 {
     if (files_) {

@@ -8,7 +8,9 @@
 #include "hyoryu/ranks/groups.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace hyoryu {
 
@@ -24,6 +26,8 @@ public:
     void write(const Simulation& sim);
     /// Removes every frame later than `time` [s].
     void forget_after(double time);
+    /// Frames that are listed and not there; none on all processes but the first.
+    std::vector<std::filesystem::path> missing();
     /// Waits until all frames are on disk.
     void finish();
     /// Cost of the thread that writes frames.

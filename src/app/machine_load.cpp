@@ -2,7 +2,7 @@
 #include "machine_load.hpp"
 
 #include "hyoryu/core/parallel.hpp"
-#include "hyoryu/sim/cost.hpp"
+#include "hyoryu/core/timer.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -3,7 +3,7 @@
 // log.
 #pragma once
 
-#include "hyoryu/sim/cost.hpp"
+#include "hyoryu/core/timer.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
 #include <filesystem>

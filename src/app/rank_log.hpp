@@ -2,10 +2,10 @@
 // The work of each process of a shared run: `ranks.csv`, and the balance of the load.
 #pragma once
 
+#include "hyoryu/core/timer.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/ranks/counted.hpp"
 #include "hyoryu/sim/balance.hpp"
-#include "hyoryu/sim/cost.hpp"
 
 #include <optional>
 

@@ -231,6 +231,11 @@ Job resume(const Beginning& from, Resumption state, Filling filling)
     }
     job.frames.emplace(from.folder, job.comm, job.groups);
     job.frames->forget_after(job.sim.clock.time); // behind the histories, which may refuse
+    if (const auto gone = job.frames->missing(); !gone.empty()) {
+        job.progress.line(fmt::format("warning: frames of the earlier run are missing, {} in all, "
+                                      "first `{}`; the series still list them",
+                                      gone.size(), gone.front().string()));
+    }
     if (from.scene.time.recover) {
         keep_good_state(job);
     }

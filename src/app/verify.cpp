@@ -10,12 +10,12 @@
 #include "hyoryu/assess/verify_report.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/core/parallel.hpp"
+#include "hyoryu/core/timer.hpp"
 #include "hyoryu/io/claim.hpp"
 #include "hyoryu/io/results.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/scene/reader_hint.hpp"
-#include "hyoryu/sim/cost.hpp"
 
 #include <fmt/format.h>
 

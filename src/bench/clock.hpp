@@ -3,7 +3,6 @@
 #pragma once
 
 #include "hyoryu/core/timer.hpp"
-#include "hyoryu/sim/cost.hpp"
 
 #include <algorithm>
 #include <vector>

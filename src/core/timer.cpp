@@ -13,6 +13,12 @@ double thread_seconds()
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+double steady_seconds()
+{
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(now).count();
+}
+
 void StageTimer::begin(std::string_view name)
 {
     const auto now = Clock::now();

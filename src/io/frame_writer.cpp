@@ -280,6 +280,20 @@ void FrameWriter::forget_after(double time)
     state_->remove_parts_of_no_frame();
 }
 
+std::vector<std::filesystem::path> FrameWriter::missing()
+{
+    finish();
+    std::vector<std::filesystem::path> gone;
+    for (const auto& [name, entries] : state_->series) {
+        for (const SeriesEntry& entry : entries) {
+            if (!std::filesystem::exists(state_->folder / entry.file)) {
+                gone.push_back(entry.file);
+            }
+        }
+    }
+    return gone;
+}
+
 void FrameWriter::finish()
 {
     std::unique_lock lock(state_->mutex);

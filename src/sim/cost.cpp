@@ -2,10 +2,10 @@
 #include "hyoryu/sim/cost.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/core/timer.hpp"
 #include "hyoryu/sim/watch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <span>
 #include <string_view>
@@ -114,11 +114,6 @@ private:
     std::vector<double> all_else_;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 double impacts_of_step(const Simulation& sim)
 {
     return static_cast<double>(
@@ -198,10 +193,10 @@ double seconds_of_build(Fluid& fluid)
     constexpr int builds = 3;
     double least = infinity;
     for (int k = 0; k < builds; ++k) {
-        const auto start = std::chrono::steady_clock::now();
+        const double start = steady_seconds();
         fluid.neighbours.builds = 0; // as at the start: they are made whatever has moved
         update_neighbours(fluid);
-        least = std::min(least, seconds_since(start));
+        least = std::min(least, steady_seconds() - start);
     }
     return least;
 }
@@ -273,11 +268,11 @@ double measure_row(const Simulation& sim)
     constexpr int looks = 2;
     double least = infinity;
     for (int k = 0; k < looks; ++k) {
-        const auto start = std::chrono::steady_clock::now();
+        const double start = steady_seconds();
         const Totals now = totals(sim);
         watch_energy(sim, now);
         static_cast<void>(totals(sim));
-        least = std::min(least, seconds_since(start));
+        least = std::min(least, steady_seconds() - start);
     }
     return least;
 }
@@ -293,17 +288,17 @@ StepCost measure_cost(Simulation& sim, int steps)
     StepCost cost;
     StepTimes times(sim);
     const long long builds_before = sim.fluid->neighbours.builds;
-    const auto begun = std::chrono::steady_clock::now();
+    const double begun = steady_seconds();
     int rounds = 0;
     while (rounds < asked ||
-           (rounds < most_rounds * asked && seconds_since(begun) < shortest_timing)) {
+           (rounds < most_rounds * asked && steady_seconds() - begun < shortest_timing)) {
         ++rounds;
         for (Variant& variant : all) {
             sim.fluid->effects = variant.effects;
             const double lists = spent(sim).lists;
-            const auto start = std::chrono::steady_clock::now();
+            const double start = steady_seconds();
             step(sim);
-            const double seconds = seconds_since(start);
+            const double seconds = steady_seconds() - start;
             times.add(sim);
             variant.seconds.push_back(seconds - (spent(sim).lists - lists));
         }
@@ -323,12 +318,6 @@ StepCost measure_cost(Simulation& sim, int steps)
         }
     }
     return cost;
-}
-
-double steady_seconds()
-{
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration<double>(now).count();
 }
 
 std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool()>& goes_on,
@@ -363,7 +352,7 @@ std::optional<StepCost> measure_bodies(Simulation& sim, const std::function<bool
 std::optional<Development> measure_development(Simulation& sim, Simulation& again, int first,
                                                const std::function<bool()>& goes_on)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = steady_seconds();
     const auto particles = static_cast<double>(sim.fluid->particles.fluid.size());
     cut_no_step(sim);
     Passed passed;
@@ -392,7 +381,7 @@ std::optional<Development> measure_development(Simulation& sim, Simulation& agai
         return Development{.steps = steps / sim.plan.expected_steps,
                            .step = late / early,
                            .builds = static_cast<double>(sim.fluid->neighbours.builds) / steps,
-                           .seconds = seconds_since(start),
+                           .seconds = steady_seconds() - start,
                            .slowdown = times.slowdown(),
                            .fluid = passed.fluid_time / (particles * sim.clock.time),
                            .fluid_end = left / particles,

@@ -113,6 +113,24 @@ TEST_F(Frames, OfAnEarlierRunAreContinued)
     EXPECT_EQ(read_frame(folder / entries[3].file).points.size(), 60U);
 }
 
+TEST_F(Frames, ThatSomebodyRemovedAreFound)
+{
+    {
+        FrameWriter first(folder);
+        for (std::int64_t index = 0; index < 4; ++index) {
+            first.write(make_cloud("fluid", index, 10));
+            first.write(make_cloud("bodies", index, 2));
+        }
+    }
+    EXPECT_TRUE(FrameWriter(folder).missing().empty());
+    fs::remove(folder / "frames/fluid_000001.hdf");
+    fs::remove(folder / "frames/bodies_000003.hdf");
+    FrameWriter second(folder);
+    const std::vector<fs::path> gone{"frames/bodies_000003.hdf", "frames/fluid_000001.hdf"};
+    EXPECT_EQ(second.missing(), gone);
+    EXPECT_EQ(read_series(folder / "fluid.hdf.series").size(), 4U);
+}
+
 // A frame that is written again takes the place of the old one instead of standing there twice.
 TEST_F(Frames, ReplaceOlderOnesOfTheSameIndex)
 {

@@ -187,6 +187,15 @@ class Ends(CrashTest):
         (out / "fluid.hdf.series").write_bytes(whole["fluid.hdf.series"])
         self.assertEqual(self.call(*resume).returncode, 0)
 
+    def test_a_resumption_tells_of_frames_that_somebody_removed(self):
+        self.call("run", "case.toml", "-o", "out", "--until", "0.01")
+        for name in ("frames/fluid_000000.hdf", "frames/bodies_000000.hdf"):
+            (self.dir / "out" / name).unlink()
+        done = self.call("run", "case.toml", "-o", "out", "--resume", "--until", "0.011")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("frames of the earlier run are missing, 2 in all, first `frames/bodies_000000.hdf`",
+                      done.stderr)
+
     def test_a_results_folder_that_is_taken_away(self):
         process = self.start()
         self.wait_for(process, "frames/fluid_000001.hdf")

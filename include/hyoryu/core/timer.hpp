@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CPU time of a thread, and wall time by named stage of a step.
+// CPU time of a thread, a steady clock, and wall time by named stage of a step.
 #pragma once
 
 #include <chrono>
@@ -12,6 +12,9 @@ namespace hyoryu {
 
 /// CPU time of this thread [s]: time that other work takes on the core does not count.
 double thread_seconds();
+
+/// The steady clock of this machine [s]; only differences count.
+double steady_seconds();
 
 /// Seconds by stage, in the order in which the stages were first met.
 class StageTimer {

@@ -79,6 +79,9 @@ public:
     /// Removes every frame later than `time` and its place in the series, and parts of no frame: a
     /// resumed run writes them again. Waits for frames on their way.
     void forget_after(double time);
+    /// Frames that a series names and that are not there, relative to the folder: somebody removed
+    /// them. Waits for frames on their way.
+    std::vector<std::filesystem::path> missing();
     /// Waits until all data is on disk and throws the first error.
     void finish();
 

@@ -72,8 +72,6 @@ StepCost measure_cost(Simulation& sim, int steps);
 
 /// Reads a clock [s]; only differences count.
 using Stopwatch = std::function<double()>;
-/// The steady clock of this machine [s].
-double steady_seconds();
 
 /// Runs a simulation of bodies alone until its end, or until `goes_on`, called before each step,
 /// returns false, and times each step. None if it fails, or if it is stopped while its steps still
