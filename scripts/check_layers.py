@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Checks that dependencies between layers point one way: a layer includes only itself and the layers of
-MAY_INCLUDE. Also checks that no two files define types of the same name: the linker would merge their
+MAY_INCLUDE; the parts of a layer, its folders, those of PARTS, and a public header belongs to the part of
+the source of its name. Also checks that no two files define types of the same name: the linker would merge their
 destructors and their `std::vector`, which corrupts memory silently; and that no file is longer than
 LONGEST_FILE lines and no function longer than LONGEST_FUNCTION.
 
@@ -30,10 +31,16 @@ MAY_INCLUDE = {
     "app": {"core", "ranks", "fluid", "rigid", "coupling", "geometry", "scene", "sim", "io", "assess",
             "report", "bench", "view"},
 }
+# Parts in order: each may include those before it. Sources beside the folders may include all.
+PARTS = {
+    "rigid": ["shapes", "collision", "contact", "motion", "impact", "penalty"],
+    "scene": ["surfaces", "case", "filling", "plan"],
+}
 LONGEST_FILE = 450
 LONGEST_FUNCTION = 60
 VTK_LAYERS = {"vtk", "view"}
 INCLUDE = re.compile(r'#include\s+[<"]hyoryu/(\w+)/')
+LOCAL = re.compile(r'#include "(?:(?:hyoryu/)?(\w+)/)?(?:\w+/)?(\w+)\.hpp"')
 VTK = re.compile(r"#include\s+<vtk")
 TYPE = re.compile(r"(?:struct|class|union|enum class) (\w+)(?![\w:<;])(?!.*;$)")
 
@@ -49,6 +56,22 @@ def offences(root):
                     yield f"{place}: {layer} must not include {found[1]}"
                 if VTK.match(line) and layer not in VTK_LAYERS:
                     yield f"{place}: only src/vtk and src/view may include VTK"
+
+
+def offences_of_parts(root):
+    for layer, parts in PARTS.items():
+        sources = sorted((root / "src" / layer).rglob("*.[hc]pp"))
+        part_of = {file.stem: file.parent.name for file in sources if file.parent.name in parts}
+        for file in sources:
+            if file.parent.name not in (*parts, layer):
+                yield f"{file.relative_to(root)}: {file.parent.name} is not among the parts of {layer}: {', '.join(parts)}"
+        for file in [*sources, *sorted((root / "include" / "hyoryu" / layer).rglob("*.hpp"))]:
+            own = part_of.get(file.stem)
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                found = LOCAL.match(line)
+                other = part_of.get(found[2]) if found and found[1] in (None, layer) else None
+                if own and other and parts.index(other) > parts.index(own):
+                    yield f"{file.relative_to(root)}:{number}: {own} must not include {other}"
 
 
 def types_of(file):
@@ -92,7 +115,7 @@ def too_long(root):
 
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    found = [*offences(root), *double_types(root), *too_long(root)]
+    found = [*offences(root), *offences_of_parts(root), *double_types(root), *too_long(root)]
     print("\n".join(found) if found else "layers: every arrow points one way, every type has one definition, nothing is too long")
     return 1 if found else 0
 

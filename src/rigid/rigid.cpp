@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The step of the rigid layer: broad phase, then each cluster by located or unlocated sub-steps.
-#include "broad_phase.hpp"
-#include "dealing.hpp"
-#include "groups.hpp"
-#include "penalty.hpp"
-#include "sub_step.hpp"
+#include "rigid/motion/broad_phase.hpp"
+#include "rigid/motion/dealing.hpp"
+#include "rigid/motion/groups.hpp"
+#include "rigid/motion/sub_step.hpp"
+#include "rigid/penalty/penalty.hpp"
 
 #include "hyoryu/core/error.hpp"
 

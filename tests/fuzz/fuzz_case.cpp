@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any text is a case or a list of mistakes; a case survives being written and read again, and can
 // be filled and planned.
-#include "../../src/scene/fill_size.hpp"
+#include "../../src/scene/filling/fill_size.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any bytes are a table of numbers that a case names, of so many columns, or a list of mistakes,
 // and so they are as the rows of a history.
-#include "../../src/scene/number_table.hpp"
+#include "../../src/scene/case/number_table.hpp"
 #include "hyoryu/core/error.hpp"
 #include "hyoryu/io/csv_table.hpp"
 #include "scratch.hpp"

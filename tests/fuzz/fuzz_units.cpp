@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Any text is a quantity or has a fault.
-#include "../../src/scene/units.hpp"
+#include "../../src/scene/case/units.hpp"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The impulse of one contact, judged by the conditions of Coulomb friction alone.
 #include "dice.hpp"
-#include "rigid/cone.hpp"
+#include "rigid/contact/cone.hpp"
 
 #include <gtest/gtest.h>
 

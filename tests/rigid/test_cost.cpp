@@ -3,7 +3,7 @@
 // rows, which is the same on any machine.
 #include "scenes.hpp"
 
-#include "rigid/sub_step.hpp"
+#include "rigid/motion/sub_step.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Accuracy must not depend on how many other bodies are near: families of rows, stacks and wet
 // piles, drawn around the numbers at which the method once changed.
 #include "dice.hpp"
-#include "rigid/block_matrix.hpp"
+#include "rigid/contact/block_matrix.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>

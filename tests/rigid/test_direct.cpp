@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The direct solution of contact problems whose impulses are known in closed form.
-#include "rigid/solver.hpp"
+#include "rigid/contact/solver.hpp"
 
 #include <gtest/gtest.h>
 

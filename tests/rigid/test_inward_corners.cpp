@@ -6,7 +6,7 @@
 #include "surfaces.hpp"
 #include "witness.hpp"
 
-#include "rigid/narrow_phase.hpp"
+#include "rigid/collision/narrow_phase.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which points of two boxes are in contact when their faces are all but flush.
-#include "rigid/narrow_phase.hpp"
-#include "rigid/separation.hpp"
+#include "rigid/collision/narrow_phase.hpp"
+#include "rigid/collision/separation.hpp"
 
 #include <gtest/gtest.h>
 

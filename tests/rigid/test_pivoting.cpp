@@ -3,7 +3,7 @@
 // checked with velocities summed here.
 #include "dice.hpp"
 
-#include "rigid/solver.hpp"
+#include "rigid/contact/solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "dice.hpp"
 #include "scenes.hpp"
 
-#include "rigid/narrow_phase.hpp"
+#include "rigid/collision/narrow_phase.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // What the tables of a large terrain cost. Not under sanitizers, which take several times of both.
 #include "dice.hpp"
 
-#include "rigid/mesh_table.hpp"
+#include "rigid/shapes/mesh_table.hpp"
 
 #include <gtest/gtest.h>
 

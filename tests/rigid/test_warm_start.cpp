@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which force of the last sub-step a contact starts from.
-#include "rigid/sub_step.hpp"
+#include "rigid/motion/sub_step.hpp"
 
 #include <gtest/gtest.h>
 

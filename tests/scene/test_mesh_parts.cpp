@@ -3,7 +3,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/scene/triangle_tree.hpp"
-#include "scene/mesh_parts.hpp"
+#include "scene/surfaces/mesh_parts.hpp"
 
 #include "dice.hpp"
 

@@ -5,7 +5,7 @@
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/scene/wall_layers.hpp"
 
-#include "../../src/scene/series.hpp"
+#include "../../src/scene/case/series.hpp"
 #include "dice.hpp"
 #include "own_folder.hpp"
 #include "test_case_file_support.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The pressure on a particle by runs of cells, against the sum over all pairs.
-#include "scene/packing_grid.hpp"
+#include "scene/filling/packing_grid.hpp"
 
 #include "dice.hpp"
 

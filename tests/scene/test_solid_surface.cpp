@@ -2,7 +2,7 @@
 // Distances to the surfaces of walls and bodies, and the way out of them.
 #include "hyoryu/scene/solid_surface.hpp"
 
-#include "scene/way_out.hpp"
+#include "scene/surfaces/way_out.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Units: values, dimensions, and texts that are none.
-#include "../../src/scene/units.hpp"
+#include "../../src/scene/case/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@ install(FILES ${PROJECT_BINARY_DIR}/texts/completions/hyoryu.fish COMPONENT prog
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/hyoryu COMPONENT program
   PATTERN "*-results" EXCLUDE)
-install(FILES src/scene/debris.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/hyoryu
+install(FILES src/scene/case/debris.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/hyoryu
   COMPONENT program)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

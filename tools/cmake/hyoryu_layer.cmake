@@ -4,17 +4,26 @@ set(HYORYU_COMMON_HEADERS <Eigen/Dense> <algorithm> <array> <cmath> <filesystem>
   <limits> <map> <memory> <numbers> <numeric> <optional> <span> <sstream> <string> <variant> <vector>
   <fmt/format.h>)
 
+# hyoryu_sources(OUT LAYER): the sources of src/LAYER and of its parts, which are folders within it; those of
+# `loops` are compiled otherwise (below).
+function(hyoryu_sources out layer)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${layer}/*.cpp
+    ${PROJECT_SOURCE_DIR}/src/${layer}/*/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/loops/")
+  set(${out} ${sources} PARENT_SCOPE)
+endfunction()
+
 # hyoryu_layer(NAME LINKS ... PRIVATE_LINKS ...): the static library of src/NAME with the headers of
 # include/hyoryu/NAME; every header must compile alone.
 function(hyoryu_layer name)
   cmake_parse_arguments(arg "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  hyoryu_sources(sources ${name})
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/hyoryu/${name}/*.hpp)
   add_library(hyoryu_${name} STATIC ${sources})
   add_library(hyoryu::${name} ALIAS hyoryu_${name})
   target_sources(hyoryu_${name} PUBLIC FILE_SET HEADERS
     BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers})
-  target_include_directories(hyoryu_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src/${name})
+  target_include_directories(hyoryu_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/${name})
   target_link_libraries(hyoryu_${name} PUBLIC ${arg_LINKS} PRIVATE ${arg_PRIVATE_LINKS}
     $<BUILD_INTERFACE:hyoryu_options>)
   set_target_properties(hyoryu_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)

@@ -90,8 +90,4 @@ Filling fill(const Scene& scene, const Fillers& fillers = {});
 /// that of a cube, since their carpets are made of cubes.
 double particle_volume(const Scene& scene, const Filling& filling);
 
-/// The region of the run: as given by the user, or the bounds of everything in the scene with
-/// headroom of its height above it for splashes.
-Bounds domain_of(const Scene& scene);
-
 } // namespace hyoryu

@@ -56,6 +56,10 @@ Bounds bounds(const Placed& placed);
 /// Bounds of a wall at time 0: of the inside of a basin, of an obstacle; empty for a plane.
 Bounds bounds(const Wall& wall, int dimensions);
 
+/// The region of the run: as given by the user, or the bounds of everything in the scene with
+/// headroom of its height above it for splashes.
+Bounds domain_of(const Scene& scene);
+
 /// Whether a point is in the box of a sponge; in two dimensions y does not count.
 inline bool holds(const Sponge& sponge, const Vec3& x, int dimensions)
 {
