@@ -120,6 +120,7 @@ void recover(Job& job, const NumericalError& error)
     sim.timer = job.sim.timer;
     sim.steps_by_limit = job.sim.steps_by_limit;
     sim.pair_visits = job.sim.pair_visits;
+    sim.earlier_visits = job.sim.earlier_visits;
     job.progress.line(fmt::format("note: the simulation became unstable: {}", error.what()));
     job.progress.line(fmt::format(
         "recovery: the run continues from t = {} s to the end with time steps of {} of the limits",

@@ -122,7 +122,8 @@ void add_run(ordered_json& json, const Simulation& sim, const std::string& exit_
     json["per_metre_of_width"] = sim.scene.dimensions == 2;
 }
 
-// Particle-steps and pairs per second of this call of the program, which made `steps` steps.
+// Particle-steps and pairs per second of this call of the program, which made `steps` steps; the
+// number of pairs is that of the whole run.
 void add_rates(ordered_json& json, const Simulation& sim, const Closing& now, std::int64_t steps,
                double wall_seconds)
 {
@@ -132,7 +133,7 @@ void add_rates(ordered_json& json, const Simulation& sim, const Closing& now, st
                          : 0;
     json["fluid_particle_steps_per_second"] =
         wall_seconds > 0 ? static_cast<double>(now.fluid) * count / wall_seconds : 0;
-    json["pair_interactions"] = now.pair_visits;
+    json["pair_interactions"] = sim.earlier_visits + now.pair_visits;
     json["pairs_per_second"] = wall_seconds > 0 ? now.pair_visits / wall_seconds : 0;
 }
 

@@ -20,7 +20,7 @@ struct Closing {
     Totals totals;
     Index fluid = 0;                       // particles
     Index in_solids = 0;                   // those of them that are inside a wall or body
-    double pair_visits = 0;                // of all processes
+    double pair_visits = 0;                // of all processes since the last restart
     std::optional<RankSummary> ranks = {}; // none for one process
 };
 

@@ -311,6 +311,46 @@ void check_runs(Section& root, const Study& study)
     }
 }
 
+// The fault of the divisor of the errors in a run, if that is known before the run; else empty.
+std::string fault_of_scale(const StudyQuantity& q, const Scope& scope)
+{
+    const bool given = !q.scale.empty();
+    const std::string& text = given ? q.scale : q.expected.formula;
+    if (text.empty() || (!given && is_error_measure(q.quantity.measure))) {
+        return {};
+    }
+    try {
+        const double number = evaluate(text, scope);
+        return number > 0 || (!given && number < 0) || std::isnan(number)
+                   ? ""
+                   : fmt::format("is {:.6g}", number);
+    } catch (const FormulaError&) {
+        return {}; // it needs names that only results have
+    }
+}
+
+// Quantities whose errors have no scale, of which no run would give an error.
+void check_scales(Section& root, const Study& study)
+{
+    std::vector<Section> sections = root.tables("quantity");
+    const std::vector<StudyRun> runs = runs_of(study);
+    for (std::size_t k = 0; k < study.quantities.size(); ++k) {
+        const StudyQuantity& q = study.quantities[k];
+        const char* key = q.scale.empty() ? "expected" : "scale";
+        for (const StudyRun& run : runs) {
+            const std::string fault = fault_of_scale(q, scope_of(study.definitions, run.run));
+            if (!fault.empty()) {
+                sections[k].error(
+                    key,
+                    fmt::format("{} in the run \"{}\", by which its error would be divided", fault,
+                                run.run.name),
+                    "give `scale`, a number > 0 by which the errors are divided instead");
+                break;
+            }
+        }
+    }
+}
+
 } // namespace
 
 std::string text_of(const RunParameter& value)
@@ -340,6 +380,9 @@ Study read_study(const fs::path& file)
     }
     if (opened.file.mistakes.empty()) {
         check_runs(root, study);
+    }
+    if (opened.file.mistakes.empty()) {
+        check_scales(root, study);
     }
     opened.file.expect_no_mistakes();
     study.file = file;

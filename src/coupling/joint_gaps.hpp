@@ -43,8 +43,9 @@ struct JointTables {
     std::vector<BodyJoints> bodies;
     std::vector<std::pair<double, int>> along_x; // bodies by the lower end of their spheres
     double largest_reach = 0;
-    LatticeSums sums; // of the fluid
-    double reach = 0; // widest gap that may belong to a joint [m]
+    LatticeSums sums;           // of the fluid
+    double reach = 0;           // widest gap that may belong to a joint [m]
+    std::vector<int> first_cut; // memory of `cut_slip_of_films`, by row of bodies
 };
 
 /// The tables of a scene whose joints are at most `reach` wide.

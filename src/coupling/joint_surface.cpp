@@ -236,6 +236,24 @@ bool holds(const ConvexPiece& piece, const Vec3& point, double margin)
     return between && (piece.round == ConvexPiece::Round::none || across <= piece.radius + margin);
 }
 
+double distance(const RaySolid& solid, const Vec3& point)
+{
+    double least = infinity;
+    for (const ConvexPiece& piece : solid.pieces) {
+        double most = -infinity;
+        for (const HalfSpaceOf& side : piece.sides) {
+            most = std::max(most, side.normal.dot(point) - side.offset);
+        }
+        const Vec3 r = point - piece.middle;
+        if (piece.round != ConvexPiece::Round::none) {
+            const bool ball = piece.round == ConvexPiece::Round::ball;
+            most = std::max(most, (ball ? r.norm() : std::hypot(r.y(), r.z())) - piece.radius);
+        }
+        least = std::min(least, most);
+    }
+    return least;
+}
+
 std::optional<RayHit> enters(const RaySolid& solid, const Ray& ray)
 {
     std::optional<RayHit> first;

@@ -65,6 +65,10 @@ std::optional<HalfSpaceOf> side_through(const Polytope& shape, const std::vector
 /// Whether a point lies within a piece, or less than `margin` off.
 bool holds(const ConvexPiece& piece, const Vec3& point, double margin);
 
+/// Signed distance of a point from the surface [m], negative inside; exact inside convex solids,
+/// beside their edges too small.
+double distance(const RaySolid& solid, const Vec3& point);
+
 /// Where a ray in the axes of the solid first enters it, if it does.
 std::optional<RayHit> enters(const RaySolid& solid, const Ray& ray);
 

@@ -2,6 +2,7 @@
 // Seepage forces: kind and life of the joints, their loads, and the film forces that they replace.
 #include "hyoryu/coupling/seepage.hpp"
 
+#include "film_slip.hpp"
 #include "joint_pressure.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -314,6 +315,13 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             cut_films(tables.bodies[b], bodies.of[b].begin,
                       std::span(std::as_const(fluid.particles).body.id()), fluid.film_cuts);
         }
+    }
+}
+
+void cut_slip_of_films(Seepage& seepage, const std::vector<Pose>& poses, Fluid& fluid)
+{
+    if (seepage.tables) {
+        cut_slip_of_films(*seepage.tables, poses, fluid);
     }
 }
 

@@ -9,9 +9,6 @@ namespace hyoryu {
 /// Less water than this is dry: nothing is emitted [spacings].
 inline constexpr real least_rows = 1.5;
 
-/// From the plane to the middle of the strip in which the depth is measured [spacings].
-inline constexpr real strip_half = 4;
-
 /// The flow of the station of a lane, of the nearest one beside the window.
 const StationFlow& station_of(const Carpet& carpet, int lane);
 

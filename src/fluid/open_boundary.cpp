@@ -26,38 +26,44 @@ int OpenSide::lane(const Vec3& x, real spacing) const
     return repeats ? (k % lanes() + lanes()) % lanes() : k;
 }
 
-int OpenSide::open_lanes(int station) const
-{
-    const int begin = station * station_lanes;
-    const int end = std::min(begin + station_lanes, lanes());
-    return static_cast<int>(
-        std::count_if(bed.begin() + begin, bed.begin() + end, [](real z) { return z < infinity; }));
-}
-
 namespace {
 
-real mean_of_open(const OpenSide& side, const std::vector<real>& ground, int station)
+// The open lanes of a station at a level, and the sum of a ground over them.
+struct OpenLanes {
+    int count = 0;
+    real ground = 0;
+    real mean() const { return count > 0 ? ground / count : infinity; }
+};
+
+OpenLanes open_at(const OpenSide& side, const std::vector<real>& ground, int station, real level)
 {
     const int begin = station * side.station_lanes;
     const int end = std::min(begin + side.station_lanes, side.lanes());
-    real total = 0;
+    OpenLanes open;
     for (int lane = begin; lane < end; ++lane) {
-        total += side.bed[at(lane)] < infinity ? ground[at(lane)] : 0;
+        if (side.is_open(lane, level)) {
+            ++open.count;
+            open.ground += ground[at(lane)];
+        }
     }
-    const int count = side.open_lanes(station);
-    return count > 0 ? total / count : infinity;
+    return open.count > 0 || level == infinity ? open : open_at(side, ground, station, infinity);
 }
 
 } // namespace
 
-real OpenSide::station_bed(int station) const
+int OpenSide::open_lanes(int station, real level) const
 {
-    return mean_of_open(*this, bed, station);
+    return open_at(*this, bed, station, level).count;
+}
+
+real OpenSide::station_bed(int station, real level) const
+{
+    return open_at(*this, bed, station, level).mean();
 }
 
 real OpenSide::station_strip(int station) const
 {
-    return mean_of_open(*this, strip, station);
+    return open_at(*this, strip, station, -infinity).mean();
 }
 
 namespace {
@@ -338,9 +344,10 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
         }
         for (int c = 0; c < side.stations(); ++c) {
             const StationFlow& flow = carpet.stations[at(c)];
-            const real width = fluid.parameters.dimensions == 2 ? 1 : side.open_lanes(c) * dp;
+            const real width =
+                fluid.parameters.dimensions == 2 ? 1 : side.open_lanes(c, flow.level) * dp;
             if (width > 0) {
-                const real depth = std::max(flow.level - side.station_bed(c), real(0));
+                const real depth = std::max(flow.level - side.station_bed(c, flow.level), real(0));
                 const bool wet = depth >= least_rows * dp || flow.velocity < 0;
                 carpet.volume_asked += wet ? dt * depth * flow.velocity * width : 0;
                 fastest = std::max(fastest, std::abs(flow.velocity));

@@ -9,14 +9,13 @@
 
 namespace hyoryu {
 
-namespace {
-
-// Hat function of the strip: the sum over a lattice gives the depth independent of its phase.
-real strip_weight(real s, real spacing)
+real strip_weight(real distance, real spacing)
 {
     const real a = strip_half * spacing;
-    return std::max(real(0), 1 - std::abs(s - a) / a);
+    return std::max(real(0), 1 - std::abs(distance - a) / a);
 }
+
+namespace {
 
 struct StripSums {
     real volume = 0, moved = 0; // of the water: sum of w V and of w V u
@@ -96,14 +95,105 @@ real strip_area(const Fluid& fluid, const OpenSide& side, int station)
     return strip_half * dp * width;
 }
 
-real depth_of(const StripSums& sums, real area)
-{
-    return area > 0 ? (sums.volume + sums.displaced) / area : 0;
-}
+// What a station measures, without a filter.
+struct Measured {
+    real depth = 0, drift = 0; // [m], [m/s]
+};
 
 real drift_of(const StripSums& sums)
 {
     return sums.volume > 0 ? sums.moved / sums.volume : 0;
+}
+
+Measured measured_without_walls(const StripSums& sums, real area)
+{
+    return {area > 0 ? (sums.volume + sums.displaced) / area : 0, drift_of(sums)};
+}
+
+// Stations whose water is measured together.
+struct Pool {
+    std::vector<int> stations;
+    StripSums sums;
+    real area = 0; // without walls [m2], [m]
+};
+
+// A level of a pool, and the space there for each metre of rise.
+struct PoolLevel {
+    real level = 0, area = 0;
+};
+
+// The level to which a volume fills the space of a pool; above the levels of the table the space
+// goes on as it is at its top.
+PoolLevel level_of(const OpenSide& side, const Pool& pool, real volume)
+{
+    const StripSpace& levels = side.space.front();
+    const auto below = [&](std::size_t k) {
+        real total = 0;
+        for (const int c : pool.stations) {
+            total += side.space[at(c)].below[k];
+        }
+        return total;
+    };
+    std::size_t low = 0;
+    std::size_t high = levels.below.size() - 1;
+    while (high - low > 1) { // the last interval that begins at less than the volume
+        const std::size_t middle = (low + high) / 2;
+        (below(middle) < volume ? low : high) = middle;
+    }
+    const real rise = below(high) - below(low);
+    const real part = rise > 0 ? (volume - below(low)) / rise : 0;
+    return {levels.low + (static_cast<real>(low) + part) * levels.step, rise / levels.step};
+}
+
+// The stations from -`reach` to +`reach` about one.
+Pool pool_about(const Fluid& fluid, const OpenSide& side, std::span<const StripSums> sums, int c,
+                int reach)
+{
+    Pool pool;
+    const int count = side.stations();
+    const bool all = 2 * reach + 1 >= count;
+    for (int k = all ? 0 : c - reach; k <= (all ? count - 1 : c + reach); ++k) {
+        const int m = side.repeats ? (k + count) % count : k;
+        if (m >= 0 && m < count) {
+            pool.stations.push_back(m);
+            pool.sums.volume += sums[at(m)].volume;
+            pool.sums.moved += sums[at(m)].moved;
+            pool.sums.displaced += sums[at(m)].displaced;
+            pool.area += strip_area(fluid, side, m);
+        }
+    }
+    return pool;
+}
+
+// The measurement where walls stand in the strip. The level is that to which the water fills the
+// space between them; where this is less than half of the strip, with its neighbours, since the
+// fewer particles the greater their share in an error. The velocity is that of the same discharge
+// through a section without walls, as at the plane.
+Measured measured_beside_walls(const Fluid& fluid, const OpenSide& side,
+                               std::span<const StripSums> sums, int c)
+{
+    const real half = strip_area(fluid, side, c) / 2;
+    for (int reach = 0; half > 0; ++reach) {
+        const Pool pool = pool_about(fluid, side, sums, c, reach);
+        const real volume = pool.sums.volume + pool.sums.displaced;
+        const PoolLevel found = level_of(side, pool, volume);
+        if (found.area < half && std::ssize(pool.stations) < side.stations() &&
+            reach < side.stations()) {
+            continue;
+        }
+        const real depth = volume > 0 ? found.level - side.station_strip(c) : 0;
+        const real open = depth * pool.area;
+        const real share = open > volume ? volume / open : 1;
+        return {depth, share * drift_of(pool.sums)};
+    }
+    return {};
+}
+
+Measured measured(const Fluid& fluid, const OpenSide& side, std::span<const StripSums> sums, int c)
+{
+    const bool has_wall = !side.space.empty() && side.space[at(c)].has_wall;
+    return has_wall ? measured_beside_walls(fluid, side, sums, c)
+                    : measured_without_walls(sums[at(c)], strip_area(fluid, side, c));
 }
 
 } // namespace
@@ -121,8 +211,9 @@ void measure_start(const Fluid& fluid, OpenBoundary& open)
             add_displaced(fluid, carpet, sums);
             for (int c = 0; c < carpet.side.stations(); ++c) {
                 StationFlow& flow = carpet.stations[at(c)];
-                flow.depth = depth_of(sums[at(c)], strip_area(fluid, carpet.side, c));
-                flow.drift = drift_of(sums[at(c)]);
+                const Measured now = measured(fluid, carpet.side, sums, c);
+                flow.depth = now.depth;
+                flow.drift = now.drift;
             }
         }
     }
@@ -139,9 +230,9 @@ void measure_strips(const Fluid& fluid, OpenBoundary& open, real dt)
             const real tau = strip_half * dp /
                              std::sqrt(fluid.parameters.gravity.norm() * std::max(flow.depth, dp));
             const real share = -std::expm1(-dt / tau);
-            const real depth = depth_of(sums[at(c)], strip_area(fluid, carpet.side, c));
-            flow.depth += share * (depth - flow.depth);
-            flow.drift += share * (drift_of(sums[at(c)]) - flow.drift);
+            const Measured now = measured(fluid, carpet.side, sums, c);
+            flow.depth += share * (now.depth - flow.depth);
+            flow.drift += share * (now.drift - flow.drift);
         }
     }
 }

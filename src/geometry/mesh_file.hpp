@@ -8,6 +8,9 @@ namespace hyoryu {
 
 /// Triangles that a mesh may have; more is a mistake or an attack.
 inline constexpr long long most_triangles = 5000000;
+/// Coordinates beyond it are a mistake. Corners are merged within a part of the diagonal of the
+/// mesh, so that one of them would make one corner of all others [m].
+inline constexpr double farthest_corner = 1e8;
 
 enum class MeshKind { stl_text, stl_binary, obj };
 

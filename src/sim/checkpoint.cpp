@@ -7,6 +7,7 @@
 
 #include "state.hpp"
 #include "tiles_state.hpp"
+#include "work_state.hpp"
 
 #include <fmt/format.h>
 
@@ -370,18 +371,22 @@ Snapshot save(const Simulation& sim)
     Snapshot snapshot;
     StateWriter state(snapshot);
     describe_all(state, sim);
+    write_work(state, sim, count_visits(sim));
     return snapshot;
 }
 
 StateOnDemand state_of(const Simulation& sim)
 {
+    const double visits = count_visits(sim);
     StateSizes all;
     describe_all(all, sim);
+    write_work(all, sim, visits);
     return {.bytes = std::move(all.bytes),
             .array =
-                [&sim](const std::string& name) {
+                [&sim, visits](const std::string& name) {
                     StateArray one(name);
                     describe_all(one, sim);
+                    write_work(one, sim, visits);
                     return std::move(one.column);
                 },
             .texts = {}};
@@ -401,6 +406,7 @@ void restore_share(Simulation& sim, const Snapshot& snapshot)
 {
     StateReader state(snapshot);
     describe_all(state, sim);
+    read_work(snapshot, sim);
     sim.last.reset();
 }
 

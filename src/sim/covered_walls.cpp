@@ -5,51 +5,44 @@
 #include "hyoryu/scene/covered_share.hpp"
 #include "hyoryu/sim/simulation.hpp"
 
-#include <span>
+#include <algorithm>
 
 namespace hyoryu {
 
 namespace {
 
-// For each wall that moves, the fixed ones that are near it; `ways`: of the walls since time 0 [m].
-std::vector<std::vector<int>> near_walls(const Simulation& sim, const std::vector<Vec3>& ways)
+constexpr real uncovered = -1; // no moving wall is near
+
+// Notes the displaced masses of the rows that a moving wall may reach before the next lists.
+void find_rows(Simulation& sim, const std::vector<MovedWall>& covers)
 {
-    const std::vector<SolidSurface>& surfaces = sim.barrier->solids;
-    const bool periodic = periods_of(sim.scene).length != Vec3(0, 0, 0);
-    std::vector<std::vector<int>> near(sim.scene.walls.size());
-    for (std::size_t w = 0; w < near.size(); ++w) {
-        if (!moves(sim.scene.walls[w].motion)) {
-            continue;
+    const FixedWalls& walls = sim.fluid->fixed_walls;
+    const Store& store = sim.fluid->particles.wall;
+    const auto x = store[field::position];
+    const auto id = store.id();
+    const Periods periods = periods_of(sim.scene);
+    const double margin = 2 * sim.scene.spacing; // lists are made anew after less
+    sim.covered.mass.assign(at(store.size() - walls.moving_rows), uncovered);
+    parallel_for(walls.moving_rows, store.size(), [&](Index row) {
+        if (uncovered_share(covers, x[row], 2 * margin, periods) < 1) {
+            const auto index = static_cast<std::int32_t>(id[row] - walls.first_number);
+            sim.covered.mass[at(row - walls.moving_rows)] = walls.make(index).displaced_mass;
         }
-        const Vec3 centre = surfaces[w].centre + ways[w];
-        const double reach = surfaces[w].reach + sim.scene.spacing;
-        for (const int k : sim.covered.fixed) {
-            const SolidSurface& solid = surfaces[at(k)];
-            // An image of a wall may be near fixed ones that the wall itself is far from.
-            if (!(reach < infinity) || periodic ||
-                nearest_from_centre(solid, centre - solid.centre).distance < reach) {
-                near[w].push_back(k);
-            }
-        }
-    }
-    return near;
+    });
 }
 
-// Displaced masses of the rows of moving walls with the walls at `ways`.
-void set_masses(Simulation& sim, const std::vector<Vec3>& ways)
+void set_masses(Simulation& sim, const std::vector<MovedWall>& covers)
 {
-    const std::vector<std::vector<int>> near = near_walls(sim, ways);
     Store& store = sim.fluid->particles.wall;
+    const auto x = store[field::position];
     const auto mass = store[field::displaced_mass];
-    const auto owner = store.owner();
-    const std::span<const SolidSurface> surfaces = sim.barrier->solids;
+    const Index first = sim.fluid->fixed_walls.moving_rows;
     const Periods periods = periods_of(sim.scene);
-    parallel_for(0, static_cast<Index>(sim.covered.mass.size()), [&](Index i) {
-        const std::size_t wall = at(-1 - owner[i]);
-        const Vec3 place = sim.wall_start[at(i)] + ways[wall]; // not an image in a periodic domain
-        mass[i] = sim.covered.mass[at(i)] *
-                  static_cast<real>(
-                      uncovered_share(surfaces, near[wall], place, sim.scene.spacing, periods));
+    parallel_for(first, store.size(), [&](Index row) {
+        if (const real own = sim.covered.mass[at(row - first)]; own != uncovered) {
+            const double share = uncovered_share(covers, x[row], sim.scene.spacing, periods);
+            mass[row] = own * static_cast<real>(share);
+        }
     });
 }
 
@@ -57,35 +50,33 @@ void set_masses(Simulation& sim, const std::vector<Vec3>& ways)
 
 CoveredWalls covered_walls(const Simulation& sim)
 {
+    const auto is_moving = [](const Wall& wall) { return moves(wall.motion); };
     CoveredWalls covered;
-    std::vector<int> fixed = fixed_walls_of(sim.scene);
-    if (sim.fluid->moving_walls && !fixed.empty()) {
-        covered.fixed = std::move(fixed);
-        const auto mass = sim.fluid->particles.wall[field::displaced_mass];
-        covered.mass.assign(mass.begin(), mass.begin() + sim.fluid->fixed_walls.moving_rows);
-    }
+    covered.needed = sim.fluid->moving_walls && !std::ranges::all_of(sim.scene.walls, is_moving);
     return covered;
 }
 
 void cover_walls(Simulation& sim, double time)
 {
-    if (sim.covered.mass.empty()) {
+    CoveredWalls& covered = sim.covered;
+    if (!covered.needed) {
         return;
     }
     std::vector<Vec3> ways;
     for (const Wall& wall : sim.scene.walls) {
         ways.push_back(displacement(wall.motion, time));
     }
-    if (ways != sim.covered.ways) {
-        set_masses(sim, ways);
-        sim.covered.ways = std::move(ways);
+    const bool fresh = covered.builds != sim.fluid->neighbours.builds;
+    if (!fresh && ways == covered.ways) {
+        return;
     }
-    Store& store = sim.fluid->particles.wall;
-    const auto rho = store[field::density];
-    const auto mass = store[field::displaced_mass];
-    const auto V = store[field::volume];
-    parallel_for(0, static_cast<Index>(sim.covered.mass.size()),
-                 [&](Index i) { V[i] = mass[i] / rho[i]; });
+    const std::vector<MovedWall> covers = moving_covers(sim.scene, sim.barrier->solids, time);
+    if (fresh) {
+        find_rows(sim, covers);
+    }
+    set_masses(sim, covers);
+    covered.builds = sim.fluid->neighbours.builds;
+    covered.ways = std::move(ways);
 }
 
 } // namespace hyoryu

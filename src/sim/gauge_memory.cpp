@@ -40,29 +40,41 @@ void forget_before(FilterMemory& memory, double time)
     memory.values.erase(memory.values.begin(), memory.values.begin() + count);
 }
 
-double exponential(FilterMemory& memory, double time, double value)
+// A row and the one before it: the reading stands for the time between them.
+struct RowTimes {
+    double before = 0, now = 0; // [s]
+};
+
+// Mean of all readings so far with the weights exp(-age/window) over the time that each stands for:
+// the sum of x_k (exp(-(t - t_k)/w) - exp(-(t - t_k-1)/w)), divided by that of the weights. In a
+// checkpoint of an earlier version the weight is missing; it counted as 1.
+double exponential(FilterMemory& memory, const RowTimes& row, double value)
 {
-    if (memory.times.empty()) {
-        memory.times = {time};
-        memory.values = {value};
-    } else {
-        const double share = -std::expm1(-(time - memory.times.front()) / memory.window);
-        memory.values.front() += share * (value - memory.values.front());
-        memory.times.front() = time;
+    double mean = value;
+    double weight = -std::expm1(-(row.now - row.before) / memory.window);
+    if (!memory.values.empty()) {
+        const double before = memory.values.size() > 1 ? memory.values[1] : 1.0;
+        const double share = weight;
+        weight += before * std::exp(-(row.now - memory.times.front()) / memory.window);
+        if (weight > 0) {
+            mean = memory.values.front() + share / weight * (value - memory.values.front());
+        }
     }
-    return memory.values.front();
+    memory.times = {row.now, row.now};
+    memory.values = {mean, weight};
+    return mean;
 }
 
 // A sample that is not a number (a dry gauge) is not stored.
-double filtered(FilterMemory& memory, double time, double value)
+double filtered(FilterMemory& memory, const RowTimes& row, double value)
 {
     const bool wet = !std::isnan(value);
     if (memory.filter == GaugeFilter::exponential) {
-        return wet ? exponential(memory, time, value) : value;
+        return wet ? exponential(memory, row, value) : value;
     }
-    forget_before(memory, time - memory.window);
+    forget_before(memory, row.now - memory.window);
     if (wet) {
-        memory.times.push_back(time);
+        memory.times.push_back(row.now);
         memory.values.push_back(value);
     }
     if (memory.values.empty()) {
@@ -73,6 +85,12 @@ double filtered(FilterMemory& memory, double time, double value)
     }
     return std::accumulate(memory.values.begin(), memory.values.end(), 0.0) /
            static_cast<double>(memory.values.size());
+}
+
+// Before the first step nothing is known of forces: their filters begin after it.
+bool is_known(const Simulation& sim, const Gauge& gauge)
+{
+    return gauge.type != GaugeType::force || sim.clock.step > 0;
 }
 
 } // namespace
@@ -95,14 +113,17 @@ std::vector<double> next_gauge_row(Simulation& sim)
 {
     const std::vector<double> raw = read_gauges(sim);
     std::vector<double> row;
+    const RowTimes times{sim.gauges.last_row, sim.clock.time};
     auto memory = sim.gauges.filters.begin();
     std::size_t first = 0;
     for (const Gauge& gauge : sim.scene.gauges) {
+        const bool known = is_known(sim, gauge);
         const std::size_t count = raw_columns(gauge, sim.scene.dimensions).size();
         row.insert(row.end(), raw.begin() + static_cast<std::ptrdiff_t>(first),
                    raw.begin() + static_cast<std::ptrdiff_t>(first + count));
         for (std::size_t k = 0; k < filtered_columns(gauge); ++k) {
-            row.push_back(filtered(*memory++, sim.clock.time, raw[first + k]));
+            FilterMemory& own = *memory++;
+            row.push_back(known ? filtered(own, times, raw[first + k]) : raw[first + k]);
         }
         first += count;
     }

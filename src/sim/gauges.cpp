@@ -37,6 +37,31 @@ std::vector<Table::Head> gauge_heads(const Scene& scene)
     return heads;
 }
 
+namespace {
+
+// Fronts are those of the fluid in the domain, without the carpets beyond its open sides.
+void leave_out_carpets(const Simulation& sim, std::vector<GaugeTerms>& terms)
+{
+    const Fluid& fluid = *sim.fluid;
+    const auto x = fluid.particles.fluid[field::position];
+    for (std::size_t k = 0; k < terms.size() && sim.open.runs(); ++k) {
+        const Gauge& gauge = sim.scene.gauges[k];
+        if (gauge.type != GaugeType::front) {
+            continue;
+        }
+        double& place = terms[k].farthest;
+        place = -infinity;
+        for (Index row = 0; row < fluid.particles.fluid.size(); ++row) {
+            if (x[row][gauge.axis] > place &&
+                !is_behind(sim.open.boundary, x[row], fluid.parameters.spacing)) {
+                place = x[row][gauge.axis];
+            }
+        }
+    }
+}
+
+} // namespace
+
 std::vector<double> read_gauges(const Simulation& sim)
 {
     const std::vector<Gauge>& gauges = sim.scene.gauges;
@@ -50,6 +75,7 @@ std::vector<double> read_gauges(const Simulation& sim)
         std::vector<GaugeTerms> terms(gauges.size());
         const GaugeSearch search = make_gauge_search(fluid, gauges);
         for_gauges([&](Index k) { terms[at(k)] = terms_of(fluid, search, gauges[at(k)]); });
+        leave_out_carpets(sim, terms);
         if (fluid.ghosts) {
             gather_terms(fluid.ghosts->comm, terms);
         }

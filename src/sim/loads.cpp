@@ -14,6 +14,9 @@ void begin_loads(Simulation& sim)
     const SumUnits units = sum_units(sim.fluid->parameters);
     const FixedUnit f = units.force;
     const FixedUnit t = units.torque;
+    if (has_seepage(sim)) {
+        cut_slip_of_films(sim.seepage, sim.poses, *sim.fluid);
+    }
     if constexpr (is_built<BodyLoad>) {
         collect_loads(*sim.fluid, sim.poses, loads.of_bodies);
     } else {

@@ -18,6 +18,7 @@ Carpet make_carpet(const Scene& scene, const OpenSettings& open)
 {
     Carpet carpet;
     carpet.side = open_side(scene, open);
+    carpet.side.space = strip_spaces(scene, open, carpet.side);
     carpet.power_profile = open.profile == FlowProfile::power;
     carpet.stations.resize(at(carpet.side.stations()));
     carpet.carry.assign(at(carpet.side.lanes()), 0);
@@ -32,19 +33,44 @@ double place_of(const OpenSide& side, int station, double spacing)
     return side.first + 0.5 * (begin + end) * spacing;
 }
 
+// The level that a station measures.
+double level_at(const Carpet& carpet, int station)
+{
+    return carpet.side.station_strip(station) + carpet.stations[at(station)].depth;
+}
+
+// Width of a window / width of it that no wall at the plane closes: a discharge is that of the
+// whole window.
+double closed_factor(const Carpet& carpet)
+{
+    if (carpet.side.wall.empty()) {
+        return 1;
+    }
+    int open = 0;
+    for (int c = 0; c < carpet.side.stations(); ++c) {
+        open += carpet.side.open_lanes(c, level_at(carpet, c));
+    }
+    return open > 0 ? static_cast<double>(carpet.side.lanes()) / open : 1;
+}
+
 // Sets the flow of every station at a time, from the prescribed flow and its own measurements.
 void set_flows(Simulation& sim, double time)
 {
     const Scene& scene = sim.scene;
     for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
         Carpet& carpet = sim.open.boundary.carpets[k];
+        const double factor = closed_factor(carpet);
         for (int c = 0; c < carpet.side.stations(); ++c) {
-            const StationGround ground{carpet.side.station_bed(c), carpet.side.station_strip(c)};
+            const StationGround ground{carpet.side.station_bed(c, level_at(carpet, c)),
+                                       carpet.side.station_strip(c)};
             if (!(ground.bed < infinity)) {
                 continue;
             }
-            const AskedFlow asked = asked_at(scene.open[k], place_of(carpet.side, c, scene.spacing),
-                                             time, sim.open.still[k][at(c)], scene.dimensions);
+            AskedFlow asked = asked_at(scene.open[k], place_of(carpet.side, c, scene.spacing), time,
+                                       sim.open.still[k][at(c)], scene.dimensions);
+            if (asked.discharge) {
+                *asked.discharge *= factor;
+            }
             StationFlow& flow = carpet.stations[at(c)];
             flow = flow_at(asked, flow, ground, scene.gravity.norm());
         }
@@ -91,10 +117,8 @@ void start_open(Simulation& sim)
     for (const Carpet& carpet : open.carpets) {
         std::vector<StillWater>& still = sim.open.still.emplace_back();
         for (int c = 0; c < carpet.side.stations(); ++c) {
-            const double depth = carpet.stations[at(c)].depth;
-            still.push_back(
-                {carpet.side.station_strip(c) + depth,
-                 std::max(carpet.side.station_strip(c) + depth - carpet.side.station_bed(c), 0.0)});
+            const double level = level_at(carpet, c);
+            still.push_back({level, std::max(level - carpet.side.station_bed(c, level), 0.0)});
         }
     }
     set_flows(sim, 0);
@@ -147,16 +171,17 @@ OpenReading reading_of(const Simulation& sim, std::size_t k)
     double ground = 0;
     double open = 0; // width of all stations
     for (int c = 0; c < carpet.side.stations(); ++c) {
-        const int lanes = carpet.side.open_lanes(c);
+        const StationFlow& flow = carpet.stations[at(c)];
+        const int lanes = carpet.side.open_lanes(c, flow.level);
         const double b = f.dimensions == 2 ? 1 : lanes * f.spacing;
         if (lanes == 0) {
             continue;
         }
-        const StationFlow& flow = carpet.stations[at(c)];
-        const double depth = std::max(flow.level - carpet.side.station_bed(c), 0.0);
+        const double bed = carpet.side.station_bed(c, flow.level);
+        const double depth = std::max(flow.level - bed, 0.0);
         const double wet = depth > f.spacing / 4 ? b : 0;
         open += b;
-        ground += b * carpet.side.station_bed(c);
+        ground += b * bed;
         width += wet;
         area += b * depth;
         reading.level += wet * flow.level;

@@ -136,10 +136,10 @@ void step(Simulation& sim)
         }
         drift(fluid, dt / 2);
         move_walls(sim, sim.clock.time + dt / 2, sim.clock.time + dt / 2);
-        cover_walls(sim, sim.clock.time + dt / 2);
         fly_bodies(sim, dt / 2);
         sim.timer.begin("neighbours");
         update_lists(sim);
+        cover_walls(sim, sim.clock.time + dt / 2);
         sim.timer.begin("pressure");
         update_pressure(fluid);
         seep(sim, dt);

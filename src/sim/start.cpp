@@ -125,7 +125,6 @@ void add_fluid(Simulation& sim, Fluid fluid, const Filling& filling)
     sim.wall_start.assign(of_walls.begin(), of_walls.end());
     sim.fluid = std::move(fluid);
     sim.covered = covered_walls(sim);
-    cover_walls(sim, 0);
 }
 
 void add_body_points(Simulation& sim, const std::vector<Aggregate>& bodies)

@@ -23,6 +23,7 @@
 #include <vtksys/SystemTools.hxx>
 #endif
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -90,6 +91,20 @@ void check_surface(vtkPolyData& surface, const std::filesystem::path& file)
     }
 }
 
+/// Before corners are merged.
+void check_range(vtkPolyData& surface, const std::filesystem::path& file, double scale)
+{
+    for (vtkIdType k = 0; k < surface.GetNumberOfPoints(); ++k) {
+        const Vec3 p = scale * Eigen::Map<const Vec3>(surface.GetPoint(k));
+        if (!(p.cwiseAbs().maxCoeff() <= farthest_corner)) {
+            refuse(file, fmt::format("has a corner at ({:.3g}, {:.3g}, {:.3g}) m, which is out of "
+                                     "range: expected at most {:.0e} m; check the numbers of the "
+                                     "file, and `scale`, the factor from them to metres",
+                                     p.x(), p.y(), p.z(), farthest_corner));
+        }
+    }
+}
+
 /// VTK distinguishes text from binary by its own rule. If it takes a text file for binary, it reads
 /// the number of triangles from the middle of the text and allocates memory for as many.
 void check_text(const std::filesystem::path& file)
@@ -123,6 +138,17 @@ vtkSmartPointer<vtkPolyData> read_surface(const std::filesystem::path& file)
     vtkSmartPointer<vtkPolyData> surface = reader->GetOutput();
     check_surface(*surface, file);
     return surface;
+}
+
+/// The largest coordinate, of any sign.
+double farthest_of(vtkPolyData& surface)
+{
+    double farthest = 0;
+    for (vtkIdType k = 0; k < surface.GetNumberOfPoints(); ++k) {
+        const Eigen::Map<const Vec3> p(surface.GetPoint(k));
+        farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+    }
+    return farthest;
 }
 
 /// Makes triangles of the faces and merges coincident corners.
@@ -159,8 +185,16 @@ Mesh read_mesh(const std::filesystem::path& file, double scale)
     }
     const auto surface =
         kind == MeshKind::obj ? read_surface<vtkOBJReader>(file) : read_surface<vtkSTLReader>(file);
+    check_range(*surface, file, scale);
     Mesh mesh = to_mesh(*cleaned(*surface), scale);
-    if (mesh.triangles.empty() || static_cast<long long>(mesh.triangles.size()) > most_triangles) {
+    if (mesh.triangles.empty()) {
+        refuse(file,
+               fmt::format("has no triangle whose corners differ when they are read in single "
+                           "precision; its coordinates reach {:.7g}: move it near their "
+                           "origin",
+                           farthest_of(*surface)));
+    }
+    if (static_cast<long long>(mesh.triangles.size()) > most_triangles) {
         refuse(file, fmt::format("has {} triangles, expected 1 .. {}", mesh.triangles.size(),
                                  most_triangles));
     }

@@ -133,6 +133,29 @@ TEST_F(StudyFiles, AQuantityIsHeldAgainstOneThing)
               std::string::npos);
 }
 
+// The errors of no run could be divided by it: told before the first run.
+TEST_F(StudyFiles, AnExpectedZeroNeedsAScale)
+{
+    const std::string quantity = "[[quantity]]\nname = \"x\"\nvalue = \"x\"\nmeasure = \"last\"\n";
+    const std::string start = head + "[constants]\ng = 9.81\n" + step + quantity;
+    for (const char* zero : {"0", "0.0", "\"0\"", "\"g - 9.81\"", "\"step - 0.01\""}) {
+        const std::string expected = fmt::format("expected = {}\n", zero);
+        const std::string told = mistake(start + expected);
+        EXPECT_NE(told.find("12:12: quantity[0].expected: is 0 in the run \"step=0.0"),
+                  std::string::npos)
+            << zero << ": " << told;
+        EXPECT_NE(told.find("give `scale`"), std::string::npos) << told;
+        EXPECT_EQ(mistake(start + expected + "scale = \"2*g\"\n"), "");
+        EXPECT_NE(mistake(start + expected + "scale = \"step - 1\"\n").find("scale: is -0.98"),
+                  std::string::npos);
+    }
+    EXPECT_EQ(mistake(start + "expected = \"-g\"\n"), "");
+    EXPECT_EQ(mistake(start + "expected = \"stages.forces\"\n"), ""); // a name of results
+    const std::string difference =
+        "[[quantity]]\nname = \"y\"\nvalue = \"x\"\nmeasure = \"rms_error\"\n";
+    EXPECT_EQ(mistake(head + step + difference + "expected = 0\n"), "");
+}
+
 TEST_F(StudyFiles, MistakesAreAllToldWithTheirPlace)
 {
     const Texts all = mistakes(head + "mod = \"grid\"\nrepeats = 0\n" +

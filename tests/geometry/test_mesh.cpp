@@ -191,6 +191,21 @@ TEST_F(MeshFile, OfGarbageIsRefusedInSilence)
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+// One corner far away would make one of all others when corners are merged.
+TEST_F(MeshFile, WithACornerOutOfRangeIsRefused)
+{
+    for (const std::string far : {"1e30", "-1e12", "3e8"}) {
+        std::string text = text_stl(outward);
+        text.replace(text.find("1.000000"), 8, far);
+        const std::string why = refusal(write("a.stl", text));
+        EXPECT_NE(why.find("out of range"), std::string::npos) << far << ": " << why;
+        EXPECT_NE(why.find("`scale`"), std::string::npos) << why;
+    }
+    const auto file = write("b.obj", "v 1e12 0 0\nv 0 1e12 0\nv 0 0 1e12\nv 0 0 0\nf 1 2 3\n"
+                                     "f 1 4 2\nf 2 4 3\nf 3 4 1\n");
+    EXPECT_NEAR(solid_properties(read_mesh(file, 1e-12)).volume, 1.0 / 6, 1e-6);
+}
+
 TEST_F(MeshFile, OfTextThatVtkTakesForBinaryIsRefused)
 {
     std::string name; // more of it than the twentieth part of 256 bytes that VTK lets pass

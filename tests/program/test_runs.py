@@ -64,6 +64,38 @@ class Runs(ProgramTest):
                 ratio = cost[what]["predicted"] / cost[what]["measured"]
                 self.assertAlmostEqual(ratio, 1, delta=0.25, msg=f"{name} {what}")
 
+    def test_the_disk_of_a_short_run_with_gauges_and_an_open_side_is_foretold_to_a_quarter(self):
+        side = """[[open]]
+name = "sea"
+min = [0.0, 0.0, 0.0]
+max = [0.0, 0.5, 1.0]
+into = "+x"
+kind = "absorb"
+"""
+        gauge = """[[gauge]]
+name = "force_{}"
+type = "force"
+on = "{}"
+filter = "exponential"
+window = 0.05
+"""
+        text = FLOOD.replace('open = ["+z"]', 'open = ["+z", "-x"]').replace("[fluid]", '[fluid]\ngradient = "corrected"')
+        text += side + gauge.format(0, "crate") + gauge.format(1, "basin") + gauge.format(2, "crate")
+        self.run_flood("out", "--set", "time.end=0.05", "--set", "output.every=0.025", "--quiet", text=text)
+        disk = json.loads((self.dir / "out/summary.json").read_text())["cost"]["disk_bytes"]
+        self.assertAlmostEqual(disk["predicted"] / disk["measured"], 1, delta=0.25)
+
+    def test_the_summary_of_a_resumed_run_counts_all_steps(self):
+        settings = ("--set", "time.end=0.1", "--set", "output.every=0.02")
+        self.run_flood("whole", *settings)
+        self.run_flood("parts", *settings, "--until", "0.03")
+        self.run_flood("parts", *settings, "--resume", "--until", "0.07")
+        self.run_flood("parts", *settings, "--resume")
+        whole, parts = (json.loads((self.dir / out / "summary.json").read_text()) for out in ("whole", "parts"))
+        for key in ("steps", "steps_by_limit", "pair_interactions"):
+            self.assertEqual(parts[key], whole[key], key)
+        self.assertEqual(sum(parts["steps_by_limit"].values()), parts["steps"])
+
     def test_what_bodies_alone_cost_is_measured_before_the_run(self):
         self.call("run", CASES / "cradle" / "case.toml", "-o", "out", "--quiet")
         plan = json.loads((self.dir / "out/plan.json").read_text())

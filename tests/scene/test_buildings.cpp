@@ -217,6 +217,61 @@ TEST_F(BuildingFiles, MistakesAreToldWithTheirPlace)
               std::string::npos);
 }
 
+TEST_F(BuildingFiles, HeightsMayBeTextsInMetres)
+{
+    for (const char* text : {"12.5", "12.5 m", " 12.5m", "1.25e1 m "}) {
+        write("b.geojson", feature(fmt::format("{{\"h\": \"{}\"}}", text), square));
+        const Scene scene = read(case_of(flat, "height = \"h\""));
+        EXPECT_EQ(mesh_of(scene.walls[1]).prism->top, 12.5) << text;
+    }
+    for (const auto& [text, why] :
+         {std::pair("40 ft", "only the unit m may follow"),
+          std::pair("12-15", "only the unit m may follow"), std::pair("12,5 m", "decimal point"),
+          std::pair("m", "does not begin with a finite number"),
+          std::pair("", "does not begin with a finite number"),
+          std::pair("-2 m", "expected a height > 0 m")}) {
+        write("b.geojson", feature(fmt::format("{{\"h\": \"{}\"}}", text), square));
+        const std::string told = fault(case_of(flat, "height = \"h\""));
+        EXPECT_NE(told.find(fmt::format("feature 1 has \"h\" = \"{}\"", text)), std::string::npos)
+            << told;
+        EXPECT_NE(told.find(why), std::string::npos) << told;
+    }
+}
+
+// Mistakes of a file hide neither each other, nor those of a further file, of debris and of gauges.
+TEST_F(BuildingFiles, TheirMistakesAreToldTogether)
+{
+    const auto at = [](double x) {
+        return fmt::format("[[[{0}, 0], [{1}, 0], [{1}, 6], [{0}, 6], [{0}, 0]]]", x, x + 8);
+    };
+    const std::string crossing = "[[[60, 0], [68, 6], [68, 0], [60, 6], [60, 0]]]";
+    const std::string named = feature("{\"h\": 5, \"id\": \"a,b\"}", at(0));
+    const std::string tall = feature("{\"h\": \"tall\", \"id\": \"c\"}", at(20));
+    const std::string crossed = feature("{\"h\": 5, \"id\": \"d\"}", crossing);
+    const std::string more =
+        "[[buildings]]\nfile = \"c.geojson\"\nheight = \"h\"\nname = \"id\"\n"
+        "[[debris]]\nname = \"box\"\nkind = \"container_20ft\"\narray = { count = [1, 1, 2], "
+        "pitch = [9, 9, 0.5], from = [90, 90, 9] }\n[[gauge]]\ntype = \"force\"\non = "
+        "\"nothing\"\n";
+    const auto told = [&](const std::string& first, const std::string& second) {
+        write("b.geojson", first);
+        write("c.geojson", second);
+        return fault(case_of(flat, "height = \"h\"\nname = \"id\"") + more);
+    };
+    const std::string all =
+        told(collection({named, tall, crossed}), feature("{\"h\": 5, \"id\": \"e;f\"}", at(40)));
+    for (const char* part :
+         {"\"a,b\" of a building", "\"h\" = \"tall\"", "crosses itself", "\"e;f\" of a building"}) {
+        EXPECT_NE(all.find(part), std::string::npos) << part << " is not in\n" << all;
+    }
+    // A lost building may be what the gauge means; a wrong name is known.
+    EXPECT_EQ(all.find("nothing"), std::string::npos) << all;
+    const std::string names = told(named, feature("{\"h\": 5, \"id\": \"e\"}", at(40)));
+    for (const char* part : {"\"a,b\" of a building", "a stack with a pitch of 0.5 m", "nothing"}) {
+        EXPECT_NE(names.find(part), std::string::npos) << part << " is not in\n" << names;
+    }
+}
+
 TEST_F(BuildingFiles, OtherMapsThanThatOfTheTerrainAreRefused)
 {
     const SlopingGround plane{{4e5, 4e6}, 90, 0, 0, 0};

@@ -3,11 +3,14 @@
 #include "hyoryu/scene/plan_slips.hpp"
 #include "test_case_file_support.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
+#include <sstream>
 
 #ifdef HYORYU_HAS_VTK
 
@@ -138,6 +141,48 @@ TEST_F(CaseMesh, ThatIsMissingDamagedOrOpenIsToldAtItsKey)
         EXPECT_EQ(all[0].column, 8);
         EXPECT_NE(all[0].what.find(what), std::string::npos) << all[0].what;
     }
+}
+
+// The reader rounds to 24 bits: a cube somewhere on a map is refused where that is more than a
+// hundredth of the spacing, whatever it is part of.
+TEST_F(CaseMesh, OfMapCoordinatesIsRefusedBeforeItIsRounded)
+{
+    const auto cube_at = [&](double x, double y) {
+        std::ofstream file(folder_ / "map.obj");
+        std::istringstream lines(cube);
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream words(line);
+            std::string kind;
+            std::array<double, 3> n{};
+            if (words >> kind && kind == "v" && words >> n[0] >> n[1] >> n[2]) {
+                line = fmt::format("v {} {} {}", n[0] + x, n[1] + y, n[2]);
+            }
+            file << line << '\n';
+        }
+    };
+    const auto walls = [&](double spacing) {
+        return wrong(fmt::format("[time]\nend = 1.0\n[particles]\nspacing = {}\n[[wall]]\nshape = "
+                                 "\"mesh\"\nfile = \"map.obj\"\n[[body]]\nshape = \"sphere\"\n"
+                                 "radius = 9\ndensity = 500\nposition = [0, 0, 90]\n",
+                                 spacing));
+    };
+    for (const auto& [x, y] : {std::pair(378450.3, 4072310.7), std::pair(-4072310.7, 0.0)}) {
+        cube_at(x, y);
+        for (const double spacing : {0.1, 2.0}) {
+            const auto all = walls(spacing);
+            ASSERT_EQ(all.size(), 1u) << spacing;
+            EXPECT_EQ(all[0].key, "wall[0].file");
+            EXPECT_NE(all[0].what.find("rounded by up to 0.24 m"), std::string::npos)
+                << all[0].what;
+            EXPECT_NE(all[0].hint.find("`position`"), std::string::npos) << all[0].hint;
+        }
+    }
+    cube_at(9e7, 9e7); // numbers in single precision are 8 m apart there
+    ASSERT_EQ(walls(0.1).size(), 1u);
+    EXPECT_NE(walls(0.1)[0].what.find("single precision"), std::string::npos) << walls(0.1)[0].what;
+    cube_at(1500, -900); // 0.09 mm
+    EXPECT_EQ(walls(0.1).size(), 0u);
+    EXPECT_EQ(walls(0.005).size(), 1u);
 }
 
 TEST_F(CaseMesh, InTwoDimensionsIsNotThereYet)

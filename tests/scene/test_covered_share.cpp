@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What fixed walls leave of a cell of a moving one, against places that are drawn in the cell; and
+// What moving walls leave of a cell of a fixed one, against places that are drawn in the cell; and
 // moving walls whose surface is that of a fixed wall.
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/covered_share.hpp"
@@ -39,7 +39,11 @@ double share_of(const Scene& scene, const Vec3& place)
     for (const Wall& wall : scene.walls) {
         surfaces.push_back(surface_of(wall, 1, 3));
     }
-    return uncovered_share(surfaces, fixed_walls_of(scene), place, edge, periods_of(scene));
+    std::vector<MovedWall> covers;
+    for (const SolidSurface& solid : surfaces) {
+        covers.push_back({&solid, solid.centre});
+    }
+    return uncovered_share(covers, place, edge, periods_of(scene));
 }
 
 double sampled(const Vec3& place, const std::function<bool(const Vec3&)>& in_wall)
@@ -124,7 +128,7 @@ std::vector<std::string> told_of(const std::string& sides, const std::string& wa
         "case.toml");
     std::vector<std::string> said;
     for (const Diagnostic& warning : make_plan(scene, fill(scene)).warnings) {
-        if (warning.what.find("alone acts on the water") != std::string::npos) {
+        if (warning.what.find("only the moving one acts on the water") != std::string::npos) {
             said.push_back(warning.what);
         }
     }

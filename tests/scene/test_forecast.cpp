@@ -131,6 +131,51 @@ TEST(Forecast, OfFramesFollowsTheFluidThatIsLeft)
     EXPECT_GT(half, 0.5 * all);
 }
 
+// Both checkpoints keep the correction of the gradient, six numbers, and that of the divergence
+// with its rate; frames do not.
+TEST(Forecast, OfCheckpointsHasTheColumnsOfTheCase)
+{
+    const Planned plain = planned(tank, {"fluid.gradient=plain"});
+    const Planned corrected = planned(tank, {"fluid.gradient=corrected"});
+    const double rows = 2 * static_cast<double>(plain.plan.counts.fluid);
+    EXPECT_NEAR((disk(corrected) - disk(plain)) / rows, 8 * 8, 4);
+}
+
+// Carpets are in both checkpoints, and in no frame.
+TEST(Forecast, OfAnOpenSideCountsItsCarpet)
+{
+    const std::vector<std::string> door{"wall[0].open=[\"+z\",\"-x\"]"};
+    const Planned shut = planned(tank, door);
+    const Planned open = planned(tank + R"([[open]]
+name = "sea"
+min = [0.0, 0.0, 0.0]
+max = [0.0, 0.6, 0.8]
+into = "+x"
+kind = "absorb"
+)",
+                                 door);
+    ASSERT_EQ(open.plan.open.size(), 1U);
+    const double carpet = 2 * static_cast<double>(open.plan.open[0].carpet) * 136;
+    EXPECT_GT(disk(open) - disk(shut), 0.5 * carpet);
+    EXPECT_LT(disk(open) - disk(shut), carpet + 60e3) << "with open.csv and its datasets";
+}
+
+// Each force gauge with a filter has 21 columns in gauges.csv and results.h5, and names.
+TEST(Forecast, OfShortRunsCountsGaugesAndTexts)
+{
+    std::string gauges;
+    for (int k = 0; k < 10; ++k) {
+        gauges += "[[gauge]]\nname = \"force_" + std::to_string(k) +
+                  "\"\ntype = \"force\"\non = \"basin\"\n"
+                  "filter = \"exponential\"\nwindow = 0.05\n";
+    }
+    const Planned without = planned(tank);
+    const Planned with = planned(tank + gauges, {"output.gauge_every=0.05"});
+    // Of 210 columns, three rows: 440 B around each in results.h5, 30 of its name and unit, 60 of
+    // numbers as text and 24 as numbers, twice the plan's 500 B of a gauge, four times its case.
+    EXPECT_NEAR(disk(with) - disk(without), 210 * (440 + 30 + 60 + 24) + 10 * 1400 + 10e3, 35e3);
+}
+
 TEST(Forecast, OfMemoryIsThatOfTheProgramAndWhatItHolds)
 {
     const Planned box = planned(fall);

@@ -375,6 +375,32 @@ TEST_F(SeriesFiles, FaultsNameTheLine)
     }
 }
 
+// A wall across all of the window and beyond it closes its water off; with a gap of two spacings,
+// or below the water, it does not.
+TEST(OpenSettings, AWallAcrossTheStripIsTold)
+{
+    Dice dice(77);
+    for (int n = 0; n < 9; ++n) {
+        const double gap = n % 3 == 1 ? 0.2 : 0;
+        const double top = n % 3 == 2 ? dice.between(0.1, 0.4) : dice.between(0.7, 1.5);
+        const double at = dice.between(0.15, 0.6);
+        const std::string text =
+            basin("kind = \"absorb\"\n") +
+            fmt::format("[[wall]]\nname = \"across\"\nshape = \"box\"\nmin = [{}, -0.5, -0.5]\n"
+                        "max = [{}, {}, {}]\n",
+                        at, at + dice.between(0.2, 0.8), gap > 0 ? 1 - gap : 1.5, top);
+        SCOPED_TRACE(text);
+        const Scene scene = parse_case(text, "case.toml");
+        const Plan plan = make_plan(scene, fill(scene));
+        EXPECT_EQ(std::ranges::any_of(plan.warnings,
+                                      [](const Diagnostic& warning) {
+                                          return warning.what.find("close off") !=
+                                                 std::string::npos;
+                                      }),
+                  n % 3 == 0);
+    }
+}
+
 // Windows of any place and width in space: lanes lie within the window, and the ground is that of
 // the floor and of a step in it.
 TEST(OpenSettings, TheGroundBelowAWindowIsThatOfItsWalls)

@@ -143,5 +143,20 @@ TEST(PlanUnits, WaterThatIsAllInsideWallsIsTold)
     EXPECT_TRUE(tells(text, "fluid", "all particles of the blocks lie inside walls", "`normal`"));
 }
 
+// Each basin is solid outside: the water of one lies in the other. Both are told by name.
+TEST(PlanUnits, WaterThatASecondBasinBuriesIsTold)
+{
+    const std::string text = "[time]\nend = 1\n[particles]\nspacing = 0.1\n[fluid]\n"
+                             "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, "
+                             "0.5]\n[[fluid.block]]\nshape = \"box\"\nmin = [2, 0, 0]\nmax = [3, "
+                             "1, 0.5]\n[[wall]]\nname = \"left\"\nshape = \"basin\"\nmin = [0, 0, "
+                             "0]\nmax = [1, 1, 1]\nopen = [\"+z\"]\n[[wall]]\nname = \"right\"\n"
+                             "shape = \"basin\"\nmin = [2, 0, 0]\nmax = [3, 1, 1]\nopen = "
+                             "[\"+z\"]\n";
+    EXPECT_TRUE(tells(text, "fluid.block[0]", "outside of the basin \"right\"", "one basin"));
+    EXPECT_TRUE(tells(text, "fluid.block[1]", "outside of the basin \"left\"", "one basin"));
+    EXPECT_TRUE(tells(text, "fluid.block[1]", "everything outside of a basin is solid", "box"));
+}
+
 } // namespace
 } // namespace hyoryu::test_plan_units

@@ -86,7 +86,9 @@ TEST(CheckpointFaults, EveryArrayIsNeededWithItsTypeAndLength)
     for (const auto& [name, column] : good.arrays) {
         Snapshot bad = good;
         bad.arrays.erase(name);
-        EXPECT_NE(fault_of(bad), "") << name << " is missing";
+        if (!name.starts_with("work/")) { // which earlier versions did not keep
+            EXPECT_NE(fault_of(bad), "") << name << " is missing";
+        }
         bad.arrays[name] = {name, "", 1, std::vector<float>{1.0F}};
         EXPECT_NE(fault_of(bad), "") << name << " is of another type";
         bad.arrays[name] = column;

@@ -136,5 +136,90 @@ TEST(CoveredWalls, ABlockThatSlidesOffLeavesNoHoleInTheFloor)
     }
 }
 
+// A platform whose top is at or near the ground rises with a heavy box on it; lengths in spacings.
+struct Lift {
+    double dp = 0.02;
+    double depth = 14;
+    double top = 0, deep = 10, wide = 16; // of the platform at time 0
+    double length = 10, height = 7;       // of the box
+    double way = 2;
+    std::string ground = "basin"; // or "box": one box below the sides of the basin
+
+    double time() const { return 25 * std::sqrt(depth * dp / g); }
+    std::string text() const
+    {
+        const double middle = 25;
+        const double top_of_box = top + height;
+        const bool has_floor = ground == "basin";
+        const std::string tank = fmt::format(
+            "[[wall]]\nshape = \"basin\"\nmin = [0, 0, {}]\nmax = [{}, 0, {}]\nopen = {}\n",
+            has_floor ? 0 : -9 * dp, 50 * dp, 24 * dp, has_floor ? "[\"+z\"]" : "[\"-z\", \"+z\"]");
+        const std::string floor =
+            fmt::format("[[wall]]\nshape = \"box\"\nmin = [{}, 0, {}]\nmax = [{}, 0, 0]\n", -9 * dp,
+                        -9 * dp, 59 * dp);
+        const std::string platform =
+            fmt::format("[[wall]]\nshape = \"box\"\nmin = [{}, 0, {}]\nmax = [{}, 0, {}]\n"
+                        "[wall.motion]\ntimes = [0, {}]\nplaces = [[0, 0, 0], [0, 0, {}]]\n",
+                        (middle - wide / 2) * dp, (top - deep) * dp, (middle + wide / 2) * dp,
+                        top * dp, time(), way * dp);
+        const std::string box = fmt::format(
+            "[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [{}, 1, {}]\ndensity = 3000\n"
+            "position = [{}, 0, {}]\n",
+            length * dp, height * dp, middle * dp, (top + top_of_box) / 2 * dp);
+        return fmt::format("dimensions = 2\n[time]\nend = 99\n[particles]\nspacing = {}\n[fluid]\n"
+                           "viscosity.alpha = 0.05\n[contact]\nrestitution = 0.0\n"
+                           "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [{}, 0, {}]\n",
+                           dp, 50 * dp, depth * dp) +
+               tank + (has_floor ? "" : floor) + platform + box;
+    }
+};
+
+// The least and largest uplift of the submerged box from a quarter of the way on, by Archimedes'.
+std::pair<double, double> uplifts_of(const Lift& lift)
+{
+    Simulation sim = make(lift.text());
+    const double exact = rho * g * lift.length * lift.height * sq(lift.dp);
+    std::pair<double, double> found{infinity, 0};
+    double sum = 0;
+    double mean_from = lift.time() / 4;
+    int steps = 0;
+    while (sim.clock.time < 1.25 * lift.time()) {
+        step_on(sim);
+        if (sim.clock.time > mean_from) {
+            sum += sim.loads.bodies.at(0).force.z() / exact;
+            ++steps;
+        }
+        if (sim.clock.time > mean_from + lift.time() / 4) { // means, over some periods of sound
+            found = {std::min(found.first, sum / steps), std::max(found.second, sum / steps)};
+            mean_from = sim.clock.time;
+            sum = 0;
+            steps = 0;
+        }
+    }
+    return found;
+}
+
+// With the volume of the fixed wall in place of that of the platform: 0.55 to 0.88.
+TEST(CoveredWalls, ABoxOnAPlatformThatRisesOutOfTheGroundHasItsUplift)
+{
+    Dice dice(83);
+    for (int n = 0; n < 6; ++n) {
+        Lift lift;
+        lift.dp = n % 2 == 0 ? 0.02 : 0.05;
+        lift.top = n % 3 == 0 ? 0 : dice.between(0, 0.6);
+        lift.deep = dice.between(4, 12);
+        lift.wide = dice.between(14, 20);
+        lift.length = dice.between(8, 11);
+        lift.height = dice.between(5, 8);
+        lift.way = dice.between(1, 3);
+        lift.ground = n < 3 ? "basin" : "box";
+        const auto [least, most] = uplifts_of(lift);
+        const std::string drawn = fmt::format("draw {}: top at {}, way {} spacings, {}", n,
+                                              lift.top, lift.way, lift.ground);
+        EXPECT_GT(least, 0.95) << drawn;
+        EXPECT_LT(most, 1.05) << drawn;
+    }
+}
+
 } // namespace
 } // namespace hyoryu::test_covered_walls

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace hyoryu::test_gauges {
 namespace {
@@ -207,6 +208,145 @@ TEST(Gauges, FiltersFollowARampAsTheyShould)
     // Discrete first-order lag: y lags a ramp of slope s by s dt / (exp(dt/T) - 1).
     EXPECT_NEAR(row[5], raw - 0.002 / std::expm1(0.001 / 0.0049), 1e-8);
     EXPECT_EQ(gauge_heads(sim.scene)[3].name, "b_median");
+}
+
+// Rows of gauges: times, and the columns.
+struct GaugeRows {
+    std::vector<double> times;
+    std::vector<std::vector<double>> rows;
+};
+
+// Rows at random steps, the first at time 0.
+GaugeRows rows_at_random(Simulation& sim, int count, unsigned seed)
+{
+    std::mt19937 random(seed);
+    GaugeRows all;
+    for (int k = 0; k < count; ++k) {
+        all.times.push_back(sim.clock.time);
+        all.rows.push_back(next_gauge_row(sim));
+        for (auto steps = 1 + random() % 5; steps > 0; --steps) {
+            step_on(sim);
+        }
+    }
+    return all;
+}
+
+// Sum of all readings that are numbers, each over the time since the row before, by exp(-age/w).
+double weighted_mean(const GaugeRows& all, std::size_t row, std::size_t column, double window)
+{
+    double sum = 0;
+    double weights = 0;
+    for (std::size_t k = 1; k <= row; ++k) {
+        const double x = all.rows[k][column];
+        const double weight = std::exp((all.times[k] - all.times[row]) / window) -
+                              std::exp((all.times[k - 1] - all.times[row]) / window);
+        sum += std::isnan(x) ? 0 : weight * x;
+        weights += std::isnan(x) ? 0 : weight;
+    }
+    return sum / weights;
+}
+
+TEST(Gauges, ExponentialMeanIsThatOfTheTimeSinceTheStart)
+{
+    for (const double window : {0.003, 0.05, 2.0}) {
+        const std::string filter = fmt::format("\nfilter = \"exponential\"\nwindow = {}", window);
+        Simulation sim =
+            make(tank + gauge("p", "type = \"pressure\"\nat = [0.0, 0.0, 0.1]" + filter) +
+                 gauge("f", "type = \"force\"\non = \"basin\"" + filter));
+        const GaugeRows all = rows_at_random(sim, 40, 3);
+        // Columns: p, p_exponential, f and its parts and impulses, f_exponential_x, _y, _z.
+        const std::size_t f = 2;
+        EXPECT_EQ(all.rows[0][1], all.rows[0][0]);
+        EXPECT_EQ(all.rows[0][f + 20], 0);
+        EXPECT_DOUBLE_EQ(all.rows[1][f + 20], all.rows[1][f + 2])
+            << "the first force that is known";
+        for (std::size_t row = 1; row < all.rows.size(); ++row) {
+            for (const auto& [raw, filtered] : {std::pair(std::size_t{0}, std::size_t{1}),
+                                                std::pair(f, f + 18), std::pair(f + 2, f + 20)}) {
+                const double expected = weighted_mean(all, row, raw, window);
+                // Round-off of sums, in a long window of weights that cancel to 1e-3.
+                EXPECT_NEAR(all.rows[row][filtered], expected,
+                            1e-10 * (std::abs(expected) + std::abs(all.rows[row][raw]) + 1))
+                    << "row " << row << ", window " << window;
+            }
+        }
+    }
+}
+
+// A square of water at 2 m/s passes a gauge, and after a time without water one at 3 m/s.
+TEST(Gauges, ExponentialMeanLeavesOutTheTimeWithoutWater)
+{
+    const std::string squares =
+        "dimensions = 2\ngravity = [0.0, 0.0, 0.0]\n[time]\nend = 1.0\nstep = 0.001\n"
+        "[particles]\nspacing = 0.02\n[domain]\nmin = [-2.0, 0.0, -1.0]\nmax = [9.0, 0.0, 2.0]\n"
+        "[fluid]\n[[fluid.block]]\nshape = \"box\"\nmin = [0.0, 0.0, 0.0]\n"
+        "max = [0.2, 0.0, 0.4]\nvelocity = [2.0, 0.0, 0.0]\n"
+        "[[fluid.block]]\nshape = \"box\"\nmin = [-0.8, 0.0, 0.0]\nmax = [-0.6, 0.0, 0.4]\n"
+        "velocity = [3.0, 0.0, 0.0]\n";
+    constexpr double window = 0.1;
+    Simulation sim = make(squares + gauge("v", "type = \"velocity\"\nat = [0.4, 0.0, 0.2]\n"
+                                               "filter = \"exponential\"\nwindow = 0.1"));
+    const GaugeRows all = rows_at_random(sim, 150, 5);
+    int gaps = 0;
+    double least = infinity;
+    double most = 0;
+    for (std::size_t row = 1; row < all.rows.size(); ++row) {
+        const bool dry = std::isnan(all.rows[row][0]);
+        gaps += dry && !std::isnan(all.rows[row - 1][0]) ? 1 : 0;
+        EXPECT_EQ(std::isnan(all.rows[row][3]), dry);
+        if (!dry) {
+            const double mean = all.rows[row][3];
+            EXPECT_NEAR(mean, weighted_mean(all, row, 0, window), 1e-10);
+            least = std::min(least, mean);
+            most = std::max(most, mean);
+        }
+    }
+    EXPECT_EQ(gaps, 2) << "each square came and went";
+    EXPECT_NEAR(least, 2.0, 0.01);
+    EXPECT_LT(most, 2.95) << "the first square is remembered";
+    EXPECT_GT(most, 2.3);
+}
+
+TEST(Gauges, NoFilterCountsTheForceBeforeTheFirstStep)
+{
+    for (const char* filter : {"mean", "median", "exponential"}) {
+        Simulation sim = make(tank + gauge("f", fmt::format("type = \"force\"\non = \"basin\"\n"
+                                                            "filter = \"{}\"\nwindow = 5.0",
+                                                            filter)));
+        EXPECT_EQ(next_gauge_row(sim).at(20), 0);
+        step_on(sim);
+        const std::vector<double> first = next_gauge_row(sim);
+        EXPECT_LT(first.at(2), -100) << "the water weighs on the basin";
+        EXPECT_DOUBLE_EQ(first.at(20), first.at(2)) << filter;
+        step_on(sim);
+        const std::vector<double> second = next_gauge_row(sim);
+        // Two rows about equally far apart: the mean lies in their middle.
+        EXPECT_NEAR(second.at(20), (first.at(2) + second.at(2)) / 2,
+                    0.1 * std::abs(second.at(2) - first.at(2)) + 1e-9)
+            << filter;
+    }
+}
+
+// A checkpoint of an earlier version has the mean without its weight, which then counted as 1.
+TEST(Gauges, AnExponentialMeanOfAnEarlierVersionGoesOn)
+{
+    const std::string text = tank + gauge("p", "type = \"pressure\"\nat = [0.0, 0.0, 0.1]\n"
+                                               "filter = \"exponential\"\nwindow = 0.02");
+    Simulation sim = make(text);
+    rows_at_random(sim, 10, 7);
+    next_gauge_row(sim);
+    Snapshot old = save(sim);
+    std::get<std::vector<std::int64_t>>(old.arrays.at("gauges/samples").values) = {1};
+    std::get<std::vector<double>>(old.arrays.at("gauges/sample_times").values).resize(1);
+    auto& mean = std::get<std::vector<double>>(old.arrays.at("gauges/sample_values").values);
+    mean = {2 * mean.front()};
+    Simulation resumed = make_blank(text);
+    restore(resumed, old);
+    step_on(resumed);
+    const std::vector<double> row = next_gauge_row(resumed);
+    const double share = -std::expm1(-resumed.clock.dt / 0.02);
+    EXPECT_NEAR(row.at(1), (1 - share) * mean.front() + share * row.at(0),
+                1e-9 * std::abs(mean.front()));
 }
 
 TEST(Gauges, AResumedRunReadsTheSameBits)

@@ -138,6 +138,48 @@ TEST(Restart, GoesOnWithTheSameBitsInEveryCombinationAtAnyStep)
     EXPECT_GT(hit, 0) << "some were saved with bodies in contact";
 }
 
+// What the summary tells of a run is of all its steps, however often it was taken up again.
+TEST(Restart, WorkIsThatOfTheWholeRun)
+{
+    const std::string text = case_of({.exact = true, .bodies = true});
+    Simulation whole = make(text);
+    advance(whole, 70);
+    Simulation resumed = make(text);
+    advance(resumed, 25);
+    for (const int steps : {30, 15}) {
+        const Snapshot saved = save(resumed);
+        resumed = make_blank(text);
+        restore(resumed, saved);
+        advance(resumed, steps);
+    }
+    EXPECT_EQ(resumed.steps_by_limit, whole.steps_by_limit);
+    EXPECT_GT(whole.pair_visits, 0);
+    EXPECT_LT(resumed.pair_visits, whole.pair_visits) << "those of this process alone";
+    EXPECT_EQ(resumed.earlier_visits + resumed.pair_visits, whole.pair_visits);
+}
+
+TEST(Restart, OfACheckpointWithoutWorkCountsFromThere)
+{
+    const std::string text = case_of({});
+    Simulation begun = make(text);
+    advance(begun, 20);
+    Snapshot old = save(begun);
+    EXPECT_GT(std::erase_if(old.arrays, [](const auto& a) { return a.first.starts_with("work/"); }),
+              1U);
+    Simulation resumed = make_blank(text);
+    restore(resumed, old);
+    advance(begun, 10);
+    advance(resumed, 10);
+    long long steps = 0;
+    for (const auto& [limit, count] : resumed.steps_by_limit) {
+        steps += count;
+    }
+    EXPECT_EQ(steps, 10);
+    EXPECT_EQ(resumed.earlier_visits, 0);
+    EXPECT_EQ(save(resumed).arrays.at("fluid/Position").values,
+              save(begun).arrays.at("fluid/Position").values);
+}
+
 // A gate that the water is pressed against at the start, and that then stands above it: what was
 // wet then and is dry when the run is taken up again must show no pressure, from the first step on.
 TEST(Restart, FramesOfMovingWallsAreTheSame)

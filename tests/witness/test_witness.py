@@ -174,6 +174,46 @@ class Overlaps(Folder):
                 self.row(0, ((x, y, z + 0.1 - depth), UPRIGHT))
                 self.expect_depth(max(depth, 0), within=1e-8)
 
+    def terrain(self, name, text, more=""):
+        """A ball on ground of slope 0.2 along x, in a grid that begins at (7, 9)."""
+        (self.dir / name).write_text(text)
+        self.forget()
+        self.wall("ground", f'shape = "terrain"\nfile = "{self.dir}/{name}"\norigin = [7, 9]\nazimuth_deg = 90\n'
+                  f"datum = 0.1\nbottom = -3\nextent = [0.5, 0.5, 2.5, 2.5]\nresolution = 0.1\n{more}")
+        self.body("ball", BALL)
+        for depth in (1e-4, -1e-4):
+            self.rows.clear()
+            self.row(0, ((1.5, 1.5, 0.4 + 0.1 * math.hypot(1, 0.2) - depth * math.hypot(1, 0.2)), UPRIGHT))
+            self.expect_depth(max(depth, 0), within=1e-8)
+
+    def forget(self):
+        self.case = self.case.split("[[wall]]")[0]
+        self.names.clear()
+
+    def test_terrains_of_points_and_of_grids_with_missing_cells(self):
+        # Cells of 0.1 m in any order, with gaps beyond the extent: missing, nan or -9999.
+        cells = [(i, j) for j in range(31) for i in range(31)]
+        cells.sort(key=lambda c: (c[0] * 7 + c[1] * 11) % 31)
+        def line(i, j, z):
+            return f"{7 + 0.1 * i:.4f} {9 + 0.1 * j:.4f} {z}"
+        rest = [line(i, j, 0.02 * i) for i, j in cells if (i, j) not in ((0, 0), (1, 0), (30, 30))]
+        points = "\n".join([line(0, 0, "nan"), line(1, 0, -9999), *rest]) + "\n"
+        self.terrain("p.xyz", points)
+        self.terrain("p.csv", "X,Y,Z\n# places\n" + points.replace(" ", ","))
+        for mark in ("nan", "NaN", "-9999"):
+            rows = [[f"{0.02 * i}" for i in range(31)] for _ in range(31)]
+            rows[0][0] = rows[30][30] = mark
+            self.terrain("g.asc", "NCOLS 31\nNROWS 31\nXLLCENTER 7\nYLLCENTER 9\nCELLSIZE 0.1\n"
+                         + "\n".join(map(" ".join, rows)) + "\n")
+
+    def test_a_terrain_that_cannot_be_read_is_not_judged(self):
+        good = "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1\n"
+        for text in ("", "MM\0*raster", "12 ncols\n", good + "1 2 3\n4 5\n", good + "1 2 3 4 5 six\n", good + "1 2 3 4 5 6 7\n",
+                     good + "1 2 3 4 5 inf\n", good.replace("cellsize", "sellsize") + "1 2 3 4 5 6\n", "1 2 3\n1 3\n",
+                     "0 0 1\n1.3 0.2 1\n2 1.1 1\n0.4 2 1\n", "0 0 1\n1 0 1\n2 0 1\n"):
+            with self.subTest(text), self.assertRaisesRegex(AssertionError, "cannot read this grid"):
+                self.terrain("bad.asc", text)
+
     def test_bodies_of_meshes_stand_about_their_centroid(self):
         mesh = prism([(0, 0), (0.4, 0), (0.4, 0.2), (0, 0.2)], 0.0, 0.3, 1.0)
         mesh.write(self.dir / "box.stl")

@@ -134,7 +134,7 @@ public:
         }
     }
 
-private:
+    /// The same for the pairs of one block; those of a slot i are all in one.
     void for_each_pair_of(const ListBlock& block, const auto& f) const
     {
         const std::uint8_t* entry = block.entry;
@@ -151,6 +151,7 @@ private:
         }
     }
 
+private:
     int lanes_ = 1;
     std::vector<ListBlock> blocks_;
     std::vector<ListScratch> scratches_; // by thread

@@ -60,6 +60,10 @@ void restart_joints(Seepage& seepage);
 void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>& poses,
                    const BodyParticles& bodies, const JointTime& step, Fluid& fluid);
 
+/// Removes from the forces on particles behind joints what their films push along the joints; to be
+/// called when the forces are known, before the sums of `collect_loads`.
+void cut_slip_of_films(Seepage& seepage, const std::vector<Pose>& poses, Fluid& fluid);
+
 /// Adds the forces of the joints to the loads of the bodies, about the centres of mass of the
 /// poses, and to the forces on the walls.
 void add_joint_loads(const Seepage& seepage, const std::vector<Pose>& poses,

@@ -19,6 +19,23 @@ namespace hyoryu {
 /// two lists. `smoothing_ratio`: smoothing length / spacing [1].
 int least_carpet_columns(real smoothing_ratio);
 
+/// From the plane to the middle of the strip in which the depth is measured [spacings].
+inline constexpr real strip_half = 4;
+
+/// Columns of a strip: cells of one spacing, in each lane, in which the ground is looked up.
+inline constexpr int strip_columns = 8;
+
+/// Weight of a place of the strip at a distance from the plane, a hat function: the sum over a
+/// lattice gives the depth independent of its phase.
+real strip_weight(real distance, real spacing);
+
+/// The water that the strip of a station holds up to a level, beside the walls that stand in it.
+struct StripSpace {
+    bool has_wall = false; // in this strip: otherwise its mean ground is all that counts
+    real low = 0, step = 1;
+    std::vector<real> below; // up to the level low + k step, weighed as the depth is [m3], [m2]
+};
+
 /// A vertical plane through which fluid enters and leaves. `s` is the distance from it into the
 /// domain, lanes are strips of one spacing along it; in two dimensions there is one lane.
 struct OpenSide {
@@ -31,8 +48,13 @@ struct OpenSide {
     std::vector<real>
         bed; // ground below the carpet, by lane; infinity where it fills the window [m]
     std::vector<real> strip; // mean ground of the strip in which the depth is measured, by lane [m]
-    int station_lanes = 4;   // lanes of a station, in each of which one depth is measured
-    int columns = 6;         // of the carpet: as many as a body covers that leaves, and the least
+    // By lane and column of the strip: whether a wall stands there, which rises from the ground
+    // more steeply than 45 degrees, and the ground below it; empty if none does.
+    std::vector<std::uint8_t> wall;
+    std::vector<real> below_wall;  // [m]
+    std::vector<StripSpace> space; // by station, if a wall stands in the strip of any
+    int station_lanes = 4;         // lanes of a station, in each of which one depth is measured
+    int columns = 6; // of the carpet: as many as a body covers that leaves, and the least
 
     int lanes() const { return static_cast<int>(bed.size()); }
     int stations() const { return (lanes() + station_lanes - 1) / station_lanes; }
@@ -40,10 +62,22 @@ struct OpenSide {
     Vec3 normal() const { return into * Vec3::Unit(axis); }
     /// The lane of a point; outside of 0 .. lanes() beside the window.
     int lane(const Vec3& x, real spacing) const;
-    /// The ground at a station: the mean over its lanes; infinity where no lane is open.
-    real station_bed(int station) const;
+    /// Whether a lane is open at a level: not where a wall at the plane emerges from the water.
+    bool is_open(int lane, real level = infinity) const
+    {
+        const real ground = bed[at(lane)];
+        return ground < infinity && (ground < level || !has_wall(lane, 0));
+    }
+    bool has_wall(int lane, int column) const
+    {
+        return !wall.empty() && wall[at(lane * strip_columns + column)] != 0;
+    }
+    /// The ground at a station: the mean over the lanes that are open at a level, over all with
+    /// ground if none is; infinity if there are none.
+    real station_bed(int station, real level = infinity) const;
+    /// The mean ground of its strip, where no wall stands.
     real station_strip(int station) const;
-    int open_lanes(int station) const;
+    int open_lanes(int station, real level = infinity) const;
 };
 
 /// The prescribed flow at a station at one moment.

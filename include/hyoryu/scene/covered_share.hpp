@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Moving walls within fixed ones.
+// Fixed walls within moving ones.
 //
-// A part of a moving wall may lie within a fixed wall: the foot of a paddle in the floor, or a
-// piston that starts in line with the side of a basin. What two walls share must act on the water
-// once. Fixed walls keep their volume; a particle of a moving wall has that of the part of its cell
-// outside of all fixed walls, which changes as the wall moves.
+// A part of a moving wall may lie within a fixed wall: the foot of a paddle in the floor, a piston
+// that starts in line with the side of a basin, or a platform that rises out of the floor. What two
+// walls share must act on the water once, and there the moving wall acts: its surface, and not that
+// of the fixed wall, comes out or bounds what comes out. A particle of a fixed wall has the volume
+// of the part of its cell outside of all moving walls, which changes as these move. With the fixed
+// wall in its place, water that follows a platform would recede from hidden particles at rest, and
+// lose its density and pressure.
 #pragma once
 
 #include "hyoryu/scene/scene.hpp"
@@ -43,13 +46,19 @@ void over_images(const Vec3& own, const Vec3& first, const Vec3& length, double 
     }
 }
 
-/// The numbers of the walls that do not move.
-std::vector<int> fixed_walls_of(const Scene& scene);
+/// A wall where it is.
+struct MovedWall {
+    const SolidSurface* solid = nullptr;
+    Vec3 centre{0, 0, 0}; // [m]
+};
 
-/// The share of a cell about a place, or about its image in the domain, that lies outside of the
-/// walls `fixed`, by 27 parts of it, of which each wall cuts one by a plane. `edge`: of the cell
-/// [m]. `surfaces`: of all walls.
-double uncovered_share(std::span<const SolidSurface> surfaces, std::span<const int> fixed,
-                       const Vec3& place, double edge, const Periods& periods);
+/// The walls that move, where they are at a time [s]; `surfaces`: of all walls.
+std::vector<MovedWall> moving_covers(const Scene& scene, std::span<const SolidSurface> surfaces,
+                                     double time);
+
+/// The share of a cell about a place, or about its images in the domain, that lies outside of the
+/// covers, by 27 parts of it, of which each cover cuts one by a plane. `edge`: of the cell [m].
+double uncovered_share(std::span<const MovedWall> covers, const Vec3& place, double edge,
+                       const Periods& periods);
 
 } // namespace hyoryu

@@ -76,4 +76,9 @@ int carpet_columns(const Scene& scene, const OpenSettings& open);
 /// The plane of a window with its lanes and the ground there.
 OpenSide open_side(const Scene& scene, const OpenSettings& open);
 
+/// The water that the strip of each station of a window holds beside the walls that stand there;
+/// empty if none stands in any.
+std::vector<StripSpace> strip_spaces(const Scene& scene, const OpenSettings& open,
+                                     const OpenSide& side);
+
 } // namespace hyoryu

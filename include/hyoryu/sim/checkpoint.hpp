@@ -7,11 +7,11 @@
 
 namespace hyoryu {
 
-/// The whole mutable state between two steps.
+/// The whole mutable state between two steps, and what was done so far. Called by all ranks.
 Snapshot save(const Simulation& sim);
 
 /// The same, made array by array when it is asked for, from a simulation that lives as long and
-/// does not change.
+/// does not change. Called by all ranks; each asks for what it needs.
 StateOnDemand state_of(const Simulation& sim);
 
 /// Puts the state into a simulation that was made from the same case. Throws IoError if the

@@ -21,7 +21,8 @@ struct GaugedForce {
     Vec3 contact_at_row{0, 0, 0};  // the same at the row before [N s]
 };
 
-/// The samples that the filter of one column still sees. The exponential mean keeps one: itself.
+/// The samples that the filter of one column still sees. The exponential mean keeps two, both of
+/// the last reading that is a number: itself, and the sum of the weights in it [1].
 struct FilterMemory {
     GaugeFilter filter = GaugeFilter::none;
     double window = 0;          // [s]
@@ -55,8 +56,11 @@ void book_forces(Simulation& sim, double dt);
 /// of the fluid valid.
 std::vector<double> read_gauges(const Simulation& sim);
 
-/// The next row of `gauges.csv` behind the time: raw and filtered readings. Called by all ranks,
-/// for rank 0.
+/// The next row of `gauges.csv` behind the time: raw and filtered readings. Mean and median are of
+/// the rows in the window; the exponential mean is of all rows so far, each weighted with
+/// exp(-age/window) over the time since the row before, and so that of time 0 with nothing. No
+/// filter counts rows that are NaN, nor the force at time 0, which no step has computed: its
+/// filtered reading is the raw one. Called by all ranks, for rank 0.
 std::vector<double> next_gauge_row(Simulation& sim);
 
 } // namespace hyoryu

@@ -45,8 +45,9 @@ struct Simulation {
     GaugeMemory gauges;
     std::vector<Contact> contacts; // of the last step
     StageTimer timer;
-    std::map<std::string, long long, std::less<>> steps_by_limit;
-    double pair_visits = 0;     // evaluated list entries so far
+    std::map<std::string, long long, std::less<>> steps_by_limit; // of all steps
+    double pair_visits = 0;     // list entries that this process evaluated since the last restart
+    double earlier_visits = 0;  // that all processes evaluated before it
     double thinnest = infinity; // least inner radius of the bodies [m]
     OpenFlow open;              // at the open sides
     Comm* comm = nullptr;       // of the processes that share the case; null for one

@@ -191,28 +191,58 @@ const json& property_of(const Found& found, const std::string& name)
                             known.empty() ? "" : "; it has " + quoted_list(known))};
 }
 
-// A number, or a text that is one, as maps often have it.
+std::string_view without_blanks(std::string_view text)
+{
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+    while (!text.empty() && is_blank(text.front())) {
+        text.remove_prefix(1);
+    }
+    while (!text.empty() && is_blank(text.back())) {
+        text.remove_suffix(1);
+    }
+    return text;
+}
+
+// The number of a text such as "12.5" or "12.5 m", as maps often have it; a fault is told in words
+// that follow "expected a height in m".
+double number_of_text(std::string_view text, std::string& fault)
+{
+    const std::string_view whole = without_blanks(text);
+    double number = 0;
+    const auto [end, error] = std::from_chars(whole.data(), whole.data() + whole.size(), number);
+    const std::string_view rest =
+        without_blanks(whole.substr(static_cast<std::size_t>(end - whole.data())));
+    if (error != std::errc() || !std::isfinite(number)) {
+        fault = ": the text does not begin with a finite number";
+    } else if (!rest.empty() && rest != "m") {
+        fault = rest.front() == ','
+                    ? ": a decimal point is needed in place of the comma"
+                    : fmt::format(": behind the number {}, only the unit m may follow", number);
+    }
+    return number;
+}
+
+// A number, or a text that is one.
 double height_of(const json& value, const std::string& name)
 {
-    std::optional<double> height;
+    double height = not_a_number;
+    std::string fault;
     if (value.is_number()) {
         height = value.get<double>();
     } else if (value.is_string()) {
-        const auto& text = value.get_ref<const std::string&>();
-        double number = 0;
-        const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (fault == std::errc() && end == text.data() + text.size() && std::isfinite(number)) {
-            height = number;
-        }
+        height = number_of_text(value.get_ref<const std::string&>(), fault);
+    } else {
+        fault = ": it is neither a number nor a text";
     }
-    if (!height) {
-        throw Fault{fmt::format("\"{}\" = {}, expected a height in m", name, text_of(value))};
+    if (!fault.empty()) {
+        throw Fault{
+            fmt::format("\"{}\" = {}, expected a height in m{}", name, text_of(value), fault)};
     }
-    if (!(*height > 0) || *height > largest_value("m")) {
+    if (!(height > 0) || height > largest_value("m")) {
         throw Fault{fmt::format("\"{}\" = {}, expected a height > 0 m and at most {} m", name,
                                 text_of(value), largest_value("m"))};
     }
-    return *height;
+    return height;
 }
 
 std::string name_of(const json& value, const std::string& name)
@@ -279,6 +309,7 @@ Footprints read_footprints(const std::filesystem::path& file, const FootprintKey
             try {
                 footprints.list.push_back(footprint_of(one, keys));
                 footprints.list.back().where = where_is(one);
+                footprints.list.back().number = static_cast<std::size_t>(&one - found.data()) + 1;
             } catch (const Fault& fault) {
                 footprints.faults.push_back(
                     fmt::format("{}: {} has {}", file.string(), where_is(one), fault.what));

@@ -21,6 +21,7 @@ struct Footprint {
     std::string where;       // in the file, as messages name it: "feature 3"
     std::string name;        // of the property; empty without one
     double height = 0;       // [m]
+    std::size_t number = 0;  // among the polygons of the file, from 1 on
 };
 
 /// Where the heights and names of footprints come from.

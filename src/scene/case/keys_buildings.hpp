@@ -16,7 +16,8 @@ struct BuildingKeys {
     Place place;
 };
 
-/// The footprints of the file without mistake; else none, and the mistakes are noted.
+/// The footprints of the file that have no mistake; the mistakes of the others are noted, and that
+/// their names are lost.
 inline std::vector<Footprint> load_footprints(TableReader& table, const BuildingKeys& buildings)
 {
     const auto path = path_of_file(table, "file", buildings.file);
@@ -29,7 +30,8 @@ inline std::vector<Footprint> load_footprints(TableReader& table, const Building
         for (const std::string& fault : found.faults) {
             table.error("file", fault, "correct the file there, or remove that feature");
         }
-        return found.faults.empty() ? std::move(found.list) : std::vector<Footprint>{};
+        table.reading().names_known = table.reading().names_known && found.faults.empty();
+        return std::move(found.list);
     } catch (const IoError& error) {
         table.error("file", error.what(), "a GeoJSON file of polygons");
         return {};
@@ -44,32 +46,48 @@ inline void check_height_of_all(TableReader& table, const BuildingKeys& building
     }
 }
 
-inline void add_buildings(TableReader& table, const BuildingKeys& buildings, Scene& scene)
+/// The walls of footprints, and the mistakes of their outlines and names.
+inline void add_walls(TableReader& table, const BuildingKeys& buildings,
+                      const std::vector<Footprint>& footprints, Scene& scene)
 {
-    const std::vector<Footprint> footprints = load_footprints(table, buildings);
-    if (footprints.empty() || !table.reading().diagnostics.empty()) {
-        table.reading().names_known = false;
-        return; // walls or numbers are mistaken: no place follows from them
-    }
     const std::size_t number = table.number_of_table();
     const std::string prefix = number == 1 ? "building" : fmt::format("building_{}", number);
     Buildings built = place_buildings(footprints, prefix, scene);
     for (const PlaceFault& fault : built.faults) {
         table.error("file", fault.what, fault.hint);
+        table.reading().names_known = false;
     }
     for (const PlaceFault& warning : built.warnings) {
         table.warn("file", warning.what, warning.hint);
     }
     for (Wall& wall : built.walls) {
         if (const std::string fault = name_fault(wall.name); !fault.empty()) {
-            table.error("name", fmt::format("the name \"{}\" of a building is not valid: {}",
-                                            printable(wall.name), fault));
+            table.error("name",
+                        fmt::format("the name \"{}\" of a building is not valid: {}",
+                                    printable(wall.name), fault),
+                        "correct it in the file, or leave `name` out: then the buildings are "
+                        "numbered");
         }
         claim_name(table, wall.name);
         wall.material = buildings.material;
         wall.place = buildings.place;
         scene.walls.push_back(std::move(wall));
     }
+}
+
+/// Mistakes of the file hide neither each other nor those of other places.
+inline void add_buildings(TableReader& table, const BuildingKeys& buildings, Scene& scene)
+{
+    Reading& reading = table.reading();
+    const bool known = reading.walls_known();
+    const std::size_t before = reading.diagnostics.size();
+    const std::vector<Footprint> footprints = load_footprints(table, buildings);
+    if (footprints.empty() || !known) {
+        reading.names_known = false; // walls or numbers are mistaken: no place follows from them
+    } else {
+        add_walls(table, buildings, footprints, scene);
+    }
+    reading.of_buildings += reading.diagnostics.size() - before;
 }
 
 void keys_of(auto& keys, Is<BuildingKeys> auto& buildings, auto& scene)

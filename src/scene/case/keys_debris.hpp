@@ -116,15 +116,14 @@ inline void place(TableReader& table, DebrisKeys& debris, Scene& scene)
 {
     const bool arrayed = debris.array.has_value();
     const bool scattered = debris.scatter.has_value();
-    table.reading().names_known =
-        table.reading().names_known && table.reading().diagnostics.empty();
+    table.reading().names_known = table.reading().places_known();
     if (arrayed == scattered && !table.mistaken({"array", "scatter"})) {
         table.error(arrayed ? "scatter" : "", arrayed
                                                   ? "give either `array` or `scatter`, not both"
                                                   : "has no position: give `array` or `scatter`");
         return;
     }
-    if (!table.reading().diagnostics.empty()) {
+    if (!table.reading().names_known) {
         return; // walls or numbers are mistaken: no place follows from them
     }
     const std::vector<PlaceFault> faults = place_debris(debris, scene);

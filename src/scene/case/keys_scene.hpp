@@ -56,6 +56,11 @@ inline void set_dimensions(TableReader& root, int dimensions)
     root.reading().dimensions_known = !root.mistaken({"dimensions"});
 }
 
+inline void note_spacing(TableReader& table, double spacing)
+{
+    table.reading().spacing = table.sound("spacing") ? spacing : 0;
+}
+
 /// Sets a mistaken gravity to zero, so that no other key is checked against its direction.
 inline void forget_mistaken(TableReader& root, Vec3& gravity)
 {
@@ -185,6 +190,7 @@ void general_keys(auto& keys, Is<Scene> auto& scene)
                                "Initial distance between the particles of fluid and walls: the "
                                "resolution of the run.",
                                required);
+            particles.rule(note_spacing, scene.spacing);
             particles.choice("precision", scene.precision, {"single", "double"},
                              "Floating-point type of the pair interactions. The state and the "
                              "bodies use double precision in either case. \"double\" is for "

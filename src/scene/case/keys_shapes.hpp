@@ -61,6 +61,33 @@ inline void place_box(TableReader& table, const std::optional<Vec3>& low,
     }
 }
 
+// Whether the corners of a mesh are rounded too much, which is noted.
+// Meshes are read in single precision, whose spacing grows with the coordinate: those of a map are
+// some 0.2 m apart. A hundredth of a particle spacing is less than the particles resolve, and a
+// mesh about the origin of its file exceeds it only if it is longer than 300,000 spacings; a bound
+// by the extent of the mesh would admit a town whose houses are deformed.
+inline bool refuse_rounded(TableReader& table, const Mesh& mesh)
+{
+    constexpr double half_a_bit = 1.0 / (1 << 24);
+    constexpr double most = 0.01; // of the spacing
+    double farthest = 0;
+    for (const Vec3& corner : mesh.corners) {
+        farthest = std::max(farthest, corner.cwiseAbs().maxCoeff());
+    }
+    const double spacing = table.reading().spacing;
+    const bool rounded = spacing > 0 && half_a_bit * farthest > most * spacing;
+    if (rounded) {
+        table.error("file",
+                    fmt::format("the coordinates of the mesh reach {:.7g} m, where its corners are "
+                                "rounded by up to {:.2g} m, more than a hundredth of the spacing "
+                                "of {:.3g} m",
+                                farthest, half_a_bit * farthest, spacing),
+                    "mesh files are read in single precision: move the mesh near the origin of its "
+                    "file, and place it by `position`");
+    }
+    return rounded;
+}
+
 inline void load_mesh(TableReader& table, MeshShape& shape)
 {
     const auto path = path_of_file(table, "file", shape.file);
@@ -71,19 +98,9 @@ inline void load_mesh(TableReader& table, MeshShape& shape)
     try {
         Mesh mesh = read_mesh(*path, shape.scale);
         const std::string fault = closure_fault(mesh);
-        if (!fault.empty()) {
+        if (!refuse_rounded(table, mesh) && !fault.empty()) {
             table.error("file", fmt::format("the mesh does not enclose a volume: {}", fault),
                         "close and repair it, for instance with MeshLab or Blender");
-        }
-        const auto far = std::ranges::find_if(mesh.corners, [](const Vec3& corner) {
-            return corner.cwiseAbs().maxCoeff() > largest_value("m");
-        });
-        if (far != mesh.corners.end()) {
-            table.error("file",
-                        fmt::format("has a corner at ({:.3g}, {:.3g}, {:.3g}) m, expected "
-                                    "at most {} m",
-                                    far->x(), far->y(), far->z(), largest_value("m")),
-                        "check `scale`, the factor from the numbers of the file to metres");
         }
         shape.corners = std::move(mesh.corners);
         shape.triangles = std::move(mesh.triangles);

@@ -41,7 +41,7 @@ inline void find_box(Reading& reading, const std::string& key, const SeededCells
 inline void find_still_water(TableReader& root, Scene& scene)
 {
     Reading& reading = root.reading();
-    if (!scene.fluid || !reading.diagnostics.empty()) {
+    if (!scene.fluid || !reading.places_known()) {
         return; // walls or numbers are mistaken: no place follows from them
     }
     std::vector<FluidBlock>& blocks = scene.fluid->blocks;

@@ -230,8 +230,9 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
                                         "`ogr2ogr -clipsrc`"});
             break;
         }
-        const std::string name =
-            footprint.name.empty() ? fmt::format("{}.{}", prefix, k + 1) : footprint.name;
+        const std::string name = footprint.name.empty()
+                                     ? fmt::format("{}.{}", prefix, footprint.number)
+                                     : footprint.name;
         partly = partly.empty() && reaches_beyond(patch, footprint.rings.front()) ? name : partly;
         build(footprint, name, ground, scene, buildings);
     }

@@ -23,10 +23,17 @@ struct Reading {
     std::vector<std::string> overrides;
     int dimensions = 3;
     bool dimensions_known = true; // their number was not lost with a mistake
+    double spacing = 0;           // of the particles; 0 where it was lost with a mistake [m]
     std::vector<Diagnostic> diagnostics;
     std::vector<Diagnostic> notices;  // warnings
     std::map<std::string, int> names; // of walls and bodies, and the line where each stands
     bool names_known = true;          // no name and no material was lost with a mistake
+    std::size_t of_buildings = 0;     // diagnostics of the contents of building files
+
+    /// Whether all walls but buildings are known, so that other places follow from them.
+    bool walls_known() const { return diagnostics.size() == of_buildings; }
+    /// Whether the buildings are known as well.
+    bool places_known() const { return walls_known() && names_known; }
 
     /// Notes a mistake at a place of the file, or of that override. Without a hint the meaning of
     /// the key stands for one.

@@ -168,6 +168,46 @@ void check_starts(const Scene& scene, Comm* comm, std::vector<Start> faults)
                     largest_value(speed_fits ? "Pa" : "m/s"), speed_fits ? "Pa" : "m/s"))});
 }
 
+// The first basin outside of which a whole box lies; nullptr if there is none.
+const Wall* basin_beside(const Scene& scene, const Bounds& box)
+{
+    constexpr double inset = 1e-3; // off the faces, which may lie in those of the basin
+    const Vec3 middle = (box.min + box.max) / 2;
+    const Vec3 half = (1 - inset) * (box.max - box.min) / 2;
+    const auto beside = [&](const Wall& wall) {
+        bool all = std::holds_alternative<BasinWall>(wall.geometry);
+        for (int corner = 0; all && corner < 8; ++corner) {
+            const Vec3 way((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                           (corner & 4) != 0 ? 1 : -1);
+            all = depth_behind(wall, middle + way.cwiseProduct(half), scene.dimensions) > 0;
+        }
+        return all;
+    };
+    const auto found = std::ranges::find_if(scene.walls, beside);
+    return found == scene.walls.end() ? nullptr : &*found;
+}
+
+// Water of which no particle is left because it lies outside of a basin, as with a second basin.
+void check_basins(const Scene& scene, const std::vector<BlockPoints>& blocks)
+{
+    std::vector<Diagnostic> errors;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const bool buried = blocks[b].particles.in_walls > 0 && !scene.fluid->blocks[b].seeded;
+        if (const Wall* basin = buried ? basin_beside(scene, blocks[b].box) : nullptr) {
+            errors.push_back(diagnostic_at(
+                scene, scene.fluid->blocks[b].place, fmt::format("fluid.block[{}]", b),
+                fmt::format("all particles of the blocks lie inside walls: this block lies outside "
+                            "of the basin \"{}\", and everything outside of a basin is solid",
+                            basin->name),
+                "use one basin around all the water, with walls of shape \"box\" within it, or "
+                "build a further basin from boxes"));
+        }
+    }
+    if (!errors.empty()) {
+        throw CaseError(errors);
+    }
+}
+
 // Appends points, without a copy if they are the first.
 void append(std::vector<Vec3>& all, std::vector<Vec3> points)
 {
@@ -226,6 +266,9 @@ void fill_fluid(const Scene& scene, Comm* comm, Filling& filling)
         first += blocks[b].count;
     }
     check_starts(scene, comm, std::move(faults));
+    if (first == 0 && scene.open.empty()) {
+        check_basins(scene, blocks);
+    }
     filling.fluid_elsewhere = first - static_cast<Index>(filling.fluid.size());
 }
 

@@ -104,9 +104,78 @@ int carpet_columns(const Scene& scene, const OpenSettings& open)
                        : least;
 }
 
+namespace {
+
+// The ground from which walls rise: the highest that lies below that of no column by more than one
+// spacing for each column between them, found by two passes along each direction.
+std::vector<double> ground_below_walls(std::vector<double> ground, double spacing)
+{
+    const auto lanes = static_cast<int>(ground.size()) / strip_columns;
+    const auto lower = [&](int to, int from) {
+        ground[at(to)] = std::min(ground[at(to)], ground[at(from)] + spacing);
+    };
+    const auto sweep = [&](int begin, int step, int count) {
+        for (int k = 1; k < count; ++k) {
+            lower(begin + k * step, begin + (k - 1) * step);
+        }
+        for (int k = count - 1; k > 0; --k) {
+            lower(begin + (k - 1) * step, begin + k * step);
+        }
+    };
+    for (int lane = 0; lane < lanes; ++lane) {
+        sweep(lane * strip_columns, 1, strip_columns);
+    }
+    for (int k = 0; k < strip_columns; ++k) {
+        sweep(k, strip_columns, lanes);
+    }
+    return ground;
+}
+
+// Marks the columns that are walls on the ground of the strip.
+void mark_walls(const std::vector<double>& grounds, double spacing, OpenSide& side)
+{
+    std::vector<double> below = ground_below_walls(grounds, spacing);
+    std::vector<std::uint8_t> wall;
+    for (std::size_t k = 0; k < grounds.size(); ++k) {
+        const bool rises = !(grounds[k] < infinity) || grounds[k] > below[k] + 1e-6 * spacing;
+        wall.push_back(rises ? 1 : 0);
+    }
+    if (std::ranges::find(wall, 1) != wall.end()) {
+        side.wall = std::move(wall);
+        side.below_wall = std::move(below);
+    }
+}
+
+// The mean ground of the strip of a lane: where no wall stands, or of the walls if they fill it;
+// infinity where there is no ground.
+double strip_ground(const std::vector<double>& grounds, const OpenSide& side, int lane)
+{
+    double mean = 0;
+    double walls = 0;
+    double part = 0; // of the weight, on ground and on walls that end below the window
+    double on_walls = 0;
+    for (int k = 0; k < strip_columns; ++k) {
+        const double s = k + 0.5;
+        const double weight = (1 - std::abs(s - 4) / 4) / 4;
+        const double ground = grounds[at(lane * strip_columns + k)];
+        if (!side.has_wall(lane, k)) {
+            mean += weight * ground;
+            part += weight;
+        } else if (ground < infinity) {
+            walls += weight * ground;
+            on_walls += weight;
+        }
+    }
+    if (part > 0) {
+        return side.wall.empty() ? mean : mean / part;
+    }
+    return on_walls > 0 ? walls / on_walls : infinity;
+}
+
+} // namespace
+
 OpenSide open_side(const Scene& scene, const OpenSettings& open)
 {
-    constexpr int strip_columns = 8;
     const double dp = scene.spacing;
     const auto across = at(1 - open.axis());
     OpenSide side;
@@ -121,19 +190,19 @@ OpenSide open_side(const Scene& scene, const OpenSettings& open)
         scene.dimensions == 2 ? 1 : std::max(1, static_cast<int>(std::floor(width / dp + 1e-6)));
     side.first = scene.dimensions == 2 ? 0 : open.min[1 - open.axis()] + (width - lanes * dp) / 2;
     const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
+    std::vector<double> grounds; // by lane and column
     for (int lane = 0; lane < lanes; ++lane) {
-        const auto ground = [&](double distance) {
-            return ground_at(surfaces, point_of_window(side, lane, distance, dp, scene.dimensions),
-                             open.min.z(), open.max.z(), dp);
-        };
-        double mean = 0;
         for (int k = 0; k < strip_columns; ++k) {
-            const double s = k + 0.5;
-            const double weight = (1 - std::abs(s - 4) / 4) / 4;
-            mean += weight * ground(s * dp);
+            const Vec3 x = point_of_window(side, lane, (k + 0.5) * dp, dp, scene.dimensions);
+            grounds.push_back(ground_at(surfaces, x, open.min.z(), open.max.z(), dp));
         }
-        side.bed.push_back(mean < infinity ? ground(dp / 2) : infinity);
-        side.strip.push_back(mean);
+    }
+    for (int lane = 0; lane < lanes; ++lane) {
+        side.bed.push_back(grounds[at(lane * strip_columns)]);
+    }
+    mark_walls(grounds, dp, side);
+    for (int lane = 0; lane < lanes; ++lane) {
+        side.strip.push_back(strip_ground(grounds, side, lane));
     }
     return side;
 }
@@ -148,6 +217,49 @@ bool stands_on_ground(const Scene& scene, const OpenSide& side)
 {
     return !any_lane(scene, side, 0.5 * scene.spacing, 0,
                      [&](double distance) { return distance > 0.5 * scene.spacing; });
+}
+
+bool is_barred(const Scene& scene, const OpenSide& side, double level)
+{
+    const double dp = scene.spacing;
+    const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
+    const auto is_free = [&](int lane, int column) {
+        Vec3 x = point_of_window(side, lane, (column + 0.5) * dp, dp, scene.dimensions);
+        x.z() = level - dp / 4;
+        return distance_to_walls(surfaces, x) >= 0;
+    };
+    std::vector<std::uint8_t> reached(side.wall.size(), 0);
+    std::vector<std::pair<int, int>> ways; // to go on from
+    const auto reach = [&](int lane, int column) {
+        const auto cell = at(lane * strip_columns + column);
+        if (reached[cell] == 0 && (!side.has_wall(lane, column) || is_free(lane, column))) {
+            reached[cell] = 1;
+            ways.emplace_back(lane, column);
+        }
+    };
+    for (int lane = 0; lane < side.lanes() && !side.wall.empty(); ++lane) {
+        reach(lane, 0);
+    }
+    bool leads_out = side.wall.empty();
+    while (!ways.empty() && !leads_out) {
+        const auto [lane, column] = ways.back();
+        ways.pop_back();
+        leads_out = column == strip_columns - 1;
+        for (const int k : {column - 1, column + 1}) {
+            if (k >= 0 && k < strip_columns) {
+                reach(lane, k);
+            }
+        }
+        for (const int beside : {lane - 1, lane + 1}) {
+            const int m = side.repeats ? (beside + side.lanes()) % side.lanes() : beside;
+            if (m >= 0 && m < side.lanes()) {
+                reach(m, column);
+            } else {
+                leads_out = leads_out || (scene.dimensions == 3 && is_free(m, column));
+            }
+        }
+    }
+    return !leads_out;
 }
 
 double ground_behind(const Scene& scene, const OpenSide& side)

@@ -16,6 +16,10 @@ bool is_walled(const Scene& scene, const OpenSide& side);
 /// Whether the lower edge of the window is on the ground or below it.
 bool stands_on_ground(const Scene& scene, const OpenSide& side);
 
+/// Whether walls that emerge at a level bar every way from the window through its strip, to the far
+/// end of it or to what lies beside it.
+bool is_barred(const Scene& scene, const OpenSide& side, double level);
+
 /// How far the ground goes on behind the window [m]: to the first place, in any lane, from which it
 /// is more than one and a half spacings away; at most the length of the carpet.
 double ground_behind(const Scene& scene, const OpenSide& side);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "walls.hpp"
 
+#include "deepest_wall.hpp"
 #include "layer_places.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -55,11 +56,12 @@ std::vector<LayerPlaces> places_of_walls(const Scene& scene, const Filling& fill
     return places;
 }
 
-bool move_alike(const Motion& a, const Motion& b)
-{
-    return !a.absorption && !b.absorption && a.velocity == b.velocity && a.times == b.times &&
-           a.places == b.places;
-}
+// A place in the layers of a wall, by its number there.
+struct WallPlace {
+    std::int32_t wall = 0;
+    Index number = 0;
+    Vec3 place{0, 0, 0};
+};
 
 const WallRun& run_with(const std::vector<WallRun>& runs, Index index)
 {
@@ -88,16 +90,10 @@ double depth_behind(const Wall& wall, const SolidSurface& surface, const Vec3& p
     return depth_behind(wall, p, dimensions);
 }
 
-WallCrowd::WallCrowd(const Scene& scene, const std::vector<Vec3>& points) : scene_(scene)
+WallCrowd::WallCrowd(const Scene& scene, const std::vector<Vec3>& points)
+    : scene_(scene), first_(first_alike(scene.walls)),
+      crowds_(scene.walls.size(), Crowd(scene.spacing, points))
 {
-    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        std::size_t first = 0;
-        while (first < w && !move_alike(scene.walls[first].motion, scene.walls[w].motion)) {
-            ++first;
-        }
-        first_.push_back(first);
-        crowds_.emplace_back(scene.spacing, points);
-    }
 }
 
 bool WallCrowd::add(const Vec3& point, std::size_t wall)
@@ -111,28 +107,40 @@ bool WallCrowd::add(const Vec3& point, std::size_t wall)
 void fill_walls(const Scene& scene, Filling& filling)
 {
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
+    const auto surfaces = surfaces_of(scene.walls, lattice.depth(), scene.dimensions);
+    const DeepestWall deepest(scene, surfaces, lattice.depth());
     WallCrowd crowd(scene, filling.wall);
-    for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        const Wall& wall = scene.walls[w];
-        const SolidSurface surface = surface_of(wall, lattice.depth(), scene.dimensions);
-        Index expected = -1; // the place that a run would go on with
-        for_each_place(
-            layer_places(wall, surface, lattice), nullptr, [&](Index number, const Vec3& p) {
-                if (!in_period(scene, p) || !crowd.add(p, w)) {
-                    return;
-                }
-                if (number != expected) {
-                    filling.wall_runs.push_back({static_cast<Index>(filling.wall.size()), number,
-                                                 static_cast<std::int32_t>(w)});
-                }
-                expected = number + 1;
-                filling.wall.push_back(p);
-                filling.wall_owner.push_back(static_cast<std::int32_t>(w));
-                if (scene.fluid->walls.sticks) {
-                    filling.wall_depth.push_back(depth_behind(wall, surface, p, scene.dimensions));
-                }
-            });
+    WallPlace expected{-1}; // the place that a run would go on with
+    const auto add = [&](const WallPlace& place) {
+        const auto& [w, number, p] = place;
+        if (!crowd.add(p, at(w))) {
+            return;
+        }
+        if (w != expected.wall || number != expected.number) {
+            filling.wall_runs.push_back({static_cast<Index>(filling.wall.size()), number, w});
+        }
+        expected = {w, number + 1};
+        filling.wall.push_back(p);
+        filling.wall_owner.push_back(w);
+        if (scene.fluid->walls.sticks) {
+            filling.wall_depth.push_back(
+                depth_behind(scene.walls[at(w)], surfaces[at(w)], p, scene.dimensions));
+        }
+    };
+    std::vector<WallPlace> within; // other walls too
+    for (std::int32_t w = 0; w < std::ssize(scene.walls); ++w) {
+        for_each_place(layer_places(scene.walls[at(w)], surfaces[at(w)], lattice), nullptr,
+                       [&](Index number, const Vec3& p) {
+                           const Owner owner =
+                               in_period(scene, p) ? deepest.owner(at(w), p) : Owner::other;
+                           if (owner == Owner::alone) {
+                               add({w, number, p});
+                           } else if (owner == Owner::first) {
+                               within.push_back({w, number, p});
+                           }
+                       });
     }
+    std::ranges::for_each(within, add);
 }
 
 WallMaker wall_maker(const Scene& scene, const Filling& filling,
@@ -160,7 +168,7 @@ std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
     const auto surfaces = surfaces_of(scene.walls, lattice.depth(), scene.dimensions);
     const std::vector<LayerPlaces> places = places_of_walls(scene, filling, surfaces);
-    const std::vector<int> fixed = fixed_walls_of(scene);
+    const std::vector<MovedWall> covers = moving_covers(scene, surfaces, 0);
     const Periods periods = periods_of(scene);
     std::vector<float> cubes(filling.wall.size());
     parallel_for(0, static_cast<Index>(cubes.size()), [&](Index k) {
@@ -168,8 +176,8 @@ std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
         const WallRun& run = run_with(filling.wall_runs, index);
         const double share =
             moves(scene.walls[at(run.wall)].motion)
-                ? uncovered_share(surfaces, fixed, filling.wall[at(k)], scene.spacing, periods)
-                : 1;
+                ? 1
+                : uncovered_share(covers, filling.wall[at(k)], scene.spacing, periods);
         cubes[at(k)] = static_cast<float>(
             share * cubes_at(places[at(run.wall)], run.place + index - run.first));
     });

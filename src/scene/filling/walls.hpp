@@ -9,14 +9,14 @@
 
 namespace hyoryu {
 
-/// Appends the particles of every wall; where two walls overlap, the earlier one keeps its
-/// particles.
+/// Appends the particles of every wall in places that lie within no other one that moves alike,
+/// then those in places within several, of the wall that `DeepestWall` names.
 void fill_walls(const Scene& scene, Filling& filling);
 
-/// Selects the particles of walls that have room. Walls that move in the same way keep 0.6 spacings
-/// from each other, those of earlier ones first. Those of a wall that moves in another way do not
-/// count: the two will part. Nor do those of the same mesh, cells of a lattice that its surface may
-/// cut.
+/// Selects the particles of walls that have room, at the seams of walls that overlap. Walls that
+/// move in the same way keep 0.6 spacings from each other, those of earlier ones first. Those of a
+/// wall that moves in another way do not count: the two will part. Nor do those of the same mesh,
+/// cells of a lattice that its surface may cut.
 class WallCrowd {
 public:
     WallCrowd(const Scene& scene, const std::vector<Vec3>& points);

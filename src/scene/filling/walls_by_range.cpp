@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "walls_by_range.hpp"
 
+#include "deepest_wall.hpp"
 #include "layer_places.hpp"
 #include "open_side.hpp"
 #include "walls.hpp"
@@ -17,27 +18,32 @@ namespace hyoryu {
 
 namespace {
 
-// A place in the layers of a wall. Wall particles are numbered by copy, wall and number.
+// A place in the layers of a wall. Wall particles are numbered by copy, turn, wall and number.
 struct LayerPlace {
+    Index turn = 0;        // 1 within several walls, else 0
     std::int32_t copy = 0; // 0: the place itself; else it is shifted by `wall_shifts[copy]`
     std::int32_t wall = 0;
     Index number = 0; // in the layers
     Vec3 home{0, 0, 0};
 
-    auto key() const { return std::tuple(copy, wall, number); }
+    auto key() const { return std::tuple(copy, turn, wall, number); }
     bool operator==(const LayerPlace& other) const { return key() == other.key(); }
 };
 
-// The places in the part of the layers that this process computes.
+// The places in the part of the layers that this process computes, each in its deepest wall.
 std::vector<LayerPlace> part_of_layers(const Scene& scene, const LayerLattice& lattice,
                                        const std::vector<SolidSurface>& surfaces, Comm& comm)
 {
+    const DeepestWall deepest(scene, surfaces, lattice.depth());
     std::vector<LayerPlace> places;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         for_each_place(layer_places(scene.walls[w], surfaces[w], lattice), &comm,
                        [&](Index number, const Vec3& p) {
-                           if (in_period(scene, p)) {
-                               places.push_back({0, static_cast<std::int32_t>(w), number, p});
+                           const Owner owner =
+                               in_period(scene, p) ? deepest.owner(w, p) : Owner::other;
+                           if (owner != Owner::other) {
+                               places.push_back({owner == Owner::first ? 1 : 0, 0,
+                                                 static_cast<std::int32_t>(w), number, p});
                            }
                        });
     }

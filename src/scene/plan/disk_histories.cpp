@@ -17,7 +17,8 @@ constexpr double full_cell = 20.5;
 constexpr double short_cell = 2;
 constexpr double time_of_fluid = 19;
 constexpr double time_of_bodies = 8;
-constexpr double header_lines = 250; // names and units of the columns
+constexpr double header_lines = 250;  // names and units of the columns
+constexpr double letters_of_unit = 4; // of a column of a gauge or an open side
 
 // Columns of a force gauge: pressure, viscous and contact parts, of which some are zero.
 constexpr double active_of_force_2d = 0.45;
@@ -92,12 +93,13 @@ double history_rows(const Scene& scene, const Course& course)
 
 HistorySize energy(const Scene& scene, const Plan& plan, const Course& course)
 {
-    constexpr double columns = 19; // without the time; of lost particles 4
+    const double of_openings = scene.open.empty() ? 0 : 4;
+    const double columns = 19 + of_openings; // without the time; of lost particles 4
     const bool falls = scene.gravity.norm() > 0;
     const bool pushes = !scene.walls.empty() && (plan.fluid || plan.contact);
     const Vec3 drive =
         scene.gravity + (scene.fluid ? scene.fluid->acceleration : Vec3(Vec3::Zero()));
-    double active = 0;
+    double active = of_openings;
     active += plan.fluid ? (falls ? 3 : 2) : 0;
     active += plan.rigid ? (falls ? 2 : 1) : 0;
     active += plan.contact && !plan.fluid ? 1 : 0; // water keeps most bodies from each other
@@ -160,13 +162,39 @@ HistorySize gauges(const Scene& scene, const Plan& plan, const Course& course)
     const double of_force = scene.dimensions == 2 ? active_of_force_2d : active_of_force_3d;
     double active = 0;
     double columns = 0;
+    double names = 0;
     for (std::size_t k = 0; k < plan.gauges.size(); ++k) {
+        names += static_cast<double>(plan.gauges[k].columns.size());
         const double own = 1 + static_cast<double>(std::ranges::count(plan.gauges[k].columns, ','));
         columns += own;
         active += own * (scene.gauges[k].type == GaugeType::force ? of_force : 1);
     }
-    const double text = time_cell(plan) + text_of(active, columns - active);
-    return {std::min(plan.gauge_rows, course.steps + 1), text, active + 1, columns - active, 0, 0};
+    HistorySize table;
+    table.rows = std::min(plan.gauge_rows, course.steps + 1);
+    table.row_text = time_cell(plan) + text_of(active, columns - active);
+    table.active = active + 1;
+    table.idle = columns - active;
+    table.header = names + letters_of_unit * columns;
+    return table;
+}
+
+HistorySize openings(const Scene& scene, const Plan& plan, const Course& course)
+{
+    constexpr double columns = 6;
+    constexpr double active = 5; // either nothing goes out or nothing comes in
+    constexpr double names = 6 * 13;
+    const double every = scene.output.gauge_every;
+    HistorySize table;
+    table.row_text = time_cell(plan);
+    table.rows = 1 + (every > 0 ? std::min(course.steps, scene.time.end / every) : course.steps);
+    table.active = 1;
+    for (const OpenSettings& side : scene.open) {
+        table.row_text += text_of(active, columns - active);
+        table.active += active;
+        table.idle += columns - active;
+        table.header += names + columns * (static_cast<double>(side.name.size()) + letters_of_unit);
+    }
+    return table;
 }
 
 double column_bytes(double rows, double left)
@@ -176,7 +204,7 @@ double column_bytes(double rows, double left)
 
 double bytes_of(const HistorySize& table)
 {
-    return header_lines + table.rows * (table.row_text + table.names) +
+    return header_lines + table.header + table.rows * (table.row_text + table.names) +
            table.active * column_bytes(table.rows, left_of_active) +
            table.idle * column_bytes(table.rows, left_of_idle) +
            of_column * (table.active + table.idle + table.text_columns);
@@ -202,6 +230,9 @@ std::vector<HistorySize> histories(const Scene& scene, const Plan& plan, const C
     }
     if (!plan.gauges.empty()) {
         tables.push_back(gauges(scene, plan, course));
+    }
+    if (!scene.open.empty()) {
+        tables.push_back(openings(scene, plan, course));
     }
     return tables;
 }

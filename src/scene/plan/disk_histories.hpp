@@ -19,9 +19,11 @@ struct HistorySize {
     double idle = 0;     // columns of constant numbers, mostly zero
     double names = 0;    // bytes of the columns of texts in a row of results.h5 [B]
     double text_columns = 0;
+    double header = 0; // bytes of the names and units of its columns beyond the usual [B]
 };
 
-/// The tables that a run writes: energy, and bodies, contacts and gauges where there are any.
+/// The tables that a run writes: energy, and bodies, contacts, gauges and open sides where there
+/// are any.
 std::vector<HistorySize> histories(const Scene& scene, const Plan& plan, const Course& course);
 
 /// Bytes of the CSV files and of their columns in results.h5 [B].

@@ -63,17 +63,18 @@ void warn_about_covered_walls(const Scene& scene, const PlanFacts& facts, Plan& 
     }
     const double thickness = 4 * scene.spacing; // of the sides of basins: more than is looked at
     const auto surfaces = surfaces_of(scene.walls, thickness, scene.dimensions);
-    const std::vector<int> all_fixed = fixed_walls_of(scene);
     for (std::size_t w = 0; w < facts.moving.size(); ++w) {
         const Wall& wall = scene.walls[w];
-        for (const int f : all_fixed) {
-            if (share_covered(scene, wall, surfaces[w], surfaces[at(f)], facts.moving[w]) >
-                noteworthy) {
+        for (std::size_t f = 0; f < scene.walls.size(); ++f) {
+            if (!moves(scene.walls[f].motion) &&
+                share_covered(scene, wall, surfaces[w], surfaces[f], facts.moving[w]) >
+                    noteworthy) {
                 warn(scene, wall.place, fmt::format("wall[{}]", w),
                      fmt::format("the surface of the moving wall \"{}\" lies in that of the fixed "
-                                 "wall \"{}\", which alone acts on the water there",
-                                 wall.name, scene.walls[at(f)].name),
-                     "open that side of the basin, or let the moving wall stand in front of it",
+                                 "wall \"{}\"; only the moving one acts on the water there",
+                                 wall.name, scene.walls[f].name),
+                     "let the moving wall end before the fixed one, unless the water is to meet a "
+                     "moving surface there",
                      plan);
             }
         }

@@ -284,6 +284,19 @@ void warn_about_start(const Scene& scene, const OpenSettings& open, const WaterA
     }
 }
 
+void warn_about_walls(const Scene& scene, const OpenSettings& open, const OpenSide& side,
+                      const WaterAtStart& water, const auto& warn)
+{
+    const double level = std::max(water.level, highest_asked(open).value_or(-infinity));
+    if (level > -infinity && is_barred(scene, side, level)) {
+        warn("min",
+             fmt::format("walls that emerge close off the water behind the window: no way leads "
+                         "past them {} spacings into the domain",
+                         strip_columns),
+             "leave a gap of several spacings between the walls, or move the window");
+    }
+}
+
 void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
                             std::vector<Diagnostic>& errors)
 {
@@ -337,6 +350,7 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
         }
     }
     warn_about_ground(scene, side, warn);
+    warn_about_walls(scene, open, side, water, warn);
     double deepest = 0;
     const double bed = mean_bed(side);
     warn_about_start(scene, open, water, bed, warn);

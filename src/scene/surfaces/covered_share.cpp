@@ -31,22 +31,21 @@ double share_of(std::vector<SurfaceCut>& cuts)
     return left;
 }
 
-// Calls f(image) for a place and its images that are within `edge` of the domain.
-void for_near_images(const Periods& periods, const Vec3& place, double edge, const auto& f)
+// The image of a place in the first period.
+Vec3 wrapped(Vec3 place, const Periods& periods)
 {
-    Vec3 own = place;
     for (int a = 0; a < 3; ++a) {
         if (const double length = periods.length[a]; length > 0) {
-            own[a] -= std::floor((place[a] - periods.first[a]) / length) * length;
+            place[a] -= std::floor((place[a] - periods.first[a]) / length) * length;
         }
     }
-    over_images(own, periods.first, periods.length, edge, f);
+    return place;
 }
 
-// A fixed wall near a cell, and the image of the cell that it is near.
+// A wall near a cell, and the cell as seen from the centre of the wall.
 struct NearWall {
     const SolidSurface* solid = nullptr;
-    Vec3 image{0, 0, 0};
+    Vec3 from_centre{0, 0, 0};
 };
 
 // The share of a cell by 27 parts, each cut by the planes nearest to its middle.
@@ -61,8 +60,7 @@ double share_by_parts(std::span<const NearWall> near, double edge)
         const Vec3 way = part * Vec3(k % parts - 1, k / parts % parts - 1, layer - 1);
         cuts.clear();
         for (const NearWall& wall : near) {
-            const NearestPlace found =
-                nearest_from_centre(*wall.solid, wall.image + way - wall.solid->centre);
+            const NearestPlace found = nearest_from_centre(*wall.solid, wall.from_centre + way);
             if (const double share = 0.5 + found.distance / part; share < 1) {
                 cuts.push_back({std::max(share, 0.0), found.normal});
             }
@@ -86,36 +84,41 @@ Periods periods_of(const Scene& scene)
     return periods;
 }
 
-std::vector<int> fixed_walls_of(const Scene& scene)
+std::vector<MovedWall> moving_covers(const Scene& scene, std::span<const SolidSurface> surfaces,
+                                     double time)
 {
-    std::vector<int> fixed;
+    std::vector<MovedWall> covers;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
-        if (!moves(scene.walls[w].motion)) {
-            fixed.push_back(static_cast<int>(w));
+        if (const Motion& motion = scene.walls[w].motion; moves(motion)) {
+            const Vec3 way = displacement(motion, time);
+            covers.push_back({&surfaces[w], surfaces[w].centre + way});
         }
     }
-    return fixed;
+    return covers;
 }
 
-double uncovered_share(std::span<const SolidSurface> surfaces, std::span<const int> fixed,
-                       const Vec3& place, double edge, const Periods& periods)
+double uncovered_share(std::span<const MovedWall> covers, const Vec3& place, double edge,
+                       const Periods& periods)
 {
     constexpr double half_diagonal = 0.867;
     std::vector<NearWall> near;
     bool within = false;
-    for_near_images(periods, place, edge, [&](const Vec3& image) {
-        for (const int wall : fixed) {
-            const SolidSurface& solid = surfaces[at(wall)];
-            if ((image - solid.centre).norm() > solid.reach + edge) {
-                continue;
-            }
-            const double distance = nearest_from_centre(solid, image - solid.centre).distance;
-            within = within || distance < -half_diagonal * edge;
-            if (std::abs(distance) <= half_diagonal * edge) {
-                near.push_back({&solid, image});
-            }
+    const auto look = [&](const MovedWall& cover, const Vec3& from_centre) {
+        if (from_centre.norm() > cover.solid->reach + edge) {
+            return;
         }
-    });
+        const double distance = nearest_from_centre(*cover.solid, from_centre).distance;
+        within = within || distance < -half_diagonal * edge;
+        if (std::abs(distance) <= half_diagonal * edge) {
+            near.push_back({cover.solid, from_centre});
+        }
+    };
+    const Vec3 own = wrapped(place, periods);
+    for (const MovedWall& cover : covers) {
+        const Vec3 centre = wrapped(cover.centre, periods);
+        over_images(own, periods.first, periods.length, infinity,
+                    [&](const Vec3& image) { look(cover, image - centre); });
+    }
     if (within || near.empty()) {
         return within ? 0 : 1;
     }
