@@ -66,6 +66,14 @@ private:
     double spacing_; // [m]
 };
 
+// Whether one side of a joint stands on the other.
+bool supports(const Fluid& fluid, const FilmCut& cut)
+{
+    constexpr double steep = 0.3; // cosine, as of the joints
+    const Vec3& gravity = fluid.parameters.gravity;
+    return std::abs(cut.normal.dot(gravity)) > steep * gravity.norm();
+}
+
 // The first cut of each row of bodies; -1 without any. Those of a row follow each other.
 void find_cuts(const Fluid& fluid, std::vector<int>& first)
 {
@@ -105,7 +113,7 @@ void cut_slip_of_films(JointTables& tables, const std::vector<Pose>& poses, Flui
         for (auto k = at(first); k < cuts.size() && cuts[k].row == row; ++k) {
             const bool is_other =
                 cuts[k].other < 0 ? other.owner < 0 : other.owner == cuts[k].other;
-            if (is_other && cuts[k].part > 0) {
+            if (is_other && cuts[k].part > 0 && supports(fluid, cuts[k])) {
                 const Vec3& normal = cuts[k].normal;
                 slip[k] += cuts[k].part * opposite(at(own.owner), cuts[k], other.x) *
                            (film - film.dot(normal) * normal);

@@ -13,36 +13,41 @@ namespace {
 
 constexpr real uncovered = -1; // no moving wall is near
 
-// Notes the displaced masses of the rows that a moving wall may reach before the next lists.
-void find_rows(Simulation& sim, const std::vector<MovedWall>& covers)
+// Notes the displaced masses of the rows that cover or may be covered before the next lists.
+void find_rows(Simulation& sim, const Covers& covers)
 {
     const FixedWalls& walls = sim.fluid->fixed_walls;
     const Store& store = sim.fluid->particles.wall;
     const auto x = store[field::position];
     const auto id = store.id();
-    const Periods periods = periods_of(sim.scene);
     const double margin = 2 * sim.scene.spacing; // lists are made anew after less
-    sim.covered.mass.assign(at(store.size() - walls.moving_rows), uncovered);
+    sim.covered.mass = sim.covered.of_moving;
+    sim.covered.mass.resize(at(store.size()), uncovered);
     parallel_for(walls.moving_rows, store.size(), [&](Index row) {
-        if (uncovered_share(covers, x[row], 2 * margin, periods) < 1) {
+        if (covers.is_moving_near(x[row], margin)) {
             const auto index = static_cast<std::int32_t>(id[row] - walls.first_number);
-            sim.covered.mass[at(row - walls.moving_rows)] = walls.make(index).displaced_mass;
+            sim.covered.mass[at(row)] = walls.make(index).displaced_mass;
         }
     });
 }
 
-void set_masses(Simulation& sim, const std::vector<MovedWall>& covers)
+void set_masses(Simulation& sim, const Covers& covers, const std::vector<Vec3>& ways)
 {
     Store& store = sim.fluid->particles.wall;
     const auto x = store[field::position];
     const auto mass = store[field::displaced_mass];
-    const Index first = sim.fluid->fixed_walls.moving_rows;
-    const Periods periods = periods_of(sim.scene);
-    parallel_for(first, store.size(), [&](Index row) {
-        if (const real own = sim.covered.mass[at(row - first)]; own != uncovered) {
-            const double share = uncovered_share(covers, x[row], sim.scene.spacing, periods);
-            mass[row] = own * static_cast<real>(share);
+    const auto owner = store.owner();
+    parallel_for(0, store.size(), [&](Index row) {
+        const real own = sim.covered.mass[at(row)];
+        if (own == uncovered) {
+            return;
         }
+        const auto wall = at(-1 - owner[row]);
+        // Of a moving wall the place itself, not its image in a periodic domain.
+        const Vec3 place = row < sim.fluid->fixed_walls.moving_rows
+                               ? sim.wall_start[at(row)] + ways[wall]
+                               : x[row];
+        mass[row] = own * static_cast<real>(covers.share(wall, place, sim.scene.spacing));
     });
 }
 
@@ -53,6 +58,10 @@ CoveredWalls covered_walls(const Simulation& sim)
     const auto is_moving = [](const Wall& wall) { return moves(wall.motion); };
     CoveredWalls covered;
     covered.needed = sim.fluid->moving_walls && !std::ranges::all_of(sim.scene.walls, is_moving);
+    const auto mass = sim.fluid->particles.wall[field::displaced_mass];
+    if (covered.needed) {
+        covered.of_moving.assign(mass.begin(), mass.begin() + sim.fluid->fixed_walls.moving_rows);
+    }
     return covered;
 }
 
@@ -70,11 +79,11 @@ void cover_walls(Simulation& sim, double time)
     if (!fresh && ways == covered.ways) {
         return;
     }
-    const std::vector<MovedWall> covers = moving_covers(sim.scene, sim.barrier->solids, time);
+    const Covers covers(sim.scene, sim.barrier->solids, time);
     if (fresh) {
         find_rows(sim, covers);
     }
-    set_masses(sim, covers);
+    set_masses(sim, covers, ways);
     covered.builds = sim.fluid->neighbours.builds;
     covered.ways = std::move(ways);
 }

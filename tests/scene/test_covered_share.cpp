@@ -39,7 +39,7 @@ double share_of(const Scene& scene, const Vec3& place)
     for (const Wall& wall : scene.walls) {
         surfaces.push_back(surface_of(wall, 1, 3));
     }
-    std::vector<MovedWall> covers;
+    std::vector<CoverWall> covers;
     for (const SolidSurface& solid : surfaces) {
         covers.push_back({&solid, solid.centre});
     }
@@ -128,7 +128,7 @@ std::vector<std::string> told_of(const std::string& sides, const std::string& wa
         "case.toml");
     std::vector<std::string> said;
     for (const Diagnostic& warning : make_plan(scene, fill(scene)).warnings) {
-        if (warning.what.find("only the moving one acts on the water") != std::string::npos) {
+        if (warning.what.find("alone acts on the water") != std::string::npos) {
             said.push_back(warning.what);
         }
     }

@@ -126,7 +126,8 @@ std::map<Place, std::string> owners(const std::string& text)
 }
 
 // Only at the seams, where less than 0.6 spacings are left between the particles of two walls, does
-// the order count: up to one of the particles of each row of the slab, at each end of it.
+// the order count, and where two ways out are of the same length: up to three of the particles of
+// two rows of the slab, at each end of it.
 TEST(EmbeddedWalls, TheOrderOfWallsCountsAtSeamsAlone)
 {
     Dice dice(82);
@@ -141,7 +142,7 @@ TEST(EmbeddedWalls, TheOrderOfWallsCountsAtSeamsAlone)
             const auto found = before.find(place);
             unlike += found == before.end() || found->second != wall ? 1 : 0;
         }
-        EXPECT_LE(unlike, 2 * slab.deep + slab.wide / 4 + 2)
+        EXPECT_LE(unlike, 3 * slab.deep + slab.wide / 4 + 2)
             << "draw " << n << ": top " << slab.top << ", " << slab.wide << " wide";
     }
 }

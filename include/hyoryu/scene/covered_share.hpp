@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Fixed walls within moving ones.
+// Moving walls within fixed ones.
 //
 // A part of a moving wall may lie within a fixed wall: the foot of a paddle in the floor, a piston
 // that starts in line with the side of a basin, or a platform that rises out of the floor. What two
-// walls share must act on the water once, and there the moving wall acts: its surface, and not that
-// of the fixed wall, comes out or bounds what comes out. A particle of a fixed wall has the volume
-// of the part of its cell outside of all moving walls, which changes as these move. With the fixed
-// wall in its place, water that follows a platform would recede from hidden particles at rest, and
-// lose its density and pressure.
+// walls share must act on the water once, with the velocity of the surface that bounds the water
+// there. Where the wall moves across the surface of the fixed wall, its own surface comes out:
+// there the moving wall acts. Water that follows a platform would otherwise recede from hidden
+// particles at rest, and lose its density and pressure. Where it moves along that surface, this
+// surface is bared behind it: there the fixed wall acts. A particle of the other wall has the
+// volume of the part of its cell outside of the one that acts, which changes as the wall moves.
 #pragma once
 
 #include "hyoryu/scene/scene.hpp"
 #include "hyoryu/scene/solid_surface.hpp"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,19 +48,38 @@ void over_images(const Vec3& own, const Vec3& first, const Vec3& length, double 
     }
 }
 
-/// A wall where it is.
-struct MovedWall {
+/// A wall that may take part of a cell.
+struct CoverWall {
     const SolidSurface* solid = nullptr;
-    Vec3 centre{0, 0, 0}; // [m]
+    Vec3 centre{0, 0, 0};   // where it is [m]
+    Vec3 left_out{0, 0, 0}; // where its normal is along this unit vector it does not count
 };
 
-/// The walls that move, where they are at a time [s]; `surfaces`: of all walls.
-std::vector<MovedWall> moving_covers(const Scene& scene, std::span<const SolidSurface> surfaces,
-                                     double time);
-
 /// The share of a cell about a place, or about its images in the domain, that lies outside of the
-/// covers, by 27 parts of it, of which each cover cuts one by a plane. `edge`: of the cell [m].
-double uncovered_share(std::span<const MovedWall> covers, const Vec3& place, double edge,
+/// walls, by 27 parts of it, of which each wall cuts one by a plane. `edge`: of the cell [m].
+double uncovered_share(std::span<const CoverWall> walls, const Vec3& place, double edge,
                        const Periods& periods);
+
+/// What the walls of a scene leave of each other's cells at a time.
+class Covers {
+public:
+    /// `surfaces`: of all walls at time 0; scene and surfaces must outlive this. `time` [s].
+    Covers(const Scene& scene, std::span<const SolidSurface> surfaces, double time);
+
+    /// The share of the cell about a place in a wall that is its own. `edge`: of the cell [m].
+    double share(std::size_t wall, const Vec3& place, double edge) const;
+    /// Whether a moving wall is nearer to the place than a length [m].
+    bool is_moving_near(const Vec3& place, double length) const;
+
+private:
+    std::vector<CoverWall> near_moving(std::size_t wall, const Vec3& place) const;
+
+    std::span<const SolidSurface> surfaces_;
+    Periods periods_;
+    std::vector<std::vector<CoverWall>> fixed_of_; // by wall: the fixed ones, if it moves
+    std::vector<std::uint8_t> is_moving_;          // by wall
+    std::vector<CoverWall> moving_;
+    std::vector<Vec3> ways_; // unit vectors along them, as `moving_`
+};
 
 } // namespace hyoryu

@@ -16,6 +16,12 @@ bool move_alike(const Motion& a, const Motion& b)
            a.places == b.places;
 }
 
+// The layers of meshes are a lattice that their surface cuts, in any wall that they overlap.
+bool is_cut_lattice(const SolidSurface& wall)
+{
+    return std::holds_alternative<TriangleTree>(wall.shape);
+}
+
 struct DeepPlace {
     double depth = -infinity; // behind the surface [m]
     Vec3 foot{0, 0, 0};       // the nearest point of the surface [m]
@@ -95,6 +101,9 @@ DeepestWall::DeepestWall(const Scene& scene, std::span<const SolidSurface> surfa
 
 Owner DeepestWall::owner(std::size_t wall, const Vec3& place) const
 {
+    if (is_cut_lattice(surfaces_[wall])) {
+        return Owner::alone;
+    }
     std::vector<Claim> claims = claims_of_others(wall, place);
     if (claims.empty()) {
         return Owner::alone;
@@ -104,8 +113,6 @@ Owner DeepestWall::owner(std::size_t wall, const Vec3& place) const
     find_ways(place, claims);
     const double shortest = std::ranges::min(claims, {}, &Claim::way).way;
     std::erase_if(claims, [&](const Claim& c) { return c.way > shortest + tie_; });
-    const double deepest = std::ranges::max(claims, {}, &Claim::depth).depth;
-    std::erase_if(claims, [&](const Claim& c) { return c.depth < deepest - tie_; });
     return claims.front().wall == wall ? Owner::first : Owner::other;
 }
 
@@ -114,7 +121,7 @@ std::vector<DeepestWall::Claim> DeepestWall::claims_of_others(std::size_t wall,
 {
     std::vector<Claim> claims;
     const auto look = [&](std::size_t other) {
-        if (other != wall && first_[other] == first_[wall]) {
+        if (other != wall && first_[other] == first_[wall] && !is_cut_lattice(surfaces_[other])) {
             const double depth = depth_in_layers(surfaces_[other], place, layers_);
             if (depth > tie_) {
                 claims.push_back({other, depth});

@@ -26,9 +26,8 @@ enum class Owner {
 /// water would see layers that begin too deep. A place therefore belongs to the wall whose surface
 /// ends the shortest way out of all of them: from the place to the nearest point of the surface of
 /// a wall and, if this lies within another one, on to the nearest point of the surface of that.
-/// Of ways of the same length, the wall in which the place lies deepest counts, then the earlier
-/// one. Every place has one owner, whatever the order of the walls; walls count where they have
-/// layers.
+/// Of ways of the same length, that of the earlier wall counts. Every place has one owner; walls
+/// count where they have layers, and meshes not at all.
 class DeepestWall {
 public:
     /// `surfaces`: of each wall; they must outlive this. `layers`: thickness of the layers [m].

@@ -168,16 +168,12 @@ std::vector<float> wall_cubes(const Scene& scene, const Filling& filling)
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
     const auto surfaces = surfaces_of(scene.walls, lattice.depth(), scene.dimensions);
     const std::vector<LayerPlaces> places = places_of_walls(scene, filling, surfaces);
-    const std::vector<MovedWall> covers = moving_covers(scene, surfaces, 0);
-    const Periods periods = periods_of(scene);
+    const Covers covers(scene, surfaces, 0);
     std::vector<float> cubes(filling.wall.size());
     parallel_for(0, static_cast<Index>(cubes.size()), [&](Index k) {
         const auto index = static_cast<Index>(filling.number_of_wall(at(k)));
         const WallRun& run = run_with(filling.wall_runs, index);
-        const double share =
-            moves(scene.walls[at(run.wall)].motion)
-                ? 1
-                : uncovered_share(covers, filling.wall[at(k)], scene.spacing, periods);
+        const double share = covers.share(at(run.wall), filling.wall[at(k)], scene.spacing);
         cubes[at(k)] = static_cast<float>(
             share * cubes_at(places[at(run.wall)], run.place + index - run.first));
     });

@@ -71,10 +71,9 @@ void warn_about_covered_walls(const Scene& scene, const PlanFacts& facts, Plan& 
                     noteworthy) {
                 warn(scene, wall.place, fmt::format("wall[{}]", w),
                      fmt::format("the surface of the moving wall \"{}\" lies in that of the fixed "
-                                 "wall \"{}\"; only the moving one acts on the water there",
+                                 "wall \"{}\", which alone acts on the water there",
                                  wall.name, scene.walls[f].name),
-                     "let the moving wall end before the fixed one, unless the water is to meet a "
-                     "moving surface there",
+                     "open that side of the basin, or let the moving wall stand in front of it",
                      plan);
             }
         }
