@@ -6,6 +6,7 @@
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hyoryu {
 
@@ -58,8 +59,8 @@ CoveredWalls covered_walls(const Simulation& sim)
     const auto is_moving = [](const Wall& wall) { return moves(wall.motion); };
     CoveredWalls covered;
     covered.needed = sim.fluid->moving_walls && !std::ranges::all_of(sim.scene.walls, is_moving);
-    const auto mass = sim.fluid->particles.wall[field::displaced_mass];
     if (covered.needed) {
+        const auto mass = std::as_const(sim.fluid->particles.wall)[field::displaced_mass];
         covered.of_moving.assign(mass.begin(), mass.begin() + sim.fluid->fixed_walls.moving_rows);
     }
     return covered;

@@ -111,9 +111,11 @@ Owner DeepestWall::owner(std::size_t wall, const Vec3& place) const
     claims.push_back({wall, deep_place(surfaces_[wall], place, infinity).depth});
     std::ranges::sort(claims, {}, &Claim::wall); // the same from the view of each of them
     find_ways(place, claims);
-    const double shortest = std::ranges::min(claims, {}, &Claim::way).way;
-    std::erase_if(claims, [&](const Claim& c) { return c.way > shortest + tie_; });
-    return claims.front().wall == wall ? Owner::first : Owner::other;
+    std::ranges::sort(claims, {}, &Claim::way);
+    if (claims[1].way <= claims[0].way + tie_) {
+        return Owner::alone;
+    }
+    return claims[0].wall == wall ? Owner::first : Owner::other;
 }
 
 std::vector<DeepestWall::Claim> DeepestWall::claims_of_others(std::size_t wall,

@@ -16,7 +16,7 @@ std::vector<std::size_t> first_alike(const std::vector<Wall>& walls);
 
 /// Whose a place in the layers of a wall is.
 enum class Owner {
-    alone, // of this wall: it lies within no other one
+    alone, // of this wall: it lies within no other one with a better claim, or as good a one
     first, // of this wall, of all within which it lies
     other
 };
@@ -26,8 +26,8 @@ enum class Owner {
 /// water would see layers that begin too deep. A place therefore belongs to the wall whose surface
 /// ends the shortest way out of all of them: from the place to the nearest point of the surface of
 /// a wall and, if this lies within another one, on to the nearest point of the surface of that.
-/// Of ways of the same length, that of the earlier wall counts. Every place has one owner; walls
-/// count where they have layers, and meshes not at all.
+/// Where two ways are of the same length, as below the side of an obstacle that reaches into the
+/// ground, no wall has a better claim. Walls count where they have layers, and meshes not at all.
 class DeepestWall {
 public:
     /// `surfaces`: of each wall; they must outlive this. `layers`: thickness of the layers [m].
