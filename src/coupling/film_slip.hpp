@@ -5,9 +5,9 @@
 // body and the ground before it push the body as much, by the symmetry of the two corners, so that
 // it has the whole force of the water. The films between the body and the ground under it must push
 // nothing along the joint. They would, since the pressure of solid particles ends where fluid is
-// out of reach, and the particles of the body reach fluid farther in than those of the ground: by
-// the place of the last column of water between -0.2 and 0.25 spacings of water on the side, 5 % of
-// its force at ten spacings. Ours.
+// out of reach, and the particles of the body reach fluid farther in than those of the ground: as
+// -0.2 to 0.25 spacings of height of the water would, by the place of its last column, 5 % of the
+// force at ten spacings. The force of a film is that of fluid/pressure. Ours.
 #pragma once
 
 #include "joint_gaps.hpp"

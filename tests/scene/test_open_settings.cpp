@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Open sides in case files: the ground below windows, the
-// walls carried out below carpets, and what is refused.
+// Open sides in case files: the ground below windows, the walls carried out below carpets, and what
+// is refused.
 #include "hyoryu/scene/open_settings.hpp"
 #include "hyoryu/scene/plan.hpp"
 #include "hyoryu/scene/wall_layers.hpp"

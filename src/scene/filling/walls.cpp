@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "walls.hpp"
 
-#include "deepest_wall.hpp"
 #include "layer_places.hpp"
+#include "overlap_owner.hpp"
 
 #include "hyoryu/core/parallel.hpp"
 #include "hyoryu/scene/covered_share.hpp"
@@ -108,7 +108,7 @@ void fill_walls(const Scene& scene, Filling& filling)
 {
     const LayerLattice lattice = layer_lattice(scene, filling.domain);
     const auto surfaces = surfaces_of(scene.walls, lattice.depth(), scene.dimensions);
-    const DeepestWall deepest(scene, surfaces, lattice.depth());
+    const OverlapOwner owners(scene, surfaces, lattice.depth());
     WallCrowd crowd(scene, filling.wall);
     WallPlace expected{-1}; // the place that a run would go on with
     const auto add = [&](const WallPlace& place) {
@@ -132,10 +132,10 @@ void fill_walls(const Scene& scene, Filling& filling)
         for_each_place(layer_places(scene.walls[at(w)], surfaces[at(w)], lattice), nullptr,
                        [&](Index number, const Vec3& p) {
                            const Owner owner =
-                               in_period(scene, p) ? deepest.owner(at(w), p) : Owner::other;
+                               in_period(scene, p) ? owners.owner(at(w), p) : Owner::other;
                            if (owner == Owner::alone) {
                                add({w, number, p});
-                           } else if (owner == Owner::first) {
+                           } else if (owner == Owner::best) {
                                within.push_back({w, number, p});
                            }
                        });

@@ -10,7 +10,7 @@
 namespace hyoryu {
 
 /// Appends the particles of every wall in places that lie within no other one that moves alike,
-/// then those in places within several, of the wall that `DeepestWall` names.
+/// then those in places within several, of the wall that `OverlapOwner` names.
 void fill_walls(const Scene& scene, Filling& filling);
 
 /// Selects the particles of walls that have room, at the seams of walls that overlap. Walls that

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "walls_by_range.hpp"
 
-#include "deepest_wall.hpp"
 #include "layer_places.hpp"
 #include "open_side.hpp"
+#include "overlap_owner.hpp"
 #include "walls.hpp"
 
 #include "hyoryu/scene/solid_surface.hpp"
@@ -30,19 +30,20 @@ struct LayerPlace {
     bool operator==(const LayerPlace& other) const { return key() == other.key(); }
 };
 
-// The places in the part of the layers that this process computes, each in its deepest wall.
+// The places in the part of the layers that this process computes, each of the wall with the best
+// claim.
 std::vector<LayerPlace> part_of_layers(const Scene& scene, const LayerLattice& lattice,
                                        const std::vector<SolidSurface>& surfaces, Comm& comm)
 {
-    const DeepestWall deepest(scene, surfaces, lattice.depth());
+    const OverlapOwner owners(scene, surfaces, lattice.depth());
     std::vector<LayerPlace> places;
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         for_each_place(layer_places(scene.walls[w], surfaces[w], lattice), &comm,
                        [&](Index number, const Vec3& p) {
                            const Owner owner =
-                               in_period(scene, p) ? deepest.owner(w, p) : Owner::other;
+                               in_period(scene, p) ? owners.owner(w, p) : Owner::other;
                            if (owner != Owner::other) {
-                               places.push_back({owner == Owner::first ? 1 : 0, 0,
+                               places.push_back({owner == Owner::best ? 1 : 0, 0,
                                                  static_cast<std::int32_t>(w), number, p});
                            }
                        });

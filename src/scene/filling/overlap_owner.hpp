@@ -17,7 +17,7 @@ std::vector<std::size_t> first_alike(const std::vector<Wall>& walls);
 /// Whose a place in the layers of a wall is.
 enum class Owner {
     alone, // of this wall: it lies within no other one with a better claim, or as good a one
-    first, // of this wall, of all within which it lies
+    best,  // of this wall, whose claim is the best of all within which it lies
     other
 };
 
@@ -28,10 +28,10 @@ enum class Owner {
 /// a wall and, if this lies within another one, on to the nearest point of the surface of that.
 /// Where two ways are of the same length, as below the side of an obstacle that reaches into the
 /// ground, no wall has a better claim. Walls count where they have layers, and meshes not at all.
-class DeepestWall {
+class OverlapOwner {
 public:
     /// `surfaces`: of each wall; they must outlive this. `layers`: thickness of the layers [m].
-    DeepestWall(const Scene& scene, std::span<const SolidSurface> surfaces, double layers);
+    OverlapOwner(const Scene& scene, std::span<const SolidSurface> surfaces, double layers);
 
     /// Whose a place in the layers of a wall is.
     Owner owner(std::size_t wall, const Vec3& place) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "deepest_wall.hpp"
+#include "overlap_owner.hpp"
 
 #include <algorithm>
 
@@ -83,7 +83,8 @@ std::vector<std::size_t> first_alike(const std::vector<Wall>& walls)
     return firsts;
 }
 
-DeepestWall::DeepestWall(const Scene& scene, std::span<const SolidSurface> surfaces, double layers)
+OverlapOwner::OverlapOwner(const Scene& scene, std::span<const SolidSurface> surfaces,
+                           double layers)
     : surfaces_(surfaces), layers_(layers), tie_(tie * scene.spacing),
       first_(first_alike(scene.walls))
 {
@@ -99,7 +100,7 @@ DeepestWall::DeepestWall(const Scene& scene, std::span<const SolidSurface> surfa
     boxes_ = tree_over(boxes);
 }
 
-Owner DeepestWall::owner(std::size_t wall, const Vec3& place) const
+Owner OverlapOwner::owner(std::size_t wall, const Vec3& place) const
 {
     if (is_cut_lattice(surfaces_[wall])) {
         return Owner::alone;
@@ -115,11 +116,11 @@ Owner DeepestWall::owner(std::size_t wall, const Vec3& place) const
     if (claims[1].way <= claims[0].way + tie_) {
         return Owner::alone;
     }
-    return claims[0].wall == wall ? Owner::first : Owner::other;
+    return claims[0].wall == wall ? Owner::best : Owner::other;
 }
 
-std::vector<DeepestWall::Claim> DeepestWall::claims_of_others(std::size_t wall,
-                                                              const Vec3& place) const
+std::vector<OverlapOwner::Claim> OverlapOwner::claims_of_others(std::size_t wall,
+                                                                const Vec3& place) const
 {
     std::vector<Claim> claims;
     const auto look = [&](std::size_t other) {
@@ -136,7 +137,7 @@ std::vector<DeepestWall::Claim> DeepestWall::claims_of_others(std::size_t wall,
     return claims;
 }
 
-void DeepestWall::find_ways(const Vec3& place, std::vector<Claim>& claims) const
+void OverlapOwner::find_ways(const Vec3& place, std::vector<Claim>& claims) const
 {
     for (Claim& claim : claims) {
         claim.way = infinity;
