@@ -3,6 +3,7 @@
 #pragma once
 
 #include "joint_faces.hpp"
+#include "joint_inflow.hpp"
 #include "joint_surface.hpp"
 #include "lattice_sums.hpp"
 
@@ -33,6 +34,7 @@ struct BodyJoints {
     std::vector<int> near;            // other solids that it may touch, walls first
     std::vector<JointNode> nodes;     // by cell; empty while no cell lies opposite anything
     std::vector<std::uint8_t> joined; // by face: it has touched the opposite surface
+    std::vector<JointInflow> inflows; // by face
 };
 
 /// All surfaces of the scene.

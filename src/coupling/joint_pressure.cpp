@@ -44,6 +44,18 @@ struct Filled {
     double trapped = 0;  // share of a gap too narrow for a row of them that they fill, 0 to 1
 };
 
+// The inflow into a joint whose sides part. Its section counts as at least a spacing high: the
+// unevenness of real joints.
+struct Inflow {
+    double opening = 0;     // mean speed at which the sides part [m/s]
+    double area = 0;        // of the joint [m2]
+    double section = 0;     // of the wet part of the rim [m2]
+    double rim = 0;         // length of the wet part of the rim [m]
+    double push = 0;        // of the joint, without the drop [N]
+    double apart = 0;       // growth of the opening by the weight [m/s2]
+    double mass = infinity; // that parts [kg]
+};
+
 // The joint of one face.
 class FaceJoint {
 public:
@@ -67,6 +79,7 @@ public:
             }
         }
         if (!open && !has_rim()) { // closed on all sides: its film forces act unchanged
+            body_.inflows[at(cell(face_.first).face)] = {};
             for (int c = face_.first; c < face_.last; ++c) {
                 node(c).other = JointNode::none;
             }
@@ -76,7 +89,7 @@ public:
             start();
             relax();
         }
-        const double drop = open ? inflow_drop() : 0;
+        const double drop = inflow_drop(measure_inflow());
         for (int c = face_.first; c < face_.last; ++c) {
             if (joined(c)) {
                 hand_over(c, drop);
@@ -235,44 +248,59 @@ private:
         }
     }
 
-    // Water that enters through the rim while the faces separate is accelerated: by Bernoulli's law
-    // the pressure falls by rho u^2 / 2, u the flow divided by the wet section of the rim; the dry
-    // part admits air. The section counts as at least a spacing high: the unevenness of real
-    // joints. Implicit in the speed of separation, which the pressure of the joint, less the
-    // weight, increases within the step: the speed of a light body doubles in one step, and a drop
-    // computed from the old speed would leave a pressure of water that cannot have entered.
-    double inflow_drop()
+    Inflow measure_inflow()
     {
-        double flow = 0;
-        double area = 0;
-        double section = 0;
-        double push = 0;  // of the joint, without the drop [N]
-        double apart = 0; // change of the flow by the weight per second
-        double mass = infinity;
+        Inflow in;
         const Vec3 gravity = fluid_.weight / fluid_.density;
         for (int c = face_.first; c < face_.last; ++c) {
             if (!joined(c)) {
                 continue;
             }
-            flow += cell(c).area * node(c).opening;
-            area += cell(c).area;
-            push += cell(c).area * pressure_[at(c - face_.first)];
-            apart -= node(c).other < 0 ? cell(c).area * gravity.dot(node(c).normal) : 0;
-            mass = std::min(mass, node(c).mass);
+            const double area = cell(c).area;
+            in.opening += area * node(c).opening;
+            in.area += area;
+            in.push += area * pressure_[at(c - face_.first)];
+            in.apart -= node(c).other < 0 ? area * gravity.dot(node(c).normal) : 0;
+            in.mass = std::min(in.mass, node(c).mass);
             for (int edge = 0; edge < edges_; ++edge) {
-                const double length = edge < 2 ? face_.dv : face_.du;
-                section += way(c, edge).enters * length * std::max(node(c).gap, fluid_.spacing);
+                const double length = way(c, edge).enters * (edge < 2 ? face_.dv : face_.du);
+                in.rim += length;
+                in.section += length * std::max(node(c).gap, fluid_.spacing);
             }
         }
-        if (!(flow > 0) || !(section > 0)) {
-            return 0;
-        }
-        const double v = flow / area + fluid_.dt * std::max(push / mass + apart / area, 0.0);
+        in.opening /= in.area;
+        in.apart /= in.area;
+        return in;
+    }
+
+    // The pressure that accelerates the water that enters through the rim while the sides part.
+    double inflow_drop(const Inflow& in)
+    {
+        JointInflow& joint = body_.inflows[at(cell(face_.first).face)];
+        const bool enters = in.opening > 0 && in.section > 0;
+        const double inertance = joint_inertance(fluid_.density, in.area / in.rim, in.section);
+        const double growth = joint.known && fluid_.dt_before > 0
+                                  ? in.area * (in.opening - joint.opening) / fluid_.dt_before
+                                  : 0;
+        joint.drop = enters ? inertia_drop(joint, inertance, growth, in.push / in.area) : 0;
+        joint.opening = in.opening;
+        joint.known = true;
+        return enters ? bernoulli_drop(in) + joint.drop : 0;
+    }
+
+    // By Bernoulli's law the pressure falls by rho u^2 / 2, u the flow divided by the wet section
+    // of the rim; the dry part admits air. Implicit in the speed of separation, which the pressure
+    // of the joint, less the weight, increases within the step: the speed of a light body doubles
+    // in one step, and a drop computed from the old speed would leave a pressure of water that
+    // cannot have entered.
+    double bernoulli_drop(const Inflow& in) const
+    {
+        const double v = in.opening + fluid_.dt * std::max(in.push / in.mass + in.apart, 0.0);
         // m v' = max(P - m g, 0) - k v^2, k = rho A^3 / (2 section^2)
-        const double k = fluid_.density * area * sq(area / section) / 2;
-        const double rate = 2 * k * fluid_.dt / mass;
+        const double k = fluid_.density * in.area * sq(in.area / in.section) / 2;
+        const double rate = 2 * k * fluid_.dt / in.mass;
         const double later = rate * v > 1e-12 ? (std::sqrt(1 + 2 * rate * v) - 1) / rate : v;
-        return k * sq(later) / area;
+        return k * sq(later) / in.area;
     }
 
     // The joint adds the pressure that the particles in it do not transmit yet: the first particles

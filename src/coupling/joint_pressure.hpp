@@ -17,6 +17,7 @@ struct ParticlePressure {
     Vec3 weight{0, 0, 0};          // rho0 g [N/m3]
     double density = 0;            // rho0 [kg/m3]
     double dt = 0;                 // of the step [s]
+    double dt_before = 0;          // of the step before; 0 at the first [s]
 };
 
 /// Pressures of all nodes of body b whose gaps are known.

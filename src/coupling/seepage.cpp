@@ -3,6 +3,7 @@
 #include "hyoryu/coupling/seepage.hpp"
 
 #include "film_slip.hpp"
+#include "joint_mobility.hpp"
 #include "joint_pressure.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -119,7 +120,27 @@ void make_faces(BodyJoints& body, const Body& rigid, std::span<const Vec3> point
         std::ranges::for_each(cell.probe, to_row);
     }
     body.joined.assign(body.faces.faces.size(), 0);
+    body.inflows.resize(body.faces.faces.size());
     body.has_faces = true;
+}
+
+void forget_joints(BodyJoints& body)
+{
+    std::ranges::fill(body.joined, 0);
+    std::ranges::fill(body.inflows, JointInflow{});
+}
+
+// Continues the joints of a checkpoint.
+void recall_joints(const Seepage& seepage, int b, BodyJoints& body)
+{
+    for (std::size_t k = 0; k < seepage.joined.size(); ++k) {
+        const auto [of, face] = seepage.joined[k];
+        if (of == b && at(face) < body.joined.size()) {
+            body.joined[at(face)] = 1;
+            body.inflows[at(face)] = {
+                .known = true, .opening = seepage.opening[k], .drop = seepage.inertia[k]};
+        }
+    }
 }
 
 // A joint begins when the faces touch, since particles between them keep them apart. It lasts while
@@ -128,7 +149,7 @@ bool keep_joined(BodyJoints& body, bool opposite, double spacing)
 {
     constexpr double touching = 0.25; // spacings
     if (!opposite) {
-        std::ranges::fill(body.joined, 0);
+        forget_joints(body);
         return false;
     }
     bool any = false;
@@ -142,6 +163,9 @@ bool keep_joined(BodyJoints& body, bool opposite, double spacing)
         }
         const bool lasts = body.joined[f] != 0 && least < infinity;
         body.joined[f] = lasts || least < touching * spacing ? 1 : 0;
+        if (body.joined[f] == 0) {
+            body.inflows[f] = {};
+        }
         for (JointNode& node : nodes) {
             node.other = body.joined[f] != 0 ? node.other : JointNode::none;
         }
@@ -235,6 +259,24 @@ void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t
     share_between_opposite_faces(std::span(cuts).subspan(static_cast<std::size_t>(begin)));
 }
 
+// Records the state of the joints for a restart.
+void take_note_of_joints(Seepage& seepage)
+{
+    seepage.joined.clear();
+    seepage.opening.clear();
+    seepage.inertia.clear();
+    const std::vector<BodyJoints>& bodies = seepage.tables->bodies;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        for (std::size_t f = 0; f < bodies[b].joined.size(); ++f) {
+            if (bodies[b].joined[f] != 0) {
+                seepage.joined.push_back({static_cast<int>(b), static_cast<int>(f)});
+                seepage.opening.push_back(bodies[b].inflows[f].opening);
+                seepage.inertia.push_back(bodies[b].inflows[f].drop);
+            }
+        }
+    }
+}
+
 } // namespace
 
 Seepage::Seepage() = default;
@@ -249,6 +291,11 @@ void restart_joints(Seepage& seepage)
         return joint[0] >= 0 && joint[0] < bodies && joint[1] >= 0;
     };
     seepage.tables.reset();
+    const std::size_t joints = seepage.joined.size();
+    if (seepage.opening.size() != joints || seepage.inertia.size() != joints) {
+        throw IoError(
+            "the columns of the joints in the checkpoint differ in length: it is damaged");
+    }
     if (!std::ranges::all_of(seepage.joined, is_of_case)) {
         throw IoError("the checkpoint has joints of other bodies: it belongs to another case");
     }
@@ -270,6 +317,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     }
     ParticlePressure pressure = pressure_of(fluid);
     pressure.dt = step.dt;
+    pressure.dt_before = step.before;
     const KindOfJoint joins(seepage, tables, poses, fluid.parameters.gravity);
     parallel_blocks(
         0, static_cast<Index>(poses.size()),
@@ -277,7 +325,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             BodyJoints& body = tables.bodies[at(b)];
             seepage.loads[at(b)].clear();
             if (body.near.empty()) {
-                std::ranges::fill(body.joined, 0);
+                forget_joints(body);
                 return;
             }
             const Rows rows = bodies.of[at(b)];
@@ -285,15 +333,12 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
                 make_faces(body, rigid.bodies[at(b)],
                            std::span(bodies.points).subspan(at(rows.begin), at(rows.size())),
                            rows.begin, fluid, fluid.body_particle_mass[at(b)]);
-                for (const auto& [of, face] : seepage.joined) {
-                    if (of == b && at(face) < body.joined.size()) {
-                        body.joined[at(face)] = 1;
-                    }
-                }
+                recall_joints(seepage, static_cast<int>(b), body);
             }
             const bool opposite = find_gaps(tables, poses, static_cast<int>(b), joins);
             if (keep_joined(body, opposite, fluid.parameters.spacing)) {
                 find_speeds(body, rigid, poses, at(b), step.time);
+                find_mobilities(body, rigid, poses, static_cast<int>(b));
                 ParticlePressure own = pressure;
                 own.first = at(rows.begin);
                 solve_pressure(tables, poses, static_cast<int>(b), own);
@@ -301,14 +346,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             }
         },
         2);
-    seepage.joined.clear();
-    for (std::size_t b = 0; b < poses.size(); ++b) {
-        for (std::size_t f = 0; f < tables.bodies[b].joined.size(); ++f) {
-            if (tables.bodies[b].joined[f] != 0) {
-                seepage.joined.push_back({static_cast<int>(b), static_cast<int>(f)});
-            }
-        }
-    }
+    take_note_of_joints(seepage);
     fluid.film_cuts.clear();
     for (std::size_t b = 0; b < poses.size(); ++b) {
         if (!seepage.loads[b].empty()) {

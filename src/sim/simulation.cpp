@@ -76,7 +76,7 @@ void seep(Simulation& sim, double dt)
 {
     if (has_seepage(sim)) {
         update_joints(sim.seepage, sim.rigid, sim.poses, sim.body_particles,
-                      {sim.clock.time + dt / 2, dt}, *sim.fluid);
+                      {sim.clock.time + dt / 2, dt, sim.clock.dt}, *sim.fluid);
     }
 }
 

@@ -27,11 +27,13 @@ struct JointLoad {
 
 struct JointTables; // faces of bodies cut into cells, surfaces of walls; private to coupling
 
-/// The joints of a scene.
+/// The joints of a scene. What a restart needs are the first three: a row for each joint.
 struct Seepage {
-    /// {body, face} that have touched and not parted by two spacings since: the only state that a
-    /// restart needs. Faces are numbered within their body. Ascending.
+    /// {body, face} that have touched and not parted by two spacings since. Faces are numbered
+    /// within their body. Ascending.
     std::vector<std::array<int, 2>> joined;
+    std::vector<double> opening;               // mean speed at which the two sides part [m/s]
+    std::vector<double> inertia;               // pressure that accelerates the inflow [Pa]
     std::vector<std::uint8_t> open;            // by body: water enters below it, `stands = "open"`
     std::vector<std::vector<JointLoad>> loads; // by body, of the last step; most have none
     std::unique_ptr<JointTables> tables;       // surfaces; none before the first step
@@ -42,14 +44,15 @@ struct Seepage {
     Seepage& operator=(Seepage&&) noexcept;
 };
 
-/// The time for which walls are placed, and the length of the step [s].
+/// The time for which walls are placed, and the length of this step and of the one before [s].
 struct JointTime {
     double time = 0;
     double dt = 0;
+    double before = 0;
 };
 
-/// To be called after `joined` was read from a checkpoint. Throws IoError if it does not fit the
-/// bodies.
+/// To be called after `joined` and its columns were read from a checkpoint. Throws IoError if it
+/// does not fit the bodies.
 void restart_joints(Seepage& seepage);
 
 /// Finds the joints at these poses, with walls where they are at that time, and their pressures

@@ -103,6 +103,15 @@ struct Wrench {
     Vec3 torque{0, 0, 0}; // [N m]
 };
 
+/// The growth of the velocity [m/s2] and of the angular velocity [rad/s2] of a body.
+struct Acceleration {
+    Vec3 linear{0, 0, 0};
+    Vec3 angular{0, 0, 0};
+};
+/// The acceleration of a body by a wrench, other loads and its rotation left aside. Locked axes,
+/// and a body that has left, do not move.
+Acceleration acceleration(const Body& body, const Wrench& wrench);
+
 /// An infinite plane; bodies stay on the side the normal points to.
 struct Plane {
     Vec3 point{0, 0, 0};  // [m]

@@ -58,6 +58,13 @@ Vec3 angular_velocity(const Body& body)
            body.angular_momentum;
 }
 
+Acceleration acceleration(const Body& body, const Wrench& wrench)
+{
+    const Rotor rotor = rotor_of(body, 3);
+    const Mat3 turn = inverse_inertia(rotor, body.orientation.toRotationMatrix());
+    return {rotor.inverse_mass.cwiseProduct(wrench.force), turn * wrench.torque};
+}
+
 Vec3 angular_momentum(const Body& body, const Vec3& omega)
 {
     return free_inertia(body) * omega;

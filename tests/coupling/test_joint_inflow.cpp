@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The inertia of the inflow into a joint: its inertance against the flow in a slot, integrated cell
+// by cell, and the drop against bodies of which it does not know all that moves or holds them.
+#include "../../src/coupling/joint_inflow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace hyoryu {
+namespace {
+
+// The mean pressure below that at the rims in a slot of width `gap`, open at one or both ends,
+// whose sides part with a growing speed: rho du/dt = -dp/dx, u from the volume between the closed
+// end (or the middle) and the place.
+double drop_in_slot(double density, double length, double gap, double growth, bool both_ends)
+{
+    constexpr int cells = 4000;
+    const double path = both_ends ? length / 2 : length;
+    const double dx = path / cells;
+    double p = 0;
+    double mean = 0;
+    for (int k = 0; k < cells; ++k) { // from the rim inward
+        const double behind = path - (k + 0.5) * dx;
+        const double slope = density * growth * behind / gap;
+        mean += (p + slope * dx / 2) / cells;
+        p += slope * dx;
+    }
+    return mean;
+}
+
+TEST(JointInflow, TheInertanceIsThatOfASlot)
+{
+    std::mt19937 dice(3);
+    std::uniform_real_distribution<double> part(0.1, 1);
+    for (int k = 0; k < 20; ++k) {
+        const double density = 1000 * part(dice);
+        const double length = part(dice);
+        const double gap = 0.1 * part(dice);
+        const double growth = 30 * part(dice);
+        for (const bool both : {false, true}) {
+            const double rim = both ? 2 : 1; // per metre of width
+            const double drop = joint_inertance(density, length / rim, gap * rim) * length * growth;
+            EXPECT_NEAR(drop, drop_in_slot(density, length, gap, growth, both), 1e-6 * drop);
+        }
+    }
+}
+
+// A body that the joint opens, with a mass that the joint does not know: of what lies on it.
+struct Lifted {
+    double mobility = 0; // of the body alone [m4/kg]
+    double share = 1;    // mass of the body, of all that moves
+    double inertance = 0;
+
+    double growth(double pressure) const { return mobility * share * pressure; }
+};
+
+TEST(JointInflow, TheDropOfAFreeBodyIsThereAfterAStep)
+{
+    std::mt19937 dice(4);
+    std::uniform_real_distribution<double> decades(-3, 3);
+    for (int k = 0; k < 50; ++k) {
+        const Lifted body{.mobility = std::pow(10, decades(dice)),
+                          .inertance = std::pow(10, decades(dice))};
+        JointInflow joint{.known = true, .mobility = body.mobility};
+        const double pressure = 100;
+        joint.drop = inertia_drop(joint, body.inertance, body.growth(pressure), pressure);
+        const double exact = pressure * (1 - 1 / (1 + body.inertance * body.mobility));
+        EXPECT_NEAR(joint.drop, exact, 1e-9 * pressure);
+        const double again = body.growth(pressure - joint.drop);
+        EXPECT_NEAR(inertia_drop(joint, body.inertance, again, pressure), exact, 1e-9 * pressure);
+    }
+}
+
+// However heavy what lies on the body and however large the inertance: no oscillation, and at the
+// end the drop belongs to the acceleration.
+TEST(JointInflow, TheDropUnderAStackIsReachedFromBelow)
+{
+    std::mt19937 dice(5);
+    std::uniform_real_distribution<double> part(0, 1);
+    for (int k = 0; k < 50; ++k) {
+        const Lifted body{.mobility = 1,
+                          .share = std::pow(10, -2 * part(dice)),
+                          .inertance = std::pow(10, 3 * part(dice) - 1)};
+        JointInflow joint{.known = true, .mobility = body.mobility};
+        const double pressure = 100;
+        for (int step = 0; step < 3000; ++step) {
+            const double growth = body.growth(pressure - joint.drop);
+            const double next = inertia_drop(joint, body.inertance, growth, pressure);
+            EXPECT_GE(next, joint.drop - 1e-9);
+            joint.drop = next;
+        }
+        EXPECT_NEAR(joint.drop, body.inertance * body.growth(pressure - joint.drop),
+                    1e-6 * pressure);
+    }
+}
+
+TEST(JointInflow, TheDropStaysBetweenZeroAndThePressure)
+{
+    const JointInflow joint{.known = true, .drop = 50, .mobility = 1};
+    EXPECT_EQ(inertia_drop(joint, 10, -1e6, 100), 0);  // the body is stopped
+    EXPECT_EQ(inertia_drop(joint, 10, 1e6, 100), 100); // struck upward: no suction
+    EXPECT_EQ(inertia_drop(joint, 10, 1, 0), 0);       // dry
+}
+
+} // namespace
+} // namespace hyoryu
