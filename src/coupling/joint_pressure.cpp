@@ -274,14 +274,18 @@ private:
     }
 
     // The pressure that accelerates the water that enters through the rim while the sides part.
+    // Slow growth is left to the weight of the water outside: a wide crate in rising water would
+    // otherwise lift later by a good part of a spacing.
     double inflow_drop(const Inflow& in)
     {
+        constexpr double slow = 0.02; // accelerations of gravity
         JointInflow& joint = body_.inflows[at(cell(face_.first).face)];
         const bool enters = in.opening > 0 && in.section > 0;
         const double inertance = joint_inertance(fluid_.density, in.area / in.rim, in.section);
-        const double growth = joint.known && fluid_.dt_before > 0
-                                  ? in.area * (in.opening - joint.opening) / fluid_.dt_before
-                                  : 0;
+        const double parting = joint.known && fluid_.dt_before > 0
+                                   ? (in.opening - joint.opening) / fluid_.dt_before
+                                   : 0;
+        const double growth = in.area * (parting - slow * fluid_.weight.norm() / fluid_.density);
         joint.drop = enters ? inertia_drop(joint, inertance, growth, in.push / in.area) : 0;
         joint.opening = in.opening;
         joint.known = true;

@@ -156,6 +156,14 @@ TEST(PlanUnits, WaterThatASecondBasinBuriesIsTold)
     EXPECT_TRUE(tells(text, "fluid.block[0]", "outside of the basin \"right\"", "one basin"));
     EXPECT_TRUE(tells(text, "fluid.block[1]", "outside of the basin \"left\"", "one basin"));
     EXPECT_TRUE(tells(text, "fluid.block[1]", "everything outside of a basin is solid", "box"));
+    EXPECT_EQ(told_of(text).size(), 2U);
+    const std::string more = "[[gauge]]\nname = \"far\"\ntype = \"force\"\non = \"left\"\n"
+                             "[[body]]\nname = \"a\"\nshape = \"box\"\nsize = [0.4, 0.4, 0.4]\n"
+                             "density = 500\nposition = [0.5, 0.5, 2]\n[[body]]\nname = \"b\"\n"
+                             "shape = \"box\"\nsize = [0.4, 0.4, 0.4]\ndensity = 500\n"
+                             "position = [0.6, 0.5, 2]\n";
+    EXPECT_TRUE(tells(text + more, "fluid.block[0]", "outside of the basin \"right\"", "basin"));
+    EXPECT_TRUE(tells(text + more, "body[1]", "overlap", ""));
 }
 
 } // namespace

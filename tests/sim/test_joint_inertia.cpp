@@ -49,13 +49,14 @@ double mean_pressure(const Simulation& sim)
 }
 
 // In a slot with both ends open, a spacing wide as the model counts it, the mean pressure lies
-// below that at the rims by rho w2/(12 dp) dv/dt and rho (w v/(2 dp))2/2. At the rims it is that of
-// the depth, less what moves the water outside: up to a tenth and a half here (measured).
+// below that at the rims by rho w2/(12 dp) dv/dt and rho (w v/(2 dp))2/2; the model leaves g/50 of
+// dv/dt aside. At the rims it is that of the depth, less what moves the water outside: up to a
+// tenth and a half here (measured).
 void expect_pressure_of_motion(const Simulation& sim, const Lifting& crate, const Motion& motion)
 {
     const double still = 9810 * crate.depth();
     const double inertia =
-        1000 * crate.width * crate.width / (12 * crate.spacing) * motion.acceleration;
+        1000 * crate.width * crate.width / (12 * crate.spacing) * (motion.acceleration - 9.81 / 50);
     const double inflow = 500 * std::pow(crate.width * motion.speed / (2 * crate.spacing), 2);
     const double sum = (mean_pressure(sim) + inertia + inflow) / still;
     EXPECT_GT(sum, 0.8) << "inertia " << inertia / still << " inflow " << inflow / still;

@@ -46,6 +46,7 @@ struct Filling {
     std::vector<Aggregate> bodies;
     Bounds domain; // particles outside are removed from the run
     std::vector<Diagnostic> warnings;
+    std::vector<Diagnostic> faults; // told with those of the plan
 
     /// Of all processes.
     Index fluid_count() const { return static_cast<Index>(fluid.size()) + fluid_elsewhere; }

@@ -188,13 +188,13 @@ const Wall* basin_beside(const Scene& scene, const Bounds& box)
 }
 
 // Water of which no particle is left because it lies outside of a basin, as with a second basin.
-void check_basins(const Scene& scene, const std::vector<BlockPoints>& blocks)
+void find_other_basins(const Scene& scene, const std::vector<BlockPoints>& blocks,
+                       std::vector<Diagnostic>& faults)
 {
-    std::vector<Diagnostic> errors;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         const bool buried = blocks[b].particles.in_walls > 0 && !scene.fluid->blocks[b].seeded;
         if (const Wall* basin = buried ? basin_beside(scene, blocks[b].box) : nullptr) {
-            errors.push_back(diagnostic_at(
+            faults.push_back(diagnostic_at(
                 scene, scene.fluid->blocks[b].place, fmt::format("fluid.block[{}]", b),
                 fmt::format("all particles of the blocks lie inside walls: this block lies outside "
                             "of the basin \"{}\", and everything outside of a basin is solid",
@@ -202,9 +202,6 @@ void check_basins(const Scene& scene, const std::vector<BlockPoints>& blocks)
                 "use one basin around all the water, with walls of shape \"box\" within it, or "
                 "build a further basin from boxes"));
         }
-    }
-    if (!errors.empty()) {
-        throw CaseError(errors);
     }
 }
 
@@ -267,7 +264,7 @@ void fill_fluid(const Scene& scene, Comm* comm, Filling& filling)
     }
     check_starts(scene, comm, std::move(faults));
     if (first == 0 && scene.open.empty()) {
-        check_basins(scene, blocks);
+        find_other_basins(scene, blocks, filling.faults);
     }
     filling.fluid_elsewhere = first - static_cast<Index>(filling.fluid.size());
 }

@@ -344,14 +344,16 @@ void check_fluid(const Scene& scene, const PlanFacts& facts, std::vector<Diagnos
 
 void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
-    std::vector<Diagnostic> errors;
+    std::vector<Diagnostic> errors = facts.faults;
     check_overlaps(scene, errors);
     check_periods(scene, errors);
     check_step(scene, plan, errors);
     check_outputs(scene, plan, errors);
     check_gauges(scene, facts, plan, errors);
     check_open(scene, facts, plan, errors);
-    check_fluid(scene, facts, errors);
+    if (facts.faults.empty()) { // which tell better why a block is empty
+        check_fluid(scene, facts, errors);
+    }
     if (scene.most_fluid > 0 && plan.counts.fluid > scene.most_fluid) {
         errors.push_back(
             diagnostic_without_line(scene, {}, "particles.most",

@@ -193,6 +193,7 @@ PlanFacts facts_of(const Scene& scene, const Filling& filling, Comm* comm)
 {
     PlanFacts facts{.domain = filling.domain,
                     .warnings = filling.warnings,
+                    .faults = filling.faults,
                     .fluid = static_cast<Index>(filling.fluid.size()),
                     .wall = static_cast<Index>(filling.wall.size())};
     for (const Aggregate& body : filling.bodies) {

@@ -16,6 +16,7 @@ namespace hyoryu {
 struct PlanFacts {
     Bounds domain;
     std::vector<Diagnostic> warnings;  // of the filling
+    std::vector<Diagnostic> faults;    // of the filling
     std::vector<Index> body_points;    // particles of each body
     std::vector<Index> surface_points; // of each body, in its outermost layer
 
