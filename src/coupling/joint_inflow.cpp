@@ -10,10 +10,10 @@ double joint_inertance(double density, double path, double section)
     return density * path / (3 * section);
 }
 
-double inertia_drop(const JointInflow& joint, double inertance, double growth, double pressure)
+double inertia_drop(double last, const JointResponse& joint, double growth, double pressure)
 {
-    const double off = inertance * growth - joint.drop;
-    return std::clamp(joint.drop + off / (1 + inertance * joint.mobility), 0.0, pressure);
+    const double off = joint.inertance * growth - last;
+    return std::clamp(last + off / (1 + joint.inertance * joint.mobility), 0.0, pressure);
 }
 
 } // namespace hyoryu

@@ -19,76 +19,72 @@ double growth_of_flow(const Wrench& wrench, const Acceleration& motion)
     return wrench.force.dot(motion.linear) + wrench.torque.dot(motion.angular);
 }
 
-class JointPushes {
-public:
-    JointPushes(const BodyJoints& joints, const std::vector<Pose>& poses, int b)
-        : joints_(joints), poses_(poses), b_(b)
-    {
-    }
+void add(Wrench& wrench, const Vec3& force, const Vec3& place, const Pose& pose)
+{
+    wrench.force += force;
+    wrench.torque += (place - pose.position).cross(force);
+}
 
-    // Of the joint of one face, those of body b first; none if its sides do not part.
-    std::vector<UnitPush> operator()(const JointFace& face) const
-    {
-        std::vector<UnitPush> pushes{{b_, {}}};
-        double opening = 0;
-        for (int c = face.first; c < face.last; ++c) {
-            const JointNode& node = joints_.nodes[at(c)];
-            if (node.other == JointNode::none) {
-                continue;
-            }
-            const double area = joints_.faces.cells[at(c)].area;
-            opening += area * node.opening;
-            add(pushes, b_, -area * node.normal, node.place);
-            if (node.other >= 0) {
-                add(pushes, node.other, area * node.normal, node.place);
-            }
+// Calls visit(node, area) for the cells of a joint.
+void for_each_cell(const BodyJoints& joints, const JointFace& face, const auto& visit)
+{
+    for (int c = face.first; c < face.last; ++c) {
+        const JointNode& node = joints.nodes[at(c)];
+        if (node.other != JointNode::none) {
+            visit(node, joints.faces.cells[at(c)].area);
         }
-        return opening > 0 ? pushes : std::vector<UnitPush>{};
     }
+}
 
-private:
-    void add(std::vector<UnitPush>& pushes, int body, const Vec3& force, const Vec3& place) const
-    {
-        auto known = std::ranges::find(pushes, body, &UnitPush::body);
+// On body b by one of its joints; none if its sides do not part.
+Wrench own_push(const BodyJoints& joints, const Pose& pose, const JointFace& face)
+{
+    Wrench wrench;
+    double flow = 0;
+    for_each_cell(joints, face, [&](const JointNode& node, double area) {
+        flow += area * node.opening;
+        add(wrench, -area * node.normal, node.place, pose);
+    });
+    return flow > 0 ? wrench : Wrench{};
+}
+
+// On the bodies on the other side.
+std::vector<UnitPush> other_pushes(const BodyJoints& joints, const std::vector<Pose>& poses,
+                                   const JointFace& face)
+{
+    std::vector<UnitPush> pushes;
+    for_each_cell(joints, face, [&](const JointNode& node, double area) {
+        if (node.other < 0) {
+            return;
+        }
+        auto known = std::ranges::find(pushes, node.other, &UnitPush::body);
         if (known == pushes.end()) {
-            known = pushes.insert(known, {body, {}});
+            known = pushes.insert(known, {node.other, {}});
         }
-        known->wrench.force += force;
-        known->wrench.torque += (place - poses_[at(body)].position).cross(force);
-    }
-
-    const BodyJoints& joints_;
-    const std::vector<Pose>& poses_;
-    int b_;
-};
+        add(known->wrench, area * node.normal, node.place, poses[at(node.other)]);
+    });
+    return pushes;
+}
 
 } // namespace
 
-void find_mobilities(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses, int b)
+double joint_mobility(const BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses,
+                      int b, const JointFace& face)
 {
-    const std::size_t faces = joints.faces.faces.size();
-    const JointPushes pushes_of(joints, poses, b);
-    std::vector<std::vector<UnitPush>> pushes(faces);
-    for (std::size_t f = 0; f < faces; ++f) {
+    double mobility = 0;
+    for (const UnitPush& push : other_pushes(joints, poses, face)) {
+        mobility +=
+            growth_of_flow(push.wrench, acceleration(rigid.bodies[at(push.body)], push.wrench));
+    }
+    const Pose& pose = poses[at(b)];
+    const Acceleration motion = acceleration(rigid.bodies[at(b)], own_push(joints, pose, face));
+    for (std::size_t f = 0; f < joints.faces.faces.size(); ++f) {
         if (joints.joined[f] != 0) {
-            pushes[f] = pushes_of(joints.faces.faces[f]);
+            const Wrench its = own_push(joints, pose, joints.faces.faces[f]);
+            mobility += std::abs(growth_of_flow(its, motion));
         }
     }
-    for (std::size_t f = 0; f < faces; ++f) {
-        double& mobility = joints.inflows[f].mobility;
-        mobility = 0;
-        for (const UnitPush& push : pushes[f]) {
-            const Acceleration motion = acceleration(rigid.bodies[at(push.body)], push.wrench);
-            if (push.body != b) {
-                mobility += growth_of_flow(push.wrench, motion);
-                continue;
-            }
-            for (const std::vector<UnitPush>& other : pushes) {
-                mobility +=
-                    other.empty() ? 0 : std::abs(growth_of_flow(other.front().wrench, motion));
-            }
-        }
-    }
+    return mobility;
 }
 
 } // namespace hyoryu

@@ -6,9 +6,11 @@
 
 namespace hyoryu {
 
-/// Sets the mobility of the joints of body b whose sides part (`JointInflow::mobility`), without
-/// contacts. What a unit of pressure in its other joints does counts with its magnitude: all of
-/// them together must not reverse the motion.
-void find_mobilities(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses, int b);
+/// The growth dQ/dt of the flow into the joint of one face of body b by a unit of pressure there,
+/// by the masses of the bodies alone, without contacts [m4/kg]. What a unit of pressure in other
+/// joints of b whose sides part does to it counts with its magnitude: all of them together must not
+/// reverse the motion.
+double joint_mobility(const BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses,
+                      int b, const JointFace& face);
 
 } // namespace hyoryu

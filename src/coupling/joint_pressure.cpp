@@ -7,6 +7,7 @@
 #include "joint_pressure.hpp"
 
 #include "joint_line.hpp"
+#include "joint_mobility.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,9 +60,9 @@ struct Inflow {
 // The joint of one face.
 class FaceJoint {
 public:
-    FaceJoint(JointTables& tables, const std::vector<Pose>& poses, int b, const JointFace& face,
-              const ParticlePressure& fluid)
-        : tables_(tables), poses_(poses), b_(b), face_(face), fluid_(fluid),
+    FaceJoint(JointTables& tables, const Rigid& rigid, const std::vector<Pose>& poses, int b,
+              const JointFace& face, const ParticlePressure& fluid)
+        : tables_(tables), rigid_(rigid), poses_(poses), b_(b), face_(face), fluid_(fluid),
           body_(tables.bodies[at(b)]), edges_(face.v == Vec3(0, 0, 0) ? 2 : 4)
     {
     }
@@ -280,16 +281,20 @@ private:
     {
         constexpr double slow = 0.02; // accelerations of gravity
         JointInflow& joint = body_.inflows[at(cell(face_.first).face)];
-        const bool enters = in.opening > 0 && in.section > 0;
-        const double inertance = joint_inertance(fluid_.density, in.area / in.rim, in.section);
         const double parting = joint.known && fluid_.dt_before > 0
                                    ? (in.opening - joint.opening) / fluid_.dt_before
                                    : 0;
-        const double growth = in.area * (parting - slow * fluid_.weight.norm() / fluid_.density);
-        joint.drop = enters ? inertia_drop(joint, inertance, growth, in.push / in.area) : 0;
         joint.opening = in.opening;
         joint.known = true;
-        return enters ? bernoulli_drop(in) + joint.drop : 0;
+        if (!(in.opening > 0) || !(in.section > 0)) {
+            joint.drop = 0;
+            return 0;
+        }
+        const JointResponse response{joint_inertance(fluid_.density, in.area / in.rim, in.section),
+                                     joint_mobility(body_, rigid_, poses_, b_, face_)};
+        const double growth = in.area * (parting - slow * fluid_.weight.norm() / fluid_.density);
+        joint.drop = inertia_drop(joint.drop, response, growth, in.push / in.area);
+        return bernoulli_drop(in) + joint.drop;
     }
 
     // By Bernoulli's law the pressure falls by rho u^2 / 2, u the flow divided by the wet section
@@ -358,6 +363,7 @@ private:
     }
 
     JointTables& tables_;
+    const Rigid& rigid_;
     const std::vector<Pose>& poses_;
     int b_;
     const JointFace& face_;
@@ -371,11 +377,11 @@ private:
 
 } // namespace
 
-void solve_pressure(JointTables& tables, const std::vector<Pose>& poses, int b,
+void solve_pressure(JointTables& tables, const Rigid& rigid, const std::vector<Pose>& poses, int b,
                     const ParticlePressure& fluid)
 {
     for (const JointFace& face : tables.bodies[at(b)].faces.faces) {
-        FaceJoint(tables, poses, b, face, fluid).solve();
+        FaceJoint(tables, rigid, poses, b, face, fluid).solve();
     }
 }
 

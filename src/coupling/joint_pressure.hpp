@@ -21,7 +21,7 @@ struct ParticlePressure {
 };
 
 /// Pressures of all nodes of body b whose gaps are known.
-void solve_pressure(JointTables& tables, const std::vector<Pose>& poses, int b,
+void solve_pressure(JointTables& tables, const Rigid& rigid, const std::vector<Pose>& poses, int b,
                     const ParticlePressure& fluid);
 
 } // namespace hyoryu

@@ -3,7 +3,6 @@
 #include "hyoryu/coupling/seepage.hpp"
 
 #include "film_slip.hpp"
-#include "joint_mobility.hpp"
 #include "joint_pressure.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -338,10 +337,9 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             const bool opposite = find_gaps(tables, poses, static_cast<int>(b), joins);
             if (keep_joined(body, opposite, fluid.parameters.spacing)) {
                 find_speeds(body, rigid, poses, at(b), step.time);
-                find_mobilities(body, rigid, poses, static_cast<int>(b));
                 ParticlePressure own = pressure;
                 own.first = at(rows.begin);
-                solve_pressure(tables, poses, static_cast<int>(b), own);
+                solve_pressure(tables, rigid, poses, static_cast<int>(b), own);
                 record_loads(body, seepage.loads[at(b)]);
             }
         },
