@@ -4,6 +4,7 @@
 #include "hyoryu/core/parallel.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace hyoryu {
 
@@ -95,11 +96,12 @@ void cut_slip_of_films(JointTables& tables, const std::vector<Pose>& poses, Flui
     const FluidNeighbours& n = fluid.neighbours;
     Store& store = fluid.particles.body;
     const Opposite opposite(tables, poses, fluid.parameters.spacing);
+    const auto pressure = std::as_const(store)[field::pressure];
     std::vector<Vec3> slip(cuts.size(), Vec3(0, 0, 0));
     const auto look = [&](Index i, Index j) {
         const Index row = n.body.row[at(i - n.body.first_slot)];
         const int first = tables.first_cut[at(row)];
-        if (first < 0 || !(store[field::pressure][row] > 0)) {
+        if (first < 0 || !(pressure[row] > 0)) {
             return;
         }
         const SolidParticle other = solid_at(fluid, j);

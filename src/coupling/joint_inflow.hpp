@@ -7,9 +7,10 @@ namespace hyoryu {
 /// What a joint keeps from step to step. The flow Q into it is the growth of the volume between its
 /// sides; a uniform pressure p in it does the work p Q.
 struct JointInflow {
-    bool known = false; // whether the joint has been there for a step
-    double opening = 0; // Q divided by the area: mean speed at which the sides part [m/s]
-    double drop = 0;    // of the pressure, for the acceleration of the water [Pa]
+    bool known = false;  // whether the joint has been there for a step
+    double opening = 0;  // Q divided by the area: mean speed at which the sides part [m/s]
+    double pressure = 0; // mean of the joint, without drops [Pa]
+    double drop = 0;     // of the pressure, for the acceleration of the water [Pa]
 };
 
 /// The drop of the pressure by the growth of the flow, rho l / (3 S) [kg/m4]: that in a slot of

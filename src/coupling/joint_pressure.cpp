@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace hyoryu {
 
@@ -53,7 +54,6 @@ struct Inflow {
     double section = 0;     // of the wet part of the rim [m2]
     double rim = 0;         // length of the wet part of the rim [m]
     double push = 0;        // of the joint, without the drop [N]
-    double apart = 0;       // growth of the opening by the weight [m/s2]
     double mass = infinity; // that parts [kg]
 };
 
@@ -252,7 +252,6 @@ private:
     Inflow measure_inflow()
     {
         Inflow in;
-        const Vec3 gravity = fluid_.weight / fluid_.density;
         for (int c = face_.first; c < face_.last; ++c) {
             if (!joined(c)) {
                 continue;
@@ -261,7 +260,6 @@ private:
             in.opening += area * node(c).opening;
             in.area += area;
             in.push += area * pressure_[at(c - face_.first)];
-            in.apart -= node(c).other < 0 ? area * gravity.dot(node(c).normal) : 0;
             in.mass = std::min(in.mass, node(c).mass);
             for (int edge = 0; edge < edges_; ++edge) {
                 const double length = way(c, edge).enters * (edge < 2 ? face_.dv : face_.du);
@@ -270,42 +268,40 @@ private:
             }
         }
         in.opening /= in.area;
-        in.apart /= in.area;
         return in;
     }
 
-    // The pressure that accelerates the water that enters through the rim while the sides part.
+    // The pressure that accelerates the water that enters through the rim while the sides part. The
+    // growth of the flow is that of the last step and what the change of the pressure since adds.
     // Slow growth is left to the weight of the water outside: a wide crate in rising water would
     // otherwise lift later by a good part of a spacing.
     double inflow_drop(const Inflow& in)
     {
         constexpr double slow = 0.02; // accelerations of gravity
         JointInflow& joint = body_.inflows[at(cell(face_.first).face)];
-        const double parting = joint.known && fluid_.dt_before > 0
-                                   ? (in.opening - joint.opening) / fluid_.dt_before
-                                   : 0;
-        joint.opening = in.opening;
-        joint.known = true;
+        const JointInflow last = std::exchange(
+            joint, {.known = true, .opening = in.opening, .pressure = in.push / in.area});
         if (!(in.opening > 0) || !(in.section > 0)) {
-            joint.drop = 0;
             return 0;
         }
         const JointResponse response{joint_inertance(fluid_.density, in.area / in.rim, in.section),
                                      joint_mobility(body_, rigid_, poses_, b_, face_)};
-        const double growth = in.area * (parting - slow * fluid_.weight.norm() / fluid_.density);
-        joint.drop = inertia_drop(joint.drop, response, growth, in.push / in.area);
-        return bernoulli_drop(in) + joint.drop;
+        double growth = 0;
+        if (last.known && fluid_.dt_before > 0) {
+            growth = in.area * (in.opening - last.opening) / fluid_.dt_before +
+                     response.mobility * (joint.pressure - last.pressure);
+        }
+        const double fast = growth - slow * in.area * fluid_.weight.norm() / fluid_.density;
+        joint.drop = inertia_drop(last.drop, response, fast, joint.pressure);
+        return bernoulli_drop(in, growth) + joint.drop;
     }
 
     // By Bernoulli's law the pressure falls by rho u^2 / 2, u the flow divided by the wet section
-    // of the rim; the dry part admits air. Implicit in the speed of separation, which the pressure
-    // of the joint, less the weight, increases within the step: the speed of a light body doubles
-    // in one step, and a drop computed from the old speed would leave a pressure of water that
-    // cannot have entered.
-    double bernoulli_drop(const Inflow& in) const
+    // of the rim; the dry part admits air. Implicit in the speed, which the drop itself lowers: m
+    // (v' - v) = m dt max(dv/dt, 0) - dt k v'^2, k = rho A^3 / (2 section^2). `growth`: A dv/dt.
+    double bernoulli_drop(const Inflow& in, double growth) const
     {
-        const double v = in.opening + fluid_.dt * std::max(in.push / in.mass + in.apart, 0.0);
-        // m v' = max(P - m g, 0) - k v^2, k = rho A^3 / (2 section^2)
+        const double v = in.opening + fluid_.dt * std::max(growth, 0.0) / in.area;
         const double k = fluid_.density * in.area * sq(in.area / in.section) / 2;
         const double rate = 2 * k * fluid_.dt / in.mass;
         const double later = rate * v > 1e-12 ? (std::sqrt(1 + 2 * rate * v) - 1) / rate : v;

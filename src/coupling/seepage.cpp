@@ -136,8 +136,10 @@ void recall_joints(const Seepage& seepage, int b, BodyJoints& body)
         const auto [of, face] = seepage.joined[k];
         if (of == b && at(face) < body.joined.size()) {
             body.joined[at(face)] = 1;
-            body.inflows[at(face)] = {
-                .known = true, .opening = seepage.opening[k], .drop = seepage.inertia[k]};
+            body.inflows[at(face)] = {.known = true,
+                                      .opening = seepage.opening[k],
+                                      .pressure = seepage.pressure[k],
+                                      .drop = seepage.inertia[k]};
         }
     }
 }
@@ -173,28 +175,44 @@ bool keep_joined(BodyJoints& body, bool opposite, double spacing)
     return any;
 }
 
+// The velocity of points of one body.
+class PointSpeed {
+public:
+    PointSpeed(const Rigid& rigid, const std::vector<Pose>& poses, int b)
+        : body_(b), velocity_(rigid.bodies[at(b)].velocity),
+          spin_(angular_velocity(rigid.bodies[at(b)])), centre_(poses[at(b)].position)
+    {
+    }
+
+    int body() const { return body_; }
+    Vec3 operator()(const Vec3& place) const { return velocity_ + spin_.cross(place - centre_); }
+
+private:
+    int body_;
+    Vec3 velocity_, spin_, centre_;
+};
+
 // Sets the speed at which the faces separate, and the (reduced) mass that moves.
-void find_speeds(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses,
-                 std::size_t b, double time)
+void find_speeds(BodyJoints& joints, const Rigid& rigid, const std::vector<Pose>& poses, int b,
+                 double time)
 {
-    const auto speed = [&](std::size_t k, const Vec3& place) -> Vec3 {
-        const Body& body = rigid.bodies[k];
-        return body.velocity + angular_velocity(body).cross(place - poses[k].position);
-    };
+    const PointSpeed own(rigid, poses, b);
+    PointSpeed its = own; // of the body opposite the last node
     for (JointNode& node : joints.nodes) {
         if (node.other == JointNode::none) {
             continue;
         }
         Vec3 other;
-        node.mass = rigid.bodies[b].mass.mass;
+        node.mass = rigid.bodies[at(b)].mass.mass;
         if (node.other >= 0) {
-            other = speed(at(node.other), node.place);
-            const double its = rigid.bodies[at(node.other)].mass.mass;
-            node.mass *= its / (node.mass + its);
+            its = node.other == its.body() ? its : PointSpeed(rigid, poses, node.other);
+            other = its(node.place);
+            const double mass = rigid.bodies[at(node.other)].mass.mass;
+            node.mass *= mass / (node.mass + mass);
         } else {
             other = velocity(rigid.boundaries[at(-1 - node.other)].motion, time);
         }
-        node.opening = (other - speed(b, node.place)).dot(node.normal);
+        node.opening = (other - own(node.place)).dot(node.normal);
     }
 }
 
@@ -263,6 +281,7 @@ void take_note_of_joints(Seepage& seepage)
 {
     seepage.joined.clear();
     seepage.opening.clear();
+    seepage.pressure.clear();
     seepage.inertia.clear();
     const std::vector<BodyJoints>& bodies = seepage.tables->bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -270,6 +289,7 @@ void take_note_of_joints(Seepage& seepage)
             if (bodies[b].joined[f] != 0) {
                 seepage.joined.push_back({static_cast<int>(b), static_cast<int>(f)});
                 seepage.opening.push_back(bodies[b].inflows[f].opening);
+                seepage.pressure.push_back(bodies[b].inflows[f].pressure);
                 seepage.inertia.push_back(bodies[b].inflows[f].drop);
             }
         }
@@ -291,7 +311,8 @@ void restart_joints(Seepage& seepage)
     };
     seepage.tables.reset();
     const std::size_t joints = seepage.joined.size();
-    if (seepage.opening.size() != joints || seepage.inertia.size() != joints) {
+    if (seepage.opening.size() != joints || seepage.pressure.size() != joints ||
+        seepage.inertia.size() != joints) {
         throw IoError(
             "the columns of the joints in the checkpoint differ in length: it is damaged");
     }
@@ -336,7 +357,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
             }
             const bool opposite = find_gaps(tables, poses, static_cast<int>(b), joins);
             if (keep_joined(body, opposite, fluid.parameters.spacing)) {
-                find_speeds(body, rigid, poses, at(b), step.time);
+                find_speeds(body, rigid, poses, static_cast<int>(b), step.time);
                 ParticlePressure own = pressure;
                 own.first = at(rows.begin);
                 solve_pressure(tables, rigid, poses, static_cast<int>(b), own);

@@ -317,6 +317,7 @@ void describe_all(State& state, Simulation& sim)
     if (!sim.seepage.open.empty()) {
         state.list("joints", "", sim.seepage.joined);
         state.list("joint_opening", "m/s", sim.seepage.opening);
+        state.list("joint_pressure", "Pa", sim.seepage.pressure);
         state.list("joint_inertia", "Pa", sim.seepage.inertia);
         if constexpr (State::reads) {
             restart_joints(sim.seepage);

@@ -39,8 +39,7 @@ double level_at(const Carpet& carpet, int station)
     return carpet.side.station_strip(station) + carpet.stations[at(station)].depth;
 }
 
-// Width of a window / width of it that no wall at the plane closes: a discharge is that of the
-// whole window.
+// Width of the lanes of a window / width of those that no wall at the plane closes.
 double closed_factor(const Carpet& carpet)
 {
     if (carpet.side.wall.empty()) {
@@ -53,13 +52,23 @@ double closed_factor(const Carpet& carpet)
     return open > 0 ? static_cast<double>(carpet.side.lanes()) / open : 1;
 }
 
+// Width of a window / width through which water flows, in whole spacings and beside walls at the
+// plane: a discharge is that of the whole window.
+double width_factor(const Scene& scene, std::size_t window, const Carpet& carpet)
+{
+    const double lanes = carpet.side.lanes() * scene.spacing;
+    const double whole =
+        scene.dimensions == 2 ? 1 : scene.open[window].width(scene.dimensions) / lanes;
+    return whole * closed_factor(carpet);
+}
+
 // Sets the flow of every station at a time, from the prescribed flow and its own measurements.
 void set_flows(Simulation& sim, double time)
 {
     const Scene& scene = sim.scene;
     for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
         Carpet& carpet = sim.open.boundary.carpets[k];
-        const double factor = closed_factor(carpet);
+        const double factor = width_factor(scene, k, carpet);
         for (int c = 0; c < carpet.side.stations(); ++c) {
             const StationGround ground{carpet.side.station_bed(c, level_at(carpet, c)),
                                        carpet.side.station_strip(c)};

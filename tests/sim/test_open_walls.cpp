@@ -127,6 +127,26 @@ TEST(OpenWalls, APrescribedDischargeEntersBesideWalls)
     }
 }
 
+// The window is the whole side of a channel whose width is no whole number of spacings: the lanes
+// that fit carry all of the discharge.
+TEST(OpenWalls, APrescribedDischargeEntersThroughAWindowOfAnyWidth)
+{
+    Dice dice(44);
+    for (int n = 0; n < 4; ++n) {
+        Reach r = channel(n % 2 == 0 ? 0.1 : 0.0625, 6);
+        r.width = dice.between(6.05, 9.95) * r.spacing;
+        const double q = dice.between(0.1, 0.25) * std::sqrt(9.81 * r.depth) * r.depth * r.width;
+        r.near = fmt::format("kind = \"inflow\"\ndischarge = {}\n", q);
+        const std::string text = case_of(r);
+        SCOPED_TRACE(text);
+        Simulation sim = make(text);
+        const Through through = run_for(sim, 0.6);
+        const double asked = q * sim.clock.time;
+        EXPECT_NEAR(reading_of(sim, 0).volume_asked, asked, 1e-6 * asked);
+        EXPECT_NEAR(through.in - through.out, asked, r.spacing * r.width * through.highest);
+    }
+}
+
 // The front is that of the fluid in the domain: it passes no open side.
 TEST(OpenWalls, AFrontEndsAtAnOpenSide)
 {

@@ -27,12 +27,13 @@ struct JointLoad {
 
 struct JointTables; // faces of bodies cut into cells, surfaces of walls; private to coupling
 
-/// The joints of a scene. What a restart needs are the first three: a row for each joint.
+/// The joints of a scene. What a restart needs are the first four: a row for each joint.
 struct Seepage {
     /// {body, face} that have touched and not parted by two spacings since. Faces are numbered
     /// within their body. Ascending.
     std::vector<std::array<int, 2>> joined;
     std::vector<double> opening;               // mean speed at which the two sides part [m/s]
+    std::vector<double> pressure;              // mean, before the inflow lowers it [Pa]
     std::vector<double> inertia;               // pressure that accelerates the inflow [Pa]
     std::vector<std::uint8_t> open;            // by body: water enters below it, `stands = "open"`
     std::vector<std::vector<JointLoad>> loads; // by body, of the last step; most have none

@@ -371,7 +371,7 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
     if (scene.dimensions == 3 && std::abs(lanes - std::round(lanes)) > 1e-6 * lanes) {
         warn("max",
              fmt::format("the window is {:.6g} spacings wide: a gap of {:.2g} spacings stays dry "
-                         "at each end",
+                         "at each end; a discharge enters through the rest",
                          lanes, (lanes - std::floor(lanes)) / 2),
              "make it a whole number of spacings wide");
     }
