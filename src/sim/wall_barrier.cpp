@@ -161,11 +161,10 @@ private:
     double fastest_ = 0; // of the points of solids [m/s]
 };
 
-// Changes a velocity, in a few rounds, until it satisfies every surface. Returns the change in the
-// last round relative to that in the first.
-double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
+// Changes a velocity until it satisfies every surface, in `rounds` at most. Returns the change in
+// the last round relative to that in the first.
+double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds, int rounds)
 {
-    constexpr int rounds = 4;
     double first = 0;
     double last = 0;
     for (int round = 0; round < rounds; ++round) {
@@ -188,20 +187,29 @@ double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 
 // Between solids that touch or close in on a particle no velocity satisfies all surfaces: every
 // round would change it by as much again. There the surfaces only stop the approach of the
-// particle.
+// particle, and where they close in each acts once: it would otherwise take an impulse in every
+// round, and a light body between others would bounce off their particles faster than it came.
 void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 {
+    constexpr int rounds = 4;
     constexpr double hopeless = 0.5; // surfaces at 45 degrees leave less
     const Vec3 before = v;
-    if (settle(mass, v, holds) <= hopeless) {
+    const auto start_again = [&] {
+        v = before;
+        for (SurfaceHold& h : holds) {
+            h.impulse.setZero();
+            h.least = std::min(h.least, 0.0);
+        }
+    };
+    if (settle(mass, v, holds, rounds) <= hopeless) {
         return;
     }
-    v = before;
-    for (SurfaceHold& h : holds) {
-        h.impulse.setZero();
-        h.least = std::min(h.least, 0.0);
+    start_again();
+    if (settle(mass, v, holds, rounds) <= hopeless) {
+        return;
     }
-    settle(mass, v, holds);
+    start_again();
+    settle(mass, v, holds, 1);
 }
 
 void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index i,
