@@ -24,14 +24,13 @@ struct JointResponse {
     double mobility = 0;  // M: dQ/dt by a unit of pressure in the joint [m4/kg]
 };
 
-/// The drop I dQ/dt, between zero and the pressure of the joint. The inflow slows what causes it:
-/// dQ/dt falls by the drop times the mobility, whatever else moves the bodies or holds them. The
-/// last drop d is therefore taken on by a step of Newton's method,
+/// The drop I dQ/dt, between zero and a limit such as the pressure of the joint. The inflow slows
+/// what causes it: dQ/dt falls by the drop times the mobility, whatever else moves the bodies or
+/// holds them. The last drop d is therefore taken on by a step of Newton's method,
 ///
 ///     d' = d + (I dQ/dt - d) / (1 + I M),   dQ/dt as measured over the last step,
 ///
-/// which ends at I dQ/dt, for a free body at once. `last`: d, `growth`: dQ/dt, `pressure`: the
-/// limit.
-double inertia_drop(double last, const JointResponse& joint, double growth, double pressure);
+/// which ends at I dQ/dt, for a free body at once. `last`: d, `growth`: dQ/dt.
+double inertia_drop(double last, const JointResponse& joint, double growth, double limit);
 
 } // namespace hyoryu

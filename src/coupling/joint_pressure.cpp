@@ -286,13 +286,17 @@ private:
         }
         const JointResponse response{joint_inertance(fluid_.density, in.area / in.rim, in.section),
                                      joint_mobility(body_, rigid_, poses_, b_, face_)};
+        // A speed at most doubles in a step: what is at rest up to rounding draws no water.
+        const double most = in.area * in.opening / fluid_.dt;
         double growth = 0;
         if (last.known && fluid_.dt_before > 0) {
             growth = in.area * (in.opening - last.opening) / fluid_.dt_before +
                      response.mobility * (joint.pressure - last.pressure);
+            growth = std::min(growth, most);
         }
         const double fast = growth - slow * in.area * fluid_.weight.norm() / fluid_.density;
-        joint.drop = inertia_drop(last.drop, response, fast, joint.pressure);
+        joint.drop = inertia_drop(last.drop, response, fast,
+                                  std::min(joint.pressure, response.inertance * most));
         return bernoulli_drop(in, growth) + joint.drop;
     }
 

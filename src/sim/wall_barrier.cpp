@@ -161,10 +161,11 @@ private:
     double fastest_ = 0; // of the points of solids [m/s]
 };
 
-// Changes a velocity until it satisfies every surface, in `rounds` at most. Returns the change in
-// the last round relative to that in the first.
-double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds, int rounds)
+// Changes a velocity, in a few rounds, until it satisfies every surface. Returns the change in the
+// last round relative to that in the first.
+double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 {
+    constexpr int rounds = 4;
     double first = 0;
     double last = 0;
     for (int round = 0; round < rounds; ++round) {
@@ -174,6 +175,8 @@ double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds, int rounds)
             if (lacking > 0) {
                 v += lacking * h.normal;
                 h.impulse += mass * lacking * h.normal;
+                h.first = h.sum > 0 ? h.first : lacking;
+                h.sum += lacking;
                 last = std::max(last, lacking);
             }
         }
@@ -187,29 +190,21 @@ double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds, int rounds)
 
 // Between solids that touch or close in on a particle no velocity satisfies all surfaces: every
 // round would change it by as much again. There the surfaces only stop the approach of the
-// particle, and where they close in each acts once: it would otherwise take an impulse in every
-// round, and a light body between others would bounce off their particles faster than it came.
+// particle.
 void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 {
-    constexpr int rounds = 4;
     constexpr double hopeless = 0.5; // surfaces at 45 degrees leave less
     const Vec3 before = v;
-    const auto start_again = [&] {
-        v = before;
-        for (SurfaceHold& h : holds) {
-            h.impulse.setZero();
-            h.least = std::min(h.least, 0.0);
-        }
-    };
-    if (settle(mass, v, holds, rounds) <= hopeless) {
+    if (settle(mass, v, holds) <= hopeless) {
         return;
     }
-    start_again();
-    if (settle(mass, v, holds, rounds) <= hopeless) {
-        return;
+    v = before;
+    for (SurfaceHold& h : holds) {
+        h.impulse.setZero();
+        h.sum = 0;
+        h.least = std::min(h.least, 0.0);
     }
-    start_again();
-    settle(mass, v, holds, 1);
+    settle(mass, v, holds);
 }
 
 void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index i,
@@ -223,7 +218,7 @@ void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index
     hold(fluid.parameters.mass, v, holds);
     for (const SurfaceHold& h : holds) {
         if (!h.impulse.isZero(0)) {
-            barrier.hits[at(worker())].push_back({i, h.solid, x, h.impulse});
+            barrier.hits[at(worker())].push_back({i, h.solid, x, h.impulse, h.sum / h.first});
         }
     }
 }
@@ -287,7 +282,8 @@ double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit
     return yield + turn.dot(body.mass.inertia.inverse() * turn);
 }
 
-// Adds the reactions of the hits to the sums of the loads, constant over the step.
+// Adds the reactions of the hits to the sums of the loads, constant over the step. A particle
+// between two closing surfaces hits each several times; the body yields to each of them.
 void book_hits(Simulation& sim, double dt)
 {
     const WallBarrier& barrier = *sim.barrier;
@@ -303,7 +299,7 @@ void book_hits(Simulation& sim, double dt)
             const std::size_t body = solid - barrier.walls;
             const SolidPlace& place = barrier.places[solid];
             const Vec3 t = (hit.place - place.position).cross(f);
-            const double yield = mass * yield_of(sim.rigid.bodies[body], place, hit);
+            const double yield = hit.repeats * mass * yield_of(sim.rigid.bodies[body], place, hit);
             sim.loads.of_hits.add(body, {f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), yield});
         }
     }

@@ -115,10 +115,10 @@ TEST(LightBodies, LetGoUnderWaterGainNoEnergy)
     }
 }
 
-// A light box in still water that can only slide, less than a spacing from a heavy box on each side:
-// particles of the water stand in the gaps, between surfaces that close in on them. It stays. When a
-// particle took an impulse in each of four rounds the box bounced off them ever faster: two of these
-// draws reached 1.1 and 7 m/s.
+// A light box in still water that can only slide, less than a spacing from a heavy box on each
+// side: particles of the water stand in the gaps, between surfaces that close in on them. It stays.
+// When a particle took an impulse in each of four rounds the box bounced off them ever faster: two
+// of these draws reached 1.1 and 7 m/s.
 TEST(LightBodies, StayBetweenBodiesLessThanASpacingAway)
 {
     std::mt19937 dice(12);

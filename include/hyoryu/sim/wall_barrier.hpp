@@ -31,6 +31,8 @@ struct SurfaceHold {
     Vec3 velocity{0, 0, 0}; // of the solid at the particle [m/s]
     double least = 0;       // speed along the normal relative to it [m/s]
     Vec3 impulse{0, 0, 0};  // on the particle [N s]
+    double first = 0;       // speed that it lacked first [m/s]
+    double sum = 0;         // of the speeds that it lacked, round by round [m/s]
 };
 
 /// An impulse of the barrier.
@@ -39,6 +41,7 @@ struct BarrierHit {
     int solid = 0;         // wall, or number of walls + body
     Vec3 place{0, 0, 0};   // of the particle [m]
     Vec3 impulse{0, 0, 0}; // on the particle [N s]
+    double repeats = 1;    // the impulse over that which stops the approach: more in a pinch [1]
 };
 
 /// Where a solid is and how it moves.
