@@ -2,6 +2,10 @@
 // The inertia of the inflow into a joint: its inertance against the flow in a slot, integrated cell
 // by cell, and the drop against bodies of which it does not know all that moves or holds them.
 #include "../../src/coupling/joint_inflow.hpp"
+#include "../../src/coupling/joint_mobility.hpp"
+
+#include "hyoryu/core/error.hpp"
+#include "hyoryu/coupling/seepage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -101,6 +105,54 @@ TEST(JointInflow, TheDropStaysBetweenZeroAndThePressure)
     EXPECT_EQ(inertia_drop(50, joint, -1e6, 100), 0);  // the body is stopped
     EXPECT_EQ(inertia_drop(50, joint, 1e6, 100), 100); // struck upward: no suction
     EXPECT_EQ(inertia_drop(50, joint, 1, 0), 0);       // dry
+}
+
+// A bar on its bottom joint of some cells beside its centre, by Newton's second law for a force A p
+// at the middle of the joint: A^2 (1/M + r^2/I), with the given locks.
+TEST(JointInflow, TheMobilityIsThatOfARigidBody)
+{
+    std::mt19937 dice(6);
+    std::uniform_real_distribution<double> part(0.2, 1);
+    for (int k = 0; k < 40; ++k) {
+        const double mass = 10 * part(dice);
+        const double moment = part(dice);
+        const double area = 0.1 * part(dice); // of a cell
+        const double arm = part(dice) - 0.6;  // of the middle of the joint
+        Rigid rigid;
+        rigid.bodies.resize(1);
+        Body& body = rigid.bodies[0];
+        body.mass.mass = mass;
+        body.mass.inertia = moment * Mat3::Identity();
+        body.locks[4] = k % 3 == 1;
+        body.locks[2] = k % 3 == 2;
+        BodyJoints joints;
+        joints.faces.faces.push_back({.first = 0, .last = 2});
+        joints.faces.cells.assign(2, {.area = area});
+        joints.joined.assign(1, 1);
+        for (const double side : {-0.1, 0.1}) {
+            joints.nodes.push_back({.other = -1,
+                                    .opening = 1,
+                                    .place = Vec3(arm + side, 0, -0.5),
+                                    .normal = Vec3(0, 0, -1)});
+        }
+        const double push = body.locks[2] ? 0 : 1 / mass;
+        const double turn = body.locks[4] ? 0 : arm * arm / moment;
+        const double expected = 4 * area * area * (push + turn);
+        EXPECT_NEAR(joint_mobility(joints, rigid, {Pose{}}, 0, joints.faces.faces[0]), expected,
+                    1e-12 * expected);
+    }
+}
+
+TEST(JointInflow, ColumnsOfOtherLengthsAreRefused)
+{
+    Seepage seepage;
+    seepage.open = {1};
+    seepage.joined = {{0, 0}};
+    seepage.opening = {0.0};
+    seepage.pressure = {0.0};
+    EXPECT_THROW(restart_joints(seepage), IoError);
+    seepage.inertia = {0.0};
+    EXPECT_NO_THROW(restart_joints(seepage));
 }
 
 } // namespace

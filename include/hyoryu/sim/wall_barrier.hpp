@@ -9,8 +9,11 @@
 //             min(-d / (20 dt), 0.02 c0)   inside, where d < 0,
 // and the particle receives the impulse J = m (u* - u) n, the solid -J. A stopped particle has no
 // approach speed left, as in an inelastic impact; a particle inside is led out slowly. Water at its
-// normal distance is not affected. Ours; the impulse is that of a unilateral constraint (Moreau
-// 1988).
+// normal distance is not affected. Between surfaces that close in on a particle the rule is applied
+// in four rounds. A body yields to its hits: with Y = sum a m (1/M + rotation), where a is the
+// whole impulse over that of the first round, it takes all of them if Y < 1 and the share 1/Y of
+// them otherwise, so that they never turn its motion around; the particles keep the rest. Ours; the
+// impulse is that of a unilateral constraint (Moreau 1988).
 #pragma once
 
 #include "hyoryu/scene/solid_surface.hpp"
