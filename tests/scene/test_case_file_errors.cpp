@@ -115,6 +115,8 @@ TEST(CaseFileErrors, EachKindIsToldAtItsPlace)
          "wall[0].motion.piston.solitary_height", "is missing", "Height"},
         {"[[wall]]\nshape = \"basin\"\nmin=[0,0,0]\nmax=[1,1,1]\nopen = [\"up\"]\n", 5, 9, 4,
          "wall[0].open[0]", "expected one of \"-x\"", ""},
+        {"[[wall]]\nshape = \"basin\"\nmin=[0,0,0]\nmax=[1,1,1]\nopen = [\"+z\", \"+z\"]\n", 5, 15,
+         4, "wall[0].open[1]", "\"+z\" is listed twice", "remove one"},
         {"[[wall]]\nshape = \"box\"\nmin=[0,0,0]\nmax=[1,1,1]\nradius = 3\n", 5, 1, 6,
          "wall[0].radius", "has no meaning with shape = \"box\"", "\"min\""},
         {"[[wall]]\nshape = \"cylinder\"\nradius = 1\nposition=[0,0,0]\n", 1, 1, 8,
@@ -242,8 +244,45 @@ TEST(CaseFileErrors, AMistakeDoesNotBringFalseOnes)
                        "[[body]]\nshape = \"bx\"\nsize = [1,1,1]\nmass = 1\nposition = [0,0,0]\n")
                   .size(),
               1u);
+    // What is right for any shape or gauge stays right beside a mistyped name.
+    EXPECT_EQ(mistakes(short_case + "[[wall]]\nshape = \"bsin\"\nmin = [0,0,0]\nmax = [1,1,\"1 "
+                                    "ft\"]\nopen = [\"+z\"]\nradius = -1\nnormal = [0, 0, 1]\n"
+                                    "[wall.rotation_deg]\nangle = 1\n")
+                  .size(),
+              1u);
+    EXPECT_EQ(mistakes(short_case + "[[gauge]]\ntype = \"presure\"\nat = [1, 2, 3]\n"
+                                    "axis = \"x\"\n[[gauge]]\ntype = \"presure\"\nat = [1]\n")
+                  .size(),
+              2u);
     EXPECT_EQ(mistakes(replaced(short_case, "end = 1", "end = \"1 m\"")).size(), 1u);
     EXPECT_EQ(mistakes(replaced(short_case, "spacing = 0.1", "spacing = 0")).size(), 1u);
+}
+
+TEST(CaseFileErrors, AnUnknownNameOfAShapeDoesNotHideOtherMistakes)
+{
+    // Of each of these keys a value of another kind, which no shape and no gauge takes.
+    const std::vector<std::pair<std::string, std::string>> wrong = {
+        {"size", "3"},           {"size", "[1, \"1 kg\", 1]"},
+        {"radius", "true"},      {"radius", "\"1 s\""},
+        {"length", "[1, 1, 1]"}, {"min", "\"low\""},
+        {"max", "[1, 1, nan]"},  {"open", "[\"up\"]"},
+        {"open", "\"+z\""},      {"normal", "1"},
+        {"file", "3"},           {"scale", "\"large\""},
+    };
+    for (const std::string shape : {"bassin", "qqqqqqqq", ""}) {
+        for (const auto& [key, value] : wrong) {
+            const auto all = mistakes(short_case + "[[wall]]\nshape = \"" + shape + "\"\n" + key +
+                                      " = " + value + "\n");
+            SCOPED_TRACE(key + " = " + value);
+            ASSERT_EQ(all.size(), 2u);
+            EXPECT_EQ(all[0].key, "wall[0].shape");
+            EXPECT_TRUE(all[1].key.starts_with("wall[0]." + key)) << to_string(all[1]);
+        }
+    }
+    EXPECT_EQ(mistakes(short_case + "[[gauge]]\ntype = \"presure\"\nat = [1, 2, \"3 s\"]\n"
+                                    "axis = 3\non = 1\narea = \"1 kg\"\n")
+                  .size(),
+              5u);
 }
 
 TEST(CaseFileErrors, UnknownKeysAreFoundInEveryTable)

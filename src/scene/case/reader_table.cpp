@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hyoryu {
 
@@ -287,6 +288,49 @@ void TableReader::report_unused(const TomlEntry& entry)
                    chosen_.empty() ? "" : fmt::format("keys used here: {}", quoted_list(used)));
 }
 
+// A key of a table whose meaning was lost with a mistake, such as the size of a shape of an unknown
+// name: its kind, its unit and its choices are the same for all meanings, bounds and lengths are
+// not.
+void TableReader::check_kind(const TomlEntry& entry)
+{
+    Parameter rule = *find_parameter(joined(schema_, entry.key));
+    rule.key = entry.key;
+    rule.minimum = -std::numeric_limits<double>::infinity();
+    rule.maximum = std::numeric_limits<double>::infinity();
+    rule.minimum_excluded = false;
+    rule.shortest = 0;
+    rule.longest = std::numeric_limits<int>::max();
+    const auto check = [&]<class T>(T value) {
+        if (!read({reading_, entry.node, rule, full(entry.key)}, value)) {
+            mistaken_.emplace_back(entry.key);
+        }
+    };
+    switch (rule.kind) {
+    case ValueKind::number:
+        return check(double{});
+    case ValueKind::number_or_name:
+        return check(NumberOrName{});
+    case ValueKind::integer:
+        return check(std::int64_t{});
+    case ValueKind::boolean:
+        return check(bool{});
+    case ValueKind::text:
+    case ValueKind::choice:
+        return check(std::string{});
+    case ValueKind::vector:
+        return check(std::vector<double>{});
+    case ValueKind::vectors:
+        return check(std::vector<Vec3>{});
+    case ValueKind::integers:
+        return check(std::vector<std::int64_t>{});
+    case ValueKind::texts:
+        return check(std::vector<std::string>{});
+    case ValueKind::table:
+    case ValueKind::tables:
+        return; // not read: their keys depend on this table
+    }
+}
+
 void TableReader::finish()
 {
     if (node_ == nullptr) {
@@ -300,6 +344,8 @@ void TableReader::finish()
             report_unknown(entry);
         } else if (!abandoned_) {
             report_unused(entry);
+        } else {
+            check_kind(entry);
         }
     }
 }

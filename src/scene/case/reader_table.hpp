@@ -9,6 +9,7 @@
 #include "hyoryu/scene/scene.hpp"
 #include "hyoryu/scene/toml_document.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -87,9 +88,16 @@ bool read(const Asked& asked, std::vector<T>& member)
     member.clear();
     for (std::size_t k = 0; items != nullptr && (sound || texts) && k < items->size(); ++k) {
         T value{};
-        if (read(
-                {asked.reading, (*items)[k], asked.rule, asked.key + '[' + std::to_string(k) + ']'},
-                value)) {
+        const Asked item{asked.reading, (*items)[k], asked.rule,
+                         asked.key + '[' + std::to_string(k) + ']'};
+        bool taken = read(item, value);
+        if constexpr (texts) { // names of a set
+            if (taken && !asked.rule.choices.empty() &&
+                std::ranges::find(member, value) != member.end()) {
+                taken = item.refuse("\"" + value + "\" is listed twice", "remove one of the two");
+            }
+        }
+        if (taken) {
             member.push_back(value);
         } else {
             sound = false;
@@ -230,6 +238,7 @@ private:
 
     void report_unknown(const TomlEntry& entry);
     void report_unused(const TomlEntry& entry);
+    void check_kind(const TomlEntry& entry);
 
     Reading& reading_;
     const TomlNode* node_;

@@ -84,7 +84,8 @@ std::string object_schema(std::string_view prefix)
         case ValueKind::integers:
             return list_schema(parameter, integer_schema(parameter));
         case ValueKind::texts:
-            return list_schema(parameter, text_schema(parameter));
+            return list_schema(parameter, text_schema(parameter)) +
+                   (parameter.choices.empty() ? "" : ", \"uniqueItems\": true");
         case ValueKind::table:
             return object_schema(fmt::format("{}.", parameter.key));
         case ValueKind::tables:
