@@ -64,6 +64,49 @@ class Runs(ProgramTest):
                 ratio = cost[what]["predicted"] / cost[what]["measured"]
                 self.assertAlmostEqual(ratio, 1, delta=0.25, msg=f"{name} {what}")
 
+    def test_the_memory_of_a_ground_or_a_mesh_is_foretold_to_a_quarter(self):
+        # VTK is loaded for the mesh alone. Water covers the ground, since memory is foretold as if it did.
+        heights = "\n".join(" ".join(f"{0.1 * ((i * j) % 5):.1f}" for i in range(21)) for j in range(21))
+        self.write(f"ncols 21\nnrows 21\nxllcorner 0\nyllcorner 0\ncellsize 0.5\n{heights}\n", "ground.asc")
+        corner = [(0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (0.0, 9.0, 0.0), (0.0, 0.0, 2.0)]
+        faces = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % corner[k] for k in face) +
+                        "endloop\nendfacet\n" for face in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)))
+        self.write(f"solid s\n{faces}endsolid s\n", "slope.stl")
+        ground = """[[wall]]
+shape = "terrain"
+file = "ground.asc"
+"""
+        prism = """[[wall]]
+name = "house"
+shape = "prism"
+corners = [[3, 3, 0], [5, 3, 0], [5, 5, 0], [3, 5, 0]]
+bottom = 0.0
+top = 3.0
+"""
+        mesh = """[[wall]]
+name = "slope"
+shape = "mesh"
+file = "slope.stl"
+"""
+        water = """dimensions = 3
+[time]
+end = 0.01
+[particles]
+spacing = {}
+[domain]
+min = [0.5, 0.5, -1.0]
+max = [9.5, 9.5, 4.0]
+[fluid]
+[[fluid.block]]
+shape = "still_water"
+level = 1.0
+seed = [7.0, 7.0]
+"""
+        for walls, spacing in ((ground, 0.25), (ground, 0.15), (ground + prism, 0.25), (ground + mesh, 0.25)):
+            self.run_flood("out", "--quiet", "--force", text=water.format(spacing) + walls)
+            memory = json.loads((self.dir / "out/summary.json").read_text())["cost"]["memory_bytes"]
+            self.assertAlmostEqual(memory["predicted"] / memory["measured"], 1, delta=0.25, msg=walls)
+
     def test_the_disk_of_a_short_run_with_gauges_and_an_open_side_is_foretold_to_a_quarter(self):
         side = """[[open]]
 name = "sea"

@@ -13,9 +13,10 @@ namespace hyoryu {
 namespace {
 
 // Resident memory of the program with its libraries in the smallest run, measured with one box, 6.4
-// MB more with the shared HDF5; and of VTK, which reads meshes [B].
+// MB more with the shared HDF5; of VTK, which reads meshes, and of GDAL, which reads GeoTIFF [B].
 constexpr double process = 17.2e6;
 constexpr double mesh_reader = 31e6;
+constexpr double map_reader = 38e6;
 
 // Memory of a particle besides its columns: pair records, ids and owners, positions at the last
 // build, cells [B].
@@ -54,18 +55,36 @@ double closing(const std::vector<HistorySize>& tables)
     return most + image;
 }
 
-bool is_mesh(const Shape& shape)
+// Terrains and prisms are meshes as well, but the program makes them itself.
+bool is_mesh_file(const Shape& shape)
 {
-    return std::holds_alternative<MeshShape>(shape);
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    return mesh != nullptr && !mesh->terrain && !mesh->prism;
 }
 
-bool reads_meshes(const Scene& scene)
+// By its name: the content of the file is not known any more.
+bool is_geotiff(const Shape& shape)
 {
-    return std::ranges::any_of(scene.bodies, is_mesh, &BodySettings::shape) ||
-           std::ranges::any_of(scene.walls, [](const Wall& wall) {
-               const auto* solid = std::get_if<SolidWall>(&wall.geometry);
-               return solid != nullptr && is_mesh(solid->shape);
-           });
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    const auto is_of = [&](std::string_view ending) { return mesh->file.ends_with(ending); };
+    return mesh != nullptr && mesh->terrain &&
+           (is_of(".tif") || is_of(".tiff") || is_of(".TIF") || is_of(".TIFF"));
+}
+
+bool any_wall(const Scene& scene, bool (*is)(const Shape&))
+{
+    return std::ranges::any_of(scene.walls, [&](const Wall& wall) {
+        const auto* solid = std::get_if<SolidWall>(&wall.geometry);
+        return solid != nullptr && is(solid->shape);
+    });
+}
+
+// Of the libraries that read the files of a scene [B].
+double readers(const Scene& scene)
+{
+    const bool meshes = any_wall(scene, is_mesh_file) ||
+                        std::ranges::any_of(scene.bodies, is_mesh_file, &BodySettings::shape);
+    return (meshes ? mesh_reader : 0) + (any_wall(scene, is_geotiff) ? map_reader : 0);
 }
 
 } // namespace
@@ -78,7 +97,7 @@ double memory_bytes(const Scene& scene, const Plan& plan, const Course& course)
     const auto fluid = static_cast<double>(plan.counts.fluid) + entering;
     const auto wall = static_cast<double>(plan.counts.wall);
     const auto drawn = static_cast<double>(plan.counts.drawn);
-    double lasting = process + (reads_meshes(scene) ? mesh_reader : 0);
+    double lasting = process + readers(scene);
     for (const Plan::FieldUse& field : plan.fields) {
         lasting += static_cast<double>(field.bytes()) +
                    entering * static_cast<double>(field.bytes_per_particle);
