@@ -46,8 +46,9 @@ double energy(const Simulation& sim)
 // A bore presses a light body against a wall. What its joint presses with cannot have entered it
 // faster than the water moves: the body is not thrown, and no energy comes of it. Summed here from
 // the particles. Known to fail: with one to three spacings across a body the energy still rises, by
-// 0.8 % in the mean of 40 other draws, by 4.3 % at most. With the inflow of the speed before a step
-// it was 2.2 and 17 %, and the body was thrown above the water.
+// 0.5 % in the mean of 64 draws, by 3.1 % at most. Without the inertia of the inflow it was 0.8 and
+// 4.3 %; with the inflow of the speed before a step 2.2 and 17 %, and the body was thrown above the
+// water. The bounds leave room for other draws, since a bore is chaotic.
 TEST(LightBodies, AreNotThrownByABore)
 {
     std::mt19937 dice(11);
@@ -65,10 +66,10 @@ TEST(LightBodies, AreNotThrownByABore)
             least = std::min(least, now);
             most = std::max(most, now - least);
         }
-        EXPECT_LE(most, 0.06 * start) << text;
+        EXPECT_LE(most, 0.04 * start) << text;
         mean += most / start / draws;
     }
-    EXPECT_LE(mean, 0.012);
+    EXPECT_LE(mean, 0.008);
 }
 
 // A plate of 0.4 to 1.2 % of the density of water, let go in still water of a basin; by its depth
