@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Emission and removal of the particles of the carpets (buffer zones) of open sides. A carpet is a
-// lattice that moves with its flow: the next column of a row stands one spacing behind its
+// lattice that moves with its flow: the next column of a row stands a fixed distance behind its
 // outermost particle, so that the places of the particles are all that a carpet remembers.
 #include "hyoryu/fluid/totals.hpp"
 
@@ -87,8 +87,9 @@ private:
         const OpenSide& side = carpet_.side;
         Vec3 x = Vec3::Zero();
         x[side.axis] = side.plane + side.into * s;
-        x[1 - side.axis] =
-            f_.dimensions == 2 ? 0 : side.first + (static_cast<real>(lane_) + 0.5) * f_.spacing;
+        x[1 - side.axis] = f_.dimensions == 2
+                               ? 0
+                               : side.first + (static_cast<real>(lane_) + 0.5) * side.lane_width;
         x.z() = bed_ + (static_cast<real>(row) + 0.5) * f_.spacing;
         return x;
     }
@@ -108,11 +109,12 @@ private:
     std::vector<real> extend(int row, std::vector<real>& s, real begin)
     {
         const real dp = f_.spacing;
+        const real column = carpet_.side.column(dp);
         real outermost = s.empty() ? begin : *std::ranges::min_element(s);
         std::vector<real> added;
         while (outermost > far_ + 1e-6 * dp) { // with a tolerance for rounding
-            if (emit(outermost - dp, row)) {
-                outermost -= dp;
+            if (emit(outermost - column, row)) {
+                outermost -= column;
                 s.push_back(outermost);
                 added.push_back(outermost);
             } else {
@@ -161,7 +163,7 @@ private:
 bool has_left(const Fluid& fluid, const Carpet& carpet, const Vec3& x, bool beside_body)
 {
     const real dp = fluid.parameters.spacing;
-    const int lane = carpet.side.lane(x, dp);
+    const int lane = carpet.side.lane(x);
     const int inside = std::clamp(lane, 0, carpet.side.lanes() - 1);
     const real bed = carpet.side.bed[at(inside)];
     const StationFlow& flow = station_of(carpet, lane);
@@ -224,7 +226,7 @@ Lanes sort_into_lanes(const Fluid& fluid, const Carpet& carpet, Places& places, 
         if (s < 2 * dp) {
             places.add(p);
         }
-        const int lane = side.lane(p, dp);
+        const int lane = side.lane(p);
         if (lane < 0 || lane >= side.lanes()) {
             continue;
         }

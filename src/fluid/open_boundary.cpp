@@ -17,12 +17,12 @@ int least_carpet_columns(real smoothing_ratio)
     return static_cast<int>(std::ceil(2 * smoothing_ratio - 1e-9)) + spare;
 }
 
-int OpenSide::lane(const Vec3& x, real spacing) const
+int OpenSide::lane(const Vec3& x) const
 {
-    if (lanes() == 1) {
+    if (flat) {
         return 0;
     }
-    const auto k = static_cast<int>(std::floor((x[1 - axis] - first) / spacing));
+    const auto k = static_cast<int>(std::floor((x[1 - axis] - first) / lane_width));
     return repeats ? (k % lanes() + lanes()) % lanes() : k;
 }
 
@@ -127,10 +127,10 @@ StationFlow flow_at(const AskedFlow& asked, const StationFlow& before, const Sta
 
 namespace {
 
-bool in_reach(const OpenSide& side, const Vec3& x, real spacing, real outward, real inward)
+bool in_reach(const OpenSide& side, const Vec3& x, real outward, real inward)
 {
     const real s = side.distance(x);
-    const int lane = side.lane(x, spacing);
+    const int lane = side.lane(x);
     return s > -outward && s < inward && lane >= -2 && lane <= side.lanes() + 1;
 }
 
@@ -141,10 +141,10 @@ real outer_reach(const OpenSide& side, real spacing)
 
 } // namespace
 
-bool is_behind(const OpenBoundary& open, const Vec3& x, real spacing)
+bool is_behind(const OpenBoundary& open, const Vec3& x)
 {
     return std::ranges::any_of(open.carpets, [&](const Carpet& carpet) {
-        const int lane = carpet.side.lane(x, spacing);
+        const int lane = carpet.side.lane(x);
         return carpet.side.distance(x) < 0 && lane >= -2 && lane <= carpet.side.lanes() + 1;
     });
 }
@@ -158,8 +158,7 @@ void find_rows(const Fluid& fluid, OpenBoundary& open)
     for (Carpet& carpet : open.carpets) {
         carpet.near.clear();
         for (Index row = 0; row < fluid.particles.fluid.size(); ++row) {
-            if (in_reach(carpet.side, x[row], f.spacing, outer_reach(carpet.side, f.spacing),
-                         inward)) {
+            if (in_reach(carpet.side, x[row], outer_reach(carpet.side, f.spacing), inward)) {
                 carpet.near.push_back(static_cast<std::int32_t>(row));
             }
         }
@@ -182,7 +181,7 @@ void mark_beside_bodies(const Fluid& fluid, OpenBoundary& open)
         carpet.near_bodies.clear();
         real farthest = infinity; // of a body particle, along the way into the domain
         for (Index row = 0; row < fluid.particles.body.size(); ++row) {
-            if (in_reach(carpet.side, solid[row], dp, outer_reach(carpet.side, dp),
+            if (in_reach(carpet.side, solid[row], outer_reach(carpet.side, dp),
                          2 * strip_half * dp + reach)) {
                 carpet.near_bodies.push_back(static_cast<std::int32_t>(row));
                 farthest = std::min(farthest, carpet.side.distance(solid[row]));
@@ -277,7 +276,7 @@ void for_carpet(const Fluid& fluid, const Carpet& carpet, const auto& f)
     for (std::size_t k = 0; k < carpet.near.size(); ++k) {
         if (carpet.behind[k] != 0) {
             const auto row = at(carpet.near[k]);
-            f(k, row, carpet.side.lane(x[row], fluid.parameters.spacing));
+            f(k, row, carpet.side.lane(x[row]));
         }
     }
 }
@@ -344,8 +343,9 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
         }
         for (int c = 0; c < side.stations(); ++c) {
             const StationFlow& flow = carpet.stations[at(c)];
-            const real width =
-                fluid.parameters.dimensions == 2 ? 1 : side.open_lanes(c, flow.level) * dp;
+            const real width = fluid.parameters.dimensions == 2
+                                   ? 1
+                                   : side.open_lanes(c, flow.level) * side.lane_width;
             if (width > 0) {
                 const real depth = std::max(flow.level - side.station_bed(c, flow.level), real(0));
                 const bool wet = depth >= least_rows * dp || flow.velocity < 0;

@@ -22,6 +22,38 @@ struct StripSums {
     real displaced = 0;         // sum of w V of what bodies displace
 };
 
+// Calls f(station, share) for the stations over which a particle in the window lies, whose cell is
+// a cube of the spacing. By its middle alone the depth of a station would err by up to a part in
+// the number of its lanes where the lattice of the water is not that of the lanes, and stations at
+// rest would drive a flow between them.
+void for_stations(const OpenSide& side, const Vec3& x, real spacing, const auto& f)
+{
+    const int own = side.lane(x);
+    if (own < 0 || own >= side.lanes()) {
+        return;
+    }
+    const int station = own / side.station_lanes;
+    const int begin = station * side.station_lanes;
+    const int end = std::min(begin + side.station_lanes, side.lanes());
+    const real lanes = (x[1 - side.axis] - side.first) / side.lane_width;
+    const real middle = lanes - std::floor(lanes) + static_cast<real>(own - begin);
+    const real cell = spacing / side.lane_width;
+    real share = 1;
+    const auto give = [&](int beside, real beyond) {
+        const int count = side.stations();
+        const int other = side.repeats ? (beside + count) % count : beside;
+        if (beyond > 0 && other >= 0 && other < count && side.open_lanes(other) > 0) {
+            f(other, beyond / cell);
+            share -= beyond / cell;
+        }
+    };
+    if (!side.flat && side.stations() > 1) {
+        give(station - 1, cell / 2 - middle);
+        give(station + 1, middle + cell / 2 - static_cast<real>(end - begin));
+    }
+    f(station, share);
+}
+
 // The contribution of a particle to the sums of its station.
 struct StripTerm {
     std::int64_t number = 0; // of the particle
@@ -43,11 +75,11 @@ std::vector<StripTerm> strip_terms(const Fluid& fluid, const Carpet& carpet)
         const auto row = at(carpet.near[k]);
         const real s = side.distance(x[row]);
         const real w = s >= 0 ? strip_weight(s, dp) : 0;
-        const int lane = side.lane(x[row], dp);
-        if (w > 0 && lane >= 0 && lane < side.lanes()) {
-            const real V = w * fluid.parameters.mass / rho[row];
-            own.push_back(
-                {store.id()[row], lane / side.station_lanes, V, V * side.into * v[row][side.axis]});
+        if (w > 0) {
+            for_stations(side, x[row], dp, [&](int station, real share) {
+                const real V = share * w * fluid.parameters.mass / rho[row];
+                own.push_back({store.id()[row], station, V, V * side.into * v[row][side.axis]});
+            });
         }
     }
     return terms_of_all(fluid, std::move(own));
@@ -75,14 +107,15 @@ void add_displaced(const Fluid& fluid, const Carpet& carpet, std::vector<StripSu
         const Vec3& x = store[field::position][row];
         const real s = side.distance(x);
         const real w = s >= 0 ? strip_weight(s, dp) : 0;
-        const int lane = side.lane(x, dp);
-        if (w > 0 && lane >= 0 && lane < side.lanes()) {
-            const int c = lane / side.station_lanes;
+        if (!(w > 0)) {
+            continue;
+        }
+        for_stations(side, x, dp, [&](int c, real share) {
             const real surface = side.station_strip(c) + carpet.stations[at(c)].depth;
             const real wet = std::clamp((surface - x.z()) / dp + 0.5, real(0), real(1));
             sums[at(c)].displaced +=
-                w * wet * store[field::displaced_mass][row] / fluid.parameters.eos.rho0;
-        }
+                share * w * wet * store[field::displaced_mass][row] / fluid.parameters.eos.rho0;
+        });
     }
 }
 
@@ -90,8 +123,9 @@ void add_displaced(const Fluid& fluid, const Carpet& carpet, std::vector<StripSu
 real strip_area(const Fluid& fluid, const OpenSide& side, int station)
 {
     const real dp = fluid.parameters.spacing;
-    const real width =
-        fluid.parameters.dimensions == 2 ? 1 : static_cast<real>(side.open_lanes(station)) * dp;
+    const real width = fluid.parameters.dimensions == 2
+                           ? 1
+                           : static_cast<real>(side.open_lanes(station)) * side.lane_width;
     return strip_half * dp * width;
 }
 

@@ -76,6 +76,10 @@ void read_resolved_case(RunResults& run)
     try {
         const TomlNode root = parse_toml(run.case_text);
         run.spacing = spacing_of(*root.table());
+        if (!(run.spacing > 0)) {
+            throw IoError(
+                fmt::format("`{}` is damaged: it has no particles.spacing", file.string()));
+        }
         for (const TomlTable* wall : tables_at(*root.table(), "wall")) {
             run.walls.push_back(text_at(*wall, "name"));
             run.contact.materials[text_at(*wall, "name")] = text_at(*wall, "material");
@@ -109,18 +113,42 @@ void read_contact_laws(RunResults& run)
     }
 }
 
+// The last row of a history is written at the end of a run that is done.
+void expect_complete(const RunResults& run, const char* name, const CsvTable& history)
+{
+    if (run.summary.at("exit_reason") != "done") {
+        return;
+    }
+    constexpr double rounding = 1e-9;
+    const double end = number(run.summary.at("simulated_seconds"));
+    const std::vector<double>& times = numbers_of(history, "time");
+    const double last = times.empty() ? -std::numeric_limits<double>::infinity() : times.back();
+    if (last < end * (1 - rounding)) {
+        throw IoError(fmt::format("`{}` is damaged: {}, but the run ended at {:.6g} s",
+                                  (run.folder / name).string(),
+                                  times.empty() ? std::string("it has no rows")
+                                                : fmt::format("it ends at {:.6g} s", last),
+                                  end));
+    }
+}
+
 void read_histories(RunResults& run)
 {
     const ordered_json& counts = run.plan.at("counts");
     run.energy = read_csv(run.folder / "energy.csv");
+    expect_complete(run, "energy.csv", run.energy);
     if (counts.at("bodies").get<int>() > 0) {
         run.bodies = read_csv(run.folder / "bodies.csv");
+        if (!run.summary.contains("bodies_left") || run.summary.at("bodies_left").empty()) {
+            expect_complete(run, "bodies.csv", *run.bodies);
+        }
     }
     if (run.plan.contains("contact")) {
         run.contacts = read_csv(run.folder / "contacts.csv");
     }
     if (!run.gauge_names.empty()) {
         run.gauges = read_csv(run.folder / "gauges.csv");
+        expect_complete(run, "gauges.csv", *run.gauges);
     }
     if (run.summary.contains("ranks")) {
         run.ranks = read_csv(run.folder / "ranks.csv");

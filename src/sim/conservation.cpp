@@ -75,7 +75,7 @@ Totals fluid_totals(const Fluid& fluid, const OpenBoundary& open)
     const auto [kinetic, potential, internal, vx, vy, vz, speed] =
         sum_over_fluid<7>(fluid, {e, e, e, u, u, u, u}, [&](Index i) {
             const real norm = v[i].norm();
-            if (!open.carpets.empty() && is_behind(open, x[i], f.spacing)) {
+            if (!open.carpets.empty() && is_behind(open, x[i])) {
                 return std::array{0.0, 0.0, 0.0, v[i].x(), v[i].y(), v[i].z(), norm};
             }
             const double s = rho[i] / f.eos.rho0;

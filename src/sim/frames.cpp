@@ -77,7 +77,7 @@ void leave_out_carpets(const Simulation& sim, Cloud& cloud)
     const auto x = sim.fluid->particles.fluid[field::position];
     std::vector<std::int32_t> inside;
     for (std::size_t row = 0; row < x.size(); ++row) {
-        if (!is_behind(sim.open.boundary, x[row], sim.scene.spacing)) {
+        if (!is_behind(sim.open.boundary, x[row])) {
             inside.push_back(static_cast<std::int32_t>(row));
         }
     }

@@ -52,8 +52,7 @@ void leave_out_carpets(const Simulation& sim, std::vector<GaugeTerms>& terms)
         double& place = terms[k].farthest;
         place = -infinity;
         for (Index row = 0; row < fluid.particles.fluid.size(); ++row) {
-            if (x[row][gauge.axis] > place &&
-                !is_behind(sim.open.boundary, x[row], fluid.parameters.spacing)) {
+            if (x[row][gauge.axis] > place && !is_behind(sim.open.boundary, x[row])) {
                 place = x[row][gauge.axis];
             }
         }

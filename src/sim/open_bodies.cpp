@@ -13,9 +13,8 @@ namespace {
 // Whether the body has passed that window entirely.
 bool has_passed(const Simulation& sim, const OpenSide& side, const Body& body, const Vec3& place)
 {
-    const FluidParameters& f = sim.fluid->parameters;
     const double behind = -side.distance(place);
-    const int lane = side.lane(place, f.spacing);
+    const int lane = side.lane(place);
     if (behind <= 0 || lane < 0 || lane >= side.lanes()) {
         return false;
     }

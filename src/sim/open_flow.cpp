@@ -26,11 +26,11 @@ Carpet make_carpet(const Scene& scene, const OpenSettings& open)
 }
 
 // The middle of a station along the window [m].
-double place_of(const OpenSide& side, int station, double spacing)
+double place_of(const OpenSide& side, int station)
 {
     const int begin = station * side.station_lanes;
     const int end = std::min(begin + side.station_lanes, side.lanes());
-    return side.first + 0.5 * (begin + end) * spacing;
+    return side.first + 0.5 * (begin + end) * side.lane_width;
 }
 
 // The level that a station measures.
@@ -39,8 +39,9 @@ double level_at(const Carpet& carpet, int station)
     return carpet.side.station_strip(station) + carpet.stations[at(station)].depth;
 }
 
-// Width of the lanes of a window / width of those that no wall at the plane closes.
-double closed_factor(const Carpet& carpet)
+// Width of a window / width of its lanes that no wall at the plane closes: a discharge is that of
+// the whole window.
+double width_factor(const Carpet& carpet)
 {
     if (carpet.side.wall.empty()) {
         return 1;
@@ -52,30 +53,20 @@ double closed_factor(const Carpet& carpet)
     return open > 0 ? static_cast<double>(carpet.side.lanes()) / open : 1;
 }
 
-// Width of a window / width through which water flows, in whole spacings and beside walls at the
-// plane: a discharge is that of the whole window.
-double width_factor(const Scene& scene, std::size_t window, const Carpet& carpet)
-{
-    const double lanes = carpet.side.lanes() * scene.spacing;
-    const double whole =
-        scene.dimensions == 2 ? 1 : scene.open[window].width(scene.dimensions) / lanes;
-    return whole * closed_factor(carpet);
-}
-
 // Sets the flow of every station at a time, from the prescribed flow and its own measurements.
 void set_flows(Simulation& sim, double time)
 {
     const Scene& scene = sim.scene;
     for (std::size_t k = 0; k < sim.open.boundary.carpets.size(); ++k) {
         Carpet& carpet = sim.open.boundary.carpets[k];
-        const double factor = width_factor(scene, k, carpet);
+        const double factor = width_factor(carpet);
         for (int c = 0; c < carpet.side.stations(); ++c) {
             const StationGround ground{carpet.side.station_bed(c, level_at(carpet, c)),
                                        carpet.side.station_strip(c)};
             if (!(ground.bed < infinity)) {
                 continue;
             }
-            AskedFlow asked = asked_at(scene.open[k], place_of(carpet.side, c, scene.spacing), time,
+            AskedFlow asked = asked_at(scene.open[k], place_of(carpet.side, c), time,
                                        sim.open.still[k][at(c)], scene.dimensions);
             if (asked.discharge) {
                 *asked.discharge *= factor;
@@ -182,7 +173,7 @@ OpenReading reading_of(const Simulation& sim, std::size_t k)
     for (int c = 0; c < carpet.side.stations(); ++c) {
         const StationFlow& flow = carpet.stations[at(c)];
         const int lanes = carpet.side.open_lanes(c, flow.level);
-        const double b = f.dimensions == 2 ? 1 : lanes * f.spacing;
+        const double b = f.dimensions == 2 ? 1 : lanes * carpet.side.lane_width;
         if (lanes == 0) {
             continue;
         }

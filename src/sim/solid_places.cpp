@@ -82,8 +82,7 @@ Index particles_in_solids(const Simulation& sim)
     place_solids(sim, present_poses(sim.rigid), sim.clock.time, places);
     const auto x = fluid.particles.fluid[field::position];
     const auto counts = [&](Index row) {
-        return sim.open.boundary.carpets.empty() ||
-               !is_behind(sim.open.boundary, x[row], barrier.spacing);
+        return sim.open.boundary.carpets.empty() || !is_behind(sim.open.boundary, x[row]);
     };
     const auto inside = [&](const Vec3& p, std::span<const std::size_t> near) {
         bool in = false;

@@ -314,7 +314,7 @@ history_every = 0.02
         for name, damage in (("energy.csv", "time,fluid_kinetic\n0,1,2\n"),
                              ("bodies.csv", "# m\ntime,body\n0,crate\n"),
                              ("contacts.csv", ""), ("gauges.csv", "time,level\n0,wet\n"),
-                             ("case.toml", "title = \n"), ("plan.json", "{"),
+                             ("case.toml", "title = \n"), ("case.toml", ""), ("plan.json", "{"),
                              ("summary.json", "{}"), ("structures.hdf", "no HDF5")):
             file = self.dir / "out" / name
             good = file.read_bytes()
@@ -324,6 +324,19 @@ history_every = 0.02
                 file.unlink()
                 self.refused(4, name)
             file.write_bytes(good)
+
+    def test_histories_that_were_cut_are_told(self):
+        # Cut after a row, the table is well formed. A history interval that does not divide the end.
+        self.run_case(self.CASE.replace("[output]", "[output]\nhistory_every = 0.0237\n", 1)
+                      if "[output]" in self.CASE else self.CASE + "[output]\nhistory_every = 0.0237\n")
+        self.assertEqual(self.call("report", "out").returncode, 0)
+        for name in ("energy.csv", "bodies.csv", "gauges.csv"):
+            file = self.dir / "out" / name
+            good = file.read_text()
+            lines = good.splitlines(keepends=True)
+            file.write_text("".join(lines[:len(lines) // 2]))
+            self.refused(4, name)
+            file.write_text(good)
 
     def test_an_unusable_stiffness_or_place_is_told(self):
         self.run_case(self.DROP)

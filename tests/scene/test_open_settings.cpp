@@ -301,7 +301,7 @@ TEST(OpenSettings, TheGroundBelowAWindowIsThatOfItsWalls)
         ASSERT_EQ(side.lanes(), std::lround((to - from) / 0.1));
         for (int lane = 0; lane < side.lanes(); ++lane) {
             const double y = side.first + (lane + 0.5) * 0.1;
-            EXPECT_EQ(side.lane({0, y, 0}, 0.1), lane);
+            EXPECT_EQ(side.lane({0, y, 0}), lane);
             const double expected = y > 0.5 ? step : 0;
             EXPECT_NEAR(side.bed[static_cast<std::size_t>(lane)], expected, 1e-6);
             EXPECT_NEAR(side.strip[static_cast<std::size_t>(lane)], expected, 1e-6);

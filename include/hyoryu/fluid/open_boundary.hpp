@@ -37,13 +37,16 @@ struct StripSpace {
 };
 
 /// A vertical plane through which fluid enters and leaves. `s` is the distance from it into the
-/// domain, lanes are strips of one spacing along it; in two dimensions there is one lane.
+/// domain, lanes are strips along it: the window divided into as many as come nearest to a spacing;
+/// in two dimensions there is one lane.
 struct OpenSide {
     int axis = 0;         // of the normal: 0 or 1
     real plane = 0;       // [m]
     real into = 1;        // +1 or -1: the direction into the domain along the axis
     real first = 0;       // lower edge of the first lane along the plane [m]
+    real lane_width = 0;  // the spacing in two dimensions [m]
     real low = 0;         // lower edge of the window [m]
+    bool flat = false;    // of a scene of two dimensions
     bool repeats = false; // the plane reaches from end to end of a period
     std::vector<real>
         bed; // ground below the carpet, by lane; infinity where it fills the window [m]
@@ -61,7 +64,10 @@ struct OpenSide {
     real distance(const Vec3& x) const { return into * (x[axis] - plane); }
     Vec3 normal() const { return into * Vec3::Unit(axis); }
     /// The lane of a point; outside of 0 .. lanes() beside the window.
-    int lane(const Vec3& x, real spacing) const;
+    int lane(const Vec3& x) const;
+    /// Distance of the columns of the carpet: a row, a lane and a column share the volume of a
+    /// particle [m].
+    real column(real spacing) const { return sq(spacing) / lane_width; }
     /// Whether a lane is open at a level: not where a wall at the plane emerges from the water.
     bool is_open(int lane, real level = infinity) const
     {
@@ -170,6 +176,6 @@ void keep_velocities(const Fluid& fluid, OpenBoundary& open);
 void set_velocities(Fluid& fluid, OpenBoundary& open, real dt);
 
 /// Whether a point is behind an open plane.
-bool is_behind(const OpenBoundary& open, const Vec3& x, real spacing);
+bool is_behind(const OpenBoundary& open, const Vec3& x);
 
 } // namespace hyoryu

@@ -149,6 +149,7 @@ struct Wall {
     Motion motion;        // of [wall.motion]
     PistonTarget wave;    // of its piston, which a resolved case has as a path
     Place place;
+    std::string table; // of the case file: "wall[2]", counted from 0; may be empty
 };
 
 /// A box in which the fluid is brought to a velocity, more and more towards one side. It has a
@@ -182,6 +183,7 @@ struct BodySettings {
     bool sealed = false;         // no water gets under it while it stands: `stands = "sealed"`
     std::array<bool, 6> locks{}; // x y z rx ry rz, in world axes
     Place place;
+    std::string table; // of the case file, which copies share: "body[2]", "debris[0]"; may be empty
 };
 
 struct MaterialPair {

@@ -14,6 +14,7 @@ struct BuildingKeys {
     std::string name;    // a property, or empty
     std::string material;
     Place place;
+    std::string table; // "buildings[0]"
 };
 
 /// The footprints of the file that have no mistake; the mistakes of the others are noted, and that
@@ -71,6 +72,7 @@ inline void add_walls(TableReader& table, const BuildingKeys& buildings,
         claim_name(table, wall.name);
         wall.material = buildings.material;
         wall.place = buildings.place;
+        wall.table = buildings.table;
         scene.walls.push_back(std::move(wall));
     }
 }

@@ -53,6 +53,10 @@ inline void check_gauge(TableReader& table, const Gauge& gauge, const Scene& sce
         table.error("type", fmt::format("\"{}\" has no meaning in a case without fluid", type),
                     "only gauges of type \"force\" have");
     }
+    constexpr int along_y = 1;
+    if (gauge.type == GaugeType::front && gauge.axis == along_y && scene.dimensions == 2) {
+        table.error("axis", "nothing moves along y in two dimensions", "give \"x\" or \"z\"");
+    }
     check_name(table, "name", gauge.name);
     for (const Table::Head& head : gauge_columns(gauge, scene.dimensions)) {
         const auto [earlier, is_new] = columns.emplace(head.name, gauge.place.line);

@@ -220,6 +220,9 @@ inline void load_series(TableReader& table, std::string_view key, const SeriesKe
     series = read_series(source, faults);
     series.at = at;
     series.place = place;
+    if (faults.empty() && series.levels.empty() && keys.datum) {
+        table.error("datum", "has no meaning for a series without levels", "remove it");
+    }
     for (const std::string& fault : faults) {
         table.error(key, fault,
                     keys.format == SeriesFormat::geoclaw

@@ -125,6 +125,7 @@ public:
         piece_.body.material = debris.material;
         piece_.body.spacing = scene.spacing;
         piece_.body.place = debris.place;
+        piece_.body.table = debris.table;
     }
 
     const Vec3& extent() const { return piece_.extent; }

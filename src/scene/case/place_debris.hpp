@@ -37,6 +37,7 @@ struct DebrisKeys {
     std::optional<DebrisScatter> scatter; // or this
     std::size_t placed = 0;               // bodies that it has become
     Place place;
+    std::string table; // "debris[0]"
 };
 
 /// Appends the pieces to the bodies of the scene and returns what is wrong with their places: no

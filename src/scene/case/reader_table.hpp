@@ -153,6 +153,7 @@ public:
     /// Number of elements of a list that is sound.
     std::size_t count(std::string_view key) const;
     Place place() const { return node_ != nullptr ? node_->place : Place{}; }
+    const std::string& name_of_table() const { return path_; }
     std::size_t number_of_table() const { return number_; }
     Reading& reading() const { return reading_; }
 
@@ -201,6 +202,9 @@ public:
             T item;
             if constexpr (requires { item.place; }) {
                 item.place = inner.place();
+            }
+            if constexpr (requires { item.table; }) {
+                item.table = inner.name_of_table();
             }
             keys_of(inner, item, context...);
             inner.finish();

@@ -67,7 +67,7 @@ bool any_lane(const Scene& scene, const OpenSide& side, double distance, double 
     const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     for (int lane = 0; lane < side.lanes(); ++lane) {
         const double bed = side.bed[at(lane)];
-        Vec3 x = point_of_window(side, lane, distance, scene.spacing, scene.dimensions);
+        Vec3 x = point_of_window(side, lane, distance, scene.dimensions);
         x.z() = bed + above;
         if (bed < infinity && test(distance_to_walls(surfaces, x))) {
             return true;
@@ -78,12 +78,11 @@ bool any_lane(const Scene& scene, const OpenSide& side, double distance, double 
 
 } // namespace
 
-Vec3 point_of_window(const OpenSide& side, int lane, double distance, double spacing,
-                     int dimensions)
+Vec3 point_of_window(const OpenSide& side, int lane, double distance, int dimensions)
 {
     Vec3 x = Vec3::Zero();
     x[side.axis] = side.plane + side.into * distance;
-    x[1 - side.axis] = dimensions == 2 ? 0 : side.first + (lane + 0.5) * spacing;
+    x[1 - side.axis] = dimensions == 2 ? 0 : side.first + (lane + 0.5) * side.lane_width;
     return x;
 }
 
@@ -172,6 +171,14 @@ double strip_ground(const std::vector<double>& grounds, const OpenSide& side, in
     return on_walls > 0 ? walls / on_walls : infinity;
 }
 
+// The number of lanes whose width is nearest to a spacing, as a ratio.
+int lanes_of(double width, double spacing)
+{
+    const double number = width / spacing;
+    const double fewer = std::max(std::floor(number + 1e-6), 1.0);
+    return static_cast<int>(sq(number) > fewer * (fewer + 1) ? fewer + 1 : fewer);
+}
+
 } // namespace
 
 OpenSide open_side(const Scene& scene, const OpenSettings& open)
@@ -183,17 +190,21 @@ OpenSide open_side(const Scene& scene, const OpenSettings& open)
     side.plane = open.plane();
     side.into = open.sign();
     side.low = open.min.z();
+    side.flat = scene.dimensions == 2;
     side.columns = carpet_columns(scene, open);
     side.repeats = scene.domain && scene.domain->periodic[across];
     const double width = open.width(scene.dimensions);
-    const int lanes =
-        scene.dimensions == 2 ? 1 : std::max(1, static_cast<int>(std::floor(width / dp + 1e-6)));
-    side.first = scene.dimensions == 2 ? 0 : open.min[1 - open.axis()] + (width - lanes * dp) / 2;
+    const int lanes = scene.dimensions == 2 ? 1 : lanes_of(width, dp);
+    const bool whole = std::abs(width - lanes * dp) < 1e-6 * dp; // up to rounding
+    side.lane_width = scene.dimensions == 2 || whole ? dp : width / lanes;
+    side.first = scene.dimensions == 2
+                     ? 0
+                     : open.min[1 - open.axis()] + (width - lanes * side.lane_width) / 2;
     const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     std::vector<double> grounds; // by lane and column
     for (int lane = 0; lane < lanes; ++lane) {
         for (int k = 0; k < strip_columns; ++k) {
-            const Vec3 x = point_of_window(side, lane, (k + 0.5) * dp, dp, scene.dimensions);
+            const Vec3 x = point_of_window(side, lane, (k + 0.5) * dp, scene.dimensions);
             grounds.push_back(ground_at(surfaces, x, open.min.z(), open.max.z(), dp));
         }
     }
@@ -224,7 +235,7 @@ bool is_barred(const Scene& scene, const OpenSide& side, double level)
     const double dp = scene.spacing;
     const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     const auto is_free = [&](int lane, int column) {
-        Vec3 x = point_of_window(side, lane, (column + 0.5) * dp, dp, scene.dimensions);
+        Vec3 x = point_of_window(side, lane, (column + 0.5) * dp, scene.dimensions);
         x.z() = level - dp / 4;
         return distance_to_walls(surfaces, x) >= 0;
     };
@@ -271,7 +282,7 @@ double ground_behind(const Scene& scene, const OpenSide& side)
     for (int lane = 0; lane < side.lanes(); ++lane) {
         double ground = side.bed[at(lane)];
         for (double s = dp / 2; ground < infinity && s < least + near * dp; s += dp) {
-            Vec3 x = point_of_window(side, lane, -s, dp, scene.dimensions);
+            Vec3 x = point_of_window(side, lane, -s, scene.dimensions);
             x.z() = ground;
             const double above = distance_to_walls(surfaces, x);
             if (above > near * dp) {

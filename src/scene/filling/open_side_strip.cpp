@@ -60,10 +60,12 @@ std::vector<const SolidSurface*> surfaces_near(const std::vector<SolidSurface>& 
     const double dp = scene.spacing;
     const double height = levels.step * static_cast<double>(levels.below.size());
     Vec3 middle =
-        point_of_window(side, station * side.station_lanes, strip_half * dp, dp, scene.dimensions);
-    middle[1 - side.axis] += scene.dimensions == 2 ? 0 : 0.5 * (side.station_lanes - 1) * dp;
+        point_of_window(side, station * side.station_lanes, strip_half * dp, scene.dimensions);
+    middle[1 - side.axis] +=
+        scene.dimensions == 2 ? 0 : 0.5 * (side.station_lanes - 1) * side.lane_width;
     middle.z() = levels.low + height / 2;
-    const double reach = dp + Vec3(strip_half * dp, side.station_lanes * dp / 2, height / 2).norm();
+    const double reach =
+        dp + Vec3(strip_half * dp, side.station_lanes * side.lane_width / 2, height / 2).norm();
     std::vector<const SolidSurface*> near;
     for (const SolidSurface& surface : surfaces) {
         if (nearest_from_centre(surface, middle - surface.centre).distance < reach) {
@@ -83,10 +85,11 @@ void add_column(const Scene& scene, const OpenSide& side, int lane, int column,
     const double ground = side.below_wall[at(lane * strip_columns + column)] - dp;
     for (int a = 0; a < cubes_per_spacing; ++a) {
         const double s = column * dp + (a + 0.5) * h;
-        const double volume = strip_weight(s, dp) * (across == 1 ? h * h : h * h * h);
+        const double part = side.lane_width / across; // of the width of the lane
+        const double volume = strip_weight(s, dp) * (across == 1 ? h * h : h * h * part);
         for (int b = 0; b < across; ++b) {
-            Vec3 x = point_of_window(side, lane, s, dp, scene.dimensions);
-            x[1 - side.axis] += across == 1 ? 0 : (b + 0.5) * h - dp / 2;
+            Vec3 x = point_of_window(side, lane, s, scene.dimensions);
+            x[1 - side.axis] += across == 1 ? 0 : (b + 0.5) * part - side.lane_width / 2;
             add_vertical(near, x, ground, volume, space);
         }
     }

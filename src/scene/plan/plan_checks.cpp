@@ -31,11 +31,6 @@ constexpr double allowed_overlap = 0.01;
 // Largest stable CFL of the time scheme, measured on still water.
 constexpr double stable_cfl = 1.2;
 
-std::string body_key(std::size_t b)
-{
-    return fmt::format("body[{}]", b);
-}
-
 double thinnest(const Shape& shape, int dimensions)
 {
     if (const auto* box = std::get_if<BoxShape>(&shape)) {
@@ -108,7 +103,7 @@ void check_overlaps(const Scene& scene, std::vector<Diagnostic>& errors)
     const auto report = [&](int a, const std::string& other, double depth) {
         const BodySettings& body = scene.bodies[at(a)];
         errors.push_back(diagnostic_without_line(
-            scene, body.place, body_key(at(a)),
+            scene, body.place, table_of(body, at(a)),
             fmt::format("body \"{}\" overlaps {} by {:.3g} m", body.name, other, depth),
             "move it apart, or make it smaller; touching is allowed"));
     };
@@ -163,7 +158,7 @@ void warn_about_staircase(const Scene& scene, std::size_t b, Plan& plan)
     const auto* compound = std::get_if<Compound>(&shape);
     const std::size_t parts = compound != nullptr ? compound->parts.size() : 1;
     if (mesh && compound != nullptr) {
-        warn(scene, body.place, body_key(b),
+        warn(scene, body.place, table_of(body, b),
              fmt::format("body \"{}\" is not convex: for contact it consists of {} boxes of its "
                          "particle lattice, a staircase with steps of {:.3g} m",
                          body.name, parts, body.spacing),
@@ -171,7 +166,7 @@ void warn_about_staircase(const Scene& scene, std::size_t b, Plan& plan)
     }
     constexpr std::size_t many = 1000;
     if (parts > many) {
-        warn(scene, body.place, body_key(b),
+        warn(scene, body.place, table_of(body, b),
              fmt::format("body \"{}\" has {} parts for contact, which is slow", body.name, parts),
              mesh ? "a larger `spacing` of the body gives fewer parts"
                   : "particles on a lattice are merged into boxes",
@@ -193,7 +188,7 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
         }
         const double across = thinnest(body.shape, scene.dimensions);
         if (across < 3 * scene.spacing * (1 - 1e-9)) {
-            warn(scene, body.place, body_key(b),
+            warn(scene, body.place, table_of(body, b),
                  fmt::format("body \"{}\" is {:.3g} m thick, less than 3 spacings ({:.3g} m): "
                              "fluid forces on it are inaccurate and water may pass through it",
                              body.name, across, 3 * scene.spacing),
@@ -235,7 +230,7 @@ void warn_about_round_walls(const Scene& scene, Plan& plan)
 {
     for (std::size_t w = 0; plan.rigid && w < scene.walls.size(); ++w) {
         if (std::holds_alternative<RoundWall>(scene.walls[w].geometry)) {
-            warn(scene, scene.walls[w].place, fmt::format("wall[{}]", w),
+            warn(scene, scene.walls[w].place, table_of(scene.walls[w], w),
                  fmt::format(
                      "bodies do not collide with the round basin \"{}\" but with its bounding box",
                      scene.walls[w].name),
@@ -256,7 +251,7 @@ void warn_about_narrow_basins(const Scene& scene, Plan& plan)
             }
             const double across = basin->max[axis] - basin->min[axis];
             if (across < least * scene.spacing * (1 - 1e-9)) {
-                warn(scene, scene.walls[w].place, fmt::format("wall[{}]", w),
+                warn(scene, scene.walls[w].place, table_of(scene.walls[w], w),
                      fmt::format("the basin \"{}\" is {:.3g} m wide along {}, {:.2g} spacings: the "
                                  "water in it is not resolved",
                                  scene.walls[w].name, across, "xy"[axis], across / scene.spacing),
@@ -340,6 +335,18 @@ void check_fluid(const Scene& scene, const PlanFacts& facts, std::vector<Diagnos
                    "decrease `particles.spacing`, or enlarge the blocks; lengths are in metres"));
 }
 
+// Water faster than its sound has no solution of this scheme, and its density may overflow.
+void check_sound(const Scene& scene, const Plan& plan, std::vector<Diagnostic>& errors)
+{
+    if (plan.fluid && plan.expected_speed > plan.fluid->eos.c0) {
+        errors.push_back(diagnostic_without_line(
+            scene, {}, "fluid.sound_speed",
+            fmt::format("{:.4g} m/s is less than the largest expected speed, {:.3g} m/s",
+                        plan.fluid->eos.c0, plan.expected_speed),
+            fmt::format("10 times that speed is {:.3g} m/s", 10 * plan.expected_speed)));
+    }
+}
+
 } // namespace
 
 void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
@@ -348,6 +355,7 @@ void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
     check_overlaps(scene, errors);
     check_periods(scene, errors);
     check_step(scene, plan, errors);
+    check_sound(scene, plan, errors);
     check_outputs(scene, plan, errors);
     check_gauges(scene, facts, plan, errors);
     check_open(scene, facts, plan, errors);

@@ -69,7 +69,7 @@ void warn_about_covered_walls(const Scene& scene, const PlanFacts& facts, Plan& 
             if (!moves(scene.walls[f].motion) &&
                 share_covered(scene, wall, surfaces[w], surfaces[f], facts.moving[w]) >
                     noteworthy) {
-                warn(scene, wall.place, fmt::format("wall[{}]", w),
+                warn(scene, wall.place, table_of(wall, w),
                      fmt::format("the surface of the moving wall \"{}\" lies in that of the fixed "
                                  "wall \"{}\", which alone acts on the water there",
                                  wall.name, scene.walls[f].name),

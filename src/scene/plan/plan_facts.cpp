@@ -42,7 +42,7 @@ void look_before_sides(const Scene& scene, const Filling& filling, PlanFacts& fa
         double& level = facts.level_before.emplace_back(-infinity);
         for (const Vec3& x : filling.fluid) {
             const double s = side.distance(x);
-            const int lane = side.lane(x, scene.spacing);
+            const int lane = side.lane(x);
             if (s >= 0 && s < strip * scene.spacing && lane >= 0 && lane < side.lanes()) {
                 level = std::max(level, x.z() + scene.spacing / 2);
             }

@@ -59,7 +59,7 @@ double largest_slip(const Scene& scene, const SolidWall& solid)
 
 void warn_about_gap(const Scene& scene, std::size_t wall, const Wall& other, double gap, Plan& plan)
 {
-    warn(scene, scene.walls[wall].place, fmt::format("wall[{}]", wall),
+    warn(scene, scene.walls[wall].place, table_of(scene.walls[wall], wall),
          fmt::format("\"{}\" moves and leaves a gap of {:.3g} m, {:.2g} spacings, to \"{}\": water "
                      "passes through it",
                      scene.walls[wall].name, gap, gap / scene.spacing, other.name),

@@ -375,7 +375,7 @@ void warn_about_bodies(const LeakContext& start, Plan& plan)
         const BodySettings& body = scene.bodies[b];
         const bool copy = b > 0 && body.place.line == scene.bodies[b - 1].place.line;
         if (!copy && may_fall(body) && !has_support(start, body) && !is_over_another(scene, body)) {
-            warn(scene, body.place, fmt::format("body[{}]", b),
+            warn(scene, body.place, table_of(body, b),
                  fmt::format("body \"{}\" has neither wall nor water below it and will fall out of "
                              "the domain",
                              body.name),

@@ -171,7 +171,7 @@ void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& 
 }
 
 void check_water(const Scene& scene, const OpenSettings& open, const WaterAtStart& water,
-                 std::vector<Diagnostic>& errors)
+                 double bed, std::vector<Diagnostic>& errors)
 {
     const bool alone = open.kind == OpenKind::inflow && !open.discharge && !open.velocity &&
                        (open.series.empty() ? open.level.has_value()
@@ -190,7 +190,13 @@ void check_water(const Scene& scene, const OpenSettings& open, const WaterAtStar
                                  "dry at the start",
                                  "give `level`, or use kind = \"outflow\""));
     }
-    const double highest = highest_asked(open).value_or(-infinity);
+    // A discharge enters at the critical depth or deeper.
+    const std::optional<double> asked = highest_asked(open);
+    double highest = asked.value_or(-infinity);
+    for (int k = 0; k <= samples && !asked && bed < infinity; ++k) {
+        const double time = scene.time.end * k / samples;
+        highest = std::max(highest, bed + inflow_at(scene, open, {}, bed, time).depth);
+    }
     if (highest > open.max.z() + 1e-9) {
         errors.push_back(note_at(scene, open, "max",
                                  fmt::format("the level rises to {:.6g} m, above the window, which "
@@ -367,14 +373,6 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
                          rows, least_rows),
              "use a smaller `particles.spacing`");
     }
-    const double lanes = open.width(scene.dimensions) / scene.spacing;
-    if (scene.dimensions == 3 && std::abs(lanes - std::round(lanes)) > 1e-6 * lanes) {
-        warn("max",
-             fmt::format("the window is {:.6g} spacings wide: a gap of {:.2g} spacings stays dry "
-                         "at each end; a discharge enters through the rest",
-                         lanes, (lanes - std::floor(lanes)) / 2),
-             "make it a whole number of spacings wide");
-    }
 }
 
 } // namespace
@@ -426,7 +424,7 @@ void check_open(const Scene& scene, const PlanFacts& facts, Plan& plan,
         const WaterAtStart water = water_before(side, facts.level_before[k]);
         check_side(scene, facts, open, errors);
         check_ground(scene, open, side, errors);
-        check_water(scene, open, water, errors);
+        check_water(scene, open, water, mean_bed(side), errors);
         check_bodies_at(scene, open, side, errors);
         check_bodies_that_stop(scene, open, errors);
         check_shifting(scene, plan, open, errors);

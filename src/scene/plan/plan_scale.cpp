@@ -81,14 +81,14 @@ void list_body(const Scene& scene, std::size_t b, Plan& plan)
                              turns ? way_of(*floating) : "cannot turn"});
     if (spacings < 1) {
         warn(
-            scene, body.place, fmt::format("body[{}]", b),
+            scene, body.place, table_of(body, b),
             fmt::format("body \"{}\" floats with a draft of {:.2g} spacings: {:.3g} m is below the "
                         "spacing of {:.3g} m; its weight is correct, its draft is not resolved",
                         body.name, spacings, floating->as_placed.draft, scene.spacing),
             "use a smaller `particles.spacing` where the draft matters", plan);
     }
     if (floating->as_placed.metacentre < 0 && turns) {
-        warn(scene, body.place, fmt::format("body[{}]", b),
+        warn(scene, body.place, table_of(body, b),
              fmt::format("body \"{}\" will not float upright: its metacentric height is {:.3g} m; "
                          "it {}",
                          body.name, floating->as_placed.metacentre, way_of(*floating)),
@@ -211,7 +211,7 @@ void check_submerged(const Scene& scene, const PlanFacts& facts, Plan& plan)
     }
     if (count > 0) {
         const BodySettings& body = scene.bodies[first];
-        warn(scene, body.place, fmt::format("body[{}]", first),
+        warn(scene, body.place, table_of(body, first),
              fmt::format("body \"{}\"{} starts under {:.3g} m of water and is lighter than water: "
                          "it will rise rapidly",
                          body.name, count > 1 ? fmt::format(", like {} others,", count - 1) : "",
@@ -239,7 +239,9 @@ void list_scale(const Scene& scene, const PlanFacts& facts, double viscosity, Pl
         scale.absent.emplace_back("breaking: bodies and walls are rigid");
     }
     scale.absent.emplace_back("erosion: the ground does not change");
-    if (scale.reynolds < least_reynolds && scene.gravity.norm() > 0) {
+    // In water thinner than half a spacing there are no eddies.
+    const bool has_depth = scale.depth > 0;
+    if (has_depth && scale.reynolds < least_reynolds && scene.gravity.norm() > 0) {
         warn(scene, {}, "fluid.viscosity",
              fmt::format("the effective Reynolds number u d/nu is {:.3g}: {:.3g} m/s x {:.3g} m / "
                          "{:.3g} m2/s, the viscosity of the scheme; eddies are damped",

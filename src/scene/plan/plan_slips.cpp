@@ -98,7 +98,7 @@ void look_for_bodies_far_away(const Scene& scene, Plan& plan)
         if (away > far_away * size && is_first_of_entry(scene, b) &&
             (away > very_far_away * size || distance_to_others(scene, b) > far_away * size)) {
             return warn(
-                scene, body.place, fmt::format("body[{}].position", b),
+                scene, body.place, table_of(body, b) + ".position",
                 fmt::format(
                     "body \"{}\" is {:.3g} m from the rest of the scene, whose size is {:.3g} m",
                     body.name, away, size),
@@ -137,16 +137,16 @@ void look_at_meshes(const Scene& scene, Plan& plan)
         const Wall& wall = scene.walls[w];
         if (const auto* solid = std::get_if<SolidWall>(&wall.geometry)) {
             look_at_scale(solid->shape, bounds(wall, scene.dimensions),
-                          rest_of(scene, &wall, nullptr), wall.place, fmt::format("wall[{}]", w),
-                          scene, plan);
+                          rest_of(scene, &wall, nullptr), wall.place, table_of(wall, w), scene,
+                          plan);
         }
     }
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
             look_at_scale(body.shape, bounds(placed(body, scene.dimensions)),
-                          rest_of(scene, nullptr, &body), body.place, fmt::format("body[{}]", b),
-                          scene, plan);
+                          rest_of(scene, nullptr, &body), body.place, table_of(body, b), scene,
+                          plan);
         }
     }
 }
@@ -178,7 +178,7 @@ void look_for_doubled_cells(const Scene& scene, Plan& plan)
             continue;
         }
         if (const double share = doubled_share(*shape); share > noteworthy) {
-            warn(scene, body.place, fmt::format("body[{}].spacing", b),
+            warn(scene, body.place, table_of(body, b) + ".spacing",
                  fmt::format("the cells of the particles of body \"{}\", cubes with an edge of "
                              "{:.3g} m, overlap by {:.0f} % of their volume: volume, mass and "
                              "draft count this part twice",
@@ -194,7 +194,7 @@ void look_for_coarse_bodies(const Scene& scene, Plan& plan)
         const BodySettings& body = scene.bodies[b];
         const bool copy = b > 0 && body.place.line == scene.bodies[b - 1].place.line;
         if (!copy && body.spacing > scene.spacing * (1 + 1e-9)) {
-            warn(scene, body.place, fmt::format("body[{}].spacing", b),
+            warn(scene, body.place, table_of(body, b) + ".spacing",
                  fmt::format("the particles of body \"{}\" are {:.3g} m apart, those of the fluid "
                              "{:.3g} m: the body displaces too little water and floats too "
                              "deep",
@@ -226,7 +226,7 @@ void look_for_bodies_below(const Wall& ground, double bottom, const Scene& scene
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         if (bounds(placed(body, scene.dimensions)).max.z() < bottom) {
-            warn(scene, body.place, fmt::format("body[{}]", b),
+            warn(scene, body.place, table_of(body, b),
                  fmt::format("body \"{}\" lies below the underside of the ground \"{}\" at "
                              "{:.4g} m, which does not support it",
                              body.name, ground.name, bottom),

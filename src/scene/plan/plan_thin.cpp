@@ -113,13 +113,13 @@ void warn_about_thin_walls(const Scene& scene, Plan& plan)
         const double thin = std::min(plate, box_thickness(wall, scene.dimensions));
         const std::string size = fmt::format("{:.3g} m thick, ", thin);
         if (thin < dp * (1 - rounding)) {
-            warn(scene, wall.place, fmt::format("wall[{}]", w),
+            warn(scene, wall.place, table_of(wall, w),
                  fmt::format("wall \"{}\" is {}less than the spacing of {:.3g} m: the fluid on its "
                              "two sides is not well separated",
                              wall.name, size, dp),
                  "use a thicker wall, or a smaller `particles.spacing`", plan);
         } else if (any_moves && plate < reached * (1 - rounding)) {
-            warn(scene, wall.place, fmt::format("wall[{}]", w),
+            warn(scene, wall.place, table_of(wall, w),
                  fmt::format("wall \"{}\" is {}{:.3g} spacings: water that hits it pushes bodies "
                              "that touch its other side",
                              wall.name, size, thin / dp),

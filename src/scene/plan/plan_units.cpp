@@ -46,8 +46,7 @@ void look_at_densities(const Scene& scene, Plan& plan)
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
-            look_at_density(scene, body.density, body.place, fmt::format("body[{}].density", b),
-                            plan);
+            look_at_density(scene, body.density, body.place, table_of(body, b) + ".density", plan);
         }
     }
 }

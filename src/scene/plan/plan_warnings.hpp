@@ -5,6 +5,7 @@
 #include "hyoryu/scene/case_file.hpp"
 #include "hyoryu/scene/plan.hpp"
 
+#include <string>
 #include <utility>
 
 namespace hyoryu {
@@ -17,6 +18,17 @@ inline void warn(const Scene& scene, const Place& place, std::string key, std::s
         diagnostic_without_line(scene, place, std::move(key), std::move(what), std::move(hint));
     note.severity = Diagnostic::Severity::warning;
     plan.warnings.push_back(std::move(note));
+}
+
+/// The table of the case file that a solid comes from, as a user writes it; its number in the scene
+/// if it was not read from a file.
+inline std::string table_of(const BodySettings& body, std::size_t number)
+{
+    return body.table.empty() ? "body[" + std::to_string(number) + "]" : body.table;
+}
+inline std::string table_of(const Wall& wall, std::size_t number)
+{
+    return wall.table.empty() ? "wall[" + std::to_string(number) + "]" : wall.table;
 }
 
 /// Lists an effect as on or off, with the reason for that.

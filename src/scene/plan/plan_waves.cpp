@@ -93,7 +93,7 @@ void warn_about_waves(const Scene& scene, const PlanFacts& facts, Plan& plan)
 {
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
-        const std::string key = fmt::format("wall[{}].motion", w);
+        const std::string key = table_of(wall, w) + ".motion";
         look_at_height(scene, wall, key, plan);
         if (scene.fluid) {
             look_at_depth(scene, facts.before_paddle[w], wall, key, plan);
