@@ -139,9 +139,6 @@ void read_histories(RunResults& run)
     expect_complete(run, "energy.csv", run.energy);
     if (counts.at("bodies").get<int>() > 0) {
         run.bodies = read_csv(run.folder / "bodies.csv");
-        if (!run.summary.contains("bodies_left") || run.summary.at("bodies_left").empty()) {
-            expect_complete(run, "bodies.csv", *run.bodies);
-        }
     }
     if (run.plan.contains("contact")) {
         run.contacts = read_csv(run.folder / "contacts.csv");

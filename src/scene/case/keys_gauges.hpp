@@ -55,7 +55,7 @@ inline void check_gauge(TableReader& table, const Gauge& gauge, const Scene& sce
     }
     constexpr int along_y = 1;
     if (gauge.type == GaugeType::front && gauge.axis == along_y && scene.dimensions == 2) {
-        table.error("axis", "nothing moves along y in two dimensions", "give \"x\" or \"z\"");
+        table.warn("axis", "nothing moves along y in two dimensions", "give \"x\" or \"z\"");
     }
     check_name(table, "name", gauge.name);
     for (const Table::Head& head : gauge_columns(gauge, scene.dimensions)) {
