@@ -67,7 +67,7 @@ struct OpenSide {
     int lane(const Vec3& x) const;
     /// Distance of the columns of the carpet: a row, a lane and a column share the volume of a
     /// particle [m].
-    real column(real spacing) const { return sq(spacing) / lane_width; }
+    real column(real spacing) const { return spacing * (spacing / lane_width); }
     /// Whether a lane is open at a level: not where a wall at the plane emerges from the water.
     bool is_open(int lane, real level = infinity) const
     {
