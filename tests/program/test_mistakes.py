@@ -153,6 +153,29 @@ scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 
         self.refused(FLOOD.replace("[output]", copies.replace("1000000000, 1, 1", "100000, 9, 9")),
                      "too many, at most 100000 bodies")
 
+    def test_tables_are_named_as_in_the_file_whatever_copies_stand_before_them(self):
+        for count in (2, 3):
+            copies = f"[body.copies]\ncount = [1, 1, {count}]\npitch = [0.0, 0.0, 0.3]\n[[body]]\nname = \"beam\"\n"
+            beam = 'shape = "box"\nsize = [0.2, 0.2, 0.2]\ndensity = 400.0\nposition = [1.58, 0.26, 0.5]\n[output]'
+            self.refused(FLOOD.replace("[output]", copies + beam), "`body[1]`", 'body "beam" overlaps wall "basin"')
+
+    def test_what_a_window_or_the_sound_cannot_carry_is_refused(self):
+        window = """[[open]]
+name = "river"
+min = [0.0, 0.0, 0.0]
+max = [0.0, 0.5, {}]
+into = "+x"
+kind = "inflow"
+discharge = {}
+[output]"""
+        flood = FLOOD.replace('open = ["+z"]', 'open = ["+z", "-x"]')
+        for discharge, top in ((0.25, 0.2), (0.05, 0.08)):
+            critical = ((discharge / 0.5) ** 2 / 9.81) ** (1 / 3)
+            self.refused(flood.replace("[output]", window.format(top, discharge)), "`open.river.max`",
+                         f"rises to {critical:.4g}"[:-1])
+        for speed in ("0.01", "1e-6"):
+            self.refused(FLOOD.replace("[fluid]", f"[fluid]\nsound_speed = {speed}"), "`fluid.sound_speed`", "overflow")
+
     def test_e3_no_name_leads_out_of_the_results_folder(self):
         for name in ("../evil", "a/b", "/tmp/evil", "a\\\\b", "nul\\u0000", "line\\n"):
             self.refused(FLOOD.replace('"crate"', f'"{name}"'), "is not a valid name")
