@@ -188,6 +188,9 @@ void Ranks::end(const std::exception_ptr& error)
 
 void Ranks::tell(const std::exception_ptr& error)
 {
+    if (!function_of<mpi_module::ClaimEnd>(module_, mpi_module::claim_end_name)()) {
+        std::this_thread::sleep_for(patience); // the other one ends this process
+    }
     const int rank = comm_->rank();
     const int code =
         tell_error(error, rank == 0 ? "" : fmt::format("rank {} on {}: ", rank, host_name()));

@@ -28,6 +28,10 @@ void join(void* in, void* inout, int* count, MPI_Datatype*)
     }
 }
 
+// Tag of the message that a process sends to all others before it reports the end of the run.
+// Pieces count from 0; the standard grants tags up to 32767.
+constexpr int end_tag = 32767;
+
 // Calls f(first byte, bytes, tag) for the pieces of a message.
 void for_pieces(std::size_t bytes, const auto& f)
 {
@@ -56,6 +60,23 @@ public:
     }
     MpiComm(const MpiComm&) = delete;
     MpiComm& operator=(const MpiComm&) = delete;
+
+    bool claim_end()
+    {
+        constexpr int probes = 100; // each takes in what has arrived, for the next one to find
+        int claimed = 0;
+        for (int k = 0; k < probes && claimed == 0; ++k) {
+            MPI_Iprobe(MPI_ANY_SOURCE, end_tag, MPI_COMM_WORLD, &claimed, MPI_STATUS_IGNORE);
+        }
+        for (int r = 0; r < size_ && claimed == 0; ++r) {
+            if (r != rank_) {
+                MPI_Request request = MPI_REQUEST_NULL;
+                MPI_Isend(nullptr, 0, MPI_BYTE, r, end_tag, MPI_COMM_WORLD, &request);
+                MPI_Request_free(&request);
+            }
+        }
+        return claimed == 0;
+    }
 
     int rank() const override { return rank_; }
     int size() const override { return size_; }
@@ -151,6 +172,11 @@ extern "C" {
 [[gnu::visibility("default")]] void hyoryu_module_end_ranks()
 {
     connection.reset();
+}
+
+[[gnu::visibility("default")]] bool hyoryu_module_claim_end_of_ranks()
+{
+    return connection->claim_end();
 }
 
 [[gnu::visibility("default")]] void hyoryu_module_abort_ranks(int code)
