@@ -147,7 +147,7 @@ std::string run_lines(const json& run)
     if (run.is_null()) {
         return fmt::format("{:<12} running, or ended without a summary\n", "state");
     }
-    return fmt::format("{:<12} {}: {} steps to t = {} s in {} on {} threads\n", "state",
+    return fmt::format("{:<12} {}: {} steps to t = {:.9g} s in {} on {} threads\n", "state",
                        run["exit_reason"].get<std::string>(), run["steps"].get<std::int64_t>(),
                        run["simulated_seconds"].get<double>(),
                        readable_seconds(run["wall_seconds"].get<double>()),
@@ -167,7 +167,7 @@ std::string frames_line(const json& set)
     if (set["first_time"].is_null()) {
         return fmt::format("{:<12} at rest ({})\n", name, file);
     }
-    return fmt::format("{:<12} {} frames, t = {} .. {} s ({})\n", name,
+    return fmt::format("{:<12} {} frames, t = {:.9g} .. {:.9g} s ({})\n", name,
                        set["frames"].get<std::size_t>(), set["first_time"].get<double>(),
                        set["last_time"].get<double>(), file);
 }

@@ -58,6 +58,10 @@ std::vector<FrameSet> frame_sets(const fs::path& results)
         const fs::path still = std::string(name) + ".hdf";
         if (const fs::path series = series_file(results, name); fs::exists(series)) {
             sets.push_back({name, has_triangles, true, checked_series(series, name)});
+        } else if (fs::exists(results / "frames" / fmt::format("{}_000001.hdf", name))) {
+            // The series is written after the first frame and before the second.
+            throw IoError(fmt::format("`{}` is missing, which lists the frames of {}",
+                                      series.string(), name));
         } else if (fs::exists(results / still)) {
             sets.push_back({name, has_triangles, false, {{still, 0.0}}});
         }

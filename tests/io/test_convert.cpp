@@ -427,6 +427,21 @@ TEST_F(Convert, SeriesThatLeadAwayAreDamage)
     EXPECT_THROW(frame_sets(folder), IoError);
 }
 
+TEST_F(Convert, ASeriesThatIsMissingIsDamage)
+{
+    int damaged = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        write_run(seed);
+        std::filesystem::remove(folder / "fluid.hdf.series");
+        if (std::filesystem::exists(folder /
+                                    "frames/fluid_000001.hdf")) { // a run that begins may have one
+            EXPECT_THROW(frame_sets(folder), IoError) << seed;
+            ++damaged;
+        }
+    }
+    EXPECT_GE(damaged, 2);
+}
+
 TEST_F(Convert, FramesBeforeAFaultStay)
 {
     Cloud cloud = test_help::make_cloud("fluid", 0, 10);

@@ -107,7 +107,8 @@ scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 
 
     def test_an_absurd_spacing_is_refused_with_the_estimate(self):
         self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-7"), "particles")
-        self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-5"), "1.7e+14", "particles")
+        self.refused(FLOOD.replace("spacing = 0.05", "spacing = 1e-5"), "1.7e+14", "particles",
+                     "of them of `")
 
     def test_a_case_beyond_the_memory_is_refused_with_the_estimate(self):
         def limit():
@@ -158,6 +159,16 @@ scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 
             copies = f"[body.copies]\ncount = [1, 1, {count}]\npitch = [0.0, 0.0, 0.3]\n[[body]]\nname = \"beam\"\n"
             beam = 'shape = "box"\nsize = [0.2, 0.2, 0.2]\ndensity = 400.0\nposition = [1.58, 0.26, 0.5]\n[output]'
             self.refused(FLOOD.replace("[output]", copies + beam), "`body[1]`", 'body "beam" overlaps wall "basin"')
+
+    def test_a_block_that_other_blocks_cover_is_told(self):
+        block = '[[fluid.block]]\nshape = "box"\nmin = [{0}, 0.0, 0.0]\nmax = [{1}, 0.5, {2}]\nvelocity = [1.0, 0.0, 0.0]\n[[wall]]'
+        for low, high, top in ((0.1, 0.3, 0.4), (0.0, 0.5, 0.6), (0.2, 0.5, 0.3)):
+            self.write(FLOOD.replace("[[wall]]", block.format(low, high, top)))
+            done = self.call("check", "case.toml")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("`fluid.block[1]`: it adds no particles", done.stderr)
+        self.write(FLOOD.replace("[[wall]]", block.format(0.5, 0.7, 0.4)))
+        self.assertNotIn("adds no particles", self.call("check", "case.toml").stderr)
 
     def test_what_a_window_or_the_sound_cannot_carry_is_refused(self):
         window = """[[open]]

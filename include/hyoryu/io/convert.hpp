@@ -22,7 +22,7 @@ struct FrameSet {
 };
 
 /// The frame sets of the folder, in the order of `FrameSet::name` above. Throws IoError if a series
-/// file is damaged or names a file that no run wrote.
+/// file is damaged, names a file that no run wrote, or is missing though there are frames.
 std::vector<FrameSet> frame_sets(const std::filesystem::path& results);
 
 /// `000012` of `frames/fluid_000012.hdf`; `000000` of a fixed set.

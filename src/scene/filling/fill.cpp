@@ -132,6 +132,18 @@ void warn_about_walls(const Scene& scene, std::size_t block, const BlockParticle
     filling.warnings.push_back(note);
 }
 
+void warn_about_cover(const Scene& scene, std::size_t block, Filling& filling)
+{
+    Diagnostic note = diagnostic_at(
+        scene, scene.fluid->blocks[block].place, fmt::format("fluid.block[{}]", block),
+        "it adds no particles: blocks before it and walls cover it, or it is thinner than a "
+        "spacing",
+        "where blocks overlap, the first one in the file has the particles; put the smaller one "
+        "first");
+    note.severity = Diagnostic::Severity::warning;
+    filling.warnings.push_back(note);
+}
+
 // How a particle starts.
 struct Start {
     std::int64_t number = 0;
@@ -263,6 +275,11 @@ void fill_fluid(const Scene& scene, Comm* comm, Filling& filling)
         first += blocks[b].count;
     }
     check_starts(scene, comm, std::move(faults));
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (first > 0 && blocks[b].count == 0 && blocks[b].particles.in_walls == 0) {
+            warn_about_cover(scene, b, filling);
+        }
+    }
     if (first == 0 && scene.open.empty()) {
         find_other_basins(scene, blocks, filling.faults);
     }

@@ -9,6 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace hyoryu {
 
@@ -54,47 +58,77 @@ double wall_volume(const Scene& scene, const Wall& wall)
     return surface * scene.spacing;
 }
 
+struct Demand {
+    std::string table; // of the case file
+    double particles = 0;
+};
+
+// What each solid and block asks for.
+std::vector<Demand> demands_of(const Scene& scene)
+{
+    std::vector<Demand> all;
+    const auto add = [&](const std::string& table, std::string_view kind, std::size_t number,
+                         double volume_, double spacing) {
+        all.push_back({table.empty() ? fmt::format("{}[{}]", kind, number) : table,
+                       volume_ / std::pow(spacing, scene.dimensions)});
+    };
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        add(body.table, "body", b, volume(body.shape, scene.dimensions), body.spacing);
+    }
+    for (std::size_t b = 0; scene.fluid && b < scene.fluid->blocks.size(); ++b) {
+        // Still water fills a part of its box, whose cells were counted when it was found.
+        const FluidBlock& block = scene.fluid->blocks[b];
+        add({}, "fluid.block", b, block.seeded ? 0 : volume(block.shape, scene.dimensions),
+            scene.spacing);
+    }
+    for (std::size_t w = 0; scene.fluid && w < scene.walls.size(); ++w) {
+        const Wall& wall = scene.walls[w];
+        add(wall.table, "wall", w, wall_volume(scene, wall), scene.spacing);
+    }
+    return all;
+}
+
+double whole_demand(const std::vector<Demand>& all)
+{
+    return std::accumulate(all.begin(), all.end(), 0.0,
+                           [](double sum, const Demand& one) { return sum + one.particles; });
+}
+
+// "2e+12 particles, 1.9e+12 of them of `fluid.block[0]`".
+std::string told_demand(const std::vector<Demand>& all)
+{
+    const Demand& most = *std::ranges::max_element(all, {}, &Demand::particles);
+    return fmt::format("{:.2g} particles, {:.2g} of them of `{}`", whole_demand(all),
+                       most.particles, most.table);
+}
+
 } // namespace
 
 double particles_asked(const Scene& scene)
 {
-    const auto count = [&](double volume_, double spacing) {
-        return volume_ / std::pow(spacing, scene.dimensions);
-    };
-    double total = 0;
-    for (const BodySettings& body : scene.bodies) {
-        total += count(volume(body.shape, scene.dimensions), body.spacing);
-    }
-    if (scene.fluid) {
-        for (const FluidBlock& block : scene.fluid->blocks) {
-            // Still water fills a part of its box, whose cells were counted when it was found.
-            total += block.seeded ? 0 : count(volume(block.shape, scene.dimensions), scene.spacing);
-        }
-        for (const Wall& wall : scene.walls) {
-            total += count(wall_volume(scene, wall), scene.spacing);
-        }
-    }
-    return total;
+    return whole_demand(demands_of(scene));
 }
 
 void check_size(const Scene& scene, double part)
 {
-    const double asked = particles_asked(scene);
+    const std::vector<Demand> all = demands_of(scene);
+    const double asked = whole_demand(all);
+    const char* const hint = "increase `particles.spacing`, or make that part of the scene smaller";
     if (!(asked < most_particles)) {
-        throw CaseError(
-            fmt::format("this scene needs about {:.2g} particles; at most {:.0g} are supported",
-                        asked, most_particles),
-            "increase `particles.spacing`");
+        throw CaseError(fmt::format("this scene needs about {}; at most {:.0g} are supported",
+                                    told_demand(all), most_particles),
+                        hint);
     }
     constexpr double giga = 1e9;
     const double memory = machine_memory();
     const double needed = part * asked * bytes_while_filling;
     if (needed > memory) {
         throw CaseError(
-            fmt::format("this scene needs about {:.2g} particles: their positions alone take "
-                        "{:.1f} GB, but only {:.1f} GB are available to this process",
-                        asked, needed / giga, memory / giga),
-            "increase `particles.spacing`");
+            fmt::format("this scene needs about {}: their positions alone take {:.1f} GB, but only "
+                        "{:.1f} GB are available to this process",
+                        told_demand(all), needed / giga, memory / giga),
+            hint);
     }
 }
 
