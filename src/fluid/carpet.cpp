@@ -87,9 +87,7 @@ private:
         const OpenSide& side = carpet_.side;
         Vec3 x = Vec3::Zero();
         x[side.axis] = side.plane + side.into * s;
-        x[1 - side.axis] = f_.dimensions == 2
-                               ? 0
-                               : side.first + (static_cast<real>(lane_) + 0.5) * side.lane_width;
+        x[1 - side.axis] = side.middle(lane_);
         x.z() = bed_ + (static_cast<real>(row) + 0.5) * f_.spacing;
         return x;
     }

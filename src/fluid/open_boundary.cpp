@@ -343,9 +343,7 @@ void set_velocities(Fluid& fluid, OpenBoundary& open, real dt)
         }
         for (int c = 0; c < side.stations(); ++c) {
             const StationFlow& flow = carpet.stations[at(c)];
-            const real width = fluid.parameters.dimensions == 2
-                                   ? 1
-                                   : side.open_lanes(c, flow.level) * side.lane_width;
+            const real width = side.open_width(c, flow.level);
             if (width > 0) {
                 const real depth = std::max(flow.level - side.station_bed(c, flow.level), real(0));
                 const bool wet = depth >= least_rows * dp || flow.velocity < 0;

@@ -122,11 +122,7 @@ void add_displaced(const Fluid& fluid, const Carpet& carpet, std::vector<StripSu
 // Area of a station seen from above, through which the strip is weighed [m2]; m in two dimensions.
 real strip_area(const Fluid& fluid, const OpenSide& side, int station)
 {
-    const real dp = fluid.parameters.spacing;
-    const real width = fluid.parameters.dimensions == 2
-                           ? 1
-                           : static_cast<real>(side.open_lanes(station)) * side.lane_width;
-    return strip_half * dp * width;
+    return strip_half * fluid.parameters.spacing * side.open_width(station);
 }
 
 // What a station measures, without a filter.

@@ -172,11 +172,10 @@ OpenReading reading_of(const Simulation& sim, std::size_t k)
     double open = 0; // width of all stations
     for (int c = 0; c < carpet.side.stations(); ++c) {
         const StationFlow& flow = carpet.stations[at(c)];
-        const int lanes = carpet.side.open_lanes(c, flow.level);
-        const double b = f.dimensions == 2 ? 1 : lanes * carpet.side.lane_width;
-        if (lanes == 0) {
+        if (carpet.side.open_lanes(c, flow.level) == 0) {
             continue;
         }
+        const double b = carpet.side.open_width(c, flow.level);
         const double bed = carpet.side.station_bed(c, flow.level);
         const double depth = std::max(flow.level - bed, 0.0);
         const double wet = depth > f.spacing / 4 ? b : 0;

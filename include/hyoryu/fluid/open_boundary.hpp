@@ -84,6 +84,16 @@ struct OpenSide {
     /// The mean ground of its strip, where no wall stands.
     real station_strip(int station) const;
     int open_lanes(int station, real level = infinity) const;
+    /// Width of the lanes of a station that are open [m]; 1 in two dimensions.
+    real open_width(int station, real level = infinity) const
+    {
+        return flat ? 1 : static_cast<real>(open_lanes(station, level)) * lane_width;
+    }
+    /// The middle of a lane along the plane [m]; 0 in two dimensions.
+    real middle(int lane) const
+    {
+        return flat ? 0 : first + (static_cast<real>(lane) + 0.5) * lane_width;
+    }
 };
 
 /// The prescribed flow at a station at one moment.

@@ -67,7 +67,7 @@ bool any_lane(const Scene& scene, const OpenSide& side, double distance, double 
     const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     for (int lane = 0; lane < side.lanes(); ++lane) {
         const double bed = side.bed[at(lane)];
-        Vec3 x = point_of_window(side, lane, distance, scene.dimensions);
+        Vec3 x = point_of_window(side, lane, distance);
         x.z() = bed + above;
         if (bed < infinity && test(distance_to_walls(surfaces, x))) {
             return true;
@@ -78,11 +78,11 @@ bool any_lane(const Scene& scene, const OpenSide& side, double distance, double 
 
 } // namespace
 
-Vec3 point_of_window(const OpenSide& side, int lane, double distance, int dimensions)
+Vec3 point_of_window(const OpenSide& side, int lane, double distance)
 {
     Vec3 x = Vec3::Zero();
     x[side.axis] = side.plane + side.into * distance;
-    x[1 - side.axis] = dimensions == 2 ? 0 : side.first + (lane + 0.5) * side.lane_width;
+    x[1 - side.axis] = side.middle(lane);
     return x;
 }
 
@@ -204,7 +204,7 @@ OpenSide open_side(const Scene& scene, const OpenSettings& open)
     std::vector<double> grounds; // by lane and column
     for (int lane = 0; lane < lanes; ++lane) {
         for (int k = 0; k < strip_columns; ++k) {
-            const Vec3 x = point_of_window(side, lane, (k + 0.5) * dp, scene.dimensions);
+            const Vec3 x = point_of_window(side, lane, (k + 0.5) * dp);
             grounds.push_back(ground_at(surfaces, x, open.min.z(), open.max.z(), dp));
         }
     }
@@ -235,7 +235,7 @@ bool is_barred(const Scene& scene, const OpenSide& side, double level)
     const double dp = scene.spacing;
     const auto surfaces = surfaces_of(scene.walls, thickness_of_rows(scene), scene.dimensions);
     const auto is_free = [&](int lane, int column) {
-        Vec3 x = point_of_window(side, lane, (column + 0.5) * dp, scene.dimensions);
+        Vec3 x = point_of_window(side, lane, (column + 0.5) * dp);
         x.z() = level - dp / 4;
         return distance_to_walls(surfaces, x) >= 0;
     };
@@ -282,7 +282,7 @@ double ground_behind(const Scene& scene, const OpenSide& side)
     for (int lane = 0; lane < side.lanes(); ++lane) {
         double ground = side.bed[at(lane)];
         for (double s = dp / 2; ground < infinity && s < least + near * dp; s += dp) {
-            Vec3 x = point_of_window(side, lane, -s, scene.dimensions);
+            Vec3 x = point_of_window(side, lane, -s);
             x.z() = ground;
             const double above = distance_to_walls(surfaces, x);
             if (above > near * dp) {

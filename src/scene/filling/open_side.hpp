@@ -7,7 +7,7 @@
 namespace hyoryu {
 
 /// A point of the vertical at a distance from a window, in the middle of a lane; z is 0.
-Vec3 point_of_window(const OpenSide& side, int lane, double distance, int dimensions);
+Vec3 point_of_window(const OpenSide& side, int lane, double distance);
 
 /// Whether a wall stands right behind the window, where its carpet would lie.
 bool is_walled(const Scene& scene, const OpenSide& side);

@@ -59,8 +59,7 @@ std::vector<const SolidSurface*> surfaces_near(const std::vector<SolidSurface>& 
 {
     const double dp = scene.spacing;
     const double height = levels.step * static_cast<double>(levels.below.size());
-    Vec3 middle =
-        point_of_window(side, station * side.station_lanes, strip_half * dp, scene.dimensions);
+    Vec3 middle = point_of_window(side, station * side.station_lanes, strip_half * dp);
     middle[1 - side.axis] +=
         scene.dimensions == 2 ? 0 : 0.5 * (side.station_lanes - 1) * side.lane_width;
     middle.z() = levels.low + height / 2;
@@ -88,7 +87,7 @@ void add_column(const Scene& scene, const OpenSide& side, int lane, int column,
         const double part = side.lane_width / across; // of the width of the lane
         const double volume = strip_weight(s, dp) * (across == 1 ? h * h : h * h * part);
         for (int b = 0; b < across; ++b) {
-            Vec3 x = point_of_window(side, lane, s, scene.dimensions);
+            Vec3 x = point_of_window(side, lane, s);
             x[1 - side.axis] += across == 1 ? 0 : (b + 0.5) * part - side.lane_width / 2;
             add_vertical(near, x, ground, volume, space);
         }
