@@ -253,6 +253,12 @@ TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
     EXPECT_FALSE(warns(basin(fmt::format(fmt::runtime(series), 3.0)), "values are held"));
     EXPECT_TRUE(
         warns(basin("kind = \"inflow\"\nlevel = 0.3\nvelocity = 3.0\n"), "needed to carry a body"));
+    for (int n = 0; n < 4; ++n) {
+        const double width = dice.between(0.08, 0.6); // the spacing is 0.1
+        EXPECT_EQ(warns(basin("kind = \"absorb\"\n", 0.2, 0.2 + width), "the level in a window"),
+                  width < 0.3)
+            << width;
+    }
 }
 
 // A wall across all of the window and beyond it closes its water off; with a gap of two spacings,

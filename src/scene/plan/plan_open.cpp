@@ -303,6 +303,16 @@ void warn_about_walls(const Scene& scene, const OpenSettings& open, const OpenSi
     }
 }
 
+// Measured in still water: levels are up to a spacing off.
+void warn_about_width(const Scene& scene, const OpenSettings& open, const auto& warn)
+{
+    const Vec3 size = (open.max - open.min) / scene.spacing;
+    if (const double width = size[1 - open.axis()]; scene.dimensions == 3 && width < 3) {
+        warn("max", fmt::format("the level in a window {:.2g} spacings wide is inaccurate", width),
+             "make it at least 3 spacings wide, or use a smaller `particles.spacing`");
+    }
+}
+
 void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
                             std::vector<Diagnostic>& errors)
 {
@@ -357,6 +367,7 @@ void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& si
     }
     warn_about_ground(scene, side, warn);
     warn_about_walls(scene, open, side, water, warn);
+    warn_about_width(scene, open, warn);
     double deepest = 0;
     const double bed = mean_bed(side);
     warn_about_start(scene, open, water, bed, warn);
