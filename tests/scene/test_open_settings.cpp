@@ -214,6 +214,29 @@ TEST(OpenSettings, ALevelAloneIsExpectedToBeAsFastAsItsWave)
     }
 }
 
+// One fault has one message: bodies and water are not looked for on the wrong side of a window, and
+// the domain, which holds all bodies, does not end at one that stands across it.
+TEST(OpenSettings, AFaultOfAWindowHasNoConsequences)
+{
+    const std::string good = basin("kind = \"absorb\"\n");
+    const auto body = [](double x) {
+        return fmt::format("[[body]]\nname = \"b\"\nshape = \"box\"\nsize = [0.4, 0.4, 0.2]\n"
+                           "density = 500\nposition = [{}, 0.5, 0.7]\n",
+                           x);
+    };
+    Dice dice(6);
+    for (int n = 0; n < 4; ++n) {
+        std::string outward = good + body(dice.between(0.3, 1.7));
+        outward.replace(outward.find("into = \"+x\""), 11, "into = \"-x\"");
+        const std::vector<Diagnostic> turned = refused(outward);
+        ASSERT_EQ(turned.size(), 1u) << outward;
+        EXPECT_EQ(turned[0].key, "open.sea.into");
+        const std::vector<Diagnostic> across = refused(good + body(dice.between(-0.15, 0.15)));
+        ASSERT_EQ(across.size(), 1u);
+        EXPECT_NE(across[0].what.find("stands across"), std::string::npos) << across[0].what;
+    }
+}
+
 TEST(OpenSettings, CheckWarnsOfWhatHappensAtAWindow)
 {
     const auto warns = [](const std::string& text, const std::string& words) {

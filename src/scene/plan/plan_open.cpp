@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "plan_open.hpp"
 
+#include "plan_open_place.hpp"
 #include "plan_warnings.hpp"
 #include "scene/case/place_buildings.hpp"
 #include "scene/filling/open_side.hpp"
@@ -110,41 +111,6 @@ double most_held(const Scene& scene, const PlanFacts& facts)
     return area * std::max(top - low, 0.0) / cube_of(scene);
 }
 
-Diagnostic note_at(const Scene& scene, const OpenSettings& open, std::string_view key,
-                   std::string what, std::string hint)
-{
-    return diagnostic_without_line(scene, open.place, fmt::format("open.{}.{}", open.name, key),
-                                   std::move(what), std::move(hint));
-}
-
-// Whether the plane is that of a side of the domain, the lower one for +x and +y.
-void check_side(const Scene& scene, const PlanFacts& facts, const OpenSettings& open,
-                std::vector<Diagnostic>& errors)
-{
-    const double side =
-        open.sign() > 0 ? facts.domain.min[open.axis()] : facts.domain.max[open.axis()];
-    const double other =
-        open.sign() > 0 ? facts.domain.max[open.axis()] : facts.domain.min[open.axis()];
-    const auto differs = [&](double a, double b) { return std::abs(a - b) > 1e-6 * scene.spacing; };
-    const char axis = "xyz"[open.axis()];
-    if (differs(open.plane(), side) && !differs(open.plane(), other)) {
-        errors.push_back(
-            note_at(scene, open, "into",
-                    fmt::format("points out of the domain, which {} at the window, at "
-                                "{} = {:.6g} m",
-                                open.sign() > 0 ? "ends" : "begins", axis, other),
-                    fmt::format("write into = \"{}{}\"", open.sign() > 0 ? '-' : '+', axis)));
-    } else if (differs(open.plane(), side)) {
-        errors.push_back(note_at(
-            scene, open, "min",
-            fmt::format("the window is at {} = {:.6g} m, but the domain {} at {:.6g} m there: it "
-                        "must lie on that side",
-                        axis, open.plane(), open.sign() > 0 ? "begins" : "ends", side),
-            fmt::format("move the window to {} = {:.6g}, or set [domain] so that it ends there",
-                        axis, side)));
-    }
-}
-
 void check_ground(const Scene& scene, const OpenSettings& open, const OpenSide& side,
                   std::vector<Diagnostic>& errors)
 {
@@ -203,20 +169,6 @@ void check_water(const Scene& scene, const OpenSettings& open, const WaterAtStar
                                              "ends at {:.6g} m",
                                              highest, open.max.z()),
                                  fmt::format("set z of `max` to {:.6g} or more", highest)));
-    }
-}
-
-void check_bodies_at(const Scene& scene, const OpenSettings& open, const OpenSide& side,
-                     std::vector<Diagnostic>& errors)
-{
-    for (const BodySettings& body : scene.bodies) {
-        const Bounds box = bounds(placed(body, scene.dimensions));
-        const double nearest = std::min(side.distance(box.min), side.distance(box.max));
-        if (nearest < 0) {
-            errors.push_back(note_at(scene, open, "min",
-                                     fmt::format("body \"{}\" stands across the window", body.name),
-                                     "move the body into the domain"));
-        }
     }
 }
 
@@ -313,36 +265,6 @@ void warn_about_width(const Scene& scene, const OpenSettings& open, const auto& 
     }
 }
 
-void check_bodies_that_stop(const Scene& scene, const OpenSettings& open,
-                            std::vector<Diagnostic>& errors)
-{
-    if (open.bodies != BodiesAtSide::stop || scene.bodies.empty()) {
-        return;
-    }
-    if (scene.contact.penalty) {
-        errors.push_back(note_at(scene, open, "bodies",
-                                 "bodies do not stop at a window with contact.method = "
-                                 "\"penalty\", which represents walls only by their particles",
-                                 "set bodies = \"leave\", or contact.method = \"impulse\""));
-    }
-    const auto refuse_name = [&](std::string_view kind, const std::string& name) {
-        if (name == open.name) {
-            errors.push_back(note_at(scene, open, "name",
-                                     fmt::format("the name \"{}\" is already used by a {}: their "
-                                                 "contacts could not be distinguished in the "
-                                                 "results",
-                                                 name, kind),
-                                     "give the window another name"));
-        }
-    };
-    for (const Wall& wall : scene.walls) {
-        refuse_name("wall", wall.name);
-    }
-    for (const BodySettings& body : scene.bodies) {
-        refuse_name("body", body.name);
-    }
-}
-
 void warn_about(const Scene& scene, const OpenSettings& open, const OpenSide& side,
                 const WaterAtStart& water, Plan& plan)
 {
@@ -433,10 +355,14 @@ void check_open(const Scene& scene, const PlanFacts& facts, Plan& plan,
         const OpenSettings& open = scene.open[k];
         const OpenSide side = open_side(scene, open);
         const WaterAtStart water = water_before(side, facts.level_before[k]);
-        check_side(scene, facts, open, errors);
+        if (points_out(scene, facts, open, errors)) {
+            continue;
+        }
+        if (bodies_are_inside(scene, open, side, errors)) {
+            check_side(scene, facts, open, errors);
+        }
         check_ground(scene, open, side, errors);
         check_water(scene, open, water, mean_bed(side), errors);
-        check_bodies_at(scene, open, side, errors);
         check_bodies_that_stop(scene, open, errors);
         check_shifting(scene, plan, open, errors);
         if (mean_bed(side) < infinity) {
