@@ -254,6 +254,17 @@ TEST(CaseFileErrors, AMistakeDoesNotBringFalseOnes)
                                     "axis = \"x\"\n[[gauge]]\ntype = \"presure\"\nat = [1]\n")
                   .size(),
               2u);
+    // Copies that cannot be counted have names, too.
+    for (const char* copies : {"count = [2, 0, 1]\npitch = [2, 2, 2]\n", "count = [2, 1, 1]\n",
+                               "count = [2, 2, 1]\npitch = [2, 0, 0]\n"}) {
+        EXPECT_EQ(mistakes(short_case +
+                           "[[body]]\nname = \"b\"\nshape = \"sphere\"\nradius = 0.5\n"
+                           "density = 500\nposition = [0, 0, 5]\n[body.copies]\n" +
+                           copies + "[[gauge]]\ntype = \"force\"\non = \"b.2\"\n")
+                      .size(),
+                  1u)
+            << copies;
+    }
     EXPECT_EQ(mistakes(replaced(short_case, "end = 1", "end = \"1 m\"")).size(), 1u);
     EXPECT_EQ(mistakes(replaced(short_case, "spacing = 0.1", "spacing = 0")).size(), 1u);
 }

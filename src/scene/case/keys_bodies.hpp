@@ -8,6 +8,8 @@
 #include "hyoryu/scene/shapes.hpp"
 #include "hyoryu/scene/voxels.hpp"
 
+#include <utility>
+
 namespace hyoryu {
 
 /// [body.copies]
@@ -152,6 +154,8 @@ inline void check_mass(TableReader& table, const BodySettings& body)
 inline void append_copies(TableReader& table, const BodyCopies& copies, BodySettings& body,
                           std::vector<BodySettings>& bodies)
 {
+    bool& names_known = table.reading().names_known; // those of the copies
+    const bool knew_names = std::exchange(names_known, false);
     if (!table.sound("count") || !table.sound("pitch") || too_many(bodies)) {
         return;
     }
@@ -176,6 +180,7 @@ inline void append_copies(TableReader& table, const BodyCopies& copies, BodySett
                         "make it at least as long as the body");
         }
     }
+    names_known = knew_names;
     const BodySettings first = body;
     for (std::int64_t n = 0; n < total; ++n) {
         const std::int64_t i = n % count[0];
