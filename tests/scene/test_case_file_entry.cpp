@@ -257,6 +257,8 @@ TEST(CaseFileEntry, E11SyntaxIsToldInPlainWordsAtItsLine)
         {"end = 'abc", "text is not closed", "quote"},
         {"end = \"a\\q\"", "backslash", "two"},
         {"end = 1.2.3", "number is invalid", "0.25"},
+        {"end = 99999999999999999999", "whole number is too large", "1e20"},
+        {"end = -9223372036854775809", "whole number is too large", "1e20"},
         {"end = 01", "leading zeros", "write 5"},
         {"end = {a = 1", "in braces", "{ key = value"},
         {"[tim", "header of a table", "[name]"},

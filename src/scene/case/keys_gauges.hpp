@@ -114,7 +114,7 @@ void gauge_face_keys(auto& keys, Is<Gauge> auto& gauge)
     if (keys.applies(flux || (pressure && face))) {
         keys.direction("normal", gauge.normal,
                        "Outward normal of the face of a pressure sensor, or positive direction of "
-                       "a flux; of any length.",
+                       "a flux, +x without this key; of any length.",
                        face ? needed : no_default);
     }
 }

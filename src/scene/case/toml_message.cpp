@@ -149,6 +149,9 @@ Words meaning_of(const std::string& description, bool at_end)
     if (says("leading zeroes")) {
         return {"a number has leading zeros", "write 5, not 05"};
     }
+    if (says("not representable in 64 bits")) {
+        return {"the whole number is too large", "write it as 1e20, with an exponent"};
+    }
     if (says("floating-point") || says("integer")) {
         return {"the number is invalid", "for instance 12, 0.25 or 1e-3"};
     }
