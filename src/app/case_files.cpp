@@ -2,6 +2,9 @@
 #include "case_files.hpp"
 
 #include "hyoryu/core/error.hpp"
+#include "hyoryu/scene/case_file.hpp"
+#include "hyoryu/scene/fill.hpp"
+#include "hyoryu/scene/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -75,6 +78,21 @@ std::map<std::string, std::string> hashes_in(const std::string& text)
 }
 
 } // namespace
+
+Scene read_whole_case(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+{
+    try {
+        return read_case(file, overrides);
+    } catch (const PlacedCaseError& error) {
+        std::vector<Diagnostic> all = error.diagnostics();
+        try {
+            make_plan(error.scene(), fill(error.scene()));
+        } catch (const CaseError& more) {
+            all.insert(all.end(), more.diagnostics().begin(), more.diagnostics().end());
+        }
+        throw CaseError(all);
+    }
+}
 
 std::string hashes_of_files(const Scene& scene)
 {

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Whether files that a case names have changed.
+// Reading a case with all its mistakes, and whether files that it names have changed.
 #pragma once
 
 #include "hyoryu/scene/case_difference.hpp"
 #include "hyoryu/scene/scene.hpp"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace hyoryu {
+
+/// The same as `read_case`; mistakes in tables that place nothing are told together with those of
+/// the filled scene, such as overlaps. Throws CaseError.
+Scene read_whole_case(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 /// The keys of files whose contents the resolved case does not hold (terrain, meshes, particles),
 /// and the hash of each, one a line; empty without such files. Series, footprints and polygons are

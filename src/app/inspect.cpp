@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Commands that compute nothing: check, describe, render, version.
 #include "build_info.hpp"
+#include "case_files.hpp"
 #include "commands.hpp"
 #include "forecast.hpp"
 #include "ground_report.hpp"
@@ -57,7 +58,7 @@ std::string version_text()
 int check_case(const CheckOptions& options)
 {
     set_threads(0);
-    const Scene scene = read_case(options.case_file, options.overrides);
+    const Scene scene = read_whole_case(options.case_file, options.overrides);
     const Filling filling = fill(scene);
     const Plan plan = make_plan(scene, filling);
     if (!options.plan.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The outer loop of a run: step, write due output, show progress, stop on request.
 #include "build_info.hpp"
+#include "case_files.hpp"
 #include "cost_report.hpp"
 #include "job.hpp"
 #include "options.hpp"
@@ -348,7 +349,8 @@ int run_share(const RunOptions& options, Ranks& others)
     Scene scene;
     std::vector<Common> common;
     others.together([&] {
-        scene = read_case(options.case_file, options.overrides);
+        scene = comm == nullptr ? read_whole_case(options.case_file, options.overrides)
+                                : read_case(options.case_file, options.overrides);
         common = what_processes_share(options, scene);
     });
     expect_common(comm, common);

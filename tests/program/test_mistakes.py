@@ -160,6 +160,26 @@ scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 
             beam = 'shape = "box"\nsize = [0.2, 0.2, 0.2]\ndensity = 400.0\nposition = [1.58, 0.26, 0.5]\n[output]'
             self.refused(FLOOD.replace("[output]", copies + beam), "`body[1]`", 'body "beam" overlaps wall "basin"')
 
+    def test_mistakes_that_place_nothing_do_not_hide_those_of_the_scene(self):
+        second = """[[body]]
+name = "second"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 400.0
+position = [{}, 0.26, 0.1]
+[output]"""
+        gauge = '[[gauge]]\ntype = "force"\non = "{}"\n[output]'
+        for x, bad, key in ((0.9, ("every = 0.05", 'every = -1\nfields = ["velocty"]'), "output.fields"),
+                            (0.7, ("[output]", gauge.format("scond")), "gauge[0].on"),
+                            (0.05, ("[output]", '[contact]\nfriction = -1\n[output]'), "contact.friction")):
+            text = FLOOD.replace("[output]", second.format(x)).replace(*bad)
+            overlap = 'body "second" overlaps'
+            self.refused(text, f"`{key}", overlap)
+            self.assertEqual(self.call("check", "case.toml").stderr.count("error: "), 2 + ("every = -1" in text))
+        # A body that is not known overlaps nothing.
+        self.assertNotIn("overlaps", self.call("check", self.write(
+            FLOOD.replace("[output]", second.format(0.9)).replace("size = [0.2,", "size = [-0.2,"))).stderr)
+
     def test_a_block_that_other_blocks_cover_is_told(self):
         block = '[[fluid.block]]\nshape = "box"\nmin = [{0}, 0.0, 0.0]\nmax = [{1}, 0.5, {2}]\nvelocity = [1.0, 0.0, 0.0]\n[[wall]]'
         for low, high, top in ((0.1, 0.3, 0.4), (0.0, 0.5, 0.6), (0.2, 0.5, 0.3)):

@@ -11,10 +11,23 @@
 
 namespace hyoryu {
 
+/// Mistakes in the tables `output`, `gauge` and `contact` alone, which place no particle: what the
+/// filled scene shows can be looked for all the same.
+class PlacedCaseError : public CaseError {
+public:
+    PlacedCaseError(const CaseError& mistakes, Scene scene);
+    /// The case without those tables.
+    const Scene& scene() const { return scene_; }
+
+private:
+    Scene scene_;
+};
+
 /// Reads a case file. `overrides` are texts `key.path=VALUE` (VALUE in TOML; a bare word is taken
 /// as a string) that replace or add keys before anything is checked. Throws CaseError with every
 /// mistake of the file: syntax, unknown keys (nearest known one as a hint), wrong types, units and
-/// bounds, keys without meaning in this scene, unreadable meshes.
+/// bounds, keys without meaning in this scene, unreadable meshes. It is a PlacedCaseError if none
+/// of them is about what is placed.
 Scene read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `file` is only named in messages and resolves relative mesh paths.

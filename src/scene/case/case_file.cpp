@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <string_view>
+#include <utility>
 
 namespace hyoryu {
 
@@ -39,6 +42,17 @@ TomlNode parse_document(const std::string& text, Reading& reading)
         }
     }
     return root;
+}
+
+// Whether the key belongs to a table that places no particle.
+bool places_nothing(const Diagnostic& mistake)
+{
+    return std::ranges::any_of(
+        std::array<std::string_view, 3>{"output", "gauge", "contact"}, [&](std::string_view table) {
+            const std::string_view key = mistake.key;
+            return key.starts_with(table) && (key.size() == table.size() ||
+                                              key[table.size()] == '.' || key[table.size()] == '[');
+        });
 }
 
 // The document of a case that was read, or an empty one if its file has changed beyond reading.
@@ -86,6 +100,15 @@ const TomlNode* find_value(const TomlNode* node, std::string_view key)
 
 } // namespace
 
+PlacedCaseError::PlacedCaseError(const CaseError& mistakes, Scene scene)
+    : CaseError(mistakes), scene_(std::move(scene))
+{
+    const double end = scene_.time.end;
+    scene_.output = {.every = end, .history_every = end, .gauge_every = end};
+    scene_.gauges.clear();
+    scene_.contact = {};
+}
+
 Scene parse_case(const std::string& text, const std::filesystem::path& file,
                  const std::vector<std::string>& overrides)
 {
@@ -97,6 +120,9 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
     scene.overrides = overrides;
     keys_of(root, scene);
     root.finish();
+    if (!reading.diagnostics.empty() && std::ranges::all_of(reading.diagnostics, places_nothing)) {
+        throw PlacedCaseError(CaseError(reading.diagnostics), std::move(scene));
+    }
     throw_if_any(reading);
     scene.notices = std::move(reading.notices);
     return scene;
