@@ -180,6 +180,25 @@ position = [{}, 0.26, 0.1]
         self.assertNotIn("overlaps", self.call("check", self.write(
             FLOOD.replace("[output]", second.format(0.9)).replace("size = [0.2,", "size = [-0.2,"))).stderr)
 
+    def test_a_body_beside_all_walls_is_told(self):
+        body = """[[body]]
+name = "stray"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 400.0
+position = [{}, {}, 0.7]
+"""
+        plane = '[[wall]]\nname = "yard"\nshape = "plane"\npoint = [0, 0, -0.2]\nnormal = [0, 0, 1]\n'
+        box = '[[wall]]\nname = "pad"\nshape = "box"\nmin = [-0.6, 0.0, -0.4]\nmax = [-0.3, 0.5, -0.2]\n'
+        for x, y, more, falls in ((-0.4, 0.26, "", True), (1.9, 0.3, "", True), (0.8, -0.3, "", True),
+                                  (1.2, 0.3, "", False), (-0.4, 0.26, plane, False), (-0.4, 0.26, box, False),
+                                  (1.9, 0.3, box, True), (-0.4, 0.26, "fixed = true\n", False)):
+            self.write(FLOOD.replace("[output]", body.format(x, y) + more + "[output]"))
+            done = self.call("check", "case.toml")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            told = 'body "stray" lies outside of the basin "basin", and no wall is below it'
+            self.assertEqual(told in done.stderr, falls, done.stderr)
+
     def test_a_block_that_other_blocks_cover_is_told(self):
         block = '[[fluid.block]]\nshape = "box"\nmin = [{0}, 0.0, 0.0]\nmax = [{1}, 0.5, {2}]\nvelocity = [1.0, 0.0, 0.0]\n[[wall]]'
         for low, high, top in ((0.1, 0.3, 0.4), (0.0, 0.5, 0.6), (0.2, 0.5, 0.3)):

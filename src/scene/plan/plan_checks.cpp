@@ -174,6 +174,37 @@ void warn_about_staircase(const Scene& scene, std::size_t b, Plan& plan)
     }
 }
 
+// Whether two boxes share a place, seen from above.
+bool share_a_place(const Bounds& a, const Bounds& b, int dimensions)
+{
+    const auto share = [&](Index axis) {
+        return a.max[axis] > b.min[axis] && a.min[axis] < b.max[axis];
+    };
+    return share(0) && (dimensions == 2 || share(1));
+}
+
+// A body beside all that could carry it, which is at least a basin.
+void warn_about_fall(const Scene& scene, std::size_t b, Plan& plan)
+{
+    const BodySettings& body = scene.bodies[b];
+    const Bounds box = bounds(placed(body, scene.dimensions));
+    const Wall* basin = nullptr;
+    for (const Wall& wall : scene.walls) {
+        if (std::holds_alternative<PlaneWall>(wall.geometry) ||
+            share_a_place(box, bounds(wall, scene.dimensions), scene.dimensions)) {
+            return;
+        }
+        basin = std::holds_alternative<BasinWall>(wall.geometry) ? &wall : basin;
+    }
+    if (basin != nullptr && !body.fixed && falls_along_z(scene)) {
+        warn(scene, body.place, table_of(body, b),
+             fmt::format("body \"{}\" lies outside of the basin \"{}\", and no wall is below it: "
+                         "it will fall",
+                         body.name, basin->name),
+             "move it into the basin; `position` is that of its centre", plan);
+    }
+}
+
 void warn_about_bodies(const Scene& scene, Plan& plan)
 {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -183,6 +214,7 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
             continue;
         }
         warn_about_staircase(scene, b, plan);
+        warn_about_fall(scene, b, plan);
         if (!scene.fluid) {
             continue;
         }
