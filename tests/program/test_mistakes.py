@@ -5,8 +5,20 @@ import time
 
 from program import FLOOD, ProgramTest, main
 
+# A second body in the flood.
+CUBE = """[[body]]
+name = "cube"
+shape = "box"
+size = [0.2, 0.2, 0.2]
+density = 400.0
+position = [{}, {}, {}]
+"""
+
 
 class Mistakes(ProgramTest):
+    def with_cube(self, x, y, z, more=""):
+        return FLOOD.replace("[output]", CUBE.format(x, y, z) + more + "[output]")
+
     def refused(self, text, *expected, arguments=(), **options):
         before = set(self.files())
         name = self.write(text)
@@ -161,42 +173,28 @@ scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 
             self.refused(FLOOD.replace("[output]", copies + beam), "`body[1]`", 'body "beam" overlaps wall "basin"')
 
     def test_mistakes_that_place_nothing_do_not_hide_those_of_the_scene(self):
-        second = """[[body]]
-name = "second"
-shape = "box"
-size = [0.2, 0.2, 0.2]
-density = 400.0
-position = [{}, 0.26, 0.1]
-[output]"""
         gauge = '[[gauge]]\ntype = "force"\non = "{}"\n[output]'
         for x, bad, key in ((0.9, ("every = 0.05", 'every = -1\nfields = ["velocty"]'), "output.fields"),
                             (0.7, ("[output]", gauge.format("scond")), "gauge[0].on"),
                             (0.05, ("[output]", '[contact]\nfriction = -1\n[output]'), "contact.friction")):
-            text = FLOOD.replace("[output]", second.format(x)).replace(*bad)
-            overlap = 'body "second" overlaps'
+            text = self.with_cube(x, 0.26, 0.1).replace(*bad)
+            overlap = 'body "cube" overlaps'
             self.refused(text, f"`{key}", overlap)
             self.assertEqual(self.call("check", "case.toml").stderr.count("error: "), 2 + ("every = -1" in text))
         # A body that is not known overlaps nothing.
         self.assertNotIn("overlaps", self.call("check", self.write(
-            FLOOD.replace("[output]", second.format(0.9)).replace("size = [0.2,", "size = [-0.2,"))).stderr)
+            self.with_cube(0.9, 0.26, 0.1).replace("size = [0.2,", "size = [-0.2,"))).stderr)
 
     def test_a_body_beside_all_walls_is_told(self):
-        body = """[[body]]
-name = "stray"
-shape = "box"
-size = [0.2, 0.2, 0.2]
-density = 400.0
-position = [{}, {}, 0.7]
-"""
         plane = '[[wall]]\nname = "yard"\nshape = "plane"\npoint = [0, 0, -0.2]\nnormal = [0, 0, 1]\n'
         box = '[[wall]]\nname = "pad"\nshape = "box"\nmin = [-0.6, 0.0, -0.4]\nmax = [-0.3, 0.5, -0.2]\n'
         for x, y, more, falls in ((-0.4, 0.26, "", True), (1.9, 0.3, "", True), (0.8, -0.3, "", True),
                                   (1.2, 0.3, "", False), (-0.4, 0.26, plane, False), (-0.4, 0.26, box, False),
                                   (1.9, 0.3, box, True), (-0.4, 0.26, "fixed = true\n", False)):
-            self.write(FLOOD.replace("[output]", body.format(x, y) + more + "[output]"))
+            self.write(self.with_cube(x, y, 0.7, more))
             done = self.call("check", "case.toml")
             self.assertEqual(done.returncode, 0, done.stderr)
-            told = 'body "stray" lies outside of the basin "basin", and no wall is below it'
+            told = 'body "cube" lies outside of the basin "basin", and no wall is below it'
             self.assertEqual(told in done.stderr, falls, done.stderr)
 
     def test_a_block_that_other_blocks_cover_is_told(self):
