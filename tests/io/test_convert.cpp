@@ -411,37 +411,6 @@ TEST_F(Convert, NamesOfOthersAreNotOurs)
     EXPECT_FALSE(is_export_name(ExportFormat::csv, "bodies_1.csv"));
 }
 
-TEST_F(Convert, SeriesThatLeadAwayAreDamage)
-{
-    write_run(1);
-    for (const char* name : {"../../etc/passwd", "/etc/passwd", "frames/bodies_000000.hdf",
-                             "frames/fluid_000000.hdf/../../x.hdf", "frames/fluid_0.hdf"}) {
-        test_help::put_text_into(
-            folder / "fluid.hdf.series",
-            fmt::format(R"({{"files": [{{"name": "{}", "time": 0}}]}})", name));
-        EXPECT_THROW(frame_sets(folder), IoError) << name;
-    }
-    test_help::put_text_into(folder / "fluid.hdf.series",
-                             R"({"files": [{"name": "frames/fluid_000001.hdf", "time": 1},
-                                         {"name": "frames/fluid_000000.hdf", "time": 0}]})");
-    EXPECT_THROW(frame_sets(folder), IoError);
-}
-
-TEST_F(Convert, ASeriesThatIsMissingIsDamage)
-{
-    int damaged = 0;
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        write_run(seed);
-        std::filesystem::remove(folder / "fluid.hdf.series");
-        if (std::filesystem::exists(folder /
-                                    "frames/fluid_000001.hdf")) { // a run that begins may have one
-            EXPECT_THROW(frame_sets(folder), IoError) << seed;
-            ++damaged;
-        }
-    }
-    EXPECT_GE(damaged, 2);
-}
-
 TEST_F(Convert, FramesBeforeAFaultStay)
 {
     Cloud cloud = test_help::make_cloud("fluid", 0, 10);

@@ -183,25 +183,33 @@ bool share_a_place(const Bounds& a, const Bounds& b, int dimensions)
     return share(0) && (dimensions == 2 || share(1));
 }
 
-// A body beside all that could carry it, which is at least a basin.
-void warn_about_fall(const Scene& scene, std::size_t b, Plan& plan)
+// Bodies beside all that could carry them, which is at least a basin: the first of each table.
+void warn_about_falls(const Scene& scene, Plan& plan)
 {
-    const BodySettings& body = scene.bodies[b];
-    const Bounds box = bounds(placed(body, scene.dimensions));
-    const Wall* basin = nullptr;
+    std::vector<Bounds> grounds;
+    std::string basin;
     for (const Wall& wall : scene.walls) {
-        if (std::holds_alternative<PlaneWall>(wall.geometry) ||
-            share_a_place(box, bounds(wall, scene.dimensions), scene.dimensions)) {
+        if (std::holds_alternative<PlaneWall>(wall.geometry)) {
             return;
         }
-        basin = std::holds_alternative<BasinWall>(wall.geometry) ? &wall : basin;
+        basin = std::holds_alternative<BasinWall>(wall.geometry) ? wall.name : basin;
+        grounds.push_back(bounds(wall, scene.dimensions));
     }
-    if (basin != nullptr && !body.fixed && falls_along_z(scene)) {
-        warn(scene, body.place, table_of(body, b),
-             fmt::format("body \"{}\" lies outside of the basin \"{}\", and no wall is below it: "
-                         "it will fall",
-                         body.name, basin->name),
-             "move it into the basin; `position` is that of its centre", plan);
+    int told = -1; // line of the table
+    for (std::size_t b = 0; b < scene.bodies.size() && !basin.empty(); ++b) {
+        const BodySettings& body = scene.bodies[b];
+        const Bounds box = bounds(placed(body, scene.dimensions));
+        const bool carried = std::ranges::any_of(grounds, [&](const Bounds& ground) {
+            return share_a_place(box, ground, scene.dimensions);
+        });
+        if (!carried && !body.fixed && falls_along_z(scene) && body.place.line != told) {
+            warn(scene, body.place, table_of(body, b),
+                 fmt::format("body \"{}\" lies outside of the basin \"{}\", and no wall is below "
+                             "it: it will fall",
+                             body.name, basin),
+                 "move it into the basin; `position` is that of its centre", plan);
+            told = body.place.line;
+        }
     }
 }
 
@@ -214,7 +222,6 @@ void warn_about_bodies(const Scene& scene, Plan& plan)
             continue;
         }
         warn_about_staircase(scene, b, plan);
-        warn_about_fall(scene, b, plan);
         if (!scene.fluid) {
             continue;
         }
@@ -416,6 +423,7 @@ void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
     warn_about_slips(scene, plan);
     warn_about_thin_walls(scene, plan);
     warn_about_bodies(scene, plan);
+    warn_about_falls(scene, plan);
     warn_about_round_walls(scene, plan);
     warn_about_waves(scene, facts, plan);
     if (scene.fluid) {
