@@ -115,10 +115,21 @@ double overlap_of(const JointTables& tables)
     return 0.25 * tables.reach;
 }
 
+Facing facing(const JointTables& tables, const std::vector<Pose>& poses, int b, const Ray& ray)
+{
+    constexpr double steepest = -0.8; // cosine of the two normals, at most
+    const RayPart part{-overlap_of(tables), tables.reach};
+    const OtherHit found = first_other(tables, poses, b, ray, part);
+    const double gap = found.hit.enter;
+    if (found.other == JointNode::none || gap >= part.to) {
+        return {};
+    }
+    const bool front = gap >= part.from && found.hit.normal.dot(ray.direction) < steepest;
+    return {front ? found.other : JointNode::none, gap, false};
+}
+
 bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const Joins& joins)
 {
-    constexpr double facing = -0.8; // cosine of the two normals, at most
-    const RayPart part{-overlap_of(tables), tables.reach};
     BodyJoints& body = tables.bodies[at(b)];
     const Mat3 R = poses[at(b)].orientation.toRotationMatrix();
     bool any = false;
@@ -128,14 +139,13 @@ bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const
         JointNode& node = body.nodes[c];
         node = {.place = poses[at(b)].position + R * cell.centre,
                 .normal = R * body.faces.faces[at(cell.face)].normal};
-        const OtherHit found = first_other(tables, poses, b, {node.place, node.normal}, part);
-        const double gap = found.hit.enter;
-        if (found.other != JointNode::none && gap >= part.from && gap < part.to &&
-            found.hit.normal.dot(node.normal) < facing) {
+        const Facing found = facing(tables, poses, b, {node.place, node.normal});
+        node.open = found.nothing;
+        if (found.other != JointNode::none) {
             const JointKind kind = joins(b, found.other, node.normal);
             node.other = kind == JointKind::none ? JointNode::none : found.other;
             node.sealed = kind == JointKind::sealed;
-            node.gap = gap;
+            node.gap = found.gap;
             any = any || kind != JointKind::none;
         }
     }

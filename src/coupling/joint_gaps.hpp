@@ -17,11 +17,13 @@ struct JointNode {
     static constexpr int none = std::numeric_limits<int>::max();
     int other = none;     // opposite: a body, -1 - (index of the boundary), or none
     bool sealed = false;  // no water enters
+    bool open = false;    // nothing lies opposite within reach
     double gap = 0;       // [m]
     double opening = 0;   // speed at which the two faces part [m/s]
     double mass = 0;      // that parts from the other side: reduced of two bodies [kg]
     double pressure = 0;  // of the seepage [Pa]
     double film = 1;      // share of its film forces that a particle behind the cell keeps
+    double share = 1;     // of the area of the cell, on which the joint carries its pressure
     double carried = 0;   // pressure that the joint adds to that of the particles [Pa]
     Vec3 place{0, 0, 0};  // of its centre [m]
     Vec3 normal{0, 0, 1}; // of the face, outward
@@ -69,6 +71,15 @@ struct OtherHit {
 };
 OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, int b,
                      const Ray& ray, const RayPart& part);
+
+/// What lies opposite a place of a face of body b, from which the ray goes along the normal: a
+/// solid that faces it within reach.
+struct Facing {
+    int other = JointNode::none;
+    double gap = 0;      // [m]
+    bool nothing = true; // no solid at all lies there
+};
+Facing facing(const JointTables& tables, const std::vector<Pose>& poses, int b, const Ray& ray);
 
 /// The kind of the gap between two faces: no joint, sealed, or open to water.
 enum class JointKind { none, sealed, open };

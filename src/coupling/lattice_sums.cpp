@@ -43,6 +43,36 @@ double push_on_face(const Fluid& fluid, double distance)
     return total;
 }
 
+// Sum of -F z over all pairs of particles of a column of fluid before a face and one of solid
+// behind it, a number of spacings beside it.
+double push_of_column(const Fluid& fluid, double beside)
+{
+    const double dp = fluid.parameters.spacing;
+    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
+    const int across = fluid.parameters.dimensions == 3 ? reach : 0;
+    double total = 0;
+    for (int apart = 1; apart <= reach; ++apart) { // rows; as many pairs are that far apart
+        for (int y = -across; y <= across; ++y) {
+            const Vec<real> r{beside * dp, y * dp, apart * dp};
+            total -= apart * apart * fluid.kernel(r).f;
+        }
+    }
+    return total;
+}
+
+// The k-th column of solid behind the edge meets the columns of fluid from the k-th on.
+double push_across_edge(const Fluid& fluid, double apart)
+{
+    const int reach = static_cast<int>(fluid.kernel.support / fluid.parameters.spacing) + 1;
+    double all = 0;
+    double across = 0;
+    for (int k = -reach; k <= reach; ++k) {
+        all += push_of_column(fluid, k);
+        across += std::max(k, 0) * push_of_column(fluid, k + apart);
+    }
+    return across / all;
+}
+
 } // namespace
 
 double LatticeSums::row(double width) const
@@ -59,6 +89,14 @@ double LatticeSums::transmitted(double width) const
     const double row = pushes[at(k)] + (place - k) * (pushes[at(k + 1)] - pushes[at(k)]);
     const double films = (1 - pushes.back()) * std::clamp(2 * width - 1, 0.0, 1.0);
     return row * std::clamp(4 * width - 1, 0.0, 1.0) + films;
+}
+
+double LatticeSums::across_edge(double apart) const
+{
+    const double place = steps * std::clamp(apart, 0.0, 2.0);
+    const auto k = std::min(static_cast<int>(place), 2 * steps - 1);
+    const double sum = across[at(k)] + (place - k) * (across[at(k + 1)] - across[at(k)]);
+    return apart < 2 ? sum : 0;
 }
 
 LatticeSums lattice_sums(const Fluid& fluid)
@@ -85,6 +123,9 @@ LatticeSums lattice_sums(const Fluid& fluid)
         sums.under += row > 1 ? row_sum(fluid, -reach, row * dp) : 0;
     }
     sums.first = row_sum(fluid, -reach, dp);
+    for (int k = 0; k <= 2 * LatticeSums::steps; ++k) {
+        sums.across[at(k)] = push_across_edge(fluid, static_cast<double>(k) / LatticeSums::steps);
+    }
     return sums;
 }
 

@@ -23,6 +23,11 @@ struct LatticeSums {
     double first = 0;
     double under = 0;
 
+    // Across the common edge of two faces in one plane, back to back: force of the fluid before one
+    // of them on the solid behind the other, over p, the length of the edge and the spacing; the
+    // fluid begins 0, 1/8, ... 2 spacings from the solid.
+    std::array<double, 2 * steps + 1> across{};
+
     // Force of one row of fluid at the pressure p in the middle of gaps of 1/2, ... 1 spacings on
     // one of the faces, over p times its area.
     std::array<double, steps + 1> pushes{};
@@ -33,7 +38,10 @@ struct LatticeSums {
     /// Share of its pressure that a row in the middle between faces transmits to them, with the
     /// films that are kept there: all of it from a width of 1 on, none below 1/4.
     double transmitted(double width) const;
+    /// `across` for fluid that begins `apart` spacings from the solid; none from 2 on.
+    double across_edge(double apart) const;
 };
+
 /// The sums for the kernel, spacing and dimensions of a fluid, which are constant during a run.
 LatticeSums lattice_sums(const Fluid& fluid);
 

@@ -3,6 +3,7 @@
 #include "hyoryu/coupling/seepage.hpp"
 
 #include "film_slip.hpp"
+#include "joint_cover.hpp"
 #include "joint_pressure.hpp"
 
 #include "hyoryu/core/error.hpp"
@@ -245,28 +246,45 @@ void share_between_opposite_faces(std::span<FilmCut> cuts)
     }
 }
 
-// Lists for each particle behind a cell the part of its film force that the joint replaces.
-void cut_films(const BodyJoints& body, Index first, std::span<const std::int64_t> id,
+// The first row of the particles of a body, and the numbers of all rows.
+struct ParticleNumbers {
+    Index first = 0;
+    std::span<const std::int64_t> id;
+};
+
+// Lists for each particle behind a joint, or beside it where nothing lies opposite, the part of its
+// film force that the joint replaces.
+void cut_films(const BodyJoints& body, const ParticleNumbers& numbers, double support,
                std::vector<FilmCut>& cuts)
 {
     const auto begin = static_cast<std::ptrdiff_t>(cuts.size());
-    for (std::size_t c = 0; c < body.nodes.size(); ++c) {
-        const JointNode& node = body.nodes[c];
-        const JointCell& cell = body.faces.cells[c];
-        for (int k = cell.first; node.other != JointNode::none && k < cell.last; ++k) {
-            cuts.push_back({.row = first + body.faces.particles[at(k)],
-                            .face = cell.face,
-                            .other = node.other,
-                            .part = 1 - node.film,
-                            .pressure = node.pressure,
-                            .normal = node.normal});
+    for (std::size_t f = 0; f < body.faces.faces.size(); ++f) {
+        if (body.joined[f] == 0) {
+            continue;
+        }
+        const JointFace& face = body.faces.faces[f];
+        const std::vector<int> joint = films_of(body, face, support);
+        for (int c = face.first; c < face.last; ++c) {
+            if (joint[at(c - face.first)] < 0) {
+                continue;
+            }
+            const JointNode& node = body.nodes[at(joint[at(c - face.first)])];
+            const JointCell& cell = body.faces.cells[at(c)];
+            for (int k = cell.first; k < cell.last; ++k) {
+                cuts.push_back({.row = numbers.first + body.faces.particles[at(k)],
+                                .face = cell.face,
+                                .other = node.other,
+                                .part = 1 - node.film,
+                                .pressure = node.pressure,
+                                .normal = node.normal});
+            }
         }
     }
     // If a particle is behind several cells of a face, the largest part counts. Sorted by number,
     // so that the sums do not depend on the order of the rows.
     const auto by_particle = [&](const FilmCut& a, const FilmCut& b) {
-        return std::tuple(id[at(a.row)], a.face, -a.part) <
-               std::tuple(id[at(b.row)], b.face, -b.part);
+        return std::tuple(numbers.id[at(a.row)], a.face, -a.part) <
+               std::tuple(numbers.id[at(b.row)], b.face, -b.part);
     };
     const auto same = [](const FilmCut& a, const FilmCut& b) {
         return a.row == b.row && a.face == b.face;
@@ -360,6 +378,7 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
                 find_speeds(body, rigid, poses, static_cast<int>(b), step.time);
                 ParticlePressure own = pressure;
                 own.first = at(rows.begin);
+                find_cover(tables, poses, static_cast<int>(b), own.spacing);
                 solve_pressure(tables, rigid, poses, static_cast<int>(b), own);
                 record_loads(body, seepage.loads[at(b)]);
             }
@@ -369,8 +388,9 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
     fluid.film_cuts.clear();
     for (std::size_t b = 0; b < poses.size(); ++b) {
         if (!seepage.loads[b].empty()) {
-            cut_films(tables.bodies[b], bodies.of[b].begin,
-                      std::span(std::as_const(fluid.particles).body.id()), fluid.film_cuts);
+            cut_films(tables.bodies[b],
+                      {bodies.of[b].begin, std::as_const(fluid.particles).body.id()},
+                      fluid.kernel.support, fluid.film_cuts);
         }
     }
 }
