@@ -98,7 +98,7 @@ private:
     }
 
     // The same where the support goes on beyond the rim of the face, by strips of the ledge in
-    // which a solid lies less than a spacing below the plane of the face.
+    // which a solid lies less than half a spacing below the plane of the face.
     double pushed_past_ledge(int c, int edge) const
     {
         constexpr std::array ends{0.0, 0.25, 0.75, 2.0}; // spacings
@@ -115,7 +115,7 @@ private:
                     ? 0
                     : 0.5 + first_other(tables_, poses_, b_, {place, node.normal}, part).hit.enter /
                                 spacing_;
-            length += std::clamp(gap, 0.0, 1.0) *
+            length += std::clamp(2 * gap, 0.0, 1.0) *
                       (pushed(ends[k] * spacing_) - pushed(ends[k + 1] * spacing_));
         }
         return length;

@@ -79,6 +79,11 @@ public:
                 open = find_ways(c) || open;
             }
         }
+        for (int c = face_.first; c < face_.last; ++c) {
+            if (joined(c)) {
+                look_inside(c);
+            }
+        }
         if (!open && !has_rim()) { // closed on all sides: its film forces act unchanged
             body_.inflows[at(cell(face_.first).face)] = {};
             for (int c = face_.first; c < face_.last; ++c) {
@@ -114,7 +119,6 @@ private:
     // through a rim.
     bool find_ways(int c)
     {
-        look_inside(c);
         bool open = false;
         for (int edge = 0; edge < edges_; ++edge) {
             const int next = cell(c).next[at(edge)];
@@ -144,23 +148,53 @@ private:
         return false;
     }
 
-    // Evaluates the fluid particles between the faces; they fit from a gap of half a spacing on.
+    // Evaluates the fluid particles between the faces; they fit from a gap of half a spacing on. A
+    // cell may lie between two columns of particles of the body: then it takes the nearest ones.
     void look_inside(int c)
     {
         double wet = 0;
         double pressure = 0;
-        for (int k = cell(c).first; k < cell(c).inner; ++k) {
-            const std::size_t row = fluid_.first + at(body_.faces.particles[at(k)]);
+        const auto add = [&](int particle) {
+            const std::size_t row = fluid_.first + at(particle);
             wet += fluid_.shepard[row];
             pressure += fluid_.shepard[row] * pressure_at(row, node(c).place);
+        };
+        int outer = cell(c).inner - cell(c).first;
+        if (outer > 0) {
+            const auto own = std::span(body_.faces.particles).subspan(at(cell(c).first), at(outer));
+            std::ranges::for_each(own, add);
+        } else if (cell(c).probe[0] >= 0) {
+            outer = edges_;
+            std::ranges::for_each(std::span(cell(c).probe).first(at(edges_)), add);
         }
         const double width = node(c).gap / fluid_.spacing;
-        const int outer = std::max(cell(c).inner - cell(c).first, 1);
-        const double rows = wet / (outer * tables_.sums.row(width));
+        const auto [fluid, row] = beyond_rims(c, width);
+        const double between = std::max(wet / std::max(outer, 1) - fluid, 0.0);
+        const double rows = between / (tables_.sums.row(width) - row);
         inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
                      std::min(rows, 1.0) * tables_.sums.transmitted(width),
                      wet > 0 ? pressure / wet : 0,
                      width < 1 ? std::min(rows / std::max(width, 1e-3), 1.0) : 0};
+    }
+
+    // The parts beyond the rims of the sums at a cell: of the fluid there, and of a row between the
+    // faces if it went on [1/m^d].
+    std::pair<double, double> beyond_rims(int c, double width)
+    {
+        const LatticeSums& sums = tables_.sums;
+        double fluid = 0;
+        double row = 0;
+        for (int edge = 0; edge < edges_; ++edge) {
+            const double size = (edge < 2 ? face_.du : face_.dv) / fluid_.spacing;
+            int k = c;
+            double inside = size / 2;
+            for (; joined(cell(k).next[at(edge)]) && inside < 3; inside += size) {
+                k = cell(k).next[at(edge)];
+            }
+            fluid += way(k, edge).enters * LatticeSums::beyond(sums.fluid_beyond, inside, width);
+            row += LatticeSums::beyond(sums.row_beyond, inside, width);
+        }
+        return {fluid, row};
     }
 
     // Whether the particles at a cell are farther than the support from every open rim.

@@ -12,8 +12,8 @@ namespace hyoryu {
 /// Sums W over rows of the lattice of fluid particles as a solid particle sees them [1/m^d].
 struct LatticeSums {
     static constexpr int steps = 8;
-    /// Of a row in the middle between faces 1, 1 + 1/8, ... 2 spacings apart.
-    std::array<double, steps + 1> between{};
+    /// Of a row in the middle between faces 1/2, 1/2 + 1/8, ... 2 spacings apart.
+    std::array<double, 3 * steps / 2 + 1> between{};
     double rim = 0; // of half a row that begins a spacing away, beside the particle
     // Of all half rows of water beside the particle whose surface is a spacing below it. A rim with
     // this sum or less is dry: the extrapolated pressure of an impact below does not act there.
@@ -28,13 +28,26 @@ struct LatticeSums {
     // fluid begins 0, 1/8, ... 2 spacings from the solid.
     std::array<double, 2 * steps + 1> across{};
 
+    // Of what lies beyond a rim, as a solid particle 0, 1/4, ... 3 spacings inside of it sees it,
+    // over a floor 1/2, 3/4, ... 2 spacings below the face.
+    static constexpr int insides = 13;
+    static constexpr int floors = 7;
+    using BeyondRim = std::array<std::array<double, floors>, insides>;
+    BeyondRim fluid_beyond{}; // all fluid
+    BeyondRim row_beyond{};   // the part of a row in the middle of the gap
+
     // Force of one row of fluid at the pressure p in the middle of gaps of 1/2, ... 1 spacings on
     // one of the faces, over p times its area.
     std::array<double, steps + 1> pushes{};
+    // The same of the films between the faces at this pressure.
+    std::array<double, steps + 1> films{};
 
-    /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1
-    /// counts as 1.
+    /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1/2
+    /// counts as 1/2.
     double row(double width) const;
+    /// Part beyond a rim of the sums for a solid particle `inside` spacings within it and a floor
+    /// `width` spacings below the face; none from 3 on.
+    static double beyond(const BeyondRim& sums, double inside, double width);
     /// Share of its pressure that a row in the middle between faces transmits to them, with the
     /// films that are kept there: all of it from a width of 1 on, none below 1/4.
     double transmitted(double width) const;
