@@ -37,6 +37,7 @@ struct Pile {
     double spacing = 0.02;
     std::vector<Box> boxes;
     bool on_wall = false;
+    bool sealed = false;
     double above = 4; // spacings of water
 
     std::string text() const
@@ -76,8 +77,10 @@ private:
         const Vec3 size = boxes[k].size();
         return fmt::format("[[body]]\nname = \"box{0}\"\nshape = \"box\"\nsize = [{1}, {2}, {3}]\n"
                            "density = 2000\nposition = [{4}, {5}, {6}]\nfixed = true\n"
+                           "stands = \"{7}\"\n"
                            "[[gauge]]\nname = \"on{0}\"\ntype = \"force\"\non = \"box{0}\"\n",
-                           k, size.x(), size.y(), size.z(), middle.x(), middle.y(), middle.z());
+                           k, size.x(), size.y(), size.z(), middle.x(), middle.y(), middle.z(),
+                           sealed ? "sealed" : "open");
     }
 };
 
@@ -151,6 +154,28 @@ TEST(JointSeams, FlushBoxesAreLiftedAsArchimedesSays)
         }
         pile.on_wall = n % 2 == 0;
         expect_archimedes(pile, 1.0, 1.5, 0.15);
+    }
+}
+
+// A slab on a pier: water in the seam lifts it, a sealed seam has no pressure.
+TEST(JointSeams, ASlabOnAPierFeelsThePressureInItsSeam)
+{
+    Dice dice(20);
+    for (int n = 0; n < 4; ++n) {
+        Pile pile;
+        pile.sealed = n % 2 == 1;
+        pile.on_wall = true;
+        const double pier = dice.between(3, 6) * pile.spacing;
+        const double left = dice.between(8, 9) * pile.spacing;
+        const double before = dice.between(5, 9) * pile.spacing;
+        const double right = left + before + pier + dice.between(5, 9) * pile.spacing;
+        const double middle = dice.between(6, 8) * pile.spacing;
+        const double top = middle + dice.between(3, 5) * pile.spacing;
+        pile.boxes = {{{left + before, 0, 0}, {left + before + pier, 0, middle}},
+                      {{left, 0, middle}, {right, 0, top}}};
+        const double depth = (top - middle) / pile.spacing + pile.above;
+        const double missing = pile.sealed ? depth * pier / (right - left) : 0;
+        EXPECT_NEAR(excess(pile, 1.0, 1.5)[0], -missing, 0.15) << pile.text();
     }
 }
 
