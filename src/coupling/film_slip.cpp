@@ -115,7 +115,7 @@ void cut_slip_of_films(JointTables& tables, const std::vector<Pose>& poses, Flui
         for (auto k = at(first); k < cuts.size() && cuts[k].row == row; ++k) {
             const bool is_other =
                 cuts[k].other < 0 ? other.owner < 0 : other.owner == cuts[k].other;
-            if (is_other && cuts[k].part > 0 && supports(fluid, cuts[k])) {
+            if (is_other && !cuts[k].beside && cuts[k].part > 0 && supports(fluid, cuts[k])) {
                 const Vec3& normal = cuts[k].normal;
                 slip[k] += cuts[k].part * opposite(at(own.owner), cuts[k], other.x) *
                            (film - film.dot(normal) * normal);

@@ -17,7 +17,8 @@ namespace hyoryu {
 /// Removes from the forces on the particles behind joints (`Fluid::film_cuts`), in the measure in
 /// which the joint replaces their films, what the films with particles opposite the joint push
 /// along it, and adds it to what the other side gets back. Joints beside bodies keep their films: a
-/// piston that fills its tube was 1.4 % too heavy without.
+/// piston that fills its tube was 1.4 % too heavy without. So do particles beside a joint: under an
+/// overhang the fluid pushes the body towards its support, as much as these films push it away.
 void cut_slip_of_films(JointTables& tables, const std::vector<Pose>& poses, Fluid& fluid);
 
 } // namespace hyoryu

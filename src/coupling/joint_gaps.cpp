@@ -124,8 +124,11 @@ Facing facing(const JointTables& tables, const std::vector<Pose>& poses, int b, 
     if (found.other == JointNode::none || gap >= part.to) {
         return {};
     }
-    const bool front = gap >= part.from && found.hit.normal.dot(ray.direction) < steepest;
-    return {front ? found.other : JointNode::none, gap, false};
+    if (gap < part.from) {
+        return {JointNode::none, gap, false};
+    }
+    const bool front = found.hit.normal.dot(ray.direction) < steepest;
+    return {front ? found.other : JointNode::none, gap, !front};
 }
 
 bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const Joins& joins)

@@ -17,7 +17,7 @@ struct JointNode {
     static constexpr int none = std::numeric_limits<int>::max();
     int other = none;     // opposite: a body, -1 - (index of the boundary), or none
     bool sealed = false;  // no water enters
-    bool open = false;    // nothing lies opposite within reach
+    bool open = false;    // nothing faces it within reach
     double gap = 0;       // [m]
     double opening = 0;   // speed at which the two faces part [m/s]
     double mass = 0;      // that parts from the other side: reduced of two bodies [kg]
@@ -77,7 +77,7 @@ OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, 
 struct Facing {
     int other = JointNode::none;
     double gap = 0;      // [m]
-    bool nothing = true; // no solid at all lies there
+    bool nothing = true; // no solid that faces it
 };
 Facing facing(const JointTables& tables, const std::vector<Pose>& poses, int b, const Ray& ray);
 

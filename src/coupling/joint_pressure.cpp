@@ -170,11 +170,23 @@ private:
         const double width = node(c).gap / fluid_.spacing;
         const auto [fluid, row] = beyond_rims(c, width);
         const double between = std::max(wet / std::max(outer, 1) - fluid, 0.0);
-        const double rows = between / (tables_.sums.row(width) - row);
+        const double rows = between / (tables_.sums.row(widest(c)) - row);
         inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
                      std::min(rows, 1.0) * tables_.sums.transmitted(width),
                      wet > 0 ? pressure / wet : 0,
                      width < 1 ? std::min(rows / std::max(width, 1e-3), 1.0) : 0};
+    }
+
+    // The width of the gap at a cell and at those beside it [spacings]: in a wedge the particles
+    // are where it is wide.
+    double widest(int c)
+    {
+        double gap = node(c).gap;
+        for (int edge = 0; edge < edges_; ++edge) {
+            const int next = cell(c).next[at(edge)];
+            gap = joined(next) ? std::max(gap, node(next).gap) : gap;
+        }
+        return gap / fluid_.spacing;
     }
 
     // The parts beyond the rims of the sums at a cell: of the fluid there, and of a row between the
@@ -190,6 +202,9 @@ private:
             double inside = size / 2;
             for (; joined(cell(k).next[at(edge)]) && inside < 3; inside += size) {
                 k = cell(k).next[at(edge)];
+            }
+            if (cell(k).next[at(edge)] >= 0) {
+                continue; // the face goes on, and with it the row
             }
             fluid += way(k, edge).enters * LatticeSums::beyond(sums.fluid_beyond, inside, width);
             row += LatticeSums::beyond(sums.row_beyond, inside, width);

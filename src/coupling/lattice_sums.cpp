@@ -95,6 +95,7 @@ double columns_beside(const Fluid& fluid, double inside, double width)
     constexpr int parts = 8; // of a spacing of height
     const double reach = fluid.kernel.support / fluid.parameters.spacing;
     double total = 0;
+    // Solid particles are half a spacing behind their face.
     for (double z = -width - 0.5 + 0.5 / parts; z < reach; z += 1.0 / parts) {
         total += row_beside(fluid, inside, z) / parts;
     }

@@ -274,6 +274,7 @@ void cut_films(const BodyJoints& body, const ParticleNumbers& numbers, double su
                 cuts.push_back({.row = numbers.first + body.faces.particles[at(k)],
                                 .face = cell.face,
                                 .other = node.other,
+                                .beside = joint[at(c - face.first)] != c,
                                 .part = 1 - node.film,
                                 .pressure = node.pressure,
                                 .normal = node.normal});

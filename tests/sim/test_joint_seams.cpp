@@ -24,11 +24,6 @@ struct Box {
     Vec3 low{0, 0, 0}, high{0, 0, 0}; // [m]
 
     Vec3 size() const { return high - low; }
-    // As a layer of water over its plan [m].
-    double layer(double force) const
-    {
-        return force / weight / size().x() / (size().y() > 0 ? size().y() : 1);
-    }
 };
 
 // Boxes under 3 to 5 spacings of water in a tank that leaves 8 spacings and more beside them; the
@@ -84,34 +79,44 @@ private:
     }
 };
 
-// What the mean force on each body between two times exceeds that of Archimedes by, as a layer of
-// water on its plan [spacings].
-std::vector<double> excess(const Pile& pile, double from, double to)
+// What the mean force on each body between two times exceeds that of Archimedes by: upwards as a
+// layer of water on its plan, along x as one on its side [spacings].
+struct Excess {
+    double up = 0, along = 0;
+};
+
+std::vector<Excess> excess(const Pile& pile, double from, double to)
 {
     Simulation sim = make(pile.text());
-    std::vector<double> sums(pile.boxes.size() - (pile.on_wall ? 1 : 0), 0.0);
+    std::vector<Excess> sums(pile.boxes.size() - (pile.on_wall ? 1 : 0));
     int steps = 0;
     while (sim.clock.time < to) {
         step_on(sim);
         if (sim.clock.time > from) {
             const std::vector<double> read = read_gauges(sim);
             for (std::size_t k = 0; k < sums.size(); ++k) {
-                sums[k] += read.at(k * read.size() / sums.size() + 2); // a gauge for each body
+                const std::size_t gauge = k * read.size() / sums.size(); // one for each body
+                sums[k].along += read.at(gauge);
+                sums[k].up += read.at(gauge + 2);
             }
             ++steps;
         }
     }
     for (std::size_t k = 0; k < sums.size(); ++k) {
-        const Box& box = pile.boxes[k + (pile.on_wall ? 1 : 0)];
-        sums[k] = (box.layer(sums[k] / steps) - box.size().z()) / pile.spacing;
+        const Vec3 size = pile.boxes[k + (pile.on_wall ? 1 : 0)].size();
+        const double across = size.y() > 0 ? size.y() : 1;
+        const double unit = weight * pile.spacing * steps * across;
+        sums[k].up = sums[k].up / (unit * size.x()) - size.z() / pile.spacing;
+        sums[k].along /= unit * size.z();
     }
     return sums;
 }
 
 void expect_archimedes(const Pile& pile, double from, double to, double bound)
 {
-    for (const double layer : excess(pile, from, to)) {
-        EXPECT_NEAR(layer, 0, bound) << pile.text();
+    for (const Excess& layer : excess(pile, from, to)) {
+        EXPECT_NEAR(layer.up, 0, bound) << pile.text();
+        EXPECT_NEAR(layer.along, 0, 2 * bound) << pile.text();
     }
 }
 
@@ -175,7 +180,7 @@ TEST(JointSeams, ASlabOnAPierFeelsThePressureInItsSeam)
                       {{left, 0, middle}, {right, 0, top}}};
         const double depth = (top - middle) / pile.spacing + pile.above;
         const double missing = pile.sealed ? depth * pier / (right - left) : 0;
-        EXPECT_NEAR(excess(pile, 1.0, 1.5)[0], -missing, 0.15) << pile.text();
+        EXPECT_NEAR(excess(pile, 1.0, 1.5)[0].up, -missing, 0.15) << pile.text();
     }
 }
 

@@ -58,6 +58,7 @@ struct FilmCut {
     Index row = 0;
     int face = 0;         // of the body
     int other = 0;        // opposite: a body, or -1 - (index of the boundary)
+    bool beside = false;  // the joint is beside the particle: nothing lies opposite
     real part = 0;        // [1]
     real pressure = 0;    // in the joint [Pa]
     Vec3 normal{0, 0, 1}; // of the face, outward
