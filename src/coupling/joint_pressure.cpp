@@ -79,11 +79,6 @@ public:
                 open = find_ways(c) || open;
             }
         }
-        for (int c = face_.first; c < face_.last; ++c) {
-            if (joined(c)) {
-                look_inside(c);
-            }
-        }
         if (!open && !has_rim()) { // closed on all sides: its film forces act unchanged
             body_.inflows[at(cell(face_.first).face)] = {};
             for (int c = face_.first; c < face_.last; ++c) {
@@ -119,6 +114,7 @@ private:
     // through a rim.
     bool find_ways(int c)
     {
+        look_inside(c);
         bool open = false;
         for (int edge = 0; edge < edges_; ++edge) {
             const int next = cell(c).next[at(edge)];
@@ -168,9 +164,7 @@ private:
             std::ranges::for_each(std::span(cell(c).probe).first(at(edges_)), add);
         }
         const double width = node(c).gap / fluid_.spacing;
-        const auto [fluid, row] = beyond_rims(c, width);
-        const double between = std::max(wet / std::max(outer, 1) - fluid, 0.0);
-        const double rows = between / (tables_.sums.row(widest(c)) - row);
+        const double rows = wet / (std::max(outer, 1) * tables_.sums.row(widest(c)));
         inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
                      std::min(rows, 1.0) * tables_.sums.transmitted(width),
                      wet > 0 ? pressure / wet : 0,
@@ -187,29 +181,6 @@ private:
             gap = joined(next) ? std::max(gap, node(next).gap) : gap;
         }
         return gap / fluid_.spacing;
-    }
-
-    // The parts beyond the rims of the sums at a cell: of the fluid there, and of a row between the
-    // faces if it went on [1/m^d].
-    std::pair<double, double> beyond_rims(int c, double width)
-    {
-        const LatticeSums& sums = tables_.sums;
-        double fluid = 0;
-        double row = 0;
-        for (int edge = 0; edge < edges_; ++edge) {
-            const double size = (edge < 2 ? face_.du : face_.dv) / fluid_.spacing;
-            int k = c;
-            double inside = size / 2;
-            for (; joined(cell(k).next[at(edge)]) && inside < 3; inside += size) {
-                k = cell(k).next[at(edge)];
-            }
-            if (cell(k).next[at(edge)] >= 0) {
-                continue; // the face goes on, and with it the row
-            }
-            fluid += way(k, edge).enters * LatticeSums::beyond(sums.fluid_beyond, inside, width);
-            row += LatticeSums::beyond(sums.row_beyond, inside, width);
-        }
-        return {fluid, row};
     }
 
     // Whether the particles at a cell are farther than the support from every open rim.
