@@ -77,7 +77,7 @@ OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, 
 struct Facing {
     int other = JointNode::none;
     double gap = 0;      // [m]
-    bool nothing = true; // no solid that faces it
+    bool nothing = true; // no solid faces it there
 };
 Facing facing(const JointTables& tables, const std::vector<Pose>& poses, int b, const Ray& ray);
 

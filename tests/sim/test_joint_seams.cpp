@@ -112,6 +112,8 @@ std::vector<Excess> excess(const Pile& pile, double from, double to)
     return sums;
 }
 
+// The bounds leave room over what 60 draws had, -0.09 to 0.11 upwards; the sides at a ledge of less
+// than half a spacing have up to 0.27 along x.
 void expect_archimedes(const Pile& pile, double from, double to, double bound)
 {
     for (const Excess& layer : excess(pile, from, to)) {
