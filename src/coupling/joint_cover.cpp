@@ -97,8 +97,8 @@ private:
         return (from + to) / 2;
     }
 
-    // `pushed` where the support goes on beyond the rim of the face, by strips of that ledge. Half a
-    // spacing below the face the first row of fluid on it pushes as beside a flush seam.
+    // `pushed` where the support goes on beyond the rim of the face, by strips of that ledge. Half
+    // a spacing below the face the first row of fluid on it pushes as beside a flush seam.
     double pushed_past_ledge(int c, int edge) const
     {
         constexpr std::array ends{0.0, 0.25, 0.75, 2.0}; // spacings
