@@ -73,6 +73,35 @@ double push_across_edge(const Fluid& fluid, double apart)
     return across / all;
 }
 
+// Sum of W at a distance z over the columns of fluid beyond a rim.
+double row_beside(const Fluid& fluid, double inside, double z)
+{
+    const double dp = fluid.parameters.spacing;
+    const int reach = static_cast<int>(fluid.kernel.support / dp) + 1;
+    const int across = fluid.parameters.dimensions == 3 ? reach : 0;
+    double total = 0;
+    for (int x = 0; x < reach; ++x) {
+        for (int y = -across; y <= across; ++y) {
+            const Vec<real> r{(inside + 0.5 + x) * dp, y * dp, z * dp};
+            total += fluid.kernel(r).w;
+        }
+    }
+    return total;
+}
+
+// The same over all heights, as the columns may stand at any height over their floor.
+double columns_beside(const Fluid& fluid, double inside, double width)
+{
+    constexpr int parts = 8; // of a spacing of height
+    const double reach = fluid.kernel.support / fluid.parameters.spacing;
+    double total = 0;
+    // Solid particles are half a spacing behind their face.
+    for (double z = -width - 0.5 + 0.5 / parts; z < reach; z += 1.0 / parts) {
+        total += row_beside(fluid, inside, z) / parts;
+    }
+    return total;
+}
+
 } // namespace
 
 double LatticeSums::row(double width) const
@@ -80,6 +109,19 @@ double LatticeSums::row(double width) const
     const double place = steps * std::clamp(width - 0.5, 0.0, 1.5);
     const auto k = std::min(static_cast<int>(place), 3 * steps / 2 - 1);
     return between[at(k)] + (place - k) * (between[at(k + 1)] - between[at(k)]);
+}
+
+double LatticeSums::beyond(const BeyondRim& sums, double inside, double width)
+{
+    const double i = 4 * std::clamp(inside, 0.0, 3.0);
+    const double w = 4 * std::clamp(width - 0.5, 0.0, 1.5);
+    const int i0 = std::min(static_cast<int>(i), insides - 2);
+    const int w0 = std::min(static_cast<int>(w), floors - 2);
+    const auto along = [&](int k) {
+        const auto& row = sums[at(k)];
+        return row[at(w0)] + (w - w0) * (row[at(w0 + 1)] - row[at(w0)]);
+    };
+    return inside < 3 ? along(i0) + (i - i0) * (along(i0 + 1) - along(i0)) : 0;
 }
 
 double LatticeSums::transmitted(double width) const
@@ -128,6 +170,13 @@ LatticeSums lattice_sums(const Fluid& fluid)
         sums.under += row > 1 ? row_sum(fluid, -reach, row * dp) : 0;
     }
     sums.first = row_sum(fluid, -reach, dp);
+    for (int i = 0; i < LatticeSums::insides; ++i) {
+        for (int w = 0; w < LatticeSums::floors; ++w) {
+            const double width = 0.5 + w / 4.0;
+            sums.fluid_beyond[at(i)][at(w)] = columns_beside(fluid, i / 4.0, width);
+            sums.row_beyond[at(i)][at(w)] = row_beside(fluid, i / 4.0, (1 + width) / 2);
+        }
+    }
     for (int k = 0; k <= 2 * LatticeSums::steps; ++k) {
         sums.across[at(k)] = push_across_edge(fluid, static_cast<double>(k) / LatticeSums::steps);
     }

@@ -28,6 +28,14 @@ struct LatticeSums {
     // fluid begins 0, 1/8, ... 2 spacings from the solid.
     std::array<double, 2 * steps + 1> across{};
 
+    // Of what lies beyond a rim, as a solid particle 0, 1/4, ... 3 spacings inside of it sees it,
+    // over a floor 1/2, 3/4, ... 2 spacings below the face.
+    static constexpr int insides = 13;
+    static constexpr int floors = 7;
+    using BeyondRim = std::array<std::array<double, floors>, insides>;
+    BeyondRim fluid_beyond{}; // all fluid
+    BeyondRim row_beyond{};   // the part of a row in the middle of the gap
+
     // Force of one row of fluid at the pressure p in the middle of gaps of 1/2, ... 1 spacings on
     // one of the faces, over p times its area.
     std::array<double, steps + 1> pushes{};
@@ -37,6 +45,9 @@ struct LatticeSums {
     /// Sum of W over a row in the middle between faces `width` spacings apart; a width below 1/2
     /// counts as 1/2.
     double row(double width) const;
+    /// Part beyond a rim of the sums for a solid particle `inside` spacings within it and a floor
+    /// `width` spacings below the face; none from 3 on.
+    static double beyond(const BeyondRim& sums, double inside, double width);
     /// Share of its pressure that a row in the middle between faces transmits to them, with the
     /// films that are kept there: all of it from a width of 1 on, none below 1/4.
     double transmitted(double width) const;

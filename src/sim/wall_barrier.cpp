@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "barrier_hits.hpp"
 #include "solid_places.hpp"
 
 #include "hyoryu/scene/fill.hpp"
@@ -218,7 +219,9 @@ void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index
     hold(fluid.parameters.mass, v, holds);
     for (const SurfaceHold& h : holds) {
         if (!h.impulse.isZero(0)) {
-            barrier.hits[at(worker())].push_back({i, h.solid, x, h.impulse, h.sum / h.first});
+            const double wanted = h.least + h.velocity.dot(h.normal);
+            barrier.hits[at(worker())].push_back(
+                {i, h.solid, x, h.impulse, h.sum / h.first, wanted});
         }
     }
 }
@@ -265,46 +268,6 @@ void hold_tile(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Inde
     }
 }
 
-// Inverse effective mass of a body at the place of a hit: its change of velocity there, along the
-// impulse, per unit of impulse [1/kg].
-double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit)
-{
-    const Vec3 n = hit.impulse.normalized();
-    double yield = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        yield += body.locks[at(axis)] ? 0 : sq(n[axis]) / body.mass.mass;
-    }
-    if (body.locks[3] && body.locks[4] && body.locks[5]) {
-        return yield;
-    }
-    // With a locked axis the body turns by less; the overestimate only makes its share smaller.
-    const Vec3 turn = place.rotation.transpose() * (hit.place - place.position).cross(n);
-    return yield + turn.dot(body.mass.inertia.inverse() * turn);
-}
-
-// Adds the reactions of the hits to the sums of the loads, constant over the step. A particle
-// between two closing surfaces hits each several times; the body yields to each of them.
-void book_hits(Simulation& sim, double dt)
-{
-    const WallBarrier& barrier = *sim.barrier;
-    const double mass = sim.fluid->parameters.mass;
-    for (const std::vector<BarrierHit>& hits : barrier.hits) {
-        for (const BarrierHit& hit : hits) {
-            const auto solid = at(hit.solid);
-            const Vec3 f = -hit.impulse / dt;
-            if (solid < barrier.walls) {
-                sim.loads.of_walls.add(solid, {f.x(), f.y(), f.z()});
-                continue;
-            }
-            const std::size_t body = solid - barrier.walls;
-            const SolidPlace& place = barrier.places[solid];
-            const Vec3 t = (hit.place - place.position).cross(f);
-            const double yield = hit.repeats * mass * yield_of(sim.rigid.bodies[body], place, hit);
-            sim.loads.of_hits.add(body, {f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), yield});
-        }
-    }
-}
-
 // Capacity for the hits of a step in usual flows.
 void make_room(WallBarrier& barrier)
 {
@@ -347,34 +310,11 @@ void hold_at_solids(Simulation& sim, double time, double dt)
         find_near(fluid, barrier);
     }
     make_room(barrier);
+    barrier.dt = dt;
     const BarrierStep step(fluid, barrier, dt);
     parallel_blocks(0, fluid.neighbours.fluid.tiles(),
                     [&](Index tile) { hold_tile(step, fluid, barrier, tile); });
     book_hits(sim, dt);
-}
-
-void share_hits(Simulation& sim)
-{
-    const WallBarrier& barrier = *sim.barrier;
-    const double mass = sim.fluid->parameters.mass;
-    const auto v = sim.fluid->particles.fluid[field::velocity];
-    const auto share_at = [](double yield) { return yield > 1 ? 1 / yield : 1; };
-    for (std::size_t body = 0; body < sim.loads.of_hits.owners(); ++body) {
-        const auto [fx, fy, fz, tx, ty, tz, yield] = sim.loads.of_hits.of(body);
-        const double share = share_at(yield);
-        sim.loads.bodies[body].force += share * Vec3(fx, fy, fz);
-        sim.loads.bodies[body].torque += share * Vec3(tx, ty, tz);
-    }
-    for (const std::vector<BarrierHit>& hits : barrier.hits) {
-        for (const BarrierHit& hit : hits) {
-            const auto solid = at(hit.solid);
-            const double yield =
-                solid < barrier.walls ? 0 : sim.loads.of_hits.of(solid - barrier.walls).back();
-            if (const double share = share_at(yield); share < 1) {
-                v[at(hit.row)] -= (1 - share) / mass * hit.impulse;
-            }
-        }
-    }
 }
 
 std::size_t hits_of_step(const WallBarrier& barrier)

@@ -12,8 +12,9 @@
 // normal distance is not affected. Between surfaces that close in on a particle the rule is applied
 // in four rounds. A body yields to its hits: with Y = sum a m (1/M + rotation), where a is the
 // whole impulse over that of the first round, it takes all of them if Y < 1 and the share 1/Y of
-// them otherwise, so that they never turn its motion around; the particles keep the rest. Ours; the
-// impulse is that of a unilateral constraint (Moreau 1988).
+// them otherwise, so that they never turn its motion around; the particles keep the rest. What
+// other solids have answered to that rest is then found anew. Ours; the impulse is that of a
+// unilateral constraint (Moreau 1988).
 #pragma once
 
 #include "hyoryu/scene/solid_surface.hpp"
@@ -45,6 +46,7 @@ struct BarrierHit {
     Vec3 place{0, 0, 0};   // of the particle [m]
     Vec3 impulse{0, 0, 0}; // on the particle [N s]
     double repeats = 1;    // the impulse over that which stops the approach: more in a pinch [1]
+    double wanted = 0;     // least velocity of the particle along the impulse [m/s]
 };
 
 /// Where a solid is and how it moves.
@@ -62,6 +64,7 @@ struct WallBarrier {
     std::vector<SolidSurface> solids; // walls, then bodies
     std::size_t walls = 0;            // of them
     double spacing = 0;               // dp [m]
+    double dt = 0;                    // of the last step [s]
     int dimensions = 3;
 
     std::vector<SolidPlace> places, before; // of the solids in this step and in the one before
@@ -98,7 +101,9 @@ WallBarrier make_wall_barrier(const Scene& scene);
 void hold_at_solids(Simulation& sim, double time, double dt);
 
 /// Scales the hits on bodies, once their sums are those of all processes: adds them to the loads
-/// and returns the rest to the particles.
+/// and returns the rest to the particles. Where several solids hold a particle, the others then
+/// give what is wanted of them anew: walls any impulse, bodies at most that of before. Called by
+/// all processes.
 void share_hits(Simulation& sim);
 
 /// How many hits there were in the last step, on particles of this process.
