@@ -46,17 +46,6 @@ struct Filled {
     double trapped = 0;  // share of a gap too narrow for a row of them that they fill, 0 to 1
 };
 
-// The inflow into a joint whose sides part. Its section counts as at least a spacing high: the
-// unevenness of real joints.
-struct Inflow {
-    double opening = 0;     // mean speed at which the sides part [m/s]
-    double area = 0;        // of the joint [m2]
-    double section = 0;     // of the wet part of the rim [m2]
-    double rim = 0;         // length of the wet part of the rim [m]
-    double push = 0;        // of the joint, without the drop [N]
-    double mass = infinity; // that parts [kg]
-};
-
 // The joint of one face.
 class FaceJoint {
 public:
@@ -79,6 +68,11 @@ public:
                 open = find_ways(c) || open;
             }
         }
+        for (int c = face_.first; c < face_.last; ++c) {
+            if (joined(c)) {
+                look_inside(c);
+            }
+        }
         if (!open && !has_rim()) { // closed on all sides: its film forces act unchanged
             body_.inflows[at(cell(face_.first).face)] = {};
             for (int c = face_.first; c < face_.last; ++c) {
@@ -90,7 +84,7 @@ public:
             start();
             relax();
         }
-        const double drop = inflow_drop(measure_inflow());
+        const double drop = inflow_drop(spread(measure_inflow()));
         for (int c = face_.first; c < face_.last; ++c) {
             if (joined(c)) {
                 hand_over(c, drop);
@@ -114,7 +108,6 @@ private:
     // through a rim.
     bool find_ways(int c)
     {
-        look_inside(c);
         bool open = false;
         for (int edge = 0; edge < edges_; ++edge) {
             const int next = cell(c).next[at(edge)];
@@ -164,11 +157,36 @@ private:
             std::ranges::for_each(std::span(cell(c).probe).first(at(edges_)), add);
         }
         const double width = node(c).gap / fluid_.spacing;
-        const double rows = wet / (std::max(outer, 1) * tables_.sums.row(widest(c)));
+        const auto [fluid, row] = beyond_rims(c, width);
+        const double between = std::max(wet / std::max(outer, 1) - fluid, 0.0);
+        const double rows = between / (tables_.sums.row(widest(c)) - row);
         inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
                      std::min(rows, 1.0) * tables_.sums.transmitted(width),
                      wet > 0 ? pressure / wet : 0,
                      width < 1 ? std::min(rows / std::max(width, 1e-3), 1.0) : 0};
+    }
+
+    // The parts beyond the rims of the sums at a cell: of the fluid there, and of a row between the
+    // faces if it went on [1/m^d].
+    std::pair<double, double> beyond_rims(int c, double width)
+    {
+        const LatticeSums& sums = tables_.sums;
+        double fluid = 0;
+        double row = 0;
+        for (int edge = 0; edge < edges_; ++edge) {
+            const double size = (edge < 2 ? face_.du : face_.dv) / fluid_.spacing;
+            int k = c;
+            double inside = size / 2;
+            for (; joined(cell(k).next[at(edge)]) && inside < 3; inside += size) {
+                k = cell(k).next[at(edge)];
+            }
+            if (cell(k).next[at(edge)] >= 0) {
+                continue; // the face goes on, and with it the row
+            }
+            fluid += way(k, edge).enters * LatticeSums::beyond(sums.fluid_beyond, inside, width);
+            row += LatticeSums::beyond(sums.row_beyond, inside, width);
+        }
+        return {fluid, row};
     }
 
     // The width of the gap at a cell and at those beside it [spacings]: in a wedge the particles
@@ -282,12 +300,29 @@ private:
             in.push += area * pressure_[at(c - face_.first)];
             in.mass = std::min(in.mass, node(c).mass);
             for (int edge = 0; edge < edges_; ++edge) {
-                const double length = way(c, edge).enters * (edge < 2 ? face_.dv : face_.du);
+                const double side = edge < 2 ? face_.dv : face_.du;
+                const double length = way(c, edge).enters * side;
+                in.open += way(c, edge).next < 0 && way(c, edge).conductance > 0 ? side : 0;
                 in.rim += length;
                 in.section += length * std::max(node(c).gap, fluid_.spacing);
             }
         }
         in.opening /= in.area;
+        return in;
+    }
+
+    // A jump of the pressure at the rims spreads in the joint by sound.
+    Inflow spread(Inflow in)
+    {
+        const JointInflow& last = body_.inflows[at(cell(face_.first).face)];
+        if (last.known && in.open > 0) {
+            const double push = spread_by_sound(last.pressure * in.area, in.push,
+                                                fluid_.dt * 2 * fluid_.sound * in.open / in.area);
+            if (push < in.push) {
+                std::ranges::for_each(pressure_, [&](double& p) { p *= push / in.push; });
+                in.push = push;
+            }
+        }
         return in;
     }
 
@@ -317,19 +352,7 @@ private:
         const double fast = growth - slow * in.area * fluid_.weight.norm() / fluid_.density;
         joint.drop = inertia_drop(last.drop, response, fast,
                                   std::min(joint.pressure, response.inertance * most));
-        return bernoulli_drop(in, growth) + joint.drop;
-    }
-
-    // By Bernoulli's law the pressure falls by rho u^2 / 2, u the flow divided by the wet section
-    // of the rim; the dry part admits air. Implicit in the speed, which the drop itself lowers: m
-    // (v' - v) = m dt max(dv/dt, 0) - dt k v'^2, k = rho A^3 / (2 section^2). `growth`: A dv/dt.
-    double bernoulli_drop(const Inflow& in, double growth) const
-    {
-        const double v = in.opening + fluid_.dt * std::max(growth, 0.0) / in.area;
-        const double k = fluid_.density * in.area * sq(in.area / in.section) / 2;
-        const double rate = 2 * k * fluid_.dt / in.mass;
-        const double later = rate * v > 1e-12 ? (std::sqrt(1 + 2 * rate * v) - 1) / rate : v;
-        return k * sq(later) / in.area;
+        return bernoulli_drop(in, fluid_.density, growth, fluid_.dt) + joint.drop;
     }
 
     // The joint adds the pressure that the particles in it do not transmit yet: the first particles

@@ -16,6 +16,7 @@ struct ParticlePressure {
     double support = 0;            // radius of its kernel [m]
     Vec3 weight{0, 0, 0};          // rho0 g [N/m3]
     double density = 0;            // rho0 [kg/m3]
+    double sound = 0;              // its speed at rest [m/s]
     double dt = 0;                 // of the step [s]
     double dt_before = 0;          // of the step before; 0 at the first [s]
 };

@@ -93,7 +93,8 @@ ParticlePressure pressure_of(const Fluid& fluid)
             .spacing = fluid.parameters.spacing,
             .support = fluid.kernel.support,
             .weight = fluid.parameters.eos.rho0 * fluid.parameters.gravity,
-            .density = fluid.parameters.eos.rho0};
+            .density = fluid.parameters.eos.rho0,
+            .sound = fluid.parameters.eos.c0};
 }
 
 // Makes the faces from the particles in the order of their numbers, independent of the order of

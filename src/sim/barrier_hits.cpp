@@ -171,7 +171,7 @@ void book_hits(Simulation& sim, double dt)
 void share_hits(Simulation& sim)
 {
     Loads& loads = sim.loads;
-    std::vector<double> shares;
+    std::vector<double>& shares = sim.barrier->shares;
     const bool some_yield = find_shares(loads.of_hits, shares);
     for (std::size_t body = 0; body < shares.size(); ++body) {
         const auto [fx, fy, fz, tx, ty, tz, yield] = loads.of_hits.of(body);

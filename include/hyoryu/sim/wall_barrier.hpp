@@ -85,6 +85,7 @@ struct WallBarrier {
     std::vector<Seen> seen;
     std::vector<std::vector<SurfaceHold>> holds; // of one particle, by thread
     std::vector<std::vector<BarrierHit>> hits;   // of this step, by thread
+    std::vector<double> shares;                  // of its hits that each body takes
     std::vector<int> numbers;                    // of all solids
 };
 
