@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<StudiedRung, 5> still_water{
     {{10, 0.008609}, {14, 0.004296}, {20, 0.002484}, {28, 0.001908}, {40, 0.001774}}};
-constexpr std::array<StudiedRung, 3> bore{{{8, 0.08315}, {10, 0.03739}, {12.5, 0.01505}}};
+constexpr std::array<StudiedRung, 3> bore{{{8, 0.09068}, {10, 0.04452}, {12.5, 0.01791}}};
 constexpr std::array<StudiedRung, 5> timber{{{0.00125, 2.078e-7},
                                              {0.0025, 8.309e-7},
                                              {0.005, 3.319e-6},
@@ -51,7 +51,7 @@ constexpr std::array<std::string_view, 3> fluid_models{"gravity", "artificial_vi
 constexpr std::array<std::string_view, 2> timber_models{"gravity", "contact"};
 
 // The finest runs but one of the debris flood, against the finest.
-constexpr double impulse_in_water = 0.34;
+constexpr double impulse_in_water = 0.35;
 
 bool has_fluid(const StudyCoverage& coverage)
 {
