@@ -159,7 +159,10 @@ private:
         const double width = node(c).gap / fluid_.spacing;
         const auto [fluid, row] = beyond_rims(c, width);
         const double between = std::max(wet / std::max(outer, 1) - fluid, 0.0);
-        const double rows = between / (tables_.sums.row(widest(c)) - row);
+        // Under a face of one cell the corners beyond its rims count twice.
+        constexpr double least = 0.2; // part of the row within a face one spacing long and wide
+        const double full = tables_.sums.row(widest(c));
+        const double rows = between / std::max(full - row, least * full);
         inside(c) = {std::min(rows, 1.0) * std::clamp(2 * width - 1, 0.0, 1.0),
                      std::min(rows, 1.0) * tables_.sums.transmitted(width),
                      wet > 0 ? pressure / wet : 0,
