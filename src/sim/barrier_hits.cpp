@@ -147,14 +147,14 @@ void add_corrections(Simulation& sim, YieldedHits& yielded)
 
 // Adds the reactions of the hits to the sums of the loads, constant over the step. A particle
 // between two closing surfaces hits each several times; the body yields to each of them.
-void book_hits(Simulation& sim, double dt)
+void book_hits(Simulation& sim)
 {
     const WallBarrier& barrier = *sim.barrier;
     const double mass = sim.fluid->parameters.mass;
     for (const std::vector<BarrierHit>& hits : barrier.hits) {
         for (const BarrierHit& hit : hits) {
             const auto solid = at(hit.solid);
-            const Vec3 f = -hit.impulse / dt;
+            const Vec3 f = -hit.impulse / barrier.dt;
             if (solid < barrier.walls) {
                 sim.loads.of_walls.add(solid, {f.x(), f.y(), f.z()});
                 continue;

@@ -6,8 +6,7 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// Adds the reactions of the hits of a step of length dt to the sums of the loads, constant over
-/// the step.
-void book_hits(Simulation& sim, double dt);
+/// Adds the reactions of the hits of a step to the sums of the loads, constant over the step.
+void book_hits(Simulation& sim);
 
 } // namespace hyoryu

@@ -314,7 +314,7 @@ void hold_at_solids(Simulation& sim, double time, double dt)
     const BarrierStep step(fluid, barrier, dt);
     parallel_blocks(0, fluid.neighbours.fluid.tiles(),
                     [&](Index tile) { hold_tile(step, fluid, barrier, tile); });
-    book_hits(sim, dt);
+    book_hits(sim);
 }
 
 std::size_t hits_of_step(const WallBarrier& barrier)

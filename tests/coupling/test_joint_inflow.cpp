@@ -110,8 +110,8 @@ TEST(JointInflow, TheDropStaysBetweenZeroAndThePressure)
 
 // The front of a jump at the rim of a slot runs in at the speed of sound: after the time t its mean
 // has risen by the part c t / l. The model has an exponential of the same mean delay, 0.16 off, and
-// ends it sooner, by growth, if the pressure was not zero: 0.31 off at most,
-// and a little more with long steps.
+// ends it sooner, by growth, if the pressure was not zero: 0.31 off at most, and a little more with
+// long steps.
 TEST(JointInflow, AJumpSpreadsAsSoundInASlot)
 {
     std::mt19937 dice(9);

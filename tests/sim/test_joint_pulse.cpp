@@ -42,7 +42,9 @@ void compress(Simulation& sim, double pressure)
 }
 
 // All water of the tank is compressed for one step. The box is open at both sides: sound passes
-// half of its width. One part in five for the change of the pressures within the step.
+// half of its width. The exponential is that of the model (`JointInflow` holds it against a front);
+// what is tested is that the pressure of the joint follows it, with the width, the open rims and
+// the step of this scene. One part in five for the change of the pressures within the step.
 TEST(JointPulse, ActsOnThePartThatSoundReaches)
 {
     Dice dice(12);

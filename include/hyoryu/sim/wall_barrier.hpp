@@ -96,9 +96,9 @@ WallBarrier make_wall_barrier(const Scene& scene);
 ///
 /// The hits are computed for solids of infinite mass. A light body recoils from the particles that
 /// it stops: those on a body are to be scaled by s = min(1, 1 / (m sum K)), K the inverse effective
-/// mass of the body at each hit. The sum bounds their joint effect, so that together they never add
-/// energy: the change is m du^2 s (-1 + s (1 + m sum K) / 2) at most, which is not above zero for
-/// this s.
+/// mass of the body at each hit. The sum bounds their joint effect, so that those of one body, each
+/// on a particle that no other solid holds, never add energy: the change is m du^2 s (-1 + s (1 + m
+/// sum K) / 2) at most, which is not above zero for this s.
 void hold_at_solids(Simulation& sim, double time, double dt);
 
 /// Scales the hits on bodies, once their sums are those of all processes: adds them to the loads
