@@ -140,19 +140,15 @@ private:
 
 } // namespace
 
-void find_cover(JointTables& tables, const std::vector<Pose>& poses, int b, double spacing)
+void carry_on_support(JointTables& tables, const std::vector<Pose>& poses, int b, double spacing)
 {
     BodyJoints& body = tables.bodies[at(b)];
-    for (std::size_t f = 0; f < body.faces.faces.size(); ++f) {
-        if (body.joined[f] == 0) {
-            continue;
-        }
-        const JointFace& face = body.faces.faces[f];
+    for (const JointFace& face : body.faces.faces) {
         const Cover cover(tables, poses, b, face, spacing);
         for (int c = face.first; c < face.last; ++c) {
             JointNode& node = body.nodes[at(c)];
-            if (node.other != JointNode::none) {
-                node.share = cover.share(c);
+            if (node.other != JointNode::none && node.carried > 0) {
+                node.carried *= cover.share(c);
             }
         }
     }

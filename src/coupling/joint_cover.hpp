@@ -15,9 +15,9 @@
 
 namespace hyoryu {
 
-/// Sets the share of its area on which each joined cell of body b carries its pressure
-/// (`JointNode::share`), from where its support ends.
-void find_cover(JointTables& tables, const std::vector<Pose>& poses, int b, double spacing);
+/// Reduces what each joined cell of body b carries (`JointNode::carried`) to the share of its area
+/// on which the joint acts, from where its support ends. Dry joints cast no rays.
+void carry_on_support(JointTables& tables, const std::vector<Pose>& poses, int b, double spacing);
 
 /// For each cell of a face of body b the joined cell whose joint replaces the films of the
 /// particles behind it: itself, or the nearest one within the support of the kernel where nothing

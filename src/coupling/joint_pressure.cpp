@@ -372,7 +372,7 @@ private:
         const double pushes = trapped ? std::max(in.pushes, in.trapped) : in.pushes;
         const double joint = std::clamp(4 - 2 * n.gap / fluid_.spacing, 0.0, 1.0);
         n.film = 1 - joint * (1 - taken);
-        n.carried = n.share * joint * std::max(n.pressure - pushes * in.pressure, 0.0);
+        n.carried = joint * std::max(n.pressure - pushes * in.pressure, 0.0);
     }
 
     void relax()

@@ -380,8 +380,8 @@ void update_joints(Seepage& seepage, const Rigid& rigid, const std::vector<Pose>
                 find_speeds(body, rigid, poses, static_cast<int>(b), step.time);
                 ParticlePressure own = pressure;
                 own.first = at(rows.begin);
-                find_cover(tables, poses, static_cast<int>(b), own.spacing);
                 solve_pressure(tables, rigid, poses, static_cast<int>(b), own);
+                carry_on_support(tables, poses, static_cast<int>(b), own.spacing);
                 record_loads(body, seepage.loads[at(b)]);
             }
         },
