@@ -99,6 +99,9 @@ OtherHit first_other(const JointTables& tables, const std::vector<Pose>& poses, 
             continue;
         }
         const Pose& pose = poses[at(other)];
+        if (!comes_near(ray, part, pose.position, tables.solids[at(other)].reach)) {
+            continue;
+        }
         const Quat back = pose.orientation.conjugate();
         auto hit = enters(tables.solids[at(other)],
                           {back * (ray.origin - pose.position), back * ray.direction});
@@ -136,6 +139,9 @@ bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const
     BodyJoints& body = tables.bodies[at(b)];
     const Mat3 R = poses[at(b)].orientation.toRotationMatrix();
     bool any = false;
+    JointKind kind = JointKind::none; // of the joint between a face and another solid
+    int face = -1;
+    int other = JointNode::none;
     body.nodes.resize(body.faces.cells.size());
     for (std::size_t c = 0; c < body.nodes.size(); ++c) {
         const JointCell& cell = body.faces.cells[c];
@@ -145,7 +151,11 @@ bool find_gaps(JointTables& tables, const std::vector<Pose>& poses, int b, const
         const Facing found = facing(tables, poses, b, {node.place, node.normal});
         node.open = found.nothing;
         if (found.other != JointNode::none) {
-            const JointKind kind = joins(b, found.other, node.normal);
+            if (cell.face != face || found.other != other) {
+                kind = joins(b, found.other, node.normal);
+                face = cell.face;
+                other = found.other;
+            }
             node.other = kind == JointKind::none ? JointNode::none : found.other;
             node.sealed = kind == JointKind::sealed;
             node.gap = found.gap;

@@ -62,7 +62,7 @@ double overlap_of(const JointTables& tables);
 void find_near(JointTables& tables, const Rigid& rigid, const std::vector<Pose>& poses,
                double time);
 
-/// Where a ray from body b, in world axes, first enters another solid that is near; of triangles
+/// Where a ray from body b, in world axes, first enters another solid that is near, if it does so
 /// within a part of the ray.
 struct OtherHit {
     int other = JointNode::none;

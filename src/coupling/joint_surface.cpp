@@ -254,6 +254,13 @@ double distance(const RaySolid& solid, const Vec3& point)
     return least;
 }
 
+bool comes_near(const Ray& ray, const RayPart& part, const Vec3& point, double reach)
+{
+    const Vec3 way = point - ray.origin;
+    const double along = std::clamp(way.dot(ray.direction), part.from, part.to);
+    return (way - along * ray.direction).squaredNorm() <= sq(reach);
+}
+
 std::optional<RayHit> enters(const RaySolid& solid, const Ray& ray)
 {
     std::optional<RayHit> first;
@@ -322,7 +329,7 @@ std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const RayPart&
             keep(hit);
         }
     }
-    if (!wall.solid.pieces.empty()) {
+    if (!wall.solid.pieces.empty() && comes_near(ray, part, wall.position, wall.solid.reach)) {
         const Quat back = wall.orientation.conjugate();
         auto hit = enters(wall.solid, {back * (ray.origin - wall.position), back * ray.direction});
         if (hit) {

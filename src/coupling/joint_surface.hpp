@@ -69,6 +69,10 @@ bool holds(const ConvexPiece& piece, const Vec3& point, double margin);
 /// beside their edges too small.
 double distance(const RaySolid& solid, const Vec3& point);
 
+/// Whether a part of a ray comes as near to a point as `reach`: if not, it meets nothing of a solid
+/// that reaches no farther from there.
+bool comes_near(const Ray& ray, const RayPart& part, const Vec3& point, double reach);
+
 /// Where a ray in the axes of the solid first enters it, if it does.
 std::optional<RayHit> enters(const RaySolid& solid, const Ray& ray);
 
@@ -88,9 +92,8 @@ RayWall ray_wall(const Boundary& boundary, int dimensions);
 /// Whether anything of the wall lies within `reach` of a point.
 bool near_wall(const RayWall& wall, const Vec3& point, double reach);
 
-/// Where the ray first enters the wall. Triangles are tested only in the given part of the ray:
-/// unlike a solid they define no interval of the ray inside the wall. The part also bounds their
-/// number.
+/// Where the ray first enters the wall. Solids and triangles are tested only in the given part of
+/// the ray: triangles define no interval of the ray inside the wall, and most are far from it.
 std::optional<RayHit> enters(const RayWall& wall, const Ray& ray, const RayPart& part);
 
 } // namespace hyoryu
