@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hyoryu::test_plan_units {
 namespace {
@@ -90,6 +91,21 @@ TEST(PlanUnits, NumbersInOtherUnitsAreToldWithTheirKey)
     EXPECT_TRUE(tells(text_of({.fluid = "sound_speed = 1480"}), "fluid.sound_speed",
                       "times the largest expected speed", "omit it"));
     EXPECT_TRUE(tells(text_of({.spacing = 20}), "particles.spacing", "is larger than", "metres"));
+}
+
+// Kinetic energies of such bodies underflowed, and the run said that it had become unstable.
+TEST(PlanUnits, DensitiesBelowThoseOfGasesAreRefused)
+{
+    Dice dice(3);
+    for (int n = 0; n < 12; ++n) {
+        const double density = std::pow(10, dice.between(-320, -9.1));
+        EXPECT_TRUE(tells(text_of({.density = density}), "body[0].density",
+                          "expected at least 1e-09", "kg/m3"));
+        EXPECT_TRUE(tells(text_of({.water_density = density}), "fluid.density",
+                          "expected at least 1e-09", "kg/m3"));
+        const Numbers light{.density = std::pow(10, dice.between(-8.9, 0))};
+        EXPECT_FALSE(tells(text_of(light), "body[0].density", "expected at least", ""));
+    }
 }
 
 TEST(PlanUnits, SoundNumbersAreNotToldOf)

@@ -400,6 +400,7 @@ void check_plan(const Scene& scene, const PlanFacts& facts, Plan& plan)
     check_overlaps(scene, errors);
     check_periods(scene, errors);
     check_step(scene, plan, errors);
+    check_densities(scene, errors);
     check_sound(scene, facts, plan, errors);
     check_outputs(scene, plan, errors);
     check_gauges(scene, facts, plan, errors);

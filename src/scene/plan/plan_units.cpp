@@ -17,6 +17,7 @@ namespace {
 
 // Foam has 10 kg/m3; less than half of that is a ratio. Osmium has 22,590 kg/m3.
 constexpr double least_density = 5, largest_density = 23'000;
+constexpr double no_density = 1e-9;                     // a billionth of air
 constexpr double largest_friction = 2;                  // rubber on concrete has 1
 constexpr double largest_sound = 100, usual_sound = 10; // in speeds of the flow
 
@@ -38,15 +39,16 @@ void look_at_density(const Scene& scene, double density, const Place& place, con
     }
 }
 
-void look_at_densities(const Scene& scene, Plan& plan)
+// Calls f(density, place, key) with that of the fluid and of each body; copies count once.
+void for_each_density(const Scene& scene, const auto& f)
 {
     if (scene.fluid) {
-        look_at_density(scene, scene.fluid->density, {}, "fluid.density", plan);
+        f(scene.fluid->density, Place{}, std::string("fluid.density"));
     }
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const BodySettings& body = scene.bodies[b];
         if (b == 0 || body.place.line != scene.bodies[b - 1].place.line) {
-            look_at_density(scene, body.density, body.place, table_of(body, b) + ".density", plan);
+            f(body.density, body.place, table_of(body, b) + ".density");
         }
     }
 }
@@ -98,9 +100,24 @@ void look_at_spacing(const Scene& scene, Plan& plan)
 
 } // namespace
 
+void check_densities(const Scene& scene, std::vector<Diagnostic>& errors)
+{
+    for_each_density(scene, [&](double density, const Place& place, const std::string& key) {
+        if (density < no_density) {
+            errors.push_back(diagnostic_without_line(
+                scene, place, key,
+                fmt::format("{:.4g} kg/m3 is out of range, expected at least {:.0e} kg/m3", density,
+                            no_density),
+                "densities are in kg/m3, water has 1000; a `mass` is in kg"));
+        }
+    });
+}
+
 void warn_about_units(const Scene& scene, Plan& plan)
 {
-    look_at_densities(scene, plan);
+    for_each_density(scene, [&](double density, const Place& place, const std::string& key) {
+        look_at_density(scene, density, place, key, plan);
+    });
     look_at_friction(scene, plan);
     look_at_sound(scene, plan);
     look_at_spacing(scene, plan);
