@@ -6,6 +6,7 @@
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 #include <vector>
 
@@ -26,39 +27,30 @@ void for_each_particle(const WallBarrier& barrier, const auto& f)
     }
 }
 
-// Twice the energy of motion that a force [N] and a torque [N m] for a time [s] would give to a
-// body at rest [J].
-double twice_energy(const Body& body, const Mat3& rotation, const std::array<double, 7>& hits,
-                    double dt)
+// Inverse effective mass of a body at the place of a hit: its change of velocity there, along the
+// impulse, per unit of impulse [1/kg].
+double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit)
 {
-    const auto [fx, fy, fz, tx, ty, tz, spent] = hits;
-    const Vec3 p = dt * Vec3(fx, fy, fz);
-    double energy = 0;
+    const Vec3& n = hit.hold.normal;
+    double yield = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        energy += body.locks[at(axis)] ? 0 : sq(p[axis]) / body.mass.mass;
+        yield += body.locks[at(axis)] ? 0 : sq(n[axis]) / body.mass.mass;
     }
     if (body.locks[3] && body.locks[4] && body.locks[5]) {
-        return energy;
+        return yield;
     }
     // With a locked axis the body turns by less; the overestimate only makes its share smaller.
-    const Vec3 spin = dt * (rotation.transpose() * Vec3(tx, ty, tz));
-    return energy + spin.dot(body.mass.inertia.inverse() * spin);
+    const Vec3 turn = place.rotation.transpose() * (hit.place - place.position).cross(n);
+    return yield + turn.dot(body.mass.inertia.inverse() * turn);
 }
 
 // The share of its hits that each body takes; true if some body does not take all.
-bool find_shares(const Simulation& sim, std::vector<double>& shares)
+bool find_shares(const OwnerSums<8>& hits, std::vector<double>& shares)
 {
-    const OwnerSums<7>& hits = sim.loads.of_hits;
-    const WallBarrier& barrier = *sim.barrier;
     shares.assign(hits.owners(), 1);
     for (std::size_t b = 0; b < shares.size(); ++b) {
-        const double spent = hits.of(b).back();
-        if (!(spent > 0)) {
-            continue;
-        }
-        const Mat3& rotation = barrier.places[barrier.walls + b].rotation;
-        const double gained = twice_energy(sim.rigid.bodies[b], rotation, hits.of(b), barrier.dt);
-        shares[b] = gained > spent ? spent / gained : 1;
+        const auto [fx, fy, fz, tx, ty, tz, spent, speed] = hits.of(b);
+        shares[b] = sq(speed) > spent ? spent / sq(speed) : 1;
     }
     return std::ranges::any_of(shares, [](double share) { return share < 1; });
 }
@@ -198,8 +190,12 @@ void book_hits(Simulation& sim)
                 const Vec3 t = (hit.place - barrier.places[solid].position).cross(f);
                 const double spent = mass * hold.given * std::min(hold.given, hold.largest) *
                                      (hold.given / by_bodies);
-                sim.loads.of_hits.add(solid - barrier.walls,
-                                      {f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), spent});
+                const std::size_t body = solid - barrier.walls;
+                const double speed =
+                    mass * hold.given *
+                    std::sqrt(yield_of(sim.rigid.bodies[body], barrier.places[solid], hit));
+                sim.loads.of_hits.add(body,
+                                      {f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), spent, speed});
             }
         }
     });
@@ -209,9 +205,9 @@ void share_hits(Simulation& sim)
 {
     Loads& loads = sim.loads;
     std::vector<double>& shares = sim.barrier->shares;
-    const bool some_yield = find_shares(sim, shares);
+    const bool some_yield = find_shares(loads.of_hits, shares);
     for (std::size_t body = 0; body < shares.size(); ++body) {
-        const auto [fx, fy, fz, tx, ty, tz, spent] = loads.of_hits.of(body);
+        const auto [fx, fy, fz, tx, ty, tz, spent, speed] = loads.of_hits.of(body);
         loads.bodies[body].force += shares[body] * Vec3(fx, fy, fz);
         loads.bodies[body].torque += shares[body] * Vec3(tx, ty, tz);
     }

@@ -24,7 +24,8 @@ void begin_loads(Simulation& sim)
     }
     collect_wall_forces(*sim.fluid, sim.scene.walls.size(), loads.of_walls);
     collect_junctions(sim);
-    loads.of_hits.begin(sim.barrier ? sim.rigid.bodies.size() : 0, {f, f, f, t, t, t, t});
+    loads.of_hits.begin(sim.barrier ? sim.rigid.bodies.size() : 0,
+                        {f, f, f, t, t, t, t, units.root_work});
     if (has_seepage(sim)) {
         return_film_cuts(*sim.fluid, sim.poses, loads.of_bodies, loads.of_walls);
     }

@@ -14,7 +14,7 @@ namespace {
 
 // Distances from the surface in spacings: where it stops approaching particles, and up to where
 // particles are examined.
-constexpr double held = 0.25;
+constexpr double held = 0.125;
 constexpr double looked_at = 2;
 // Displacement of particles and solids for which the lists of near solids hold [spacings].
 constexpr double slack = 1;

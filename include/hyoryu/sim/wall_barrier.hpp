@@ -4,7 +4,7 @@
 // Solid particles keep the fluid out by pressure, which a crowded initial row, a plate thinner than
 // a spacing or a violent impact can overcome. After the kick of a step, therefore, the velocity u
 // of a particle along the normal of a surface, relative to the solid there, may not be less than
-//     u*(d) = -(d - dp/4) / dt             at a distance d of dp/4 or more,
+//     u*(d) = -(d - dp/8) / dt             at a distance d of dp/8 or more,
 //             0                            nearer than that,
 //             min(-d / (20 dt), 0.02 c0)   inside, where d < 0,
 // and the particle receives the impulse J = m (u* - u) n, the solid -J. A stopped particle has no
@@ -14,10 +14,12 @@
 // impulses, none below zero, that satisfy all, by four rounds of projected Gauss-Seidel. A body
 // takes the share s = min(1, A / B) of its hits: A = sum J^2 / (m a) is what they take from the
 // particles in its frame of reference, a the whole impulse over the largest of one round, at least
-// one, and bodies on both sides of a particle divide it; B = P.P/M + L.I^-1 L is twice the energy
-// that their sums would give to the body at rest. So they never turn its motion around; the
-// particles keep the rest. What other solids have answered to that rest is then found anew by
-// further rounds. Ours; the impulse is that of a unilateral constraint (Moreau 1988).
+// one, and bodies on both sides of a particle divide it; B = (sum J sqrt(K))^2, with K the inverse
+// effective mass of the body at the hit, bounds twice the energy that they would give to the body
+// at rest. So they never turn its motion around; the particles keep the rest. What other solids
+// have answered to that rest is then found anew by further rounds. Opposite hits on a light body
+// do not cancel in B: if it took all of both, each side would press it as if it were heavy. Ours;
+// the impulse is that of a unilateral constraint (Moreau 1988).
 #pragma once
 
 #include "hyoryu/scene/solid_surface.hpp"
