@@ -115,7 +115,7 @@ Vec3 hold_and_push(Simulation& sim)
 // A particle between a wall and a light body takes an impulse of both in several rounds. If the
 // body takes a share of its own, what the wall has answered to the rest must go, too. With the
 // whole answer the energy grew in a third of these draws, up to 23 times. Known to fail: it grows
-// in 13 of 8,000 other draws, by 30 % at most, since bodies do not know of each other's hits and
+// in 7 of 8,000 other draws, by 6 % at most, since bodies do not know of each other's hits and
 // several rounds need not end.
 TEST(BarrierPinch, AddsNoEnergyAndNoMomentum)
 {

@@ -252,6 +252,34 @@ TEST(WallBarrier, ALightBodyTakesItsShareOfWhatItStops)
     }
 }
 
+// A light body between two particles that hit it at the same speed, and does not move: m sum K is
+// that of both. If their impulses cancelled, it would press both as a heavy body does.
+TEST(WallBarrier, OppositeHitsOnALightBodyDoNotCancel)
+{
+    for (const double part : {0.25, 1.0, 1.5, 3.0}) {
+        const double m = 1000 * spacing * spacing;
+        Simulation sim =
+            make(jet(2, 0, 0.5, false) +
+                 fmt::format("[[body]]\nname = \"it\"\nshape = \"box\"\nsize = [0.4, 1, 0.4]\n"
+                             "density = {}\nposition = [0.2, 0, 0]\n",
+                             part * m / 0.16));
+        Store& particles = sim.fluid->particles.fluid;
+        const auto x = particles[field::position];
+        const auto v = particles[field::velocity];
+        x[0] = {-0.1 * spacing, 0, 0};
+        v[0] = {3, 0, 2};
+        x[1] = {0.4 + 0.1 * spacing, 0, 0};
+        v[1] = {-3, 0, 1};
+        sim.barrier.reset();
+        sim.barrier = make_wall_barrier(sim.scene);
+        hold(sim, 1e-4);
+        const double share = std::min(1.0, part * m / sim.fluid->parameters.mass / 2);
+        EXPECT_LT((v[0] - Vec3(3 - 3 * share, 0, 2)).norm(), 1e-9) << part;
+        EXPECT_LT((v[1] - Vec3(3 * share - 3, 0, 1)).norm(), 1e-9) << part;
+        EXPECT_LT(sim.loads.bodies[0].force.norm(), 1e-6) << part;
+    }
+}
+
 // In the joint of two solids that stand no velocity leads out: the particle stays, and they are not
 // pressed apart. What flows there is stopped.
 TEST(WallBarrier, DoesNotPressSolidsApart)

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Heavy bodies that fall on light ones with water below them, drawn at random.
+#include "hyoryu/sim/wall_barrier.hpp"
+
+#include "dice.hpp"
+#include "runs.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace hyoryu::test_crushed_bodies {
+namespace {
+
+// Three spacings of water in a basin.
+std::string puddle()
+{
+    return "[time]\nend = 10\n[particles]\nspacing = 0.05\n[contact]\nrestitution = 0.2\n"
+           "friction = 0.3\n[fluid]\n[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\n"
+           "max = [0.6, 0.4, 0.15]\n[[wall]]\nshape = \"basin\"\nmin = [0, 0, 0]\n"
+           "max = [0.6, 0.4, 0.8]\nopen = [\"+z\"]\n";
+}
+
+std::string box(const Vec3& place, const Vec3& size, double density, double speed)
+{
+    return fmt::format("[[body]]\nshape = \"box\"\nposition = [{}, {}, {}]\nsize = [{}, {}, {}]\n"
+                       "density = {}\nvelocity = [0, 0, {}]\n",
+                       place.x(), place.y(), place.z(), size.x(), size.y(), size.z(), density,
+                       -speed);
+}
+
+std::string ball(const Vec3& place, double radius, double density, double speed)
+{
+    return fmt::format("[[body]]\nshape = \"sphere\"\nposition = [{}, {}, {}]\nradius = {}\n"
+                       "density = {}\nvelocity = [0, 0, {}]\n",
+                       place.x(), place.y(), place.z(), radius, density, -speed);
+}
+
+// Water between a plate and the ground has to go sideways, or to hold the plate up: when the least
+// approach of a particle was a quarter of a spacing to each, some stayed below it, inside of it.
+TEST(CrushedBodies, LightPlatesUnderHeavyBallsKeepNoWaterInside)
+{
+    Dice dice(4);
+    for (int n = 0; n < number_from("HYORYU_DRAWS", 6); ++n) {
+        const std::string text =
+            puddle() +
+            box({0.3, 0.2, 0.22}, {0.3, 0.2, dice.between(0.07, 0.12)}, dice.between(10, 60), 0) +
+            ball({dice.between(0.28, 0.32), 0.2, 0.42}, 0.1, dice.between(3000, 7000),
+                 dice.between(1.5, 3));
+        SCOPED_TRACE(text);
+        Simulation sim = make(text);
+        while (sim.clock.time < 0.25) {
+            step_on(sim);
+        }
+        EXPECT_EQ(particles_in_solids(sim), 0);
+    }
+}
+
+} // namespace
+} // namespace hyoryu::test_crushed_bodies
