@@ -147,8 +147,8 @@ void carry_on_support(JointTables& tables, const std::vector<Pose>& poses, int b
         const Cover cover(tables, poses, b, face, spacing);
         for (int c = face.first; c < face.last; ++c) {
             JointNode& node = body.nodes[at(c)];
-            if (node.other != JointNode::none && node.carried > 0) {
-                node.carried *= cover.share(c);
+            if (node.other != JointNode::none && node.weight * node.lacking > 0) {
+                node.carried = cover.share(c) * node.weight * node.lacking;
             }
         }
     }

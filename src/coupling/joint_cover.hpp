@@ -15,8 +15,9 @@
 
 namespace hyoryu {
 
-/// Reduces what each joined cell of body b carries (`JointNode::carried`) to the share of its area
-/// on which the joint acts, from where its support ends. Dry joints cast no rays.
+/// Sets what each joined cell of body b carries (`JointNode::carried`): what the particles lack, on
+/// the share of its area on which the joint acts, from where its support ends. Dry joints cast no
+/// rays.
 void carry_on_support(JointTables& tables, const std::vector<Pose>& poses, int b, double spacing);
 
 /// For each cell of a face of body b the joined cell whose joint replaces the films of the

@@ -23,6 +23,8 @@ struct JointNode {
     double mass = 0;      // that parts from the other side: reduced of two bodies [kg]
     double pressure = 0;  // of the seepage [Pa]
     double film = 1;      // share of its film forces that a particle behind the cell keeps
+    double weight = 0;    // of the joint against the particles in it, 0 where the gap is wide
+    double lacking = 0;   // pressure that the particles do not transmit [Pa]
     double carried = 0;   // pressure that the joint adds to that of the particles [Pa]
     Vec3 place{0, 0, 0};  // of its centre [m]
     Vec3 normal{0, 0, 1}; // of the face, outward

@@ -370,9 +370,9 @@ private:
         const bool trapped = in.trapped * in.pressure > n.pressure && sheltered(c);
         const double taken = trapped ? std::max(in.taken, in.trapped) : in.taken;
         const double pushes = trapped ? std::max(in.pushes, in.trapped) : in.pushes;
-        const double joint = std::clamp(4 - 2 * n.gap / fluid_.spacing, 0.0, 1.0);
-        n.film = 1 - joint * (1 - taken);
-        n.carried = joint * std::max(n.pressure - pushes * in.pressure, 0.0);
+        n.weight = std::clamp(4 - 2 * n.gap / fluid_.spacing, 0.0, 1.0);
+        n.film = 1 - n.weight * (1 - taken);
+        n.lacking = std::max(n.pressure - pushes * in.pressure, 0.0);
     }
 
     void relax()

@@ -6,32 +6,17 @@
 #include "hyoryu/sim/simulation.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <ranges>
 #include <vector>
 
 namespace hyoryu {
 
 namespace {
 
-// Calls f with the hits of each particle.
-void for_each_particle(const WallBarrier& barrier, const auto& f)
-{
-    for (const std::vector<BarrierHit>& hits : barrier.hits) {
-        for (auto first = hits.begin(); first != hits.end();) {
-            const auto other = [&](const BarrierHit& hit) { return hit.row != first->row; };
-            const auto last = std::find_if(first, hits.end(), other);
-            f(std::span<const BarrierHit>(first, last));
-            first = last;
-        }
-    }
-}
-
 // Inverse effective mass of a body at the place of a hit: its change of velocity there, along the
 // impulse, per unit of impulse [1/kg].
 double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit)
 {
-    const Vec3& n = hit.hold.normal;
+    const Vec3 n = hit.impulse.normalized();
     double yield = 0;
     for (int axis = 0; axis < 3; ++axis) {
         yield += body.locks[at(axis)] ? 0 : sq(n[axis]) / body.mass.mass;
@@ -45,12 +30,12 @@ double yield_of(const Body& body, const SolidPlace& place, const BarrierHit& hit
 }
 
 // The share of its hits that each body takes; true if some body does not take all.
-bool find_shares(const OwnerSums<8>& hits, std::vector<double>& shares)
+bool find_shares(const OwnerSums<7>& hits, std::vector<double>& shares)
 {
-    shares.assign(hits.owners(), 1);
-    for (std::size_t b = 0; b < shares.size(); ++b) {
-        const auto [fx, fy, fz, tx, ty, tz, spent, speed] = hits.of(b);
-        shares[b] = sq(speed) > spent ? spent / sq(speed) : 1;
+    shares.resize(hits.owners());
+    for (std::size_t body = 0; body < shares.size(); ++body) {
+        const double yield = hits.of(body).back();
+        shares[body] = yield > 1 ? 1 / yield : 1;
     }
     return std::ranges::any_of(shares, [](double share) { return share < 1; });
 }
@@ -68,29 +53,25 @@ public:
         bodies.begin(shares.size(), {f, f, f, t, t, t});
     }
 
-    // Returns to a particle what the bodies that hit it do not take. Other solids have answered to
-    // that: now they give less, none below zero, so that the particle leaves none of them faster
-    // than it should; walls give more where it would pass them.
+    // Returns to a particle what the bodies that hit it do not take. Solids on both sides of it
+    // have answered each other: now they give less, none below zero, so that the particle leaves
+    // none of them faster than it should; walls give more where it would pass them.
     void yield(std::span<const BarrierHit> hits)
     {
+        const double mass = fluid_.parameters.mass;
         Vec3& v = fluid_.particles.fluid[field::velocity][at(hits.front().row)];
         const Vec3 held = v;
         answers_.clear();
         for (const BarrierHit& hit : hits) {
-            const bool wall = is_wall(hit);
-            const double share = wall ? 1 : shares_[body_of(hit)];
-            SurfaceHold& answer = answers_.emplace_back(hit.hold);
+            const double share = is_wall(hit) ? 1 : shares_[body_of(hit)];
             if (share < 1) {
-                v -= (1 - share) * answer.given * answer.normal;
+                v -= (1 - share) / mass * hit.impulse;
             }
-            answer.given *= share;
-            answer.most = wall ? infinity : answer.given;
+            const double size = hit.impulse.norm();
+            answers_.push_back({hit.impulse / size, share * size, share * size});
         }
         if (hits.size() > 1 && v != held) {
-            settle(v, answers_);
-            for (std::size_t k = 0; k < hits.size(); ++k) {
-                correct(hits[k], answers_[k]);
-            }
+            answer_anew(hits, v);
         }
     }
 
@@ -99,27 +80,50 @@ public:
     OwnerSums<6> bodies;
 
 private:
-    bool is_wall(const BarrierHit& hit) const { return at(hit.hold.solid) < barrier_.walls; }
-    std::size_t body_of(const BarrierHit& hit) const { return at(hit.hold.solid) - barrier_.walls; }
+    // The impulse of a solid on the particle.
+    struct Answer {
+        Vec3 normal;
+        double taken; // that the solid has taken [N s]
+        double now;   // that it takes [N s]
+    };
 
-    // Of a wall from what it has taken, of a body from its share of that.
-    void correct(const BarrierHit& hit, const SurfaceHold& answer)
+    bool is_wall(const BarrierHit& hit) const { return at(hit.solid) < barrier_.walls; }
+    std::size_t body_of(const BarrierHit& hit) const { return at(hit.solid) - barrier_.walls; }
+
+    void answer_anew(std::span<const BarrierHit> hits, Vec3& v)
     {
-        const double taken = is_wall(hit) ? hit.hold.given : answer.most;
-        const Vec3 f =
-            fluid_.parameters.mass * (taken - answer.given) / barrier_.dt * answer.normal;
+        const double mass = fluid_.parameters.mass;
+        constexpr int rounds = 4;
+        for (int round = 0; round < rounds; ++round) {
+            for (std::size_t k = hits.size(); k-- > 0;) { // walls last
+                Answer& a = answers_[k];
+                const double lacking = mass * (hits[k].wanted - v.dot(a.normal));
+                const double most = is_wall(hits[k]) ? infinity : a.taken;
+                const double now = std::clamp(a.now + lacking, 0.0, most);
+                v += (now - a.now) / mass * a.normal;
+                a.now = now;
+            }
+        }
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+            correct(hits[k], answers_[k]);
+        }
+    }
+
+    void correct(const BarrierHit& hit, const Answer& answer)
+    {
+        const Vec3 f = (answer.taken - answer.now) / barrier_.dt * answer.normal;
         if (is_wall(hit)) {
-            walls.add(at(answer.solid), {f.x(), f.y(), f.z()});
+            walls.add(at(hit.solid), {f.x(), f.y(), f.z()});
             return;
         }
-        const Vec3 t = (hit.place - barrier_.places[at(answer.solid)].position).cross(f);
+        const Vec3 t = (hit.place - barrier_.places[at(hit.solid)].position).cross(f);
         bodies.add(body_of(hit), {f.x(), f.y(), f.z(), t.x(), t.y(), t.z()});
     }
 
     Fluid& fluid_;
     const WallBarrier& barrier_;
     std::span<const double> shares_;
-    std::vector<SurfaceHold> answers_; // to one particle
+    std::vector<Answer> answers_; // of one particle
 };
 
 void add_corrections(Simulation& sim, YieldedHits& yielded)
@@ -141,64 +145,27 @@ void add_corrections(Simulation& sim, YieldedHits& yielded)
 
 } // namespace
 
-double settle(Vec3& velocity, std::span<SurfaceHold> holds)
-{
-    constexpr int rounds = 4;
-    constexpr double settled = 1e-12; // of the first change: rounding
-    double first = 0;
-    double last = 0;
-    for (int round = 0; round < rounds; ++round) {
-        last = 0;
-        for (SurfaceHold& h : std::views::reverse(holds)) { // walls last
-            const double lacking = h.wanted - velocity.dot(h.normal);
-            // None where a velocity is not a number: its particle is the cause, no body.
-            const double given = lacking > -h.given ? std::min(h.given + lacking, h.most) : 0;
-            if (given != h.given) {
-                velocity += (given - h.given) * h.normal;
-                last = std::max(last, std::abs(given - h.given));
-                h.largest = std::max(h.largest, given - h.given);
-                h.given = given;
-            }
-        }
-        first = round == 0 ? last : first;
-        if (last <= settled * first) {
-            return 0;
-        }
-    }
-    return last / first;
-}
-
 // Adds the reactions of the hits to the sums of the loads, constant over the step. A particle
-// between two closing surfaces hits each several times; the body yields to each of them. Bodies on
-// both sides of it share what stops it.
+// between two closing surfaces hits each several times; the body yields to each of them.
 void book_hits(Simulation& sim)
 {
     const WallBarrier& barrier = *sim.barrier;
     const double mass = sim.fluid->parameters.mass;
-    for_each_particle(barrier, [&](std::span<const BarrierHit> hits) {
-        double by_bodies = 0;
+    for (const std::vector<BarrierHit>& hits : barrier.hits) {
         for (const BarrierHit& hit : hits) {
-            by_bodies += at(hit.hold.solid) < barrier.walls ? 0 : hit.hold.given;
-        }
-        for (const BarrierHit& hit : hits) {
-            const SurfaceHold& hold = hit.hold;
-            const auto solid = at(hold.solid);
-            const Vec3 f = -mass * hold.given / barrier.dt * hold.normal;
+            const auto solid = at(hit.solid);
+            const Vec3 f = -hit.impulse / barrier.dt;
             if (solid < barrier.walls) {
                 sim.loads.of_walls.add(solid, {f.x(), f.y(), f.z()});
-            } else if (hold.given > 0) {
-                const Vec3 t = (hit.place - barrier.places[solid].position).cross(f);
-                const double spent = mass * hold.given * std::min(hold.given, hold.largest) *
-                                     (hold.given / by_bodies);
-                const std::size_t body = solid - barrier.walls;
-                const double speed =
-                    mass * hold.given *
-                    std::sqrt(yield_of(sim.rigid.bodies[body], barrier.places[solid], hit));
-                sim.loads.of_hits.add(body,
-                                      {f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), spent, speed});
+                continue;
             }
+            const std::size_t body = solid - barrier.walls;
+            const SolidPlace& place = barrier.places[solid];
+            const Vec3 t = (hit.place - place.position).cross(f);
+            const double yield = hit.repeats * mass * yield_of(sim.rigid.bodies[body], place, hit);
+            sim.loads.of_hits.add(body, {f.x(), f.y(), f.z(), t.x(), t.y(), t.z(), yield});
         }
-    });
+    }
 }
 
 void share_hits(Simulation& sim)
@@ -207,7 +174,7 @@ void share_hits(Simulation& sim)
     std::vector<double>& shares = sim.barrier->shares;
     const bool some_yield = find_shares(loads.of_hits, shares);
     for (std::size_t body = 0; body < shares.size(); ++body) {
-        const auto [fx, fy, fz, tx, ty, tz, spent, speed] = loads.of_hits.of(body);
+        const auto [fx, fy, fz, tx, ty, tz, yield] = loads.of_hits.of(body);
         loads.bodies[body].force += shares[body] * Vec3(fx, fy, fz);
         loads.bodies[body].torque += shares[body] * Vec3(tx, ty, tz);
     }
@@ -215,7 +182,14 @@ void share_hits(Simulation& sim)
         return;
     }
     YieldedHits yielded(sim, shares);
-    for_each_particle(*sim.barrier, [&](auto hits) { yielded.yield(hits); });
+    for (const std::vector<BarrierHit>& hits : sim.barrier->hits) {
+        for (auto first = hits.begin(); first != hits.end();) {
+            const auto other = [&](const BarrierHit& hit) { return hit.row != first->row; };
+            const auto last = std::find_if(first, hits.end(), other);
+            yielded.yield({first, last});
+            first = last;
+        }
+    }
     add_corrections(sim, yielded);
 }
 

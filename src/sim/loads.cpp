@@ -25,7 +25,7 @@ void begin_loads(Simulation& sim)
     collect_wall_forces(*sim.fluid, sim.scene.walls.size(), loads.of_walls);
     collect_junctions(sim);
     loads.of_hits.begin(sim.barrier ? sim.rigid.bodies.size() : 0,
-                        {f, f, f, t, t, t, t, units.root_work});
+                        {f, f, f, t, t, t, fixed_unit(1)});
     if (has_seepage(sim)) {
         return_film_cuts(*sim.fluid, sim.poses, loads.of_bodies, loads.of_walls);
     }

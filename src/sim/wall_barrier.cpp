@@ -12,9 +12,10 @@ namespace hyoryu {
 
 namespace {
 
-// Distances from the surface in spacings: where it stops approaching particles, and up to where
-// particles are examined.
-constexpr double held = 0.125;
+// Distances from the surface in spacings: where it stops approaching particles, how near they may
+// come within a step, and up to where particles are examined.
+constexpr double held = 0.25;
+constexpr double approached = 0.125;
 constexpr double looked_at = 2;
 // Displacement of particles and solids for which the lists of near solids hold [spacings].
 constexpr double slack = 1;
@@ -124,7 +125,8 @@ public:
     {
         holds.clear();
         double clearance = far_;
-        const double limit = held * barrier_.spacing + dt_ * (v.norm() + fastest_);
+        const double limit = std::max(held * barrier_.spacing,
+                                      approached * barrier_.spacing + dt_ * (v.norm() + fastest_));
         for_images(fluid_, x, far_, [&](const Vec3& image) {
             for (const int solid : solids) {
                 const auto k = at(solid);
@@ -132,13 +134,9 @@ public:
                 const NearestPlace nearest = nearest_of(barrier_, place, k, image, far_);
                 clearance = std::min(clearance, nearest.distance);
                 if (nearest.distance < limit) {
-                    const Vec3 n = place.rotation * nearest.normal;
-                    const double surface =
-                        (place.velocity + place.spin.cross(image - place.position)).dot(n);
-                    holds.push_back({.solid = solid,
-                                     .normal = n,
-                                     .surface = surface,
-                                     .wanted = surface + least_speed(nearest.distance)});
+                    holds.push_back({solid, place.rotation * nearest.normal,
+                                     place.velocity + place.spin.cross(image - place.position),
+                                     least_speed(nearest.distance), Vec3(0, 0, 0)});
                 }
             }
         });
@@ -152,7 +150,9 @@ private:
             return std::min(-distance / (steps_to_surface * dt_),
                             fastest_way_out * fluid_.parameters.eos.c0);
         }
-        return std::min((held * barrier_.spacing - distance) / dt_, 0.0);
+        return distance < held * barrier_.spacing
+                   ? 0
+                   : (approached * barrier_.spacing - distance) / dt_;
     }
 
     const Fluid& fluid_;
@@ -162,23 +162,50 @@ private:
     double fastest_ = 0; // of the points of solids [m/s]
 };
 
+// Changes a velocity, in a few rounds, until it satisfies every surface. Returns the change in the
+// last round relative to that in the first.
+double settle(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
+{
+    constexpr int rounds = 4;
+    double first = 0;
+    double last = 0;
+    for (int round = 0; round < rounds; ++round) {
+        last = 0;
+        for (SurfaceHold& h : holds) {
+            const double lacking = h.least - (v - h.velocity).dot(h.normal);
+            if (lacking > 0) {
+                v += lacking * h.normal;
+                h.impulse += mass * lacking * h.normal;
+                h.first = h.sum > 0 ? h.first : lacking;
+                h.sum += lacking;
+                last = std::max(last, lacking);
+            }
+        }
+        first = round == 0 ? last : first;
+        if (last == 0) {
+            return 0;
+        }
+    }
+    return last / first;
+}
+
 // Between solids that touch or close in on a particle no velocity satisfies all surfaces: every
 // round would change it by as much again. There the surfaces only stop the approach of the
 // particle.
-void hold(Vec3& v, std::vector<SurfaceHold>& holds)
+void hold(double mass, Vec3& v, std::vector<SurfaceHold>& holds)
 {
     constexpr double hopeless = 0.5; // surfaces at 45 degrees leave less
     const Vec3 before = v;
-    if (settle(v, holds) <= hopeless) {
+    if (settle(mass, v, holds) <= hopeless) {
         return;
     }
     v = before;
     for (SurfaceHold& h : holds) {
-        h.given = 0;
-        h.largest = 0;
-        h.wanted = std::min(h.wanted, h.surface);
+        h.impulse.setZero();
+        h.sum = 0;
+        h.least = std::min(h.least, 0.0);
     }
-    settle(v, holds);
+    settle(mass, v, holds);
 }
 
 void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index i,
@@ -189,11 +216,12 @@ void hold_row(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Index
     std::vector<SurfaceHold>& holds = barrier.holds[at(worker())];
     const double clearance = step.look(x, v, solids, holds);
     seen = seen_at(r, clearance + barrier.way, barrier.spacing);
-    hold(v, holds);
-    // All of them, since what a body does not take may bring the particle to others.
-    if (std::ranges::any_of(holds, [](const SurfaceHold& h) { return h.given > 0; })) {
-        for (const SurfaceHold& h : holds) {
-            barrier.hits[at(worker())].push_back({i, x, h});
+    hold(fluid.parameters.mass, v, holds);
+    for (const SurfaceHold& h : holds) {
+        if (!h.impulse.isZero(0)) {
+            const double wanted = h.least + h.velocity.dot(h.normal);
+            barrier.hits[at(worker())].push_back(
+                {i, h.solid, x, h.impulse, h.sum / h.first, wanted});
         }
     }
 }
@@ -293,8 +321,7 @@ std::size_t hits_of_step(const WallBarrier& barrier)
 {
     std::size_t count = 0;
     for (const std::vector<BarrierHit>& hits : barrier.hits) {
-        const auto gives = [](const BarrierHit& hit) { return hit.hold.given > 0; };
-        count += static_cast<std::size_t>(std::ranges::count_if(hits, gives));
+        count += hits.size();
     }
     return count;
 }

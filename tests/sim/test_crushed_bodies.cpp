@@ -35,8 +35,9 @@ std::string ball(const Vec3& place, double radius, double density, double speed)
                        place.x(), place.y(), place.z(), radius, density, -speed);
 }
 
-// Water between a plate and the ground has to go sideways, or to hold the plate up: when the least
-// approach of a particle was a quarter of a spacing to each, some stayed below it, inside of it.
+// Water between a plate and the ground has to go sideways, or to hold the plate up. In a version of
+// the last barrier that held particles by the least impulses, walls last, some stayed on the ground
+// a quarter of a spacing inside of the plate.
 TEST(CrushedBodies, LightPlatesUnderHeavyBallsKeepNoWaterInside)
 {
     Dice dice(4);

@@ -199,7 +199,7 @@ TEST(WallBarrier, GivesTheImpulseThatTheSolidFeels)
     const double m = sim.fluid->parameters.mass;
     const auto x = particles[field::position];
     const auto v = particles[field::velocity];
-    x[0] = {-0.1 * spacing, 0, 0.1};
+    x[0] = {-0.2 * spacing, 0, 0.1};
     v[0] = {3, 0, 2};
     x[1] = {0.1 * spacing, 0, -0.05};
     v[1] = {0, 0, 1};
@@ -236,9 +236,9 @@ TEST(WallBarrier, ALightBodyTakesItsShareOfWhatItStops)
         const double share = std::min(1.0, part * m / mass);
         const auto x = particles[field::position];
         const auto v = particles[field::velocity];
-        x[0] = {-0.1 * spacing, 0, 0};
+        x[0] = {-0.2 * spacing, 0, 0};
         v[0] = {3, 0, 2};
-        x[1] = {-0.1 * spacing, 0, 1};
+        x[1] = {-0.2 * spacing, 0, 1};
         v[1] = {3, 0, 2};
         sim.barrier.reset();
         sim.barrier = make_wall_barrier(sim.scene);
@@ -266,7 +266,7 @@ TEST(WallBarrier, OppositeHitsOnALightBodyDoNotCancel)
         Store& particles = sim.fluid->particles.fluid;
         const auto x = particles[field::position];
         const auto v = particles[field::velocity];
-        x[0] = {-0.1 * spacing, 0, 0};
+        x[0] = {-0.2 * spacing, 0, 0};
         v[0] = {3, 0, 2};
         x[1] = {0.4 + 0.1 * spacing, 0, 0};
         v[1] = {-3, 0, 1};

@@ -5,18 +5,15 @@
 #include "hyoryu/core/fixed_sum.hpp"
 #include "hyoryu/fluid/parameters.hpp"
 
-#include <cmath>
-
 namespace hyoryu {
 
 /// In two dimensions those of forces, torques and fluxes are per metre of width.
 struct SumUnits {
-    FixedUnit velocity;  // c0: momentum of a unit of mass [m/s]
-    FixedUnit energy;    // c0^2: of a unit of mass [J/kg]
-    FixedUnit force;     // rho0 c0^2 dp^(d-1): a density error of one on the face of a particle [N]
-    FixedUnit torque;    // of that force at an arm of dp [N m]
-    FixedUnit flux;      // c0 dp^(d-1) [m3/s]
-    FixedUnit root_work; // root of the work of that force on a way of dp [J^0.5]
+    FixedUnit velocity; // c0: momentum of a unit of mass [m/s]
+    FixedUnit energy;   // c0^2: of a unit of mass [J/kg]
+    FixedUnit force;    // rho0 c0^2 dp^(d-1): a density error of one on the face of a particle [N]
+    FixedUnit torque;   // of that force at an arm of dp [N m]
+    FixedUnit flux;     // c0 dp^(d-1) [m3/s]
 };
 
 inline SumUnits sum_units(const FluidParameters& f)
@@ -27,8 +24,7 @@ inline SumUnits sum_units(const FluidParameters& f)
             .energy = fixed_unit(sq(f.eos.c0)),
             .force = fixed_unit(force),
             .torque = fixed_unit(force * f.spacing),
-            .flux = fixed_unit(f.eos.c0 * face),
-            .root_work = fixed_unit(std::sqrt(force * f.spacing))};
+            .flux = fixed_unit(f.eos.c0 * face)};
 }
 
 } // namespace hyoryu

@@ -28,7 +28,7 @@ struct Loads {
     OwnerSums<6> of_bodies;    // force [N] and torque [N m]
     OwnerSums<3> of_walls;     // force [N]
     OwnerSums<3> of_junctions; // what walls have of the forces on particles of others [N]
-    OwnerSums<8> of_hits;      // of bodies: force, torque, A [J] and root of B, wall_barrier.hpp
+    OwnerSums<7> of_hits; // of bodies: force, torque, and how far they yield, see wall_barrier.hpp
 };
 
 /// Begins the sums of a step with the forces between particles.

@@ -4,22 +4,17 @@
 // Solid particles keep the fluid out by pressure, which a crowded initial row, a plate thinner than
 // a spacing or a violent impact can overcome. After the kick of a step, therefore, the velocity u
 // of a particle along the normal of a surface, relative to the solid there, may not be less than
-//     u*(d) = -(d - dp/8) / dt             at a distance d of dp/8 or more,
+//     u*(d) = -(d - dp/8) / dt             at a distance d of dp/4 or more,
 //             0                            nearer than that,
 //             min(-d / (20 dt), 0.02 c0)   inside, where d < 0,
 // and the particle receives the impulse J = m (u* - u) n, the solid -J. A stopped particle has no
 // approach speed left, as in an inelastic impact; a particle inside is led out slowly. Water at its
-// normal distance is not affected. u* has no jumps: a particle a little nearer, by rounding, is
-// held a little more, not a step sooner. Where several surfaces hold a particle, J are the least
-// impulses, none below zero, that satisfy all, by four rounds of projected Gauss-Seidel. A body
-// takes the share s = min(1, A / B) of its hits: A = sum J^2 / (m a) is what they take from the
-// particles in its frame of reference, a the whole impulse over the largest of one round, at least
-// one, and bodies on both sides of a particle divide it; B = (sum J sqrt(K))^2, with K the inverse
-// effective mass of the body at the hit, bounds twice the energy that they would give to the body
-// at rest. So they never turn its motion around; the particles keep the rest. What other solids
-// have answered to that rest is then found anew by further rounds. Opposite hits on a light body
-// do not cancel in B: if it took all of both, each side would press it as if it were heavy. Ours;
-// the impulse is that of a unilateral constraint (Moreau 1988).
+// normal distance is not affected. Between surfaces that close in on a particle the rule is applied
+// in four rounds. A body yields to its hits: with Y = sum a m (1/M + rotation), where a is the
+// whole impulse over that of the first round, it takes all of them if Y < 1 and the share 1/Y of
+// them otherwise, so that they never turn its motion around; the particles keep the rest. What
+// other solids have answered to that rest is then found anew. Ours; the impulse is that of a
+// unilateral constraint (Moreau 1988).
 #pragma once
 
 #include "hyoryu/scene/solid_surface.hpp"
@@ -33,22 +28,25 @@ namespace hyoryu {
 
 struct Simulation;
 
-/// A surface that may hold a particle, and what it gives to it.
+/// A surface, with the least normal velocity that a particle may have relative to it.
 struct SurfaceHold {
     int solid = 0;          // wall, or number of walls + body
     Vec3 normal{0, 0, 1};   // out of the solid
-    double surface = 0;     // speed of the solid at the particle, along the normal [m/s]
-    double wanted = 0;      // least speed of the particle along the normal [m/s]
-    double given = 0;       // speed that the surface has given to it [m/s]
-    double largest = 0;     // in one round [m/s]
-    double most = infinity; // that the surface may give [m/s]
+    Vec3 velocity{0, 0, 0}; // of the solid at the particle [m/s]
+    double least = 0;       // speed along the normal relative to it [m/s]
+    Vec3 impulse{0, 0, 0};  // on the particle [N s]
+    double first = 0;       // speed that it lacked first [m/s]
+    double sum = 0;         // of the speeds that it lacked, round by round [m/s]
 };
 
 /// An impulse of the barrier.
 struct BarrierHit {
     Index row = 0;         // of the fluid particle
+    int solid = 0;         // wall, or number of walls + body
     Vec3 place{0, 0, 0};   // of the particle [m]
-    SurfaceHold hold = {}; // m `given` along its normal is the impulse on the particle [N s]
+    Vec3 impulse{0, 0, 0}; // on the particle [N s]
+    double repeats = 1;    // the impulse over that which stops the approach: more in a pinch [1]
+    double wanted = 0;     // least velocity of the particle along the impulse [m/s]
 };
 
 /// Where a solid is and how it moves.
@@ -97,15 +95,16 @@ WallBarrier make_wall_barrier(const Scene& scene);
 /// length dt, at `time`; adds the reactions to the sums of the loads (`begin_loads`).
 ///
 /// The hits are computed for solids of infinite mass. A light body recoils from the particles that
-/// it stops: those on a body are to be scaled by s = min(1, A / B) above. Those of one body, each
-/// on a particle that no other solid holds, then never add energy: the change is -s A + s^2 (A + B)
-/// / 2 at most, which is not above zero for s <= 2 A / (A + B), and s is not above this.
+/// it stops: those on a body are to be scaled by s = min(1, 1 / (m sum K)), K the inverse effective
+/// mass of the body at each hit. The sum bounds their joint effect, so that those of one body, each
+/// on a particle that no other solid holds, never add energy: the change is m du^2 s (-1 + s (1 + m
+/// sum K) / 2) at most, which is not above zero for this s.
 void hold_at_solids(Simulation& sim, double time, double dt);
 
 /// Scales the hits on bodies, once their sums are those of all processes: adds them to the loads
 /// and returns the rest to the particles. Where several solids hold a particle, the others then
-/// give what is wanted of them anew: walls any impulse, bodies at most their share. Called by all
-/// processes.
+/// give what is wanted of them anew: walls any impulse, bodies at most that of before. Called by
+/// all processes.
 void share_hits(Simulation& sim);
 
 /// How many hits there were in the last step, on particles of this process.
