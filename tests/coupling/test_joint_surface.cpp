@@ -3,8 +3,11 @@
 #include "../../src/coupling/joint_faces.hpp"
 #include "../../src/coupling/joint_surface.hpp"
 
+#include "dice.hpp"
+
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace hyoryu::test_joint_surface {
@@ -64,6 +67,37 @@ TEST(JointSurface, RaysEnterWhereGeometrySays)
     ASSERT_TRUE(ball);
     EXPECT_NEAR(ball->enter, 1.6, 1e-14);
     EXPECT_NEAR(ball->normal.x(), 0.6, 1e-14);
+}
+
+// A solid that a part of a ray is said not to come near must not be met there. The place is found
+// by steps along the ray and the distance of each from the surface.
+TEST(JointSurface, SolidsThatAreSkippedAreNotMet)
+{
+    Dice dice(6);
+    const auto within = [&](double size) {
+        const double x = dice.between(-size, size);
+        const double y = dice.between(-size, size);
+        return Vec3(x, y, dice.between(-size, size));
+    };
+    int skipped = 0;
+    for (int n = 0; n < 600; ++n) {
+        const Vec3 sides = Vec3(1.1, 1.1, 1.1) + within(1);
+        const RaySolid solid = n % 3 == 0   ? ray_solid(box_polytope(sides, 3), 3)
+                               : n % 3 == 1 ? ray_solid(Rod{sides.x() / 2, sides.y()}, 3)
+                                            : ray_solid(Ball{sides.x() / 2}, 3);
+        const Ray ray{within(1.5), within(1).normalized()};
+        const RayPart part{dice.between(-1, 0), dice.between(0, 2)};
+        if (comes_near(ray, part, Vec3(0, 0, 0), solid.reach)) {
+            continue;
+        }
+        skipped += 1;
+        for (int k = 0; k <= 100; ++k) {
+            const double way = std::lerp(part.from, part.to, k / 100.0);
+            EXPECT_GT(distance(solid, ray.origin + way * ray.direction), 0);
+        }
+    }
+    EXPECT_GT(skipped, 200);
+    EXPECT_LT(skipped, 500);
 }
 
 TEST(JointSurface, WallsOfEveryShapeAreMet)
