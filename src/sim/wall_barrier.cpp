@@ -12,9 +12,10 @@ namespace hyoryu {
 
 namespace {
 
-// Distances from the surface in spacings: where it stops approaching particles, how near they may
-// come within a step, and up to where particles are examined.
+// Distances from the surface in spacings: where it stops approaching particles, how near those
+// farther away than `slowed` may come within a step, and up to where particles are examined.
 constexpr double held = 0.25;
+constexpr double slowed = held + 1.0 / 64;
 constexpr double approached = 0.125;
 constexpr double looked_at = 2;
 // Displacement of particles and solids for which the lists of near solids hold [spacings].
@@ -111,7 +112,7 @@ public:
     }
 
     // Whether no surface can hold a particle of velocity v that has moved by `moved` since it was
-    // `clearance` away from all.
+    // `clearance` away from all: none holds one that ends the step farther away than `held`.
     bool is_free(double clearance, const Vec3& moved, const Vec3& v) const
     {
         const double left = clearance - held * barrier_.spacing - dt_ * fastest_;
@@ -125,7 +126,7 @@ public:
     {
         holds.clear();
         double clearance = far_;
-        const double limit = std::max(held * barrier_.spacing,
+        const double limit = std::max(slowed * barrier_.spacing,
                                       approached * barrier_.spacing + dt_ * (v.norm() + fastest_));
         for_images(fluid_, x, far_, [&](const Vec3& image) {
             for (const int solid : solids) {
@@ -150,9 +151,9 @@ private:
             return std::min(-distance / (steps_to_surface * dt_),
                             fastest_way_out * fluid_.parameters.eos.c0);
         }
-        return distance < held * barrier_.spacing
-                   ? 0
-                   : (approached * barrier_.spacing - distance) / dt_;
+        const double full = (approached * barrier_.spacing - distance) / dt_;
+        const double part = (distance / barrier_.spacing - held) / (slowed - held);
+        return std::clamp(part, 0.0, 1.0) * full;
     }
 
     const Fluid& fluid_;

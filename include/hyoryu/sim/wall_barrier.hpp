@@ -4,17 +4,18 @@
 // Solid particles keep the fluid out by pressure, which a crowded initial row, a plate thinner than
 // a spacing or a violent impact can overcome. After the kick of a step, therefore, the velocity u
 // of a particle along the normal of a surface, relative to the solid there, may not be less than
-//     u*(d) = -(d - dp/8) / dt             at a distance d of dp/4 or more,
+//     u*(d) = -s (d - dp/8) / dt           at a distance d of dp/4 or more,
 //             0                            nearer than that,
 //             min(-d / (20 dt), 0.02 c0)   inside, where d < 0,
-// and the particle receives the impulse J = m (u* - u) n, the solid -J. A stopped particle has no
-// approach speed left, as in an inelastic impact; a particle inside is led out slowly. Water at its
-// normal distance is not affected. Between surfaces that close in on a particle the rule is applied
-// in four rounds. A body yields to its hits: with Y = sum a m (1/M + rotation), where a is the
-// whole impulse over that of the first round, it takes all of them if Y < 1 and the share 1/Y of
-// them otherwise, so that they never turn its motion around; the particles keep the rest. What
-// other solids have answered to that rest is then found anew. Ours; the impulse is that of a
-// unilateral constraint (Moreau 1988).
+// with s = (d - dp/4) / (dp/64), at most 1, so that u* is continuous and round-off does not decide
+// in which step a particle is held. The particle receives the impulse J = m (u* - u) n, the solid
+// -J. A stopped particle has no approach speed left, as in an inelastic impact; a particle inside
+// is led out slowly. Water at its normal distance is not affected. Between surfaces that close in
+// on a particle the rule is applied in four rounds. A body yields to its hits: with Y = sum a m
+// (1/M + rotation), where a is the whole impulse over that of the first round, it takes all of them
+// if Y < 1 and the share 1/Y of them otherwise, so that they never turn its motion around; the
+// particles keep the rest. What other solids have answered to that rest is then found anew. Ours;
+// the impulse is that of a unilateral constraint (Moreau 1988).
 #pragma once
 
 #include "hyoryu/scene/solid_surface.hpp"
