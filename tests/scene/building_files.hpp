@@ -84,9 +84,9 @@ inline std::vector<Complex> star(Dice& dice, Complex middle, double least, doubl
     std::vector<Complex> ring;
     const int corners = 3 + dice.below(20);
     for (int k = 0; k < corners; ++k) {
-        ring.push_back(middle +
-                       std::polar(dice.between(least, most),
-                                  2 * std::numbers::pi * (k + dice.between(0, 0.8)) / corners));
+        const double radius = dice.between(least, most);
+        const double turns = (k + dice.between(0, 0.8)) / corners;
+        ring.push_back(middle + std::polar(radius, 2 * std::numbers::pi * turns));
     }
     return ring;
 }

@@ -20,7 +20,7 @@ TEST_F(BuildingFiles, StandOnTheGroundInAnyMap)
         const SlopingGround plane = draw_plane(dice);
         const double spacing = k % 2 == 0 ? 0.5 : 0.3;
         const double height = dice.between(2, 30);
-        const Complex middle = plane.origin + Complex(dice.between(-20, 20), dice.between(-20, 20));
+        const Complex middle = plane.origin + Complex{dice.between(-20, 20), dice.between(-20, 20)};
         const bool has_yard = k % 3 == 0;
         const auto outer = star(dice, middle, has_yard ? 9.8 : 4, 10);
         const auto inner = star(dice, middle, 0.5, 2);
@@ -70,11 +70,11 @@ TEST_F(BuildingFiles, AResolvedCaseHoldsThemWithoutTheirFile)
     for (int k = 0; k < 10; ++k) {
         const SlopingGround plane = draw_plane(dice);
         write("g.asc", grid_of(plane));
-        write("b.geojson",
-              collection(
-                  {feature("{}", fmt::format("[{}, {}]", text_of(star(dice, plane.origin, 9.9, 10)),
-                                             text_of(star(dice, plane.origin, 0.5, 2)))),
-                   feature("{}", listed(text_of(star(dice, plane.origin + 30.0, 2, 9))))}));
+        const std::string outer = text_of(star(dice, plane.origin, 9.9, 10));
+        const std::string inner = text_of(star(dice, plane.origin, 0.5, 2));
+        const std::string other = text_of(star(dice, plane.origin + 30.0, 2, 9));
+        write("b.geojson", collection({feature("{}", fmt::format("[{}, {}]", outer, inner)),
+                                       feature("{}", listed(other))}));
         const Scene scene = read(case_of(terrain_of(plane), "height = 7.5"));
         const std::string resolved = to_toml(scene);
         fs::remove(folder_ / "b.geojson");
@@ -146,6 +146,28 @@ TEST_F(BuildingFiles, ThoseAcrossTheEdgeOfTheTerrainAreToldOf)
         const Scene scene = read(case_of(terrain_of(plane), "height = 5"));
         ASSERT_EQ(scene.notices.size(), 1u);
         EXPECT_NE(scene.notices[0].what.find("\"building.2\" stands only partly on the terrain"),
+                  std::string::npos);
+    }
+}
+
+// Buildings of a model at a small scale are at places that could be degrees, and a few centimetres
+// wide; what is narrower than a spacing would be degrees.
+TEST_F(BuildingFiles, ModelsOfALaboratoryAreInMetres)
+{
+    Dice dice(23);
+    for (int k = 0; k < 20; ++k) {
+        const double spacing = std::pow(10, dice.between(-3, -0.5));
+        const Complex middle{dice.between(-90, 90), dice.between(-60, 60)};
+        const auto square_of = [&](double half) {
+            const Complex low = middle - Complex(half, half);
+            const Complex high = middle + Complex(half, half);
+            return feature("{}", fmt::format("[[[{0}, {1}], [{2}, {1}], [{2}, {3}], [{0}, {3}]]]",
+                                             low.real(), low.imag(), high.real(), high.imag()));
+        };
+        write("b.geojson", square_of(dice.between(1.1, 4) * spacing));
+        EXPECT_EQ(fault(case_of(flat, "height = 5", spacing)), "none");
+        write("b.geojson", square_of(std::min(spacing, 0.1) * dice.between(0.01, 0.49)));
+        EXPECT_NE(fault(case_of(flat, "height = 5", spacing)).find("look like degrees"),
                   std::string::npos);
     }
 }

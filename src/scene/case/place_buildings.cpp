@@ -148,8 +148,11 @@ void look_for_overlaps(Buildings& buildings)
     }
 }
 
-// Why footprints cannot be in the coordinates of a terrain; empty if they can.
-std::string fault_of_map(const std::vector<Footprint>& footprints, const TerrainPatch* patch)
+// Why footprints cannot be in the coordinates of a terrain; empty if they can. Without a terrain
+// buildings of a laboratory's model, of some spacings, may stand where degrees could be.
+// `spacing`: of the particles [m].
+std::string fault_of_map(const std::vector<Footprint>& footprints, const TerrainPatch* patch,
+                         double spacing)
 {
     const bool degrees = std::ranges::all_of(
         footprints, [](const Footprint& f) { return may_be_degrees(f.rings.front()); });
@@ -158,8 +161,8 @@ std::string fault_of_map(const std::vector<Footprint>& footprints, const Terrain
                    ? "the coordinates look like degrees, those of the terrain are in metres"
                    : "";
     }
-    constexpr double smallest = 0.1; // of a building, and a kilometre in degrees
-    const bool tiny = std::ranges::all_of(footprints, [](const Footprint& f) {
+    const double smallest = std::min(spacing, 0.1); // of a building, and a kilometre in degrees
+    const bool tiny = std::ranges::all_of(footprints, [&](const Footprint& f) {
         const Frame2 frame = frame_of(f.rings.front());
         return std::max(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]) < smallest;
     });
@@ -201,7 +204,7 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
     Buildings buildings;
     const Wall* terrain = terrain_of(scene);
     const TerrainPatch* patch = terrain_patch_of(scene);
-    if (const std::string fault = fault_of_map(footprints, patch); !fault.empty()) {
+    if (const std::string fault = fault_of_map(footprints, patch, scene.spacing); !fault.empty()) {
         buildings.faults.push_back(
             {fault, "project them to the map of the terrain, for instance by `ogr2ogr -t_srs "
                     "EPSG:32654 NEW.geojson FILE.geojson`"});
