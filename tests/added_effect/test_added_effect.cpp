@@ -209,8 +209,8 @@ TEST(Restart, GoesOnWithTheSameBits)
     Dice dice = dice_of_test();
     for (const double spacing : spacings) {
         for (int k = 0; k < 3; ++k) {
-            const std::string text =
-                tank(spacing, with_drag(dice.between(1, 100), dice.between(0.01, 1)));
+            const std::array drag{dice.between(1, 100), dice.between(0.01, 1)};
+            const std::string text = tank(spacing, with_drag(drag[0], drag[1]));
             const int before = 1 + dice.below(60);
             const int after = 1 + dice.below(40);
             SCOPED_TRACE(fmt::format("{} steps, then {}, of\n{}", before, after, text));

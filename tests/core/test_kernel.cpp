@@ -50,7 +50,7 @@ Mat3 turned(int dimensions, Dice& dice)
     const double angle = dice.between(-std::numbers::pi, std::numbers::pi);
     const Vec3 axis =
         dimensions == 2 ? Vec3::UnitY()
-                        : Vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1) + 0.01)
+                        : Vec3{dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1) + 0.01}
                               .normalized();
     return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }

@@ -318,7 +318,7 @@ TEST(PairedWalls, WaterThatSlidesIsNotCompressedAndWaterThatApproachesIsByTheSam
     for_clouds([](const Cloud& cloud, Dice& dice) {
         const Turned made = block_on_wall(cloud, dice);
         Fluid fluid = make_fluid(cloud, made.places);
-        const Vec3 along(dice.between(-1, 1), cloud.dimensions == 2 ? 0 : dice.between(-1, 1), 0);
+        const Vec3 along{dice.between(-1, 1), cloud.dimensions == 2 ? 0 : dice.between(-1, 1), 0};
         const Taken approach = taken(fluid, made.turn * Vec3(0, 0, -0.7));
         EXPECT_GT(approach.plain, 0);
         EXPECT_NEAR(approach.paired, approach.plain, 1e-11 * approach.plain);

@@ -109,7 +109,8 @@ TEST_F(GridFormats, LinesThatAreNoGridAreRefusedWithTheirPlace)
     Dice dice(42);
     std::string scattered;
     for (int k = 0; k < 200; ++k) {
-        scattered += fmt::format("{} {} 1\n", dice.between(0, 100), dice.between(0, 100));
+        const std::array place{dice.between(0, 100), dice.between(0, 100)};
+        scattered += fmt::format("{} {} 1\n", place[0], place[1]);
     }
     EXPECT_NE(fault(scattered).find("are scattered, expected a regular grid"), std::string::npos);
     EXPECT_NE(fault(scattered).find("gdal_grid"), std::string::npos);

@@ -31,7 +31,8 @@ std::vector<T> random_numbers(Dice& dice, std::size_t count)
     std::vector<T> numbers(count);
     for (T& number : numbers) {
         if constexpr (std::is_floating_point_v<T>) {
-            number = static_cast<T>(std::ldexp(dice.between(-1, 1), dice.below(60) - 30));
+            const double digits = dice.between(-1, 1);
+            number = static_cast<T>(std::ldexp(digits, dice.below(60) - 30));
         } else if constexpr (sizeof(T) == 1) {
             number = static_cast<T>(dice.below(256));
         } else {

@@ -162,8 +162,8 @@ TEST(Crowds, TowersOfMixedDensitiesStand)
         Rigid rigid = on_floor(0.3, 0.5);
         double height = 0;
         for (int k = 0; k < n; ++k) {
-            const Vec3 size(draw.between(0.8, 1.2), draw.between(0.8, 1.2), draw.between(0.2, 0.5));
-            const Vec3 foot(draw.between(-0.05, 0.05), draw.between(-0.05, 0.05), height);
+            const Vec3 size{draw.between(0.8, 1.2), draw.between(0.8, 1.2), draw.between(0.2, 0.5)};
+            const Vec3 foot{draw.between(-0.05, 0.05), draw.between(-0.05, 0.05), height};
             const double density = std::pow(10, draw.between(1, 4));
             rigid.bodies.push_back(box(size, density, foot + size.z() / 2 * Vec3::UnitZ()));
             height += size.z();
@@ -254,7 +254,7 @@ TEST(Crowds, ABlowIsPassedOnWithinTheStepByBodiesThatDidNotMoveTowardsEachOther)
     for (const double speed : {3.0, 8.0, 20.0}) { // 3 to 20 cm in a step
         Rigid rigid = scene(1, 0);
         rigid.settings.gravity = Vec3::Zero();
-        const Vec3 way = Vec3(draw.between(-1, 1), draw.between(-1, 1), 1).normalized();
+        const Vec3 way = Vec3{draw.between(-1, 1), draw.between(-1, 1), 1}.normalized();
         double x = 0;
         for (int k = 0; k < 6; ++k) {
             rigid.bodies.push_back(body_of(Ball{0.05}, 1000, x * way));

@@ -20,15 +20,16 @@ using namespace test;
 Rigid heaps(int seed)
 {
     Dice dice(seed);
-    Rigid rigid = on_floor(dice.between(0, 0.6), dice.between(0, 0.6));
+    const double friction = dice.between(0, 0.6);
+    Rigid rigid = on_floor(friction, dice.between(0, 0.6));
     rigid.settings.located_work = dice.between(0, 1) < 0.5 ? 0 : 1e5;
     const int count = static_cast<int>(dice.between(2, 9));
     for (int heap = 0; heap < count; ++heap) {
-        const Vec3 place(dice.between(-3, 3), dice.between(-3, 3), 0);
+        const Vec3 place{dice.between(-3, 3), dice.between(-3, 3), 0};
         const int bodies = static_cast<int>(dice.between(2, 14));
         for (int k = 0; k < bodies; ++k) {
             const Vec3 at =
-                place + Vec3(dice.between(-0.3, 0.3), dice.between(-0.3, 0.3), 0.3 + 0.35 * k);
+                place + Vec3{dice.between(-0.3, 0.3), dice.between(-0.3, 0.3), 0.3 + 0.35 * k};
             const double size = dice.between(0.1, 0.3);
             Body body = dice.between(0, 1) < 0.3
                             ? body_of(Ball{size / 2}, 600, at)

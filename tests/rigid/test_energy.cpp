@@ -33,8 +33,10 @@ ContactShape rocker(int seed, Dice& dice)
 Rigid rocking(int seed)
 {
     Dice dice(seed);
-    Rigid rigid = on_floor(dice.between(0, 0.4), dice.between(0.2, 1));
-    Body body = body_of(rocker(seed, dice), dice.between(200, 900), {0, 0, 1});
+    const double friction = dice.between(0, 0.4);
+    Rigid rigid = on_floor(friction, dice.between(0.2, 1));
+    const ContactShape solid = rocker(seed, dice);
+    Body body = body_of(solid, dice.between(200, 900), {0, 0, 1});
     body.orientation = dice.turn();
     body.velocity = dice.within(0.3);
     body.angular_momentum = angular_momentum(body, dice.within(8));
@@ -103,7 +105,8 @@ TEST(Energy, NorDoesItUnderALoadOnAFloorThatMoves)
 Rigid heavy_tower(int seed)
 {
     Dice dice(seed);
-    Rigid rigid = on_floor(dice.between(0, 0.8), dice.between(0, 0.9));
+    const double friction = dice.between(0, 0.8);
+    Rigid rigid = on_floor(friction, dice.between(0, 0.9));
     rigid.settings.gravity = turn_about(Vec3(1, 0, 0), dice.between(0, 20)) * Vec3(0, 0, -g);
     const int levels = 6 + static_cast<int>(dice.between(0, 7));
     const double ratio = dice.between(1, 2.5);
@@ -111,7 +114,7 @@ Rigid heavy_tower(int seed)
     double height = 0;
     for (int k = 0; k < levels; ++k) {
         const Vec3 size = Vec3::Constant(0.225) + dice.within(0.075);
-        const Vec3 place(dice.between(-0.02, 0.02), dice.between(-0.02, 0.02), height);
+        const Vec3 place{dice.between(-0.02, 0.02), dice.between(-0.02, 0.02), height};
         Body body = box(size, std::min(density, 20000.0), place + 0.5 * size.z() * Vec3::UnitZ());
         body.orientation = turn_about(Vec3(0, 0, 1), dice.between(0, 360));
         rigid.bodies.push_back(body);

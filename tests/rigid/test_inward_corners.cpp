@@ -76,7 +76,7 @@ double told_overlap(const Body& body, const Boundary& basin)
 void expect_shown(int seed, bool mesh)
 {
     Dice dice(seed);
-    const Vec3 size(dice.between(0.8, 1.5), dice.between(0.8, 1.5), dice.between(0.5, 1));
+    const Vec3 size{dice.between(0.8, 1.5), dice.between(0.8, 1.5), dice.between(0.5, 1)};
     // What is in triangles by less than 1e-5 m along their best axis may be left to the next step.
     const double deep = std::pow(10.0, dice.between(-3.7, -2.5));
     Vec3 depth(0, 0, 0);

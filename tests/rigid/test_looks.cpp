@@ -28,7 +28,8 @@ ContactShape shape_of(int kind, const Vec3& size)
 Rigid pushed(int seed)
 {
     Dice dice(seed);
-    Rigid rigid = on_floor(dice.between(0, 0.6), dice.between(0, 0.8));
+    const double friction = dice.between(0, 0.6);
+    Rigid rigid = on_floor(friction, dice.between(0, 0.8));
     rigid.boundaries.push_back({"plate", Obstacle{box_polytope({0.1, 2, 2}, 3), {-0.3, 0, 0}}, 0,
                                 to_and_fro({0.1, 0, 0})});
     rigid.boundaries.push_back(

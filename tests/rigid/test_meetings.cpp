@@ -142,9 +142,9 @@ Meeting landing(int seed)
         Rod{radius, length},
         {dice.between(-0.04, 0.04), dice.between(-0.05, 0.05), 0.15 + length / 2 + 0.2 * radius},
         dice);
-    log.orientation = turn_about(dice.within(1).normalized(), dice.between(-10, 10)) *
-                      turn_about(Vec3::UnitY(), 90);
-    log.velocity = Vec3(dice.between(-0.15, 0.15), dice.between(-0.15, 0.15), -1);
+    const Vec3 axis = dice.within(1).normalized();
+    log.orientation = turn_about(axis, dice.between(-10, 10)) * turn_about(Vec3::UnitY(), 90);
+    log.velocity = Vec3{dice.between(-0.15, 0.15), dice.between(-0.15, 0.15), -1};
     log.angular_momentum = angular_momentum(log, dice.within(3));
     meeting.rigid.bodies = {block, log};
     return meeting;
@@ -208,7 +208,7 @@ Meeting throw_over_rims(int seed)
     meeting.rigid.boundaries = {{"basin", basin}, {"ground", Plane{{0, 0, -0.8}, {0, 0, 1}}}};
     meeting.walls = sides_of(basin);
     for (int k = 0; k < 1 + seed % 3; ++k) {
-        const Vec3 place(dice.between(-0.1, 1.3), dice.between(-0.1, 1.1), 0.9 + 0.5 * k);
+        const Vec3 place{dice.between(-0.1, 1.3), dice.between(-0.1, 1.1), 0.9 + 0.5 * k};
         meeting.rigid.bodies.push_back(thrown(shape_of((seed + k) % shapes, dice), place, dice));
         while (overlaps(meeting.rigid, k)) {
             meeting.rigid.bodies.back().position.z() += 0.1;

@@ -34,7 +34,7 @@ struct Column {
             body.v = dice.within(0.1) - 0.5 * Vec3::UnitZ();
             body.omega = dice.within(0.3);
             bodies.push_back(body);
-            centres.emplace_back(dice.between(-0.1, 0.1), dice.between(-0.1, 0.1), k + 0.5);
+            centres.push_back(Vec3{dice.between(-0.1, 0.1), dice.between(-0.1, 0.1), k + 0.5});
             mass *= dice.between(1, 10);
         }
         start = bodies;

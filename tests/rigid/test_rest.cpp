@@ -20,7 +20,7 @@ Rigid turned_stack(Dice& dice, int boxes)
     Rigid rigid = on_floor(0.2, dice.between(0.3, 0.8));
     for (int k = 0; k < boxes; ++k) {
         Body body = box({a, a, a / 2}, dice.between(300, 900), {0, 0, (k + 0.5) * a / 2});
-        body.position += 0.1 * a * Vec3(dice.between(-1, 1), dice.between(-1, 1), 0);
+        body.position += 0.1 * a * Vec3{dice.between(-1, 1), dice.between(-1, 1), 0};
         body.orientation = Eigen::AngleAxisd(dice.between(-1, 1), Vec3::UnitZ());
         rigid.bodies.push_back(body);
     }

@@ -65,11 +65,13 @@ struct Fall {
 Fall on_ridge(int seed)
 {
     Dice dice(seed);
-    Fall fall{scene(dice.between(0, 0.6), dice.between(0, 0.8)), {}};
+    const double friction = dice.between(0, 0.6);
+    Fall fall{scene(friction, dice.between(0, 0.8)), {}};
     const Polytope prism = wedge(dice.between(10, 60), 0.5, 0.8);
     fall.ridge.points = prism.corners;
     fall.rigid.boundaries.push_back({"ridge", surface_of(prism, Vec3::Zero())});
-    Body body = body_of(faller(seed, dice), dice.between(200, 900), {0, 0, 0});
+    const ContactShape shape = faller(seed, dice);
+    Body body = body_of(shape, dice.between(200, 900), {0, 0, 0});
     body.orientation = dice.turn();
     const double reach = bounding_radius(body, 3);
     body.position = {dice.between(-0.7, 0.7) * reach, dice.between(-0.4, 0.4), 0};

@@ -93,11 +93,13 @@ TumblingPair tumbling_pair(Dice& dice)
 {
     TumblingPair pair;
     pair.rigid.settings.gravity = Vec3::Zero();
-    const Quat turn(Eigen::AngleAxisd(dice.between(0, 3), direction(dice)));
+    const double angle = dice.between(0, 3);
+    const Quat turn(Eigen::AngleAxisd(angle, direction(dice)));
     const Vec3 n = turn * Vec3::UnitZ();
     Body plate = box({0.6, 0.5, 0.1}, 700, turn * Vec3(0, 0, -0.05));
-    Body crate = box({dice.between(0.15, 0.25), dice.between(0.15, 0.25), 0.2}, 500,
-                     turn * Vec3(dice.between(-0.1, 0.1), dice.between(-0.1, 0.1), 0.1));
+    const Vec3 size{dice.between(0.15, 0.25), dice.between(0.15, 0.25), 0.2};
+    const Vec3 place{dice.between(-0.1, 0.1), dice.between(-0.1, 0.1), 0.1};
+    Body crate = box(size, 500, turn * place);
     plate.orientation = turn;
     crate.orientation = turn * turn_about(Vec3::UnitZ(), dice.between(0, 90));
     const Vec3 force = 3000 * n;

@@ -65,7 +65,7 @@ TEST(CoveredShare, IsThatOfPlacesDrawnInTheCell)
     for (int draw = 0; draw < 100; ++draw) {
         const double seam = dice.between(1.9, 2.1);
         const double other = dice.between(-0.1, 0.1); // a step of the floor, or its top
-        const Vec3 place(dice.between(1.9, 2.1), 0.5, dice.between(-0.12, 0.12));
+        const Vec3 place{dice.between(1.9, 2.1), 0.5, dice.between(-0.12, 0.12)};
         const std::string left = box({-1, -1, -1}, {seam, 2, 0});
         const std::string right = box({seam, -1, -1}, {5, 2, 0});
         const Scene floor = scene_of(left + right);
@@ -94,8 +94,8 @@ TEST(CoveredShare, HoldsForImagesInPeriodicDomains)
         scene_of(box({0, -1, -1}, {4, 2, 0}),
                  "[domain]\nmin = [0, 0, -1]\nmax = [4, 1, 2]\nperiodic = [\"x\"]\n");
     for (int draw = 0; draw < 100; ++draw) {
-        const Vec3 place(dice.between(-0.1, 0.1) + 4 * (dice.below(7) - 3), 0.5,
-                         dice.between(-0.12, 0.12));
+        const Vec3 place{dice.between(-0.1, 0.1) + 4 * (dice.below(7) - 3), 0.5,
+                         dice.between(-0.12, 0.12)};
         EXPECT_NEAR(share_of(scene, place), std::clamp(0.5 + place.z() / edge, 0.0, 1.0), close)
             << place.transpose();
     }
@@ -112,7 +112,7 @@ TEST(CoveredShare, DoesNotDependOnTheNumberOfWallsInACell)
         for (int k = 20 + dice.below(20); k > 0; --k) {
             slabs += box({-1, -1, -1}, {5, 2, -dice.between(0.02, 0.04)});
         }
-        const Vec3 place(dice.between(1, 3), 0.5, dice.between(-0.04, 0.04));
+        const Vec3 place{dice.between(1, 3), 0.5, dice.between(-0.04, 0.04)};
         EXPECT_NEAR(share_of(scene_of(slabs + floor), place), 0.5 + place.z() / edge, close)
             << place.transpose();
     }

@@ -311,14 +311,16 @@ TEST(Debris, YardsAreFilledBesideTheBodiesThatAreThere)
         std::string bodies;
         for (int k = 0; k < 6; ++k) {
             const double size = dice.between(1, 6);
+            const double breadth = dice.between(1, 3);
+            const Vec3 place{dice.between(5, 35), dice.between(5, 35),
+                             1.5 + (k % 2 == 0 ? 1.01 : size / 4)};
             bodies += fmt::format(
                 "[[body]]\nname = \"b{}\"\nshape = \"{}\"\n{}\ndensity = 500\nposition = [{}, {}, "
                 "{}]\nrotation_deg = {{ axis = [0, 0, 1], angle = {} }}\n",
                 k, k % 2 == 0 ? "box" : "sphere",
-                k % 2 == 0 ? fmt::format("size = [{}, {}, 2]", size, dice.between(1, 3))
+                k % 2 == 0 ? fmt::format("size = [{}, {}, 2]", size, breadth)
                            : fmt::format("radius = {}", size / 4),
-                dice.between(5, 35), dice.between(5, 35), 1.5 + (k % 2 == 0 ? 1.01 : size / 4),
-                dice.between(0, 90));
+                place.x(), place.y(), place.z(), dice.between(0, 90));
         }
         const double gap = dice.between(0, 1);
         const Scene scene = read(

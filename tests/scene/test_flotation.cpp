@@ -77,7 +77,7 @@ TEST(Flotation, BoxesWithCargoHaveTheMetacentricHeightOfTheirFormula)
 {
     Dice dice(26);
     for (int n = 0; n < 40; ++n) {
-        const Vec3 size(dice.between(1, 5), dice.between(1, 5), dice.between(0.5, 3));
+        const Vec3 size{dice.between(1, 5), dice.between(1, 5), dice.between(0.5, 3)};
         const double share = dice.between(0.05, 0.9);
         const double z = dice.between(-0.45, 0.45) * size.z();
         const BodySettings body = box(size, 1000 * share * size.prod(), Vec3(0, 0, z));

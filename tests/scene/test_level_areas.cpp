@@ -23,7 +23,7 @@ TEST_F(BuildingFiles, AQuayIsLevelInAnyMap)
         const SlopingGround plane = draw_plane(dice);
         const double z = dice.between(-9, 9);
         const auto ring =
-            star(dice, plane.origin + Complex(dice.between(-9, 9), dice.between(-9, 9)), 12, 30);
+            star(dice, plane.origin + Complex{dice.between(-9, 9), dice.between(-9, 9)}, 12, 30);
         write("g.asc", grid_of(plane));
         write("quay.geojson", feature("{}", listed(text_of(ring))));
         const Scene scene =

@@ -37,7 +37,7 @@ TEST_F(GaugesInAMap, LieInTheCaseAsTheTerrainDoes)
     Dice dice(31);
     for (int n = 0; n < 24; ++n) {
         const SlopingGround plane = draw_plane(dice);
-        const Complex current(dice.between(-3, 3), dice.between(-3, 3)); // to the east, the north
+        const Complex current{dice.between(-3, 3), dice.between(-3, 3)}; // to the east, the north
         const double eta = dice.between(-1, 1);
         write("g.asc", grid_of(plane));
         write("g.txt", fmt::format("1 0 2 {0} {1} {2}\n1 9 2 {0} {1} {2}\n", 2 * current.real(),

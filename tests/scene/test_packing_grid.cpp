@@ -25,8 +25,8 @@ struct Cloud {
 
 Vec3 drawn_about(Dice& dice, const Vec3& middle, int dimensions)
 {
-    const Vec3 way(dice.between(-4, 4), dimensions == 2 ? 0 : dice.between(-4, 4),
-                   dice.between(-4, 4));
+    const Vec3 way{dice.between(-4, 4), dimensions == 2 ? 0 : dice.between(-4, 4),
+                   dice.between(-4, 4)};
     return middle + way;
 }
 
@@ -36,9 +36,9 @@ Cloud drawn(Dice& dice, int dimensions, double extent)
     cloud.kernel = make_kernel(dice.between(1.1, 1.6), 1, dimensions);
     cloud.volume = dice.between(0.9, 1.1);
     for (int place = 0; place < 3; ++place) {
-        const Vec3 middle(dice.between(-extent, extent),
+        const Vec3 middle{dice.between(-extent, extent),
                           dimensions == 2 ? 0 : dice.between(-extent, extent),
-                          dice.between(-extent, extent));
+                          dice.between(-extent, extent)};
         for (int k = 0; k < (dimensions == 2 ? 60 : 400); ++k) {
             cloud.fluid.push_back(drawn_about(dice, middle, dimensions));
             cloud.depth.push_back(static_cast<float>(dice.between(-1, 30)));

@@ -43,8 +43,8 @@ struct Tank {
 Tank drawn(Dice& dice, int dimensions)
 {
     Tank tank{.dimensions = dimensions, .dp = dice.chance(0.5) ? 0.05 : 0.07};
-    tank.low = Vec3(dice.between(-1, 1), dice.between(-1, 1), 0);
-    tank.high = tank.low + Vec3(dice.between(0.6, 1.2), dice.between(0.5, 0.9), 0);
+    tank.low = Vec3{dice.between(-1, 1), dice.between(-1, 1), 0};
+    tank.high = tank.low + Vec3{dice.between(0.6, 1.2), dice.between(0.5, 0.9), 0};
     return tank;
 }
 
@@ -96,11 +96,11 @@ TEST(PlanLeaks, WaterThatFallsBelowARoofIsTold)
         const bool flat = tank.dimensions == 2;
         tank.open = ", \"-x\"";
         const double low = dice.between(0.35, 0.7);
+        const std::array beyond{dice.between(0.5, 2), dice.between(0, 0.3)};
         tank.more = fmt::format(
             "[[wall]]\nname = \"roof\"\nshape = \"box\"\nmin = [{}, {}, {}]\nmax = [{}, {}, {}]\n",
-            tank.low.x() - dice.between(0.5, 2), flat ? 0 : tank.low.y() - 1, low,
-            tank.low.x() + dice.between(0, 0.3), flat ? 0 : tank.high.y() + 1,
-            low + dice.between(0.1, 0.3));
+            tank.low.x() - beyond[0], flat ? 0 : tank.low.y() - 1, low, tank.low.x() + beyond[1],
+            flat ? 0 : tank.high.y() + 1, low + dice.between(0.1, 0.3));
         EXPECT_TRUE(warns(tank.text(), drop)) << tank.text();
         tank.open.clear();
         EXPECT_FALSE(warns(tank.text(), drop)) << tank.text();

@@ -184,7 +184,7 @@ TEST(RelaxPacking, AColumnWithFreeSidesStaysApart)
     Dice dice(26);
     for (int n = 0; n < number_from("HYORYU_DRAWS", 20); ++n) {
         const double dp = dice.chance(0.5) ? 0.02 : 0.03;
-        const Vec3 water = dp * Vec3(dice.between(4, 12), dice.between(4, 12), dice.between(4, 12));
+        const Vec3 water = dp * Vec3{dice.between(4, 12), dice.between(4, 12), dice.between(4, 12)};
         const int free = 1 + dice.below(3); // along x, y, or both
         Vec3 tank = water;
         for (int a = 0; a < 2; ++a) {
@@ -274,8 +274,8 @@ TEST(RelaxPacking, BlocksWhoseSurfaceIsNotLevelStayApart)
 {
     Dice dice(28);
     for (int n = 0; n < number_from("HYORYU_DRAWS", 20); ++n) {
-        const Vec3 way(dice.between(-1, 1), dice.chance(0.5) ? 0 : dice.between(-1, 1),
-                       dice.between(-1, 1));
+        const Vec3 way{dice.between(-1, 1), dice.chance(0.5) ? 0 : dice.between(-1, 1),
+                       dice.between(-1, 1)};
         const Scene scene = blocks_in_tank(dice, 1 + dice.below(3), 9.81 * way.normalized());
         EXPECT_GT(nearest_pair(scene), least_distance) << "draw " << n;
     }

@@ -62,11 +62,11 @@ inline std::string scene(const Family& f)
 inline std::string random_gauge(Dice& dice, int k, const Family& f)
 {
     const double y = f.dimensions == 2 ? 0.0 : dice.between(0, 0.4);
-    const std::string at =
-        fmt::format("at = [{}, {}, {}]\n", dice.between(0, 1.2), y, dice.between(0, 0.6));
-    const std::string normal =
-        fmt::format("normal = [{}, {}, {}]\n", dice.between(0.1, 1),
-                    f.dimensions == 2 ? 0.0 : dice.between(-1, 1), dice.between(-1, 1));
+    const Vec3 place{dice.between(0, 1.2), y, dice.between(0, 0.6)};
+    const Vec3 way{dice.between(0.1, 1), f.dimensions == 2 ? 0.0 : dice.between(-1, 1),
+                   dice.between(-1, 1)};
+    const std::string at = fmt::format("at = [{}, {}, {}]\n", place.x(), place.y(), place.z());
+    const std::string normal = fmt::format("normal = [{}, {}, {}]\n", way.x(), way.y(), way.z());
     const std::string head = fmt::format("[[gauge]]\nname = \"g{}\"\n", k);
     switch (k % 7) {
     case 0:

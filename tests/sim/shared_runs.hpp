@@ -142,7 +142,7 @@ inline Cuts random_cuts(const Fluid& fluid, int ranks, Dice& dice)
     const TileLattice& lattice = fluid.neighbours.fluid.lattice;
     Cuts cuts;
     for (int rank = 1; rank < ranks; ++rank) {
-        const Vec3 share(dice.between(0, 1), dice.between(0, 1), dice.between(0, 1));
+        const Vec3 share{dice.between(0, 1), dice.between(0, 1), dice.between(0, 1)};
         const Vec3 size = fluid.domain_max - fluid.domain_min;
         const Vec3 place = fluid.domain_min + share.cwiseProduct(size);
         cuts.first.push_back(lattice.tile_of(lattice.wrapped(place)));

@@ -54,7 +54,7 @@ Pinch draw_pinch(Dice& dice, int n)
         mass = particle * std::pow(10, dice.between(-1.5, 1));
     }
     pinch.angle = n % 3 == 0 ? 0 : dice.between(-0.07, 0.07);
-    pinch.velocity = Vec3(dice.between(-3, 3), 0, dice.between(-8, 0));
+    pinch.velocity = Vec3{dice.between(-3, 3), 0, dice.between(-8, 0)};
     pinch.floor = n % 2 == 0;
     return pinch;
 }

@@ -79,14 +79,14 @@ TEST(CentreOfMass, FreeRotationKeepsTheAngularMomentumAndTheSurfaceFollows)
 {
     Dice dice(11);
     for (int n = 0; n < 6; ++n) {
-        const Vec3 c(dice.between(-0.4, 0.4), dice.between(-0.3, 0.3), dice.between(-0.2, 0.2));
+        const Vec3 c{dice.between(-0.4, 0.4), dice.between(-0.3, 0.3), dice.between(-0.2, 0.2)};
+        const Vec3 spin{dice.between(-3, 3), dice.between(-3, 3), dice.between(-3, 3)};
         Simulation sim = started(
             head(3, 0) +
             fmt::format("[[body]]\nshape = \"box\"\nsize = [1, 0.8, 0.6]\nmass = 5\ncenter_of_mass "
                         "= [{}, {}, {}]\ninertia = [0.5, 0.7, 0.9]\nposition = [1, 2, 3]\nvelocity "
                         "= [1, 0, 0]\nangular_velocity = [{}, {}, {}]\n",
-                        c.x(), c.y(), c.z(), dice.between(-3, 3), dice.between(-3, 3),
-                        dice.between(-3, 3)));
+                        c.x(), c.y(), c.z(), spin.x(), spin.y(), spin.z()));
         const Vec3 L = sim.rigid.bodies[0].angular_momentum;
         for (int k = 0; k < 500; ++k) {
             step(sim);
@@ -110,7 +110,7 @@ TEST(CentreOfMass, BoxesBounceAsTheSameCornersShiftedByHand)
 {
     Dice dice(5);
     for (int n = 0; n < 4; ++n) {
-        const Vec3 c(dice.between(-0.4, 0.4), dice.between(-0.3, 0.3), dice.between(-0.2, 0.2));
+        const Vec3 c{dice.between(-0.4, 0.4), dice.between(-0.3, 0.3), dice.between(-0.2, 0.2)};
         Simulation sim = started(
             head(3, 9.81) +
             fmt::format("[[wall]]\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"

@@ -290,7 +290,7 @@ Scene tank_with_stack(std::uint64_t seed)
     const double turn = angle * std::numbers::pi / 180;
     const Vec3 up(std::sin(turn), 0, std::cos(turn));
     const Vec3 along(std::cos(turn), 0, -std::sin(turn));
-    Vec3 foot(dice.between(0.4, 0.8), 0, dice.between(0.1, 0.2));
+    Vec3 foot{dice.between(0.4, 0.8), 0, dice.between(0.1, 0.2)};
     std::string text = "dimensions = 2\n[time]\nend = 10.0\n[particles]\nspacing = 0.04\n[fluid]\n"
                        "[[fluid.block]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [1.2, 0, 0.8]\n"
                        "[[wall]]\nname = \"sides\"\nshape = \"basin\"\nmin = [0, 0, 0]\n"

@@ -301,7 +301,7 @@ TEST(Seepage, ASealedCrateNeverLifts)
     for (int k = 0; k < 12; ++k) {
         const int dimensions = k % 4 == 3 ? 3 : 2;
         const double dp = k % 2 == 0 ? 0.05 : 0.025 * dimensions - 0.025;
-        const Vec3 size(0.25 + 0.3 * part(dice), dimensions == 3 ? 0.3 : 0, 0.2 + 0.3 * part(dice));
+        const Vec3 size{0.25 + 0.3 * part(dice), dimensions == 3 ? 0.3 : 0, 0.2 + 0.3 * part(dice)};
         const double depth = size.z() * (0.3 + part(dice));
         Simulation sim =
             make(in_tank(dimensions, dp, size, 0.2, depth,

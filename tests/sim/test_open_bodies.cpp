@@ -349,10 +349,11 @@ TEST(OpenBodies, StopAtAnInflow)
         reach.near = inflow(reach.depth, 0);
         reach.far = "kind = \"absorb\"\n";
         const double speed = dice.between(0.5, 3);
+        const double density = dice.between(200, 600);
         const std::string text =
             case_of(reach) + floating_box("box", 3 * reach.spacing,
-                                          reach.from + 2.7 * reach.spacing, reach,
-                                          dice.between(200, 600), dice.between(0, 90), -speed);
+                                          reach.from + 2.7 * reach.spacing, reach, density,
+                                          dice.between(0, 90), -speed);
         SCOPED_TRACE(text);
         Simulation sim = make(text);
         double nearest = infinity;

@@ -101,8 +101,8 @@ TEST(Pairing, DoesNotHappenInThreeDimensions)
     Dice dice(20261129);
     const int draws = number_from("HYORYU_DRAWS", 1);
     for (int draw = 0; draw < draws; ++draw) {
-        expect_no_pairs(3, 1.0 / (draw % 2 == 0 ? 12 : 10), dice.between(1.4, 1.5),
-                        dice.between(2500, 4000));
+        const double ratio = dice.between(1.4, 1.5);
+        expect_no_pairs(3, 1.0 / (draw % 2 == 0 ? 12 : 10), ratio, dice.between(2500, 4000));
     }
 }
 

@@ -61,8 +61,9 @@ TEST(RanksAtTheStart, CheckpointsOfScenesDrawnAtRandomServeAnyNumberOfRanks)
     for (int seed = first; seed < first + count; ++seed) {
         SCOPED_TRACE(fmt::format("HYORYU_SEED={} HYORYU_SCENES=1", seed));
         Dice dice(static_cast<std::uint64_t>(seed));
+        const int before = dice.below(80);
         expect_checkpoints_serve(random_scene::scene_of(static_cast<std::uint64_t>(seed)), {},
-                                 dice.below(80), 1 + dice.below(40));
+                                 before, 1 + dice.below(40));
     }
 }
 

@@ -235,7 +235,7 @@ Prism drawn_prism(Dice& dice, double dp)
     prism.height = dice.between(4, 7) * dp;
     const auto random = [&] { return dice.between(-1, 1); };
     const double angle = dice.chance(0.2) ? std::numbers::pi / 4 : std::numbers::pi * random();
-    const Vec3 axis = dice.chance(0.5) ? Vec3(0, 0, 1) : Vec3(random(), random(), random());
+    const Vec3 axis = dice.chance(0.5) ? Vec3(0, 0, 1) : Vec3{random(), random(), random()};
     prism.turn = Eigen::AngleAxisd(angle, axis.normalized());
     return prism;
 }
@@ -259,7 +259,7 @@ TEST(SubmergedWalls, MeshesAtAnyAngleHaveTheirVolume)
     for (int n = 0; n < 80; ++n) {
         const double dp = n % 2 == 0 ? 0.05 : 0.02;
         const Prism prism = drawn_prism(dice, dp);
-        const Vec3 offset(dice.between(0, 1), dice.between(0, 1), dice.between(0, 1));
+        const Vec3 offset{dice.between(0, 1), dice.between(0, 1), dice.between(0, 1)};
         const Scene scene = with_prism(prism, dp, {6, 5, 3}, dp * (Vec3(40, 5, 5) + offset),
                                        "[output]\nevery = 1\nfields = [\"volume\"]\n");
         const Cloud cloud = wall_cloud(started(scene));
@@ -281,7 +281,7 @@ TEST(SubmergedWalls, MeshesAtAnyAngleDisplaceTheirVolume)
     for (int n = 0; n < 8; ++n) {
         const double dp = n % 2 == 0 ? 0.05 : 0.02;
         const Prism prism = drawn_prism(dice, dp);
-        const Vec3 offset(dice.between(0, 1), dice.between(0, 1), dice.between(0, 1));
+        const Vec3 offset{dice.between(0, 1), dice.between(0, 1), dice.between(0, 1)};
         const Scene scene =
             with_prism(prism, dp, {16, 16, 16}, dp * (Vec3(7.5, 7.5, 7) + offset), "");
         const double lifted = lifted_volume(started(scene), 16 * dp);
