@@ -15,7 +15,7 @@ namespace {
 // Distances from the surface in spacings: where it stops approaching particles, how near those
 // farther away than `slowed` may come within a step, and up to where particles are examined.
 constexpr double held = 0.25;
-constexpr double slowed = held + 1.0 / 64;
+constexpr double slowed = held + 1.0 / 16;
 constexpr double approached = 0.125;
 constexpr double looked_at = 2;
 // Displacement of particles and solids for which the lists of near solids hold [spacings].

@@ -113,7 +113,8 @@ private:
             return put_number(text, place);
         case 5: {
             const std::string& other = corpus_[below(corpus_.size())];
-            text.insert(place, other.substr(below(other.size() + 1), below(256)));
+            const std::size_t first = below(other.size() + 1);
+            text.insert(place, other.substr(first, below(256)));
             return;
         }
         default:

@@ -240,7 +240,7 @@ TEST(WallBarrier, IsContinuousInTheDistance)
         hold(sim, dt);
         for (Index k = 1; k < count; ++k) {
             const double change = (x[at(k)] - x[at(k - 1)] + dt * (v[at(k)] - v[at(k - 1)])).norm();
-            EXPECT_LE(change, 12 * apart) << "speed " << speed << ", distance " << -x[at(k)].x();
+            EXPECT_LE(change, 5 * apart) << "speed " << speed << ", distance " << -x[at(k)].x();
         }
     }
 }

@@ -7,7 +7,7 @@
 //     u*(d) = -s (d - dp/8) / dt           at a distance d of dp/4 or more,
 //             0                            nearer than that,
 //             min(-d / (20 dt), 0.02 c0)   inside, where d < 0,
-// with s = (d - dp/4) / (dp/64), at most 1, so that u* is continuous and round-off does not decide
+// with s = (d - dp/4) / (dp/16), at most 1, so that u* is continuous and round-off does not decide
 // in which step a particle is held. The particle receives the impulse J = m (u* - u) n, the solid
 // -J. A stopped particle has no approach speed left, as in an inelastic impact; a particle inside
 // is led out slowly. Water at its normal distance is not affected. Between surfaces that close in
