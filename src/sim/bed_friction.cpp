@@ -27,6 +27,7 @@ void lay_columns(const Fluid& fluid, BedFriction& bed)
     }
     const std::size_t columns = at(bed.count[0] * bed.count[1]);
     bed.particles.assign(columns, 0);
+    bed.lowest.assign(columns, 0);
     bed.speeds.assign(columns, {0, 0, 0});
 }
 
@@ -65,6 +66,7 @@ void fill_columns(const Fluid& fluid, BedFriction& bed)
 void add_other_columns(const Fluid& fluid, BedFriction& bed)
 {
     std::vector<std::int64_t> numbers(bed.particles.begin(), bed.particles.end());
+    numbers.insert(numbers.end(), bed.lowest.begin(), bed.lowest.end());
     for (const auto& speed : bed.speeds) {
         numbers.insert(numbers.end(), speed.begin(), speed.end());
     }
@@ -72,17 +74,40 @@ void add_other_columns(const Fluid& fluid, BedFriction& bed)
     const std::size_t columns = bed.particles.size();
     for (std::size_t k = 0; k < columns; ++k) {
         bed.particles[k] = static_cast<std::int32_t>(numbers[k]);
-        std::copy_n(&numbers[columns + 3 * k], 3, bed.speeds[k].begin());
+        bed.lowest[k] = static_cast<std::int32_t>(numbers[columns + k]);
+        std::copy_n(&numbers[2 * columns + 3 * k], 3, bed.speeds[k].begin());
     }
 }
 
-// The depth of a column, at least a spacing [m].
+// The depth of a column, at least a spacing [m]: the water over the area of the bed below it, which
+// walls and the edge of the domain may cut. Where no particle is near the bed: over the column.
 double depth_of(const Fluid& fluid, const BedFriction& bed, std::size_t column)
 {
     const FluidParameters& f = fluid.parameters;
-    const double area = bed.width[0] * (f.dimensions == 2 ? 1 : bed.width[1]);
-    const double volume = bed.particles[column] * f.mass / f.eos.rho0;
-    return std::max(volume / area, static_cast<double>(f.spacing));
+    const double of_particle = f.mass / f.eos.rho0;
+    const double area = bed.lowest[column] > 0
+                            ? bed.lowest[column] * of_particle / f.spacing
+                            : bed.width[0] * (f.dimensions == 2 ? 1 : bed.width[1]);
+    return std::max(bed.particles[column] * of_particle / area, static_cast<double>(f.spacing));
+}
+
+// Whether a wall is less than a spacing below a place, along gravity. A plate may be thinner.
+bool is_lowest(const Simulation& sim, const Vec3& x, std::span<const int> solids)
+{
+    const WallBarrier& barrier = *sim.barrier;
+    const Vec3 down = sim.scene.gravity.normalized() * barrier.spacing;
+    bool found = false;
+    for (const Vec3& below : {Vec3(x + down), Vec3(x + down / 2)}) {
+        for_images(*sim.fluid, below, 0, [&](const Vec3& image) {
+            found = found || std::ranges::any_of(solids, [&](int solid) {
+                        const auto k = at(solid);
+                        return k < barrier.walls &&
+                               nearest_of(barrier, barrier.places[k], k, image, barrier.spacing)
+                                       .distance <= 0;
+                    });
+        });
+    }
+    return found;
 }
 
 struct RoughPlace {
@@ -93,12 +118,15 @@ struct RoughPlace {
 };
 
 // The nearest rough wall within a spacing of a place.
-RoughPlace nearest_rough(const Simulation& sim, const Vec3& x)
+RoughPlace nearest_rough(const Simulation& sim, const Vec3& x, std::span<const int> solids)
 {
     const WallBarrier& barrier = *sim.barrier;
     RoughPlace found{.distance = barrier.spacing};
     for_images(*sim.fluid, x, barrier.spacing, [&](const Vec3& image) {
-        for (const int wall : sim.bed.walls) {
+        for (const int wall : solids) {
+            if (at(wall) >= barrier.walls || !(sim.scene.walls[at(wall)].manning > 0)) {
+                continue;
+            }
             const SolidPlace& place = barrier.places[at(wall)];
             const NearestPlace nearest =
                 nearest_of(barrier, place, at(wall), image, barrier.spacing);
@@ -111,13 +139,13 @@ RoughPlace nearest_rough(const Simulation& sim, const Vec3& x)
 }
 
 // Brakes one particle; the wall gets what was taken from it.
-void rub_row(Simulation& sim, Index i, double dt)
+void rub_row(Simulation& sim, Index i, std::span<const int> solids, double dt)
 {
     Fluid& fluid = *sim.fluid;
     BedFriction& bed = sim.bed;
     const Vec3& x = std::as_const(fluid.particles.fluid)[field::position][at(i)];
     Vec3& v = fluid.particles.fluid[field::velocity][at(i)];
-    const RoughPlace rough = nearest_rough(sim, x);
+    const RoughPlace rough = nearest_rough(sim, x, solids);
     if (rough.wall < 0) {
         return;
     }
@@ -151,6 +179,22 @@ bool may_be_near(const WallBarrier& barrier, Index i, const Vec3& from_centre)
     return !(left > 0 && moved.squaredNorm() < sq(left));
 }
 
+// Calls f(i, x, solids) for the fluid rows that may be within a spacing of a solid, in parallel.
+void for_rows_near(const Simulation& sim, const auto& f)
+{
+    const Tiles& tiles = sim.fluid->neighbours.fluid;
+    const auto x = sim.fluid->particles.fluid[field::position];
+    parallel_blocks(0, tiles.tiles(), [&](Index tile) {
+        const Vec3 centre = tiles.lattice.centre(tiles.tile[at(tile)]);
+        for (Index i = tiles.start[at(tile)]; i < tiles.start[at(tile + 1)]; ++i) {
+            const Vec3 r = x[at(i)] - centre;
+            if (may_be_near(*sim.barrier, i, r)) {
+                f(i, x[at(i)], solids_near(*sim.barrier, tiles.lattice, tile, r));
+            }
+        }
+    });
+}
+
 } // namespace
 
 BedFriction make_bed_friction(const Simulation& sim)
@@ -170,18 +214,17 @@ void rub_on_beds(Simulation& sim, double dt)
     BedFriction& bed = sim.bed;
     lay_columns(fluid, bed);
     fill_columns(fluid, bed);
+    for_rows_near(sim, [&](Index, const Vec3& x, std::span<const int> solids) {
+        if (is_lowest(sim, x, solids)) {
+            std::atomic_ref(bed.lowest[column_of(fluid, bed, x)])
+                .fetch_add(1, std::memory_order_relaxed);
+        }
+    });
     if (fluid.ghosts) {
         add_other_columns(fluid, bed);
     }
-    const Tiles& tiles = fluid.neighbours.fluid;
-    const auto x = fluid.particles.fluid[field::position];
-    parallel_blocks(0, tiles.tiles(), [&](Index tile) {
-        const Vec3 centre = tiles.lattice.centre(tiles.tile[at(tile)]);
-        for (Index i = tiles.start[at(tile)]; i < tiles.start[at(tile + 1)]; ++i) {
-            if (may_be_near(*sim.barrier, i, x[at(i)] - centre)) {
-                rub_row(sim, i, dt);
-            }
-        }
+    for_rows_near(sim, [&](Index i, const Vec3&, std::span<const int> solids) {
+        rub_row(sim, i, solids, dt);
     });
 }
 

@@ -17,6 +17,11 @@ void place_solids(const Simulation& sim, std::span<const Pose> poses, double tim
 NearestPlace nearest_of(const WallBarrier& barrier, const SolidPlace& place, std::size_t solid,
                         const Vec3& x, double farthest);
 
+/// The solids that a particle of a tile may meet within two spacings, ascending, since the last
+/// step of the barrier. `r`: of the particle from the centre of the tile [m].
+std::span<const int> solids_near(const WallBarrier& barrier, const TileLattice& lattice, Index tile,
+                                 const Vec3& r);
+
 /// Calls f(x); in a periodic domain for x in the first period and for those of its images that are
 /// within `reach` of an edge of it: positions beyond an edge are images.
 void for_images(const Fluid& fluid, const Vec3& x, double reach, const auto& f)

@@ -52,13 +52,6 @@ void add(WallBarrier::Near& near, int solid)
     near.count += 1;
 }
 
-std::span<const int> near_of(const WallBarrier& barrier, Index tile)
-{
-    const WallBarrier::Near& near = barrier.near[at(tile)];
-    return at(near.count) <= near.solid.size() ? std::span(near.solid).first(at(near.count))
-                                               : std::span<const int>(barrier.numbers);
-}
-
 // Records the solids that each tile may meet until the next lists are made, and a lower bound of
 // the distance of its particles from them: that of its centre less their distance from the centre.
 void find_near(const Fluid& fluid, WallBarrier& barrier)
@@ -249,13 +242,11 @@ void hold_tile(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Inde
 {
     const Tiles& tiles = fluid.neighbours.fluid;
     const Vec3 centre = tiles.lattice.centre(tiles.tile[at(tile)]);
-    const Vec3 roam = tiles.lattice.edge / 2 + Vec3::Constant(slack / 4 * barrier.spacing);
     const auto x = std::as_const(fluid.particles.fluid)[field::position];
     const auto v = std::as_const(fluid.particles.fluid)[field::velocity];
     if (is_far(step, fluid, barrier, tile)) {
         return;
     }
-    const std::span<const int> near = near_of(barrier, tile);
     for (Index i = tiles.start[at(tile)]; i < tiles.start[at(tile + 1)]; ++i) {
         WallBarrier::Seen& seen = barrier.seen[at(i)];
         const Vec3 r = x[at(i)] - centre;
@@ -263,9 +254,7 @@ void hold_tile(const BarrierStep& step, Fluid& fluid, WallBarrier& barrier, Inde
         if (step.is_free(seen.clearance - barrier.way, moved, v[at(i)])) {
             continue;
         }
-        // A particle far from the centre of its tile may be near other solids.
-        const bool home = (r.cwiseAbs().array() <= roam.array()).all();
-        hold_row(step, fluid, barrier, i, home ? near : barrier.numbers, seen, r);
+        hold_row(step, fluid, barrier, i, solids_near(barrier, tiles.lattice, tile, r), seen, r);
     }
 }
 
@@ -298,6 +287,17 @@ WallBarrier make_wall_barrier(const Scene& scene)
     barrier.numbers.resize(barrier.solids.size());
     std::iota(barrier.numbers.begin(), barrier.numbers.end(), 0);
     return barrier;
+}
+
+std::span<const int> solids_near(const WallBarrier& barrier, const TileLattice& lattice, Index tile,
+                                 const Vec3& r)
+{
+    // A particle far from the centre of its tile may be near other solids.
+    const Vec3 roam = lattice.edge / 2 + Vec3::Constant(slack / 4 * barrier.spacing);
+    const bool home = (r.cwiseAbs().array() <= roam.array()).all();
+    const WallBarrier::Near& near = barrier.near[at(tile)];
+    return home && at(near.count) <= near.solid.size() ? std::span(near.solid).first(at(near.count))
+                                                       : std::span<const int>(barrier.numbers);
 }
 
 void hold_at_solids(Simulation& sim, double time, double dt)

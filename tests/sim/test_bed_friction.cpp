@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rough beds: uniform flow comes to the velocity of Manning's formula, the books of momentum close,
 // the same bits come out of any number of threads and of a restart, and a smooth bed costs nothing.
+#include "dice.hpp"
 #include "runs.hpp"
 
 #include "hyoryu/core/parallel.hpp"
@@ -103,6 +104,65 @@ TEST(BedFriction, AFlowOnALevelBedDiesAwayHyperbolically)
             const double taken = 500 * (2 - mean_velocity(sim)); // kg/m of water
             EXPECT_NEAR(before - sim.conservation.wall_impulse.x(), taken, 1e-9 * taken);
         }
+    }
+}
+
+// A flume with smooth sides, which repeats itself along x, in a domain that is wider. In half of
+// the draws a smooth wall splits it. `way`: of its lower corner along y [m].
+struct Flume {
+    double dp = 0.05;
+    double length = 0.8, width = 0.4; // [m]
+    double way = 0, beyond = 0.5;     // of the domain beyond its sides [m]
+    double manning = 0.05;
+    bool split = false;
+};
+
+std::string text_of(const Flume& f)
+{
+    const double depth = 8 * f.dp;
+    const auto wall = [&](const char* more, double low, double high, double bottom, double top) {
+        return fmt::format("[[wall]]\nshape = \"box\"\nmin = [-1, {}, {}]\nmax = [{}, {}, {}]\n{}",
+                           low, bottom, f.length + 1, high, top, more);
+    };
+    const double low = f.way;
+    const double high = low + f.width;
+    const double far = 4 * f.dp;
+    std::string text = fmt::format(
+        "[time]\nend = 10\n[particles]\nspacing = {}\n[domain]\nmin = [0, {}, -0.5]\n"
+        "max = [{}, {}, 1]\nperiodic = [\"x\"]\n[fluid]\n[[fluid.block]]\nshape = \"box\"\n"
+        "min = [0, {}, 0]\nmax = [{}, {}, {}]\nvelocity = [1, 0, 0]\n",
+        f.dp, low - f.beyond, f.length, high + f.beyond, low, f.length, high, depth);
+    text += wall(fmt::format("manning = {}\n", f.manning).c_str(), low - far, high + far, -far, 0);
+    text += wall("", low - far, low, -far, 2 * depth) + wall("", high, high + far, -far, 2 * depth);
+    if (f.split) {
+        const double middle = low + 2 * f.dp * std::floor(f.width / f.dp / 4);
+        text += wall("", middle, middle + 4 * f.dp, -far, 2 * depth);
+    }
+    return text;
+}
+
+// Neither the sides nor the edge of the domain, which cut the columns, change the friction:
+// du/dt = -g n^2 u^2 / h^(4/3). With the depth of whole columns 1.00 to 1.18 of it.
+TEST(BedFriction, DoesNotDependOnWhatCutsTheColumns)
+{
+    Dice dice(7);
+    for (int k = 0; k < number_from("HYORYU_DRAWS", 8); ++k) {
+        Flume f{.dp = k % 2 == 0 ? 0.05 : 0.04};
+        f.length = f.dp * (12 + dice.below(9));
+        f.width = f.dp * (8 + dice.below(9));
+        f.way = dice.between(-1, 1);
+        f.beyond = dice.between(6, 10) * f.dp;
+        f.split = k % 4 == 3;
+        f.width += f.split ? 8 * f.dp : 0;
+        const std::string text = text_of(f);
+        SCOPED_TRACE(text);
+        Simulation sim = make(text);
+        while (sim.clock.time < 0.5) {
+            step_on(sim);
+        }
+        const double rate = 9.81 * f.manning * f.manning / std::pow(8 * f.dp, 4.0 / 3);
+        const double lost = 1 - 1 / (1 + rate * sim.clock.time);
+        EXPECT_NEAR((1 - mean_velocity(sim)) / lost, 1, 0.04);
     }
 }
 

@@ -6,8 +6,10 @@
 // by area, against their own velocity v along the surface:
 //     v <- v / (1 + dt g n^2 |U|^2 / (h^(1/3) dp |v|)),
 // which is stable for any step and never turns a velocity round. Depth and mean velocity are those
-// of columns about four spacings wide, taken in the middle of each step. The wall receives the
-// reaction.
+// of columns about four spacings wide, taken in the middle of each step. The depth is the volume of
+// the water in a column over the area of the bed below it. This area is the volume of the particles
+// less than dp above a wall, along gravity, over dp: walls and edges of the domain cut columns. The
+// wall receives the reaction.
 #pragma once
 
 #include "hyoryu/core/types.hpp"
@@ -27,6 +29,7 @@ struct BedFriction {
     std::array<Index, 2> count{1, 1};                // columns along x and y
     std::array<double, 2> width{1, 1};               // of a column [m]
     std::vector<std::int32_t> particles;             // in each column
+    std::vector<std::int32_t> lowest;                // of them, within a spacing above a wall
     std::vector<std::array<std::int64_t, 3>> speeds; // their sum, in units of 2^-30 c0
 };
 
