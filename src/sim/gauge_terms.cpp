@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gauge_terms.hpp"
 
+#include "solid_places.hpp"
+
 #include "hyoryu/fluid/sum_units.hpp"
 
 #include <algorithm>
@@ -101,15 +103,57 @@ double farthest(const GaugeSearch& search, int axis)
     return place;
 }
 
+// The image of a place in the first period.
+Vec3 first_image(const Fluid& fluid, const Vec3& place)
+{
+    return fluid.period == Vec3(0, 0, 0) ? place
+                                         : Vec3(fluid.neighbours.fluid.lattice.wrapped(place));
+}
+
+// How far images of a place lie along a normal from it; 0 alone without periodic sides [m].
+std::vector<double> image_offsets(const Fluid& fluid, const Vec3& normal)
+{
+    std::vector<double> offsets{0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double period = fluid.period[axis];
+        for (std::size_t k = period > 0 ? offsets.size() : 0; k-- > 0;) {
+            offsets.push_back(offsets[k] - period * normal[axis]);
+            offsets.push_back(offsets[k] + period * normal[axis]);
+        }
+    }
+    return offsets;
+}
+
+// Whether a point of a plane belongs to the first period; a plane across an axis has one place
+// there.
+bool in_first_period(const Fluid& fluid, const Vec3& normal, const Vec3& point)
+{
+    constexpr double rounding = 1e-12;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double from_low = point[axis] - fluid.domain_min[axis];
+        if (fluid.period[axis] > 0 && std::abs(normal[axis]) < 1 - rounding &&
+            !(from_low >= 0 && from_low < fluid.period[axis])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The plane of the first period alone, seen by the particles and by their images.
 FixedSum flux(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
 {
     const auto x = fluid.particles.fluid[field::position];
     const auto v = fluid.particles.fluid[field::velocity];
     const auto V = fluid.particles.fluid[field::volume];
     const double reach = 2 * fluid.parameters.spacing;
+    const Vec3 place = first_image(fluid, gauge.at);
+    const std::vector<double> offsets = image_offsets(fluid, gauge.normal);
     const auto near = [&](const TileExtent& extent) {
-        const double distance = std::abs(gauge.normal.dot(extent.middle - gauge.at));
-        return distance - gauge.normal.cwiseAbs().dot(extent.half) < wider * reach;
+        const double distance = gauge.normal.dot(extent.middle - place);
+        const double half = gauge.normal.cwiseAbs().dot(extent.half);
+        return std::ranges::any_of(offsets, [&](double offset) {
+            return std::abs(distance + offset) - half < wider * reach;
+        });
     };
     std::vector<Index> rows;
     append_rows_near(fluid.neighbours.fluid, search.fluid, x, near, rows);
@@ -117,8 +161,14 @@ FixedSum flux(const Fluid& fluid, const GaugeSearch& search, const Gauge& gauge)
         sums_of_each<1>(static_cast<Index>(rows.size()), {sum_units(fluid.parameters).flux},
                         [&](Index k) -> std::array<double, 1> {
                             const Index i = rows[at(k)];
-                            const double distance = std::abs(gauge.normal.dot(x[i] - gauge.at));
-                            const double hat = std::max(0.0, 1 - distance / reach) / reach;
+                            double hat = 0;
+                            for_images(fluid, x[i], reach, [&](const Vec3& image) {
+                                const double distance = gauge.normal.dot(image - place);
+                                const Vec3 foot = image - distance * gauge.normal;
+                                hat += in_first_period(fluid, gauge.normal, foot)
+                                           ? std::max(0.0, 1 - std::abs(distance) / reach) / reach
+                                           : 0;
+                            });
                             return {V[i] * gauge.normal.dot(v[i]) * hat};
                         });
     return of_rows.each()[0];

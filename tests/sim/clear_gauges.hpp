@@ -178,10 +178,31 @@ inline double flux(const Fluid& fluid, const Gauge& gauge)
     const auto V = fluid.particles.fluid[field::volume];
     const double reach = 2 * fluid.parameters.spacing;
     const FixedUnit unit = sum_units(fluid.parameters).flux;
+    const auto first = [&](const Vec3& place) {
+        return fluid.period == Vec3(0, 0, 0) ? place
+                                             : fluid.neighbours.fluid.lattice.wrapped(place);
+    };
+    const Vec3 place = first(gauge.at);
     FixedSum total;
     for (std::size_t i = 0; i < x.size(); ++i) {
-        const double distance = std::abs(gauge.normal.dot(x[i] - gauge.at));
-        const double hat = std::max(0.0, 1 - distance / reach) / reach;
+        double hat = 0; // over 27 images, those of an axis without period being the same
+        for (int image = 0; image < 27; ++image) {
+            const Vec3 shift(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
+            bool counts = true;
+            for (int a = 0; a < 3; ++a) {
+                counts = counts && (fluid.period[a] > 0 || shift[a] == 0);
+            }
+            const Vec3 own = first(x[i]) + shift.cwiseProduct(fluid.period);
+            const double distance = gauge.normal.dot(own - place);
+            const Vec3 foot = own - distance * gauge.normal;
+            for (int a = 0; a < 3; ++a) {
+                const bool across = std::abs(gauge.normal[a]) > 1 - 1e-12;
+                const double from = foot[a] - fluid.domain_min[a];
+                counts = counts &&
+                         (fluid.period[a] == 0 || across || (from >= 0 && from < fluid.period[a]));
+            }
+            hat += counts ? std::max(0.0, 1 - std::abs(distance) / reach) / reach : 0;
+        }
         total.add(V[i] * gauge.normal.dot(v[i]) * hat, unit);
     }
     return total.value(unit);
