@@ -96,9 +96,13 @@ int describe_keys(const DescribeOptions& options)
 
 int render_results(const RenderOptions& options)
 {
+    expect_results(options.folder);
     const RenderResult result = render(options.folder, options.settings);
     fmt::print("{} pictures in {}\n", result.pictures.size(),
                (options.folder / "pictures").string());
+    if (result.removed > 0) {
+        fmt::print("they replace {} files of an earlier call\n", result.removed);
+    }
     if (result.animation) {
         fmt::print("animation: {}\n", result.animation->string());
     } else if (!result.note.empty()) {

@@ -148,6 +148,27 @@ std::string quoted(const std::string& word)
     return "'" + replaced(word, {{'\'', "'\\''"}}) + "'";
 }
 
+// A column of a history is of one thing: gauges that keep their name keep what they read.
+void refuse_other_gauges(const Scene& before, const Scene& scene)
+{
+    std::vector<Diagnostic> mistakes;
+    for (std::size_t k = 0; k < scene.gauges.size(); ++k) {
+        const Gauge& gauge = scene.gauges[k];
+        const auto same = std::ranges::find(before.gauges, gauge.name, &Gauge::name);
+        if (same != before.gauges.end() && (same->type != gauge.type || same->on != gauge.on)) {
+            mistakes.push_back(diagnostic_without_line(
+                scene, gauge.place,
+                fmt::format("gauge[{}].{}", k, same->type != gauge.type ? "type" : "on"),
+                fmt::format("\"{}\" read something else before the checkpoint", gauge.name),
+                "give the gauge another name"));
+        }
+    }
+    if (!mistakes.empty()) {
+        show_places(scene, mistakes);
+        throw CaseError(mistakes);
+    }
+}
+
 Resumption resumption_of(const RunOptions& options, const fs::path& folder, const Scene& scene)
 {
     auto [state, parts, passed_over] = read_newest_checkpoint(folder);
@@ -166,6 +187,7 @@ Resumption resumption_of(const RunOptions& options, const fs::path& folder, cons
         refuse(scene, differences,
                "run with the case.toml in the results folder, or restart with --force");
     }
+    refuse_other_gauges(before, scene);
     const double time = time_of(state);
     if (scene.time.end < time * (1 - 1e-9)) {
         throw CaseError(

@@ -29,13 +29,14 @@ bool is_picture_of_ours(const std::string& name)
 }
 
 /// A folder without pictures of ours: those of an earlier call would slip into the animation.
-fs::path emptied_pictures(const fs::path& results)
+/// Counts them in `removed`.
+fs::path emptied_pictures(const fs::path& results, int& removed)
 {
     const fs::path pictures = results / "pictures";
     try {
         fs::create_directories(pictures);
         for (const std::string& name : owned_names(pictures, is_picture_of_ours)) {
-            fs::remove(pictures / name);
+            removed += fs::remove(pictures / name) ? 1 : 0;
         }
     } catch (const fs::filesystem_error& error) {
         throw IoError(
@@ -59,7 +60,7 @@ RenderResult render(const fs::path& results, const RenderSettings& settings)
     const Survey survey = survey_of(moments, structures, settings.colour);
     Picture picture(results, survey, structures, settings);
     RenderResult result;
-    const fs::path folder = emptied_pictures(results);
+    const fs::path folder = emptied_pictures(results, result.removed);
     for (const Moment& moment : moments) {
         const fs::path file = folder / fmt::format("frame_{}.png", moment.number);
         write_text(file, picture.png_of(moment));

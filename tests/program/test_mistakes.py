@@ -174,7 +174,11 @@ scatter = { corners = [[0, 0, 0], [30, 0, 0], [30, 30, 0], [0, 30, 0]], count = 
 
     def test_mistakes_that_place_nothing_do_not_hide_those_of_the_scene(self):
         gauge = '[[gauge]]\ntype = "force"\non = "{}"\n[output]'
-        for x, bad, key in ((0.9, ("every = 0.05", 'every = -1\nfields = ["velocty"]'), "output.fields"),
+        crowd = ('[[debris]]\nkind = "car"\nname = "a"\narray = {{ count = [2, 1, 1], pitch = [0.1, 0.0, 0.0], '
+                 'from = [0.3, {}], on = "ground" }}\n[output]')
+        for x, bad, key in ((0.9, ("[output]", crowd.format(5)), "debris[0].array"),
+                            (0.9, ("[output]", crowd.format(0.2).replace('"car"', '"cart"')), "debris[0].kind"),
+                            (0.9, ("every = 0.05", 'every = -1\nfields = ["velocty"]'), "output.fields"),
                             (0.7, ("[output]", gauge.format("scond")), "gauge[0].on"),
                             (0.05, ("[output]", '[contact]\nfriction = -1\n[output]'), "contact.friction")):
             text = self.with_cube(x, 0.26, 0.1).replace(*bad)

@@ -410,6 +410,17 @@ position = [0.7, 0.0, 0.1]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.run_flood("out", "--force", "--until", "0.01", text=text)
 
+    def test_a_gauge_that_keeps_its_name_keeps_what_it_reads(self):
+        self.run_flood("out", "--until", "0.1", text=self.SMALL + self.CRATE + self.PROBE)
+        rows = self.gauges("out")
+        for gauge, key in ((self.CRATE.replace('on = "crate"', 'on = "basin"'), "gauge[1].on"),
+                           ('[[gauge]]\nname = "crate"\ntype = "front"\n', "gauge[1].type")):
+            done = self.call("run", self.write(self.SMALL + self.PROBE + gauge), "-o", "out", "--resume")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f'`{key}`: "crate" read something else before the checkpoint', done.stderr)
+            self.assertEqual(self.gauges("out"), rows)
+        self.go_on(self.SMALL + self.PROBE + self.CRATE, "out")
+
     def test_e4_a_refusal_names_each_key_with_both_values(self):
         self.run_flood("out", "--until", "0.05", text=self.SMALL)
         before = self.snapshot("out")
@@ -627,6 +638,7 @@ fixed = true
             done = self.call("render", "out", "--times", times, "--width", "320", "--height", "240",
                              env={**os.environ, "PATH": str(self.dir)})
             self.assertIn(f"no animation: {reason}", done.stdout.splitlines())
+            self.assertIn("files of an earlier call", done.stdout)
 
 
 if __name__ == "__main__":

@@ -275,6 +275,20 @@ TEST(Debris, YardsInDegreesAreRefused)
     EXPECT_NE(told.find("look like degrees"), std::string::npos) << told;
 }
 
+TEST(Debris, RowsAlongYThatTwoDimensionsDoNotHaveAreTold)
+{
+    for (const int rows : {1, 2, 7}) {
+        const std::string array = fmt::format(
+            "kind = \"car\"\narray = {{ count = [2, {}, 1], pitch = [9, 9, 0], from = [0, 0, 5] }}",
+            rows);
+        EXPECT_EQ(read(array).bodies.size(), 2U * static_cast<std::size_t>(rows));
+        const Scene flat = read(array, 2);
+        EXPECT_EQ(flat.bodies.size(), 2U);
+        ASSERT_EQ(flat.notices.size(), rows == 1 ? 0U : 1U);
+        EXPECT_TRUE(rows == 1 || flat.notices[0].what.find("rows along y") != std::string::npos);
+    }
+}
+
 TEST(Debris, KeysWithoutMeaningAreRefused)
 {
     const std::string array = "array = { count = [1, 1, 1], pitch = [0, 0, 0], from = [0, 0, 5] }";

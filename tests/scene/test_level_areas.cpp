@@ -75,6 +75,7 @@ TEST_F(BuildingFiles, MistakesOfLevelAreasAreTold)
         {corners + "z = nan", "not a finite number"}};
     for (const auto& [keys, expected] : mistakes) {
         EXPECT_NE(told(keys).find(expected), std::string::npos) << keys << "\n" << told(keys);
+        EXPECT_EQ(told(keys).find("degrees"), std::string::npos) << told(keys);
     }
     write("quay.geojson", feature("{}", "[[[140, 38], [140.1, 38], [140, 38.1]]]"));
     EXPECT_NE(told("polygon = \"quay.geojson\"\nz = 1.8").find("look like degrees"),

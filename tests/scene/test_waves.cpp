@@ -161,6 +161,9 @@ TEST(Waves, MistakesAreToldWithTheirReason)
     EXPECT_NE(fault_of("velocity = [1, 0, 0]\nabsorb = true\ndepth = 1").find("waves that"),
               std::string::npos);
     EXPECT_NE(fault_of("absorb = true").find("depth"), std::string::npos);
+    EXPECT_NE(fault_of("absorb = true\ndepth = 1\nlevels = [0, 0.1]")
+                  .find("has no meaning without `times` and `places`"),
+              std::string::npos);
     EXPECT_NE(fault_of("lift = { start = 1, speed = 1 }\nvelocity = [1, 0, 0]").find("give one of"),
               std::string::npos);
 }

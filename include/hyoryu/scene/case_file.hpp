@@ -11,8 +11,9 @@
 
 namespace hyoryu {
 
-/// Mistakes in the tables `output`, `gauge` and `contact` alone, which place no particle: what the
-/// filled scene shows can be looked for all the same.
+/// Mistakes in the tables `output`, `gauge` and `contact` alone, which place no particle, and in
+/// `debris`, without which the rest of the scene is as it is: what the filled scene shows can be
+/// looked for all the same.
 class PlacedCaseError : public CaseError {
 public:
     PlacedCaseError(const CaseError& mistakes, Scene scene);

@@ -44,11 +44,12 @@ TomlNode parse_document(const std::string& text, Reading& reading)
     return root;
 }
 
-// Whether the key belongs to a table that places no particle.
-bool places_nothing(const Diagnostic& mistake)
+// Whether the key belongs to a table from which no other place in the scene follows.
+bool leaves_the_rest(const Diagnostic& mistake)
 {
     return std::ranges::any_of(
-        std::array<std::string_view, 3>{"output", "gauge", "contact"}, [&](std::string_view table) {
+        std::array<std::string_view, 4>{"output", "gauge", "contact", "debris"},
+        [&](std::string_view table) {
             const std::string_view key = mistake.key;
             return key.starts_with(table) && (key.size() == table.size() ||
                                               key[table.size()] == '.' || key[table.size()] == '[');
@@ -120,7 +121,7 @@ Scene parse_case(const std::string& text, const std::filesystem::path& file,
     scene.overrides = overrides;
     keys_of(root, scene);
     root.finish();
-    if (!reading.diagnostics.empty() && std::ranges::all_of(reading.diagnostics, places_nothing)) {
+    if (!reading.diagnostics.empty() && std::ranges::all_of(reading.diagnostics, leaves_the_rest)) {
         throw PlacedCaseError(CaseError(reading.diagnostics), std::move(scene));
     }
     throw_if_any(reading);

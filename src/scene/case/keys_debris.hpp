@@ -142,6 +142,13 @@ inline void check_array_count(TableReader& table, const DebrisArray& array)
         table.error("count", fmt::format("defines more than {} pieces", most),
                     "use fewer pieces, or several cases");
     }
+    if (table.reading().dimensions == 2 && array.count[1] > 1) {
+        table.warn("count",
+                   fmt::format("has {} rows along y, of which a case of two dimensions takes the "
+                               "first",
+                               array.count[1]),
+                   "write 1 there");
+    }
 }
 
 inline void check_height(TableReader& table, const DebrisArray& array)

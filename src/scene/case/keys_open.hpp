@@ -315,6 +315,7 @@ void keys_of(auto& keys, Is<OpenSeries> auto& series, const SeriesKeys& source,
              const OpenSettings& open)
 {
     SeriesKeys own = source;
+    own.file.reset(); // the window's
     keys.number(
         "at", series.at, "m",
         "Position of the station along the window: y, or x in a window that opens along y.");

@@ -161,8 +161,8 @@ void keys_of(auto& keys, Is<OutputSettings> auto& output, const Scene& scene)
                       "output.history_every");
     keys.texts("fields", output.fields,
                {"velocity", "pressure", "density", "volume", "id", "kind", "body"},
-               "Fields of each particle in a frame in addition to its position; an empty list "
-               "selects the default set.");
+               "Further fields of each particle in a frame: \"volume\" adds its volume. Place, "
+               "velocity, pressure, density, id, kind and body are in every frame.");
     keys.positive("checkpoint_every", output.checkpoint_every, "s",
                   "Wall-clock time between two checkpoints, from which `run --resume` continues.");
 }

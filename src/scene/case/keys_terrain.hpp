@@ -80,7 +80,7 @@ inline void place_levels(TableReader& table, const std::vector<LevelKeys>& level
 {
     for (const LevelKeys& level : levels) {
         Ring ring = level.ring;
-        if (!level.polygon.empty() && may_be_degrees(ring) &&
+        if (!level.polygon.empty() && !ring.empty() && may_be_degrees(ring) &&
             !may_be_degrees({{patch.origin[0], patch.origin[1]}})) {
             table.error("level",
                         "the coordinates look like degrees, those of the terrain are in "

@@ -155,6 +155,9 @@ inline void check_absorption(TableReader& table, const AbsorbKeys& keys, MotionW
     if (way == MotionWay::table || way == MotionWay::lift || motion.velocity.norm() > 0) {
         table.error("absorb", "needs the waves that the paddle generates",
                     "use it with a `piston`, with `times`, `places` and `levels`, or alone");
+    } else if (way != MotionWay::points && !keys.levels.empty()) {
+        table.error("levels", "has no meaning without `times` and `places`",
+                    "omit it, or give the path that generates these levels");
     } else if (way == MotionWay::points && keys.levels.size() != motion.times.size()) {
         table.error(table.has("levels") ? "levels" : "absorb",
                     fmt::format("expected a level of the water for each of {} times, found {}",

@@ -148,6 +148,27 @@ void look_for_overlaps(Buildings& buildings)
     }
 }
 
+// Notes how many footprints lie beside the terrain: a fault if all do.
+void tell_of_those_beside(std::size_t beside, const std::vector<Footprint>& footprints,
+                          const TerrainPatch* patch, Buildings& buildings)
+{
+    if (beside > 0 && beside == footprints.size()) {
+        buildings.faults.push_back(
+            {fmt::format("none of the {} footprints lies on the terrain, which has x from {:.6g} "
+                         "to {:.6g} m and y from {:.6g} to {:.6g} m; the first footprint begins at "
+                         "easting {:.9g}, northing {:.9g}",
+                         beside, patch->extent[0], patch->extent[2], patch->extent[1],
+                         patch->extent[3], footprints[0].rings[0][0][0],
+                         footprints[0].rings[0][0][1]),
+             "both files must use the same map projection"});
+    } else if (beside > 0) {
+        buildings.warnings.push_back({fmt::format("{} of {} footprints lie outside the terrain and "
+                                                  "are omitted",
+                                                  beside, footprints.size()),
+                                      "enlarge `wall.extent` if they are needed"});
+    }
+}
+
 // Why footprints cannot be in the coordinates of a terrain; empty if they can. Without a terrain
 // buildings of a laboratory's model, of some spacings, may stand where degrees could be.
 // `spacing`: of the particles [m].
@@ -207,7 +228,8 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
     if (const std::string fault = fault_of_map(footprints, patch, scene.spacing); !fault.empty()) {
         buildings.faults.push_back(
             {fault, "project them to the map of the terrain, for instance by `ogr2ogr -t_srs "
-                    "EPSG:32654 NEW.geojson FILE.geojson`"});
+                    "EPSG:32654 NEW.geojson FILE.geojson`; in metres, a building must be at least "
+                    "a spacing wide"});
         return buildings;
     }
     constexpr double far = 1e6; // planes reach there [m]
@@ -244,21 +266,7 @@ Buildings place_buildings(const std::vector<Footprint>& footprints, const std::s
             {fmt::format("\"{}\" stands only partly on the terrain", partly),
              "enlarge `wall.extent`, or cut the footprint there"});
     }
-    if (beside == footprints.size()) {
-        buildings.faults.push_back(
-            {fmt::format("none of the {} footprints lies on the terrain, which has x from {:.6g} "
-                         "to {:.6g} m and y from {:.6g} to {:.6g} m; the first footprint begins at "
-                         "easting {:.9g}, northing {:.9g}",
-                         beside, patch->extent[0], patch->extent[2], patch->extent[1],
-                         patch->extent[3], footprints[0].rings[0][0][0],
-                         footprints[0].rings[0][0][1]),
-             "both files must use the same map projection"});
-    } else if (beside > 0) {
-        buildings.warnings.push_back({fmt::format("{} of {} footprints lie outside the terrain and "
-                                                  "are omitted",
-                                                  beside, footprints.size()),
-                                      "enlarge `wall.extent` if they are needed"});
-    }
+    tell_of_those_beside(beside, footprints, patch, buildings);
     look_for_overlaps(buildings);
     return buildings;
 }

@@ -206,7 +206,7 @@ std::vector<PlaceFault> place_array(DebrisKeys& debris, Scene& scene)
             const Rest rest = rest_on(ground, footprint(extent, at, turn, 0));
             const std::string fault = fault_of(rest, extent.z(), at);
             if (!fault.empty()) {
-                faults.push_back({"a piece " + fault, hint_of_ground(scene)});
+                return {{"a piece " + fault, hint_of_ground(scene)}};
             }
             z = rest.height + clearance + extent.z() / 2;
         }
