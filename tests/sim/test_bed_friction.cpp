@@ -162,7 +162,7 @@ TEST(BedFriction, DoesNotDependOnWhatCutsTheColumns)
         }
         const double rate = 9.81 * f.manning * f.manning / std::pow(8 * f.dp, 4.0 / 3);
         const double lost = 1 - 1 / (1 + rate * sim.clock.time);
-        EXPECT_NEAR((1 - mean_velocity(sim)) / lost, 1, 0.04);
+        EXPECT_NEAR((1 - mean_velocity(sim)) / lost, 1, 0.01);
     }
 }
 
