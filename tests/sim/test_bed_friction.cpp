@@ -112,6 +112,7 @@ TEST(BedFriction, AFlowOnALevelBedDiesAwayHyperbolically)
 struct Flume {
     double dp = 0.05;
     double length = 0.8, width = 0.4; // [m]
+    double rows = 8;                  // depth / dp
     double way = 0, beyond = 0.5;     // of the domain beyond its sides [m]
     double manning = 0.05;
     bool split = false;
@@ -119,7 +120,7 @@ struct Flume {
 
 std::string text_of(const Flume& f)
 {
-    const double depth = 8 * f.dp;
+    const double depth = f.rows * f.dp;
     const auto wall = [&](const char* more, double low, double high, double bottom, double top) {
         return fmt::format("[[wall]]\nshape = \"box\"\nmin = [-1, {}, {}]\nmax = [{}, {}, {}]\n{}",
                            low, bottom, f.length + 1, high, top, more);
@@ -163,6 +164,39 @@ TEST(BedFriction, DoesNotDependOnWhatCutsTheColumns)
         const double rate = 9.81 * f.manning * f.manning / std::pow(8 * f.dp, 4.0 / 3);
         const double lost = 1 - 1 / (1 + rate * sim.clock.time);
         EXPECT_NEAR((1 - mean_velocity(sim)) / lost, 1, 0.01);
+    }
+}
+
+// Widths and depths that miss the lattice. Known to fail: there a smooth flume slows down, too, by
+// up to 1.2 times what the friction takes (a width of 7.3 spacings); so this is what the roughness
+// adds. In eight other draws it was 0.85 to 1.04 of theory, with the depth of whole columns 0.90 to
+// 1.18.
+TEST(BedFriction, AddsNearlyManningsOffTheLattice)
+{
+    Dice dice(9);
+    for (int k = 0; k < number_from("HYORYU_DRAWS", 4); ++k) {
+        Flume f{.dp = k % 2 == 0 ? 0.05 : 0.04};
+        f.length = f.dp * (12 + dice.below(9));
+        f.width = f.dp * dice.between(5, 14);
+        f.rows = dice.between(5, 10);
+        f.way = dice.between(-1, 1);
+        f.beyond = dice.between(6, 10) * f.dp;
+        const double manning = f.manning;
+        std::array<double, 2> speed{};
+        double time = 0;
+        for (const bool rough : {false, true}) {
+            f.manning = rough ? manning : 0;
+            SCOPED_TRACE(text_of(f));
+            Simulation sim = make(text_of(f));
+            while (sim.clock.time < 0.5) {
+                step_on(sim);
+            }
+            time = sim.clock.time;
+            speed[rough ? 1 : 0] = mean_velocity(sim);
+        }
+        const double rate = 9.81 * manning * manning / std::pow(f.rows * f.dp, 4.0 / 3);
+        const double lost = 1 - 1 / (1 + rate * time);
+        EXPECT_NEAR((speed[0] - speed[1]) / lost, 1, 0.2) << text_of(f);
     }
 }
 
