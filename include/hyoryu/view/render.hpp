@@ -25,7 +25,7 @@ struct RenderResult {
     std::vector<std::filesystem::path> pictures;
     std::optional<std::filesystem::path> animation; // none without ffmpeg or with one frame
     std::string note;                               // the reason if there is no animation
-    int removed = 0;                                // pictures of earlier calls
+    int removed = 0;                                // files of earlier calls, the animation too
 };
 
 /// Renders the frames of `results` to `results/pictures/`, replacing the pictures there. Fluid
